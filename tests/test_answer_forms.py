@@ -56,6 +56,12 @@ FORMS = {  # the cells of a notebook whose answer is right
     "a class with __call__": [f"class Luck:\n    n = 9\n    def __call__(self, good, decisions, tries):\n        "
                               f"{LUCK.replace('n)', 'self.n)')}", "luck = Luck()\ncheck.luck(luck)"],
     "another form of a letter": ["\ufb01 = 9", HEAD + LUCK.replace("n)", "fi)")],
+    "%time": ["%time n = 9", HEAD + LUCK],
+    "match": ["match 9:\n    case n:\n        pass", HEAD + LUCK],
+    "a default that changes": ["n = 9", HEAD.replace("tries)", "tries, n=n)") + LUCK, "n = 1", "check.luck(luck)"],
+    "a default in a class": ["n = 9", "class Luck:\n    @staticmethod\n    def of(good, decisions, tries, n=n):\n"
+                             f"        {LUCK}", "n = 1", "check.luck(Luck.of)"],
+    "itself in the check": [f"{NINE}\ncheck.luck(lambda *three: luck(*three))"],
     "decorated": ["import functools", f"@functools.cache\n{NINE}"],
 }  # fmt: skip
 

@@ -17,7 +17,8 @@ from bootcourse.course import runner
 from bootcourse.course.classroom import grading
 from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook, unfinished
 from bootcourse.course.classroom.commands import read_lessons
-from bootcourse.course.classroom.grading import Verdicts, handed_out, judge_all
+from bootcourse.course.classroom.grading import MISSING, Verdicts, handed_out, judge_all, key_of
+from bootcourse.course.classroom.pages import write_report
 from bootcourse.course.classroom.sandbox import HOLDS, shut_in
 from bootcourse.course.classroom.submission import Submission, collect, fingerprint
 from bootcourse.course.judge import judge
@@ -93,6 +94,11 @@ def test_submit_puts_answers_and_predictions_into_one_file_that_is_read_as_it_wa
     assert [each.answers for each in collect(folder.parent)][-1] == one.answers, "a folder with the file in it"
 
 
+def test_submit_makes_no_folder_of_a_wrong_name(bootcourse, tmp_path):
+    answer = bootcourse("submit", tmp_path / "nowhere", "--name", "Ada")
+    assert answer.status == 2 and "is not there: give the folder" in answer.err and not any(tmp_path.iterdir())
+
+
 def submission(**fields) -> dict:
     """The content of a file that `submit` writes."""
     return {"format": Submission.FORMAT, "exercises": fingerprint(), "time": "2030-01-01"} | fields
@@ -141,8 +147,35 @@ def test_no_command_replaces_a_file_that_it_did_not_write(case, bootcourse, fold
     assert "by me" in (folder.parent / taken).read_text()
 
 
+def test_students_of_one_name_stay_apart_and_what_a_link_leads_to_is_not_read(tmp_path):
+    secret, group = tmp_path / "secret", tmp_path / "class"
+    for folder in (secret / "answers", group / "ada", group / ("d" * 255)):
+        folder.mkdir(parents=True)
+    (secret / "answers/predictions.json").write_text(json.dumps(KEPT))
+    (group / "ada/answers").symlink_to(secret / "answers")
+    (group / "bob").symlink_to(secret)
+    for name in ("ada/05_the_barrier.ipynb", "ada.ipynb", "ada.json.ipynb", f"{'n' * 249}.ipynb"):
+        (group / name).write_text(json.dumps(notebook(cell(RIGHT))))
+    (group / "ada.json").write_text(json.dumps(submission(answers={NAME: RIGHT})))
+    submissions = collect(group)
+    long = "d" * 255, "n" * 249
+    assert [one.student for one in submissions] == ["ada", "ada.ipynb", "ada.json", "ada.json.ipynb", "bob", *long]
+    assert submissions[0].answers and not submissions[0].predictions and "was not read" in submissions[4].problems[0]
+    worth, verdicts = {NAME: 2}, Verdicts(tmp_path / "v.jsonl")
+    verdicts.known |= {key_of(NAME, one.answers[NAME]): MISSING for one in submissions if one.answers}
+    write_report([grading.graded(one, worth, verdicts) for one in submissions], tmp_path / "out.csv", [])
+    assert len(list((tmp_path / "out-pages").iterdir())) == len(submissions)
+
+
 # Judging --------------------------------------------------------------------------------------------
 
+SENDS = """import sys
+frame = sys._getframe()
+while 'connection' not in frame.f_locals:
+    frame = frame.f_back
+connection = frame.f_locals['connection']
+from bootcourse.course.runner import Report, encoder
+"""
 ATTACKS = {
     "exits": "import os\nos._exit(0)",
     "kills": "import os\nfor process in (os.getppid(), {pid}, 1):\n    os.kill(process, 9)",
@@ -157,9 +190,18 @@ ATTACKS = {
     "makes memory that outlives it": "import ctypes\nif ctypes.CDLL(None).shmget(5, 2**20, 0o1777) < 0:\n    1 / 0",
     "makes files without a name": "import os\nos.memfd_create('x')",
     "looks into its judge": "import os\nopen(f'/proc/{{os.getppid()}}/mem', 'rb')",
-    "forges its report": "import sys\nframe = sys._getframe()\nwhile 'connection' not in frame.f_locals:\n"
-    "    frame = frame.f_back\nfrom bootcourse.course.runner import Report, encoder\n"
-    "frame.f_locals['connection'].send_bytes(encoder.encode(Report(changed=(9, 9))))",
+    "forges its report": SENDS + "connection.send_bytes(encoder.encode(Report(changed=(9, 9))))",
+    "sends half a report": SENDS + "import faulthandler, os\nfaulthandler.cancel_dump_traceback_later()\n"
+    "os.write(connection.fileno(), b'\\0\\0\\1\\0')\nwhile True:\n    pass",
+    "nests its report": SENDS + "import msgspec\npart = {{'kind': 'tuple', 'parts': []}}\n"
+    "text = b'\\x82\\xa4kind\\xa5tuple\\xa5parts\\x91' * 10**5\n"
+    "connection.send_bytes(b'\\x81\\xa7answers\\x91' + text + msgspec.msgpack.encode(part))",
+    "sends an array that is too large": SENDS + "import msgspec\n"
+    "part = {{'kind': 'array', 'array': (False, (2**63,), b'')}}\n"
+    "connection.send_bytes(msgspec.msgpack.encode({{'answers': [part]}}))",
+    "sends to a program": "import socket\na, _ = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)\n"
+    "a.sendto(b'x', {listener!r})",
+    "reads a disk": "import os\nos.listdir('/dev')",
     "detaches": "import os\nif os.fork() == 0:\n    os.setsid()\n    while True:\n        pass\n1 / 0",
     "reads": "raise ValueError(open({mine!r}).read())",
     "makes readable": "import os\nos.chmod({mine!r}, 0o777)",
@@ -201,7 +243,14 @@ def test_on_linux_nothing_outside_is_reached_and_the_next_answer_is_judged(holds
             assert (tmp_path / "mine.txt").stat()[:9] == kept[:9]
             assert "No space left" in said["fills the disk"] and "File too large" in said["writes a long file"]
             refused = "reads", "makes readable", "dates", "talks to a program", "changes compiled code", "forks"
-            for what in (*refused, "kills", "starts a program", "makes files without a name"):
+            for what in (
+                *refused,
+                "sends to a program",
+                "reads a disk",
+                "kills",
+                "starts a program",
+                "makes files without a name",
+            ):
                 assert "PermissionError" in said[what], said[what]
             assert "ZeroDivisionError" in said["makes memory that outlives it"]
             listener.settimeout(0.1)

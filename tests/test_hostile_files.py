@@ -176,6 +176,14 @@ def test_text_where_a_number_belongs_is_refused_in_every_field(name, formats):
         assert refusal(formats[name], changed, sealed=True), field
 
 
+@pytest.mark.parametrize("name", ["run: config.json", "manifest", "job"])
+def test_a_long_text_in_a_file_makes_no_long_sentence(name, formats):
+    content = json.loads(formats[name].path.read_text())
+    for field in content.keys() & {"format", "environment"}:
+        sentence = refusal(formats[name], json.dumps(content | {field: "x" * 5000}).encode(), sealed=True)
+        assert "xxx" in sentence and len(sentence) < 600
+
+
 @pytest.mark.parametrize("other", [np.zeros(0), np.full((3, 3), np.nan), np.array(["a"]), np.zeros((1, 1, 1, 1))])
 @pytest.mark.parametrize("name", ["rollout", "checkpoint", "results", "run: curves.npz", "run: weights.safetensors"])
 def test_an_array_of_another_shape_or_type_is_refused(name, other, formats):

@@ -135,7 +135,11 @@ def check_resumed(training, asked: tuple, given: dict) -> None:
     """
     chosen = {name: value for name, value in given.items() if name in BEGINNING}
     if chosen and asked != (training.settings, training.episodes, training.scenario):
-        words = ", ".join(f"--{name.replace('_', '-')} {value}" for name, value in chosen.items())
+        first, began = training.settings[0], {"seeds": len(training.settings), "episodes": training.episodes}
+        began |= {"method": first.method, "first_seed": first.seed, "scenario": training.scenario.name}
+        began |= {"p": first.rule_p, "xi": first.xi_multiplier, "c": first.bonus}
+        other = {name: f" (not {began[name]})" for name, value in chosen.items() if began.get(name, value) != value}
+        words = ", ".join(f"--{name.replace('_', '-')} {value}{other.get(name, '')}" for name, value in chosen.items())
         raise BootcourseError(
             f"{words}: this training began with other options. Give the same ones as at first, or none of them, or "
             "choose another folder."

@@ -23,6 +23,8 @@ def names_made(text: str) -> set[str]:
             names |= {(alias.asname or alias.name).partition(".")[0] for alias in node.names}
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
             names.add(node.id)
+        if isinstance(node, (ast.MatchAs, ast.MatchStar, ast.MatchMapping)):
+            names |= {getattr(node, "rest", getattr(node, "name", None))} - {None}
         if not isinstance(node, (ast.Lambda, ast.ListComp, ast.DictComp, ast.SetComp, ast.GeneratorExp)):
             todo += ast.iter_child_nodes(node)
     return names
@@ -45,13 +47,17 @@ def root_of(node: ast.AST) -> str:
     return node.id if isinstance(node, ast.Name) else ""
 
 
-def names_used(text: str) -> set[str]:
-    """Every global variable that a text of Python reads, inside its functions, too."""
-    return set(read_in(symtable.symtable(text, "a cell", "exec")))
+def names_used(text: str, at_once: bool = False) -> set[str]:
+    """Every global variable that a text of Python reads, inside its functions, too.
+
+    at_once: or only those that it reads when it runs and calls nothing, such as in a function's defaults.
+    """
+    return set(read_in(symtable.symtable(text, "a cell", "exec"), at_once))
 
 
-def read_in(scope: symtable.SymbolTable) -> Iterator[str]:
+def read_in(scope: symtable.SymbolTable, at_once: bool) -> Iterator[str]:
     inside = scope.get_type() != "module"
     yield from (each.get_name() for each in scope.get_symbols() if each.is_referenced() and each.is_global() >= inside)
     for child in scope.get_children():
-        yield from read_in(child)
+        if not at_once or child.get_type() == "class":
+            yield from read_in(child, at_once)

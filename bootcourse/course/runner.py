@@ -45,6 +45,7 @@ LEAST = 3  # seconds that a function has in any case
 SLACK = 5  # seconds after which the process ends by itself
 LONGEST_PRINT = 500  # characters of a function's prints that are shown
 LONGEST_MESSAGE = 2**26  # bytes
+SENDING = 2  # seconds in which a message has to come whole, once it has begun
 PR_SET_PDEATHSIG = 1  # of Linux's prctl: the signal that a process gets when its parent ends
 READY = b"ready"
 PRELOADED = ["bootcourse.course.preloaded"]
@@ -162,18 +163,33 @@ class Process:
             seconds = time_left(seconds, time.monotonic() - begin)
             if not self.connection.poll(seconds):
                 return Report(ended="time", seconds=seconds)
-            report = decoder.decode(self.connection.recv_bytes(LONGEST_MESSAGE))
+            report = self.report()
             report.ended = ""  # this is said here alone
             return report
-        except (EOFError, OSError, msgspec.MsgspecError) as error:  # it ended, or somebody else wrote
+        except (EOFError, OSError) as error:  # it ended, or the function wrote
             self.process.join(1)
             return Report(ended="size" if "bad message length" in str(error) else self.process.exitcode or 0)
 
-    def end(self) -> None:
+    def report(self) -> Report:
+        """The report that comes. Raises EOFError or OSError if none comes, or what comes is none."""
+        late = threading.Timer(SENDING, self.kill)  # the function may send a part, and wait
+        late.start()
+        try:
+            return decoder.decode(self.connection.recv_bytes(LONGEST_MESSAGE))
+        except (msgspec.MsgspecError, ArithmeticError, MemoryError, RecursionError) as error:
+            raise EOFError(f"no report: {error}") from None
+        finally:
+            late.cancel()
+
+    def kill(self) -> None:
         """Kill it, with all processes that it started."""
         with contextlib.suppress(ProcessLookupError, PermissionError, AttributeError):  # AttributeError: Windows
             os.killpg(self.process.pid, signal.SIGKILL)
         self.process.kill()
+
+    def end(self) -> None:
+        """Kill it, and close what led to it."""
+        self.kill()
         self.process.join(1)
         self.connection.close()
 

@@ -160,7 +160,9 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -
         own = "if it is a learner of your own, add the --learner FILE.py:CLASS that it was trained with"
         raise BootcourseError(f"{path} was trained with {method!r:.80}, which is no method here: {own}.")
     if (there := config.environment) != environment:
-        raise BootcourseError(f"{path} was trained in {there}, not in {environment}: give environment={there!r}.")
+        raise BootcourseError(
+            f"{path} was trained in {there:.80}, not in {environment}: give environment={there!r:.80}."
+        )
     with decoding(path / "config.json", TRAIN_AGAIN):
         settings = stored_settings(config.settings)
     curves = read_arrays(path / "curves.npz", TRAIN_AGAIN)

@@ -22,7 +22,7 @@ def read_sealed(path: Path, format: str | None = None, remedy: str = COPY) -> di
     if content.pop("seal", None) != seal(content):
         raise BootcourseError(f"{path} is damaged (it does not fit its own hash): {remedy}.")
     if content.get("format") != format:
-        raise BootcourseError(f"{path} has the format {content.get('format')!r}, this version reads {format!r}.")
+        raise BootcourseError(f"{path} has the format {content.get('format')!r:.40}, this version reads {format!r}.")
     return content
 
 

@@ -26,6 +26,7 @@ import textwrap
 import warnings
 from collections import defaultdict
 from collections.abc import Callable, Iterator
+from types import FunctionType
 
 import cloudpickle
 
@@ -108,14 +109,20 @@ def equivalent(exercise: str, change: str, why: str) -> None:
 
 
 def here(exercise, answer, seconds, times=1, begin=None):
-    """What a function answers in this process: faster than one of its own, for answers that do no harm."""
-    settings = sys.stdout, sys.stderr
+    """What a function answers in this process: faster than one of its own, for answers that do no harm.
+
+    A class is put back as it was: where it was pickled, its pickle makes no new class but gives this one new methods.
+    """
+    settings, kinds = (sys.stdout, sys.stderr), answer.__mro__ if isinstance(answer, type) else ()
+    methods = [(kind, *each) for kind in kinds for each in vars(kind).items() if isinstance(each[1], FunctionType)]
     try:
         with warnings.catch_warnings():
             return runner.work(runner.packed(exercise), runner.pickled(answer, times, 600))
     finally:
         faulthandler.cancel_dump_traceback_later()
         sys.stdout, sys.stderr = settings
+        for method in methods:
+            setattr(*method)
 
 
 def one_sentence(verdict) -> bool:

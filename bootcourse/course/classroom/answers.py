@@ -89,6 +89,7 @@ class Statement:
         self.is_function = isinstance(node, SURE[:3])
         self.uses, self.changes, self.checks = set(), set(), {}
         self.later: set[str] = set()  # what a function changes when it is called
+        self.at_once: set[str] = set()  # what a function uses when it is defined: in its defaults and decorators
         if node is None:
             self.makes = set(re.findall(r"^[ \t]*(?:def|class) (\w+)", text, re.M))
             return
@@ -96,6 +97,7 @@ class Statement:
         if self.is_function:
             outside = {name for each in ast.walk(node) if isinstance(each, ast.Global) for name in each.names}
             self.later, self.changes = outside | self.changes & self.uses, set()
+            self.at_once = names_used(text, at_once=True)
         elif "check" in self.uses:
             calls = [each for each in ast.walk(node) if isinstance(each, ast.Call) and each.args]
             named = [(each.func, each.args[0]) for each in calls if isinstance(each.func, ast.Attribute)]
@@ -124,9 +126,18 @@ def statements_of(text: str, clock: Clock) -> list[Statement]:
             magic = RUNS_ITS_CELL.match(text)
             text = clock.transform_cell(text[magic.end() :] if magic else text)
             nodes = ast.parse(text).body
-        return [Statement(*pair) for pair in zip(segments(text, nodes), nodes, strict=True)]
+        pairs = zip(segments(text, nodes), nodes, strict=True)
+        return [one for pair in pairs for one in (statements_of(behind_time(pair[1]), clock) or [Statement(*pair)])]
     except NO_PYTHON:
         return [Statement(re.sub(r"^check\..*$", "", text, flags=re.M))]
+
+
+def behind_time(node: ast.stmt) -> str:
+    """The statement that `%time` runs, in a cell that IPython has transformed; "" for every other statement."""
+    match node:
+        case ast.Expr(ast.Call(ast.Attribute(attr="run_line_magic"), [ast.Constant("time"), ast.Constant(str(text))])):
+            return text
+    return ""
 
 
 def segments(text: str, nodes: list[ast.stmt]) -> list[str]:
@@ -203,6 +214,8 @@ class Answers:
         text = self.text_of(names_used(given), place + 1)
         if given == name:
             return text
+        if name in names_used(given):  # what it was is not what it becomes
+            given = f"(lambda {name}: {given})({name})"
         return f"{text}\n{name} = {given}\n" if text or not given.isidentifier() else ""
 
     def text_of(self, names: set[str], end: int) -> str:
@@ -221,6 +234,7 @@ class Answers:
                 if place not in taken:
                     taken.add(place)
                     todo += [(used, end if one.is_function else place) for used in one.uses]
+                    todo += [(used, place) for used in one.at_once]
                 if name in one.makes and isinstance(one.node, SURE):
                     break
         return "".join(f"{self.statements[place].text}\n\n" for place in sorted(taken))[:-1]

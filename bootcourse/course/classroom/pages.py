@@ -4,6 +4,7 @@ Every page is made with `markup.html`, which escapes what students wrote.
 """
 
 import csv
+import hashlib
 import io
 import os
 import sys
@@ -33,6 +34,7 @@ pre {white-space: pre-wrap; margin: 4px 0}</style>"""
 MADE_BY = '<meta name="generator" content="bootcourse">'
 WORDS = {"missing": "not handed in", "todo": "not written"}
 MOST = 12  # different answers to a prediction that are listed
+LONGEST_NAME = 200  # bytes of a student's name in the name of a page; systems allow 255 in all
 
 
 def check_places(out: Path, folder: Path) -> None:
@@ -56,11 +58,20 @@ def write_report(graduates: Sequence[Graduate], out: Path, holds: list[str]) -> 
     write_csv(graduates, out)
     link = {}
     for one in graduates:
-        student = one.submission.student  # the name of a file, so it may be that of another
-        write_bytes(pages / f"{student}.html", feedback(one).encode("utf-8", "replace"))
-        link[student] = html('<a href="{}">{}</a>', quote(os.fsencode(f"{pages.name}/{student}.html")), student)
+        student = one.submission.student
+        name = f"{page_name(student)}.html"
+        write_bytes(pages / name, feedback(one).encode("utf-8", "replace"))
+        link[student] = html('<a href="{}">{}</a>', quote(os.fsencode(f"{pages.name}/{name}")), student)
     write_bytes(index, class_page(graduates, link, holds).encode("utf-8", "replace"))
     return [out, index]
+
+
+def page_name(student: str) -> str:
+    """The student's name, which is the name of a file; of a long one the beginning, and what makes it unique."""
+    name = os.fsencode(student)
+    if len(name) <= LONGEST_NAME:
+        return student
+    return f"{os.fsdecode(name[:LONGEST_NAME])}-{hashlib.sha256(name).hexdigest()[:8]}"
 
 
 def write_csv(graduates: Sequence[Graduate], path: Path) -> None:

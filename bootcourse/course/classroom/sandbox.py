@@ -29,7 +29,7 @@ WRITE = 0b1_1111_1111_0010  # write, remove, make: all rights of Landlock's firs
 REFER, TRUNCATE = 1 << 13, 1 << 14  # of its second and third
 SCOPES = 0b11  # of its sixth: abstract sockets, and signals to processes outside
 FILE = 0b100_0000_0000_0110  # what a rule about a single file may permit: write, read, truncate
-SYSTEM = ("/usr", "/lib", "/lib64", "/bin", "/etc", "/opt", "/proc", "/sys", "/dev")
+SYSTEM = ("/usr", "/lib", "/lib64", "/bin", "/etc", "/opt", "/proc", "/sys", "/dev/zero", "/dev/random", "/dev/urandom")
 PACKAGE = Path(__file__).resolve().parents[2]
 NOTHING_SPECIAL, ROOM = 0b1110, b"size=64m,nr_inodes=4k"  # no programs, devices, rights of others in that folder
 LARGEST, MOST = 2**24, 256  # bytes of a file, and threads, of an answer; the latter not as root
@@ -45,7 +45,7 @@ HOLDS = {  # what may hold -> what an answer can do if it does not
 PROCESSORS = {"x86_64": (0xC000003E, 56), "aarch64": (0xC00000B7, 220)}  # -> of a filter, and its number of clone
 CLONE3 = 435
 REFUSED = {  # system calls by number, on these processors, see asm/unistd.h
-    "socket, io_uring_setup": ((41, 425), (198, 425)),
+    "socket, socketpair, io_uring_setup": ((41, 53, 425), (198, 199, 425)),
     "chmod, chown": ((90, 91, 92, 93, 94, 260, 268, 452), (52, 53, 54, 55, 452)),
     "utime, setxattr, removexattr": ((132, 235, 261, 280, 188, 189, 190, 197, 198, 199, 463, 466, 469),
                                      (88, 5, 6, 7, 14, 15, 16, 463, 466, 469)),

@@ -78,7 +78,8 @@ def fingerprint() -> str:
 def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]:
     """Write a submission. Returns its file and what it holds.
 
-    Raises BootcourseError for an empty name or folder, and for a file that is not this student's own submission.
+    Raises BootcourseError for an empty name, for no folder or one without notebooks, and for a file that is not this
+    student's own submission.
     """
     name = " ".join(name.split())[:100]
     short = re.sub(r"[\W_]+", "-", name).strip("-").lower()[:40] or "mine"
@@ -87,6 +88,8 @@ def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]
         raise BootcourseError("The name is empty: give your name or student number, as in --name 'Ada Lovelace'.")
     if path.suffix != ".json":
         raise BootcourseError(f"--out {path}: give a file that ends in .json.")
+    if not folder.exists():
+        raise BootcourseError(f"{folder} is not there: give the folder with your notebooks.")
     if os.path.lexists(path):
         old = read_json(path, Submission, "choose another name for the file, with --out")
         if old.name != name:
@@ -142,8 +145,10 @@ def notebooks_in(folder: Path) -> list[Path]:
 
 
 def files(folder: Path, pattern: str) -> list[Path]:
-    """The files below a folder, in the order of their names; links are left out."""
-    return [path for path in sorted(folder.rglob(pattern)) if path.is_file() and not path.is_symlink()]
+    """The files below a folder, in the order of their names; what a link leads to is left out."""
+    here = folder.resolve()
+    found = [path for path in sorted(folder.rglob(pattern)) if path.is_file()]
+    return [path for path in found if path.resolve() == here / path.relative_to(folder)]
 
 
 def within(folder: Path, error: BootcourseError) -> str:
@@ -164,8 +169,10 @@ def collect(folder: Path) -> list[Submission]:
     places = [path for path in sorted(Path(folder).iterdir()) if path.name[0] != "."]
     if not any(path.is_dir() or path.suffix in KINDS for path in places):
         raise BootcourseError(f"{folder} holds no submissions: put in a .json file, a notebook or a folder a student.")
-    stems = [path.name if path.is_dir() else path.stem for path in places]
-    return [read(path, stem if stems.count(stem) == 1 else path.name) for path, stem in zip(places, stems, strict=True)]
+    names = [path.name if path.is_dir() else path.stem for path in places]
+    while len(set(names)) < len(names):  # such as of ada.ipynb and the folder ada
+        names = [path.name if names.count(name) > 1 else name for path, name in zip(places, names, strict=True)]
+    return [read(path, name) for path, name in zip(places, names, strict=True)]
 
 
 def read(path: Path, student: str) -> Submission:
