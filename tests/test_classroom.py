@@ -93,6 +93,11 @@ def test_submit_puts_answers_and_predictions_into_one_file_that_is_read_as_it_wa
     assert [each.answers for each in collect(folder.parent)][-1] == one.answers, "a folder with the file in it"
 
 
+def test_submit_of_a_folder_that_is_not_there_writes_nothing(bootcourse, tmp_path):
+    answer = bootcourse("submit", tmp_path / "notebook", "--name", "Ada", "--out", tmp_path / "ada.json")
+    assert answer.status == 2 and "is not there" in answer.err and list(tmp_path.iterdir()) == []
+
+
 def submission(**fields) -> dict:
     """The content of a file that `submit` writes."""
     return {"format": Submission.FORMAT, "exercises": fingerprint(), "time": "2030-01-01"} | fields

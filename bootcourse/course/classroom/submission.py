@@ -78,8 +78,11 @@ def fingerprint() -> str:
 def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]:
     """Write a submission. Returns its file and what it holds.
 
-    Raises BootcourseError for an empty name or folder, and for a file that is not this student's own submission.
+    Raises BootcourseError for an empty name, a folder that is empty or not there, and a file that is not this student's
+    own submission.
     """
+    if not folder.exists():
+        raise BootcourseError(f"{folder} is not there: run `bootcourse submit` in the folder of your notebooks.")
     name = " ".join(name.split())[:100]
     short = re.sub(r"[\W_]+", "-", name).strip("-").lower()[:40] or "mine"
     path = out or folder / f"submission-{short}.json"
