@@ -19,7 +19,7 @@ from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Noteboo
 from bootcourse.course.classroom.commands import read_lessons
 from bootcourse.course.classroom.grading import Verdicts, handed_out, judge_all
 from bootcourse.course.classroom.sandbox import HOLDS, shut_in
-from bootcourse.course.classroom.submission import Submission, collect, fingerprint
+from bootcourse.course.classroom.submission import Submission, collect, fingerprint, from_notebooks
 from bootcourse.course.judge import judge
 from bootcourse.course.lessons import number, registry
 from bootcourse.errors import BootcourseError
@@ -91,6 +91,11 @@ def test_submit_puts_answers_and_predictions_into_one_file_that_is_read_as_it_wa
     assert one.problems == () and "return 1" in one.answers["decode"], "a stub in another notebook does not replace it"
     (folder / "submission-ada.json").write_bytes(out.read_bytes())
     assert [each.answers for each in collect(folder.parent)][-1] == one.answers, "a folder with the file in it"
+
+
+def test_a_notebook_that_was_handed_out_under_another_number_is_of_the_same_lesson(folder):
+    (folder / "05_the_barrier.ipynb").rename(folder / "99_the_barrier.ipynb")
+    assert from_notebooks(folder).lessons == ("the_barrier",)
 
 
 def test_submit_of_a_folder_that_is_not_there_writes_nothing(bootcourse, tmp_path):
