@@ -10,3 +10,11 @@ def progress_bar(iterable=None, shown: bool = True, **options) -> in_text:
     """A bar over an iterable, or one to `update`; options: tqdm's, such as total and unit."""
     is_redrawn = notebook_tqdm is not in_text or sys.stderr.isatty()
     return tqdm(iterable, disable=not shown, mininterval=0.5 if is_redrawn else 10.0, **options)
+
+
+def end_full(bar: in_text) -> None:
+    """Make what is done the whole of a bar. tqdm itself leaves the bar of a notebook as short as it was."""
+    bar.total = bar.n
+    if hasattr(bar, "container"):
+        _, drawn, _ = bar.container.children
+        drawn.max = bar.n

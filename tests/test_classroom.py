@@ -20,7 +20,7 @@ from bootcourse.course.classroom.commands import read_lessons
 from bootcourse.course.classroom.grading import MISSING, Verdicts, handed_out, judge_all, key_of
 from bootcourse.course.classroom.pages import write_report
 from bootcourse.course.classroom.sandbox import HOLDS, shut_in
-from bootcourse.course.classroom.submission import Submission, collect, fingerprint
+from bootcourse.course.classroom.submission import Submission, collect, fingerprint, from_notebooks
 from bootcourse.course.judge import judge
 from bootcourse.course.lessons import number, registry
 from bootcourse.errors import BootcourseError
@@ -96,7 +96,12 @@ def test_submit_puts_answers_and_predictions_into_one_file_that_is_read_as_it_wa
 
 def test_submit_makes_no_folder_of_a_wrong_name(bootcourse, tmp_path):
     answer = bootcourse("submit", tmp_path / "nowhere", "--name", "Ada")
-    assert answer.status == 2 and "is not there: give the folder" in answer.err and not any(tmp_path.iterdir())
+    assert answer.status == 2 and "is not there: " in answer.err and not any(tmp_path.iterdir())
+
+
+def test_a_notebook_that_was_handed_out_under_another_number_is_of_the_same_lesson(folder):
+    (folder / "05_the_barrier.ipynb").rename(folder / "99_the_barrier.ipynb")
+    assert from_notebooks(folder).lessons == ("the_barrier",)
 
 
 def submission(**fields) -> dict:

@@ -13,6 +13,7 @@ import pytest
 
 from bootcourse.cli.driving import Driver, alike
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS
@@ -290,3 +291,14 @@ def test_a_learner_of_one_s_own_trains_and_drives(bootcourse, tmp_path):
     finally:
         METHODS.clear()
         METHODS.update(before)
+
+
+def test_a_slow_teacher_is_announced_before_it_drives(bootcourse, tmp_path, monkeypatch):
+    def no_training(*args, **kwargs):
+        raise BootcourseError("Stopped here.")
+
+    monkeypatch.setattr("bootcourse.learn.training.Training", no_training)
+    waits = bootcourse("train", "--method", "dagger", "--teacher", "planner", "--out", tmp_path / "a")
+    assert "may take minutes" in waits.err and "Stopped here." in waits.err
+    quick = bootcourse("train", "--method", "dagger", "--teacher", "timid", "--out", tmp_path / "b")
+    assert "may take minutes" not in quick.err and "Stopped here." in quick.err

@@ -56,6 +56,8 @@ def test_train_trains_with_what_the_sliders_show_and_the_best_agent_is_watched()
     panel.watch.click()
     port = panel.replay.port
     assert f":{port}" in panel.stage.value and "which no agent has seen" in words(panel)
+    order = panel.children
+    assert order.index(panel.stage) < order.index(panel.chart), "the replay opens in sight of its button"
     panel.close()
     with socket.socket() as probe:
         assert probe.connect_ex(("127.0.0.1", port)) != 0

@@ -21,6 +21,10 @@ def test_the_map_goes_through_the_whole_paper_in_its_own_order():
     assert [f"{item['kind'][0].upper()}{item['number']}" for item in items()] == IN_ORDER
 
 
+def test_the_page_finds_all_that_the_map_names():
+    assert page().startswith("# ")
+
+
 @pytest.mark.parametrize("number", EQUATIONS)
 def test_the_code_of_an_equation_names_it(number):
     code = [thing for thing in map(pkgutil.resolve_name, EQUATIONS[number]["code"]) if callable(thing)]

@@ -1,6 +1,9 @@
 """The progress bar: lines in a pipe, and a bar that ends full when a training ends as planned."""
 
+from tqdm.notebook import tqdm as in_notebook
+
 import bootcourse as bc
+from bootcourse.progress import end_full
 
 
 def test_a_training_of_so_many_updates_counts_them_and_its_bar_ends_full(capsys):
@@ -14,6 +17,14 @@ def test_a_training_that_is_stopped_as_planned_ends_its_bar_full(capsys):
     training = bc.Training([bc.settings_for("sac")], 1000)
     training.run(stop=lambda: training.curves.finished[0] >= 6)
     assert f"{training.curves.finished[0]}/{training.curves.finished[0]} " in capsys.readouterr().err.splitlines()[-1]
+
+
+def test_a_bar_in_a_notebook_ends_full_when_less_than_its_total_was_done():
+    bar = in_notebook(total=1000, display=False)
+    bar.update(40)
+    end_full(bar)
+    _, drawn, _ = bar.container.children
+    assert drawn.max == bar.n == 40
 
 
 def test_a_result_has_three_lines(capsys):

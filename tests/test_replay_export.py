@@ -152,6 +152,22 @@ def test_a_recording_plays_inside_a_saved_page_and_marks_the_accident(crash, tmp
         assert page.errors == []
 
 
+@needs_browser
+def test_the_card_of_two_agents_with_all_their_numbers_fits_into_low_windows(rule_drive, tmp_path):
+    drives = [thinking(rule_drive, label) for label in ("sac", "bootstrapped")]
+    path = export(drives, tmp_path / "two.html")
+    with open_browser(width=940, offline=True) as new_page:
+        page = new_page().page
+        page.goto(path.as_uri())
+        page.wait_for_selector("#bc-numbers .why")
+        for height in (360, 480, 720):
+            page.set_viewport_size({"width": 940, "height": height})
+            card = "(card => [card.clientHeight, card.scrollHeight])(document.querySelector('#bc-hud'))"
+            shown, needed = page.evaluate(card)
+            page.screenshot(path=ARTEFACTS / f"test_card_{height}.png")
+            assert needed <= shown, f"at {height} pixels"
+
+
 def test_the_command_writes_what_is_asked_for(rule_drive, tmp_path, capsys):
     file = rule_drive.save(tmp_path / "drive.npz")
     out = {kind: tmp_path / "new" / f"replay.{kind}" for kind in ("html", "gif", "png")}

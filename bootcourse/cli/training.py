@@ -70,6 +70,8 @@ def train(
             print(f"{out} is finished: there is nothing to resume.")
         return
     check_folder(out, resume)
+    if getattr(rule, "is_slow", False) and settings[0].needs_demonstrations and not (resume or quiet):
+        print("First this teacher drives the demonstrations. It is a slow one: that may take minutes.", file=sys.stderr)
     training = None if resume else Training(settings, episodes, road, rule, device=device)
     with locked(work, "training"):
         check_folder(out, resume)  # another training may have ended before this one had the lock

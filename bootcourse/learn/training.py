@@ -222,7 +222,7 @@ class Training:
         progress: show a bar with the success rate of the last 100 episodes; it counts updates if their number is given.
         callback: called with this training after every decision.
         """
-        from bootcourse.progress import progress_bar
+        from bootcourse.progress import end_full, progress_bar
 
         started, before = time.perf_counter(), self.seconds
         total, unit = (self.n_agents * self.episodes, "episode") if updates is None else (updates, "update")
@@ -241,7 +241,7 @@ class Training:
                         bar.set_postfix_str(_success(self.curves), refresh=False)
                         bar.update(min(int(so_far), total) - bar.n)
                 if not interrupted.is_set():
-                    bar.total = bar.n  # it is over as planned, so the bar ends full
+                    end_full(bar)  # it is over as planned
             except KeyboardInterrupt:
                 interrupted.set()
         return self.result(interrupted=interrupted.is_set() or not self.done)

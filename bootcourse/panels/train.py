@@ -72,7 +72,8 @@ class TrainPanel(Panel):
         self.progress, self.chart, self.stage = widgets.HTML(), widgets.HTML(), widgets.HTML()
         buttons = widgets.HBox([self.train, self.stop, self.watch])
         numbers = beside(*self.numbers.values(), self.seeds, self.episodes)
-        super().__init__("Train while you watch", self.method, numbers, buttons, self.progress, self.chart, self.stage)
+        shown = (self.progress, self.stage, self.chart)  # the replay opens below its button, where you look
+        super().__init__("Train while you watch", self.method, numbers, buttons, *shown)
         self.method.observe(self._choose, "value")
         self._lock_unused()
         self._draw(method, {}, 1000)

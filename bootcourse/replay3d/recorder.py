@@ -39,7 +39,7 @@ border-radius:8px;color:@INK@;background:@PAPER@;box-shadow:0 1px 8px #0003;back
 border-radius:4px;margin:2px 4px 2px 0;padding:1px 7px;cursor:pointer;opacity:.85}
 #bc-cameras {padding:2px 10px}
 @media (max-height:620px) {#bc-hud .plot svg, #bc-hud .cursor {height:30px}}
-@media (max-height:520px) {#bc-plots, #bc-cursor {display:none}}
+@media (max-height:520px) {#bc-plots, #bc-cursor {display:none} #bc-hud .bc {line-height:1.2}}
 @media (max-height:420px) {#bc-hud tr:not(.on):has(td.bar) {display:none}}
 @media (max-width:640px) {#bc-hud {width:210px} #bc-hud .plot, #bc-hud table {display:none}}
 </style>

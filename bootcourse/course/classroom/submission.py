@@ -19,7 +19,7 @@ from msgspec.structs import replace
 
 from bootcourse.course import lessons as exercises
 from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook, unfinished
-from bootcourse.course.lessons import LESSONS, stem
+from bootcourse.course.lessons import LESSONS
 from bootcourse.course.predictions import FILE, predictions
 from bootcourse.errors import BootcourseError
 from bootcourse.files import decoding, read_json, write_json
@@ -132,7 +132,8 @@ def from_notebooks(path: Path) -> Submission:
         with noting(place):
             predicted = convert(predictions(place.parents[1]), dict[str, Prediction])
     right, problems = tuple(sorted(right & set(answers))), tuple(problems[:MOST])
-    lessons = tuple(name for name in LESSONS if stem(name) in {notebook.stem for notebook in notebooks})
+    named = {notebook.stem.partition("_")[2] for notebook in notebooks}  # its number may have been another one
+    lessons = tuple(name for name in LESSONS if name in named)
     return Submission(answers=answers, right=right, predictions=predicted, problems=problems, lessons=lessons)
 
 
