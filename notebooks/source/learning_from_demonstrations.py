@@ -99,7 +99,7 @@ print(f"{len(demonstrations):,} transitions of 200 drives of the rule")
 # %% [markdown]
 # A share β ("beta") of each batch comes from the second table. It starts at
 # {{ SETTINGS.beta_start }} and falls in a straight line to 0 over {{ SETTINGS.beta_episodes | , }}
-# episodes. From then on the learner's batches hold its own drives alone.
+# episodes.
 # <!-- claim: demonstration_share(1000, 0.6, 1000) == 0 -->
 #
 # > **Predict.** How many of the 64 rows are the rule's after 500 episodes?
@@ -121,8 +121,8 @@ table(["episode", "β", "of 64 rows are the rule's"], rows)
 # %% [markdown]
 # **Explain.** These rows do not push the actor towards the rule's actions. They teach the critic
 # what the rule's actions led to. An action that the critic values more becomes likelier, so
-# demonstrations reach the actor through Q, and through the states in which it is trained; with a
-# soft constraint the KL is charged in these states, too.
+# demonstrations reach the actor through Q and, with a soft constraint, through the KL in their
+# states.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Draw a batch as a row of 64 boxes. Shade the rule's after 0, 500 and 1,000 episodes.
@@ -538,13 +538,12 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 
 # %% [markdown]
 # **See.** (Yours will differ.) In our run these agents had learned the rule's way after 2,500
-# updates and earned no more than the rule. The upper replay shows the first of these agents, the
-# lower one an agent of our study on the same road, with many times as many updates. Of the study's
+# updates and earned no more than the rule. The upper replay shows the first of these, the lower one
+# an agent of our study, with many times as many updates. Of the study's
 # ten agents with both aids {{ escaped('bootstrapped') }} escape, and earn {{
 # of('bootstrapped').scores('returns')[of('bootstrapped').scores('success') >= ESCAPES].min() | .0f
 # }} or more; the others earn {{ of('bootstrapped').scores('returns')[of('bootstrapped').scores(
-# 'success') < ESCAPES].max() | .0f }} or less. (The rule earns {{
-# of('rule').scores('returns').mean() | .0f }} with our sight of 200 m.)
+# 'success') < ESCAPES].max() | .0f }} or less.
 # <!-- claim: len(of('bootstrapped')) == 10 -->
 #
 # **Try.** Plant a mistake in one part: copy it into a new cell, change a sign, and call

@@ -31,6 +31,7 @@ from bootcourse.course.lessons.looking_ahead.futures_figure import nine_futures
 from bootcourse.course.shipped import beginning, shipped_experiment
 from bootcourse.episodes import models
 from bootcourse.episodes.lookahead import NINE, imagine, lookahead_shield
+from bootcourse.methods import style
 from bootcourse.research.distil import learned_rows
 from bootcourse.research.lookahead import Cell, score
 from bootcourse.road.state import Accident
@@ -97,7 +98,7 @@ BEFORE = 6  # seconds
 cars = drive.states[(len(drive.actions) - BEFORE) * bc.DEFAULT.clock.steps]
 futures = imagine(cars[None], NINE[None], agent, horizon=10)
 title = f"{BEFORE} seconds before the accident there are ways to avoid it"
-bc.show(nine_futures(cars, futures, title, colour=bc.methods.style("bootstrapped").colour))
+bc.show(nine_futures(cars, futures, title, colour=style("bootstrapped").colour))
 
 # %% [markdown]
 # **See.** Red drives end in an accident, blue ones go on. They differ in one decision: after it the

@@ -527,9 +527,8 @@ table([*headings, "accidents, %"], rows, below="1,000 held-out roads each.")
 # the rule, with few accidents, as Round 3 says they should. A constraint that fades lets most
 # agents earn more than twice as much, at a risk: accidents are four times as frequent, because one
 # agent crashes in nearly all of its drives, and two of ten get out on hardly any road, although one
-# of these still did in most of its last training episodes. (In training agents draw their actions
-# from π; in the test they take the likeliest. That is why those with a fixed ξ earn more in the
-# table than in the figure.)
+# of these still did in most of its last training episodes. (In training agents draw their
+# actions from π; in the test they take the likeliest, and those with a fixed ξ earn more.)
 # <!-- claim: ((of('soft').scores('success') < 0.01) & (in_training('soft', -50, None) >
 #   0.5)).sum() == 1 -->
 # <!-- claim: accidents('soft') > 4 * stays().episodes('accident').mean() -->

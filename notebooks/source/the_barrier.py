@@ -39,9 +39,8 @@ from bootcourse.research import planner, report
 # ## Look first
 #
 # How well could anybody drive here? A planner searches: at each second it extends the drives that
-# it has kept by each of the nine actions, and keeps the best 50 of the new drives. It knows what
-# the other cars will do, an agent gets {{ DEFAULT.observation_size }} numbers about the present: so
-# its return says what is possible on this road, and not what an agent can reach.
+# it has kept by each of the nine actions, and keeps the best 50. It knows what the other cars will
+# do: so its return says what is possible on this road, and not what an agent can reach.
 # <!-- claim: DEFAULT.clock.decision_rate == 1 and N_ACTIONS == 9 -->
 
 # %%

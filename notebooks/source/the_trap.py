@@ -394,9 +394,9 @@ print(f"return {idle.rewards.sum():.4f}, distance {idle.distance:.0f} m, success
 #
 # The agent chooses by its **policy**: a function that gives each action a probability. At first the
 # nine are about equally probable, and the agent drives at random. It remembers what it tried and
-# what that paid, and changes the numbers inside its policy a little, many times, so that actions
-# with better consequences become more probable. Each such change is an **update**. The agent is not
-# told what a lane is. Learning from rewards in this way is *reinforcement learning*.
+# what that paid, and changes its policy a little, many times, so that actions with better
+# consequences become more probable. Each such change is an **update**. This is *reinforcement
+# learning*.
 #
 # Below, four agents learn for about 20 seconds by a method called SAC, *soft actor-critic*, which
 # the next lesson builds. Two learn alone (*plain SAC*). Two get help from the rule (*bootstrapped
@@ -414,9 +414,9 @@ learned = training.run(progress=False, callback=live, stop=lambda: training.upda
 live.show(training)
 
 # %% [markdown]
-# Each thin line is one agent. *Success* is the share of its episodes that end ahead of trap 1. An
-# episode that ends in a crash in the first seconds returns about −9.5, doing nothing
-# {{ idle().rewards.sum() | .1f }}. Now the first agent with help, before and after its training:
+# *Success* is the share of episodes that end ahead of trap 1. A crash in the first seconds returns
+# about −9.5, doing nothing {{ idle().rewards.sum() | .1f }}. Now the first agent with help, before
+# and after its training:
 
 # %% tags=["nbval-ignore-output"]
 before = bc.record(beginner, [ROAD], label="bootstrapped")[0]
@@ -545,11 +545,10 @@ table(headings, rows, below=f"Discounted sums from the start, road {ROAD}.")
 
 # %% [markdown]
 # **Explain.** At the agents' γ = {{ SETTINGS.gamma }} the rule's escape is worth *less* than
-# staying, even without a crash: on this road it costs now and pays too late (lesson [[the_barrier]]
-# repeats that on more roads). With γ = 1 such an
-# attempt may crash in more than a third of the cases and still pay. So an agent that stays is not
-# stupid. Is there a way out that pays at γ = {{ SETTINGS.gamma }}, and what are an agent's own
-# attempts worth? Lesson [[the_barrier]] measures both.
+# staying, even without a crash: it costs now and pays too late. With γ = 1 such an attempt may
+# crash in more than a third of the cases and still pay. So an agent that stays is not stupid. Is
+# there a way out that pays at γ = {{ SETTINGS.gamma }}, and what are an agent's own attempts worth?
+# Lesson [[the_barrier]] measures both, on more roads.
 # <!-- claim: SETTINGS.gamma == 0.8 and discounted(by_rule(), 0.8) < discounted(idle(), 0.8) -->
 # <!-- claim: 1 / 3 < (by_rule().rewards.sum() - idle().rewards.sum()) / (by_rule().rewards.sum() -
 #   by_rule().rewards[:3].sum() + 10) < 1 / 2 -->
