@@ -66,6 +66,12 @@ def test_every_answer_of_a_solved_notebook_is_found_and_of_the_students_a_stub(p
     assert not any(map(unfinished, solved.values())) and all(map(unfinished, stubs.values()))
 
 
+def test_what_a_lesson_takes_over_from_earlier_ones_is_no_answer_of_its_own():
+    takes_over = 'decode, reward = own_code.yours_or_ours("decode", "reward")'
+    assert answers_in(read(notebook(cell(takes_over)))) == {}
+    assert list(answers_in(read(notebook(cell(RIGHT), cell(takes_over))))) == ["luck"]
+
+
 # Submissions ----------------------------------------------------------------------------------------
 
 

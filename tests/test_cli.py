@@ -152,7 +152,7 @@ REFUSED = {
     "a folder that is not there": (["evaluate", "runs/nope"], "'runs/nope' is unknown"),
     "the folder above the runs": (["evaluate", "deep"], "deep holds no run itself: name a folder in it, such as deep/"),
     "a study among runs": (["study", "--out", "deep/runs"], "deep/runs holds runs of `bootcourse train`: choose"),
-    "a lesson that is not there": (["handout", "new", "--lessons", "4-99"], "there is no lesson 99, the last is 18."),
+    "a lesson that is not there": (["handout", "new", "--lessons", "4-99"], "there is no lesson 99, the last is 19."),
     "no rollout": (["replay", "full/file.txt", "--text"], "file.txt is not a rollout: record one with"),
     "a held-out block that does not exist": (["evaluate", "rule", "--seed", "5000"], "seed = 5000"),
     "a rollout that exists": (["drive", "rule", "--out", "full/file.txt"], "exists already"),

@@ -18,7 +18,7 @@
 # - write the soft value and the losses of critics, actor and temperature;
 # - say where a gradient must stop, and which target entropy a thermostat can reach.
 #
-# **Time** 51 minutes. **You need** Python and a little torch; states, actions and rewards as in
+# **Time** 54 minutes. **You need** Python and a little torch; states, actions and rewards as in
 # lesson [[the_trap]]. The next lesson, [](update_and_loop.ipynb), makes an agent of these parts.
 
 # %%
