@@ -155,6 +155,8 @@ AMISS = {
 
 @pytest.mark.parametrize("what", AMISS)
 def test_the_doctor_finds_that(what, monkeypatch, capsys):
+    import bootcourse.road.compiled  # noqa: F401  it looks for its folder once, here before anything is amiss
+
     check, (place, name, value), sentence = AMISS[what]
     (monkeypatch.setitem if isinstance(place, dict) else monkeypatch.setattr)(place, name, value)
     monkeypatch.setattr(doctor, "CHECKS", (check,))
