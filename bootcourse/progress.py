@@ -1,4 +1,4 @@
-"""A progress bar: tqdm's, which a pipe or a file gets only every ten seconds."""
+"""A progress bar: tqdm's, which a pipe or a file gets as a line every ten seconds."""
 
 import sys
 
@@ -6,10 +6,19 @@ from tqdm.auto import notebook_tqdm, tqdm
 from tqdm.std import tqdm as in_text
 
 
+class Lines(in_text):
+    """A bar that is not redrawn: each state of it is a line."""
+
+    @staticmethod
+    def status_printer(file):
+        return lambda state: print(state, file=file, flush=True)
+
+
 def progress_bar(iterable=None, shown: bool = True, **options) -> in_text:
     """A bar over an iterable, or one to `update`; options: tqdm's, such as total and unit."""
-    is_redrawn = notebook_tqdm is not in_text or sys.stderr.isatty()
-    return tqdm(iterable, disable=not shown, mininterval=0.5 if is_redrawn else 10.0, **options)
+    if notebook_tqdm is not in_text or sys.stderr.isatty():
+        return tqdm(iterable, disable=not shown, mininterval=0.5, **options)
+    return Lines(iterable, disable=not shown, mininterval=10.0, **options)
 
 
 def end_full(bar: in_text) -> None:

@@ -9,14 +9,15 @@ from bootcourse.progress import end_full
 def test_a_training_of_so_many_updates_counts_them_and_its_bar_ends_full(capsys):
     training = bc.Training([bc.settings_for("sac")], 1000)
     training.run(updates=40)
-    last = capsys.readouterr().err.splitlines()[-1]
-    assert training.updates == 40 and "40/40" in last
+    shown = capsys.readouterr().err
+    assert training.updates == 40 and "40/40" in shown.strip().splitlines()[-1] and "\r" not in shown
 
 
 def test_a_training_that_is_stopped_as_planned_ends_its_bar_full(capsys):
     training = bc.Training([bc.settings_for("sac")], 1000)
     training.run(stop=lambda: training.curves.finished[0] >= 6)
-    assert f"{training.curves.finished[0]}/{training.curves.finished[0]} " in capsys.readouterr().err.splitlines()[-1]
+    last = capsys.readouterr().err.strip().splitlines()[-1]
+    assert f"{training.curves.finished[0]}/{training.curves.finished[0]} " in last
 
 
 def test_a_bar_in_a_notebook_ends_full_when_less_than_its_total_was_done():

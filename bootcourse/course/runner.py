@@ -41,7 +41,7 @@ FORKS = sys.platform == "linux"  # on macOS system libraries may break in a fork
 MEMORY = 2 * 2**30  # bytes that a function may use
 START = 60  # seconds in which a process has to be ready
 WALL = 8  # seconds after which a check is over, its start included, if that takes under 5 s and the limit is no longer
-LEAST = 3  # seconds that a function has in any case
+LEAST = 2  # seconds that a function has in any case
 SLACK = 5  # seconds after which the process ends by itself
 LONGEST_PRINT = 500  # characters of a function's prints that are shown
 LONGEST_MESSAGE = 2**26  # bytes

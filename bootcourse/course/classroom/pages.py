@@ -121,8 +121,7 @@ def code(names: Iterable[str]) -> Markup:
 def by_lesson(exercises: Iterable[str]) -> Iterable[tuple[str, list[str]]]:
     """The heading of each lesson, and its exercises."""
     for lesson, names in groupby(exercises, lambda name: registry()[name].lesson):
-        number, _, words = lesson.partition("_")
-        yield f"Lesson {number.lstrip('0') or '0'}: {words.replace('_', ' ')}", list(names)
+        yield f"Lesson {int(lesson[:2])} ({lesson}.ipynb)", list(names)
 
 
 # A student ------------------------------------------------------------------------------------------
