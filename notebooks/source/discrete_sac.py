@@ -18,8 +18,8 @@
 # - write the soft value and the losses of critics, actor and temperature;
 # - say where a gradient must stop, and which target entropy a thermostat can reach.
 #
-# **Time** 54 minutes. **You need** Python and a little torch; states, actions and rewards as in
-# lesson [[the_trap]]. The next lesson, [](update_and_loop.ipynb), makes an agent of these parts.
+# **Time** 54 minutes. **It builds on** Python, a little torch, and the states, actions and rewards
+# of lesson [[the_trap]]. The next lesson, [](update_and_loop.ipynb), makes an agent of these parts.
 
 # %%
 import bootcourse as bc

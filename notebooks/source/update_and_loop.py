@@ -18,7 +18,7 @@
 # - say what `terminated` does that a time limit must not do;
 # - recognise a critic that diverges, and say what three seeds can show.
 #
-# **Time** 58 minutes; the machine computes for about one of them. **You need** lesson
+# **Time** 58 minutes; the machine computes for about one of them. **It builds on** lesson
 # [[discrete_sac]] and its losses.
 
 # %%
