@@ -41,7 +41,11 @@ def batch_of(rows: Tensor) -> Batch:
 
 
 class SAC:
-    """An actor, two critics, their slow copies and log α, with an optimiser for each of the three."""
+    """An actor, two critics, their slow copies and log α, with an optimiser for each of the three.
+
+    rates: of the critics, the actor and log α. The last is three times the paper's: with that the entropy reaches its
+    target within the lesson's 1,936 updates (on four seeds), with the paper's it was still below (on three).
+    """
 
     gamma, tau, target_entropy = 0.99, 0.05, 0.3 * float(np.log(2))
 
