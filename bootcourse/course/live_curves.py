@@ -19,14 +19,16 @@ EVERY = 10  # updates between the points of a curve
 class LiveCurves:
     """A training's callback: redraws the agents' success and return, at most every `every` seconds.
 
+    drawn: of `training_curves`, such as measures=("return",) or constants.
+
     The agents of a training have the same number of updates, and not of episodes: those that crash early have more of
     these. labels: one for each agent, those of a label are drawn together; without them, each agent's method. The
     picture is replaced in place, so that the page does not jump. On a busy machine that happens less often, so that the
     training gets most of the time. `show` draws at once: call it after the training.
     """
 
-    def __init__(self, labels: Sequence[str] = (), every: float = 3.0):
-        self.labels, self.every, self.pause = labels, every, every
+    def __init__(self, labels: Sequence[str] = (), every: float = 3.0, **drawn):
+        self.labels, self.every, self.pause, self.drawn = labels, every, every, drawn
         self.last, self.output = time.monotonic(), None
         self.updates, self.means = [], []  # of each point; {measure: (agents,)}, the means of the last episodes
 
@@ -66,4 +68,4 @@ class LiveCurves:
             f"{display_name(label)} in {100 * np.nanmean(of['success'][:, -1]):.0f} %" for label, of in each.items()
         ]
         title = f"After {training.updates:,} updates, ahead of trap 1 at the end of an episode: {', '.join(shares)}"
-        return training_curves(each, title, updates=np.array(self.updates))
+        return training_curves(each, title, updates=np.array(self.updates), **self.drawn)

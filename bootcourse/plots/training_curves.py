@@ -97,7 +97,7 @@ def training_curves(
     measures: Sequence[str] = ("success", "return"),
     updates: np.ndarray | None = None,
 ) -> Figure:
-    """Some measures over the episodes of training, two in a row, each method in its own look.
+    """Some measures over the episodes of training, two in a row, one alone as wide as both; each method in its look.
 
     curves: {method: `Result.curves`}, whose measures are (agents, episodes), NaN where an interrupt came
     first. Thin lines are agents, the thick one their interquartile mean (up to where every agent got), the
@@ -117,10 +117,10 @@ def training_curves(
     constants, paper, rows = constants or {}, paper or {}, -(-len(measures) // 2)
     head, row = 0.5 + 0.2 * len(wrapped(title).splitlines()), 2.7  # inches
     total = head + rows * row
-    figure = new_figure(total, 9.0)
+    figure, width = new_figure(total, 9.0), 2.88 if len(measures) > 1 else 7.05
     ends: dict[str, dict[str, float]] = {}
     for i, measure in enumerate(measures):
-        ax = axes_at(figure, 0.45 + 4.41 * (i % 2), head + (i // 2) * row, 2.88, row - 0.85)
+        ax = axes_at(figure, 0.45 + 4.41 * (i % 2), head + (i // 2) * row, width, row - 0.85)
         plain_axes(ax, MEASURES[measure].label)
         ax.set_xlim(0, max(last, 1))
         ax.set_xlabel(unit, fontsize=SMALL, color=QUIET)

@@ -18,14 +18,14 @@
 # - write the soft value and the losses of critics, actor and temperature;
 # - say where a gradient must stop, and which target entropy a thermostat can reach.
 #
-# **Time** 54 minutes. **You need** Python and a little torch; states, actions and rewards as in
-# lesson [[the_trap]]. The next lesson, [](update_and_loop.ipynb), makes an agent of these parts.
+# **Time** 54 minutes. **It builds on** Python, a little torch, and the states, actions and rewards
+# of lesson [[the_trap]]. The next lesson, [](update_and_loop.ipynb), makes an agent of these parts.
 
 # %%
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.course import check, compare_predictions, predict, table
+from bootcourse.course import charts, check, compare_predictions, predict, table
 from bootcourse.course.lessons.discrete_sac import diagrams, figures
 from bootcourse.learn import sac
 from bootcourse.research import checks
@@ -141,14 +141,12 @@ predict(
 )
 
 # %%
-q, rows = torch.tensor([[1.0, 3.0]]), []
-for alpha in (0.1, 1.0, 1.4427, 2.0):
-    values = [
-        sac.soft_value(torch.tensor([pi]).log(), q, torch.tensor(alpha)).item()
-        for pi in ([1e-12, 1.0], [0.5, 0.5])
-    ]
-    rows.append([f"{alpha:g}", *(f"{value:.2f}" for value in values)])
-table(["α", "V of the sure policy", "V of the even policy"], rows)
+q, alphas, values = torch.tensor([[1.0, 3.0]]), np.linspace(0, 3, 31), {}
+for words, pi in (("the sure policy", [1e-12, 1.0]), ("the even policy", [0.5, 0.5])):
+    log_pi = torch.tensor([pi]).log()
+    values[words] = [sac.soft_value(log_pi, q, torch.tensor(alpha)).item() for alpha in alphas]
+title = f"Above α = {1 / np.log(2):.2f} the even policy is worth more"
+bc.show(charts.lines(alphas, values, title, "α", "V"))
 
 # %% [markdown]
 # **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy. The best policy lies
@@ -356,7 +354,8 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # a list of actions is 0 or more, so $\mathcal{H} - \eta$ is at least 1 in every state, and α falls
 # at each update. As α falls, the best policy softmax(Q / α) becomes sure of one action: the agent
 # explores less and less. How fast, lesson [[soft_constraint]] measures. The second η of the cell,
-# 0.66, is three tenths of the largest entropy: there α turns, as a thermostat should.
+# 0.66, is three tenths of the largest entropy: there α turns, as a thermostat should. The next
+# lesson shows one at work.
 #
 # Why then −1? For *continuous* actions a rule of thumb sets η to minus the dimension of the action,
 # which gives −1 for an action that is a single number. There an entropy can be negative, since a

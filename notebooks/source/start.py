@@ -26,12 +26,9 @@ from bootcourse.course import compare_predictions, predict, shipped
 # %% [markdown]
 # ## Look first
 #
-# Both drives below start alike on the same road. One program stays behind two slow cars, the other
-# gets out: while it learned, it had help from a hand-written controller, the **rule**. The slow
-# cars are dark red: **trap 1** is ahead of the driver, **trap 2** beside it. The drivers are
-# **agents**, programs that have learned from their own attempts. We chose these two drives to show
-# the difference; lesson [[the_trap]] counts how often it occurs. Press play, and turn the road with
-# the mouse.
+# Both drives below start alike on the same road. Two slow cars are dark red: **trap 1** is ahead of
+# the driver, **trap 2** beside it. One program stays behind them, the other gets out. Press play,
+# and turn the road with the mouse.
 
 # %% tags=["nbval-ignore-output"]
 escape = bc.shipped_drive("escape")  # by an agent that had help
@@ -41,6 +38,10 @@ trapped = next((drive for drive in alone if not drive.success), alone[0])
 bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], height=480)
 
 # %% [markdown]
+# Both drivers are **agents**, programs that have learned from their own attempts. The one that gets
+# out had help while it learned, from a hand-written controller, the **rule**. We chose these two
+# drives; lesson [[the_trap]] counts how many agents of each kind get out.
+#
 # Each second pays for speed, most of all at {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
 # and an accident costs about as much as a minute behind the traps earns. Why does a program that
 # learns stay behind slow cars, although the left lane is free? That is the question of this course.
@@ -85,8 +86,8 @@ bc.panels.drive_panel(seed=10)
 # route is for readers who know SAC, the learner that lesson [[discrete_sac]] builds, and want to
 # know which results hold.
 #
-# ● the whole lesson · ◐ the text without the exercises · *picture*: the diagram at the beginning ·
-# *known*: skip it if you know SAC
+# ● the whole lesson · ◐ the text without the exercises · *picture*: the diagram at its
+# beginning · *known*: skip it if you know SAC
 #
 # | lesson | an evening | a week | a researcher's |
 # |---|:---:|:---:|:---:|

@@ -18,8 +18,8 @@
 # - find out whether leaving the trap pays for it, and what an attempt to leave is worth;
 # - write a learner for a barrier of five states, and find out what gets it across.
 #
-# **Time** 65 minutes; running it takes about one minute. **You need** the trap of lesson
-# [[the_trap]], and of lesson [[discrete_sac]] at least the picture at its beginning.
+# **Time** 65 minutes; running it takes about one minute. **It builds on** the trap of lesson
+# [[the_trap]], and on lesson [[discrete_sac]], at least the picture at its beginning.
 
 # %%
 import bootcourse as bc
@@ -40,7 +40,7 @@ from bootcourse.research import planner, report
 #
 # How well could anybody drive here? A planner searches: at each second it extends the drives that
 # it has kept by each of the nine actions, and keeps the best 50. It knows what the other cars will
-# do: so its return says what is possible on this road, and not what an agent can reach.
+# do, so its return says what is possible here, and not what an agent can reach.
 # <!-- claim: DEFAULT.clock.decision_rate == 1 and N_ACTIONS == 9 -->
 
 # %%
@@ -59,7 +59,7 @@ bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12], title=title))
 
 # %% [markdown]
 # **See.** The planner's car does not fall back: it accelerates and changes lane between the two
-# traps, since it knows where both will be. The rule takes longer and keeps larger gaps.
+# traps. The rule takes longer and keeps larger gaps.
 # <!-- claim: planned(50, 1.0) > by_rule().rewards.sum() > idle().rewards.sum() -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -86,7 +86,8 @@ agents = bc.with_seeds(bc.settings_for("sac"), SEEDS)
 agents += bc.with_seeds(bc.settings_for("sac", gamma=0.95), SEEDS)
 labels = ["sac, γ = 0.8"] * SEEDS + ["sac, γ = 0.95"] * SEEDS
 training = bc.Training(agents, episodes=20_000)
-live = live_curves.LiveCurves(labels)
+doing_nothing = {"idle": {"return": idle.rewards.sum()}}
+live = live_curves.LiveCurves(labels, measures=("return",), constants=doing_nothing)
 alone = training.run(callback=live, stop=lambda: training.updates >= UPDATES)
 live.show(training)
 
@@ -112,17 +113,15 @@ shown(alone.agents, tests)
 # **See.** Of twenty agents trained like yours (ten with each γ) {{ easy('as it is').escapers('sac')
 # }} escapes, and {{ safe('as it is') }} stay, with hardly an accident. Of lesson [[the_trap]]'s
 # ten, trained for {{ of('sac').curves['success'].shape[1] | , }} episodes, {{ escaped('sac') }}
-# escapes and {{ stayed() }} stay. Compare your agents' returns with {{ idle().rewards.sum() | .1f
-# }}, what doing nothing earns: an agent near it has learned to stay, and one below zero still
-# crashes.
+# escapes and {{ stayed() }} stay. An agent of yours near the
+# idle driver's {{ idle().rewards.sum() | .1f }} has learned to stay; one below zero still crashes.
 # <!-- claim: escaped('sac') == easy('as it is').escapers('sac') == 1 and len(of('sac')) == 10 and
 #   stayed() / len(of('sac')) > safe('as it is') / 20 and len(easy('as it is')) == 20 -->
 #
 # **What keeps most agents in?** The next rounds measure three explanations.
 #
 # - **Luck.** The way out is a rare sequence of actions that an agent does not hit.
-# - **Discount.** For an agent with γ = 0.8, a reward in 20 s hardly counts. Perhaps to stay is the
-#   best that it can do.
+# - **Discount.** At γ = 0.8 a reward in 20 s hardly counts. Perhaps staying is best.
 # <!-- claim: 0.8 ** 20 < 0.02 and SETTINGS.gamma == 0.8 -->
 # - **The price of attempts.** Leaving pays, but an attempt that fails costs 10, and most do.
 
@@ -176,11 +175,11 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 
 # %% [markdown]
 # **Explain.** A *quick* way out can pay at γ = 0.8: on each of these four roads, at both discounts,
-# the planner's best drive leaves the trap. So does an agent that sees 26 numbers: the {{
+# the planner's best drive leaves the trap. Agents, which see 26 numbers, can do it, too. The {{
 # len(discounted_scores('soft')) }} with the soft constraint (lesson [[soft_constraint]]) that ship
-# escape, and earn {{ discounted_scores('soft').min() | .2f }} to {{ discounted_scores('soft').max()
-# | .2f }} in discounted reward on 200 held-out roads; doing nothing earns {{ discounted(idle(),
-# 0.8) | .2f }}.
+# with the course escape. On 200 held-out roads their discounted rewards are {{
+# discounted_scores('soft').min() | .2f }} to {{ discounted_scores('soft').max() | .2f }}, those of
+# doing nothing {{ discounted(idle(), 0.8) | .2f }}.
 # <!-- claim: discounted_scores('soft').min() > discounted(idle(), 0.8) -->
 # <!-- claim: (of('soft').scores('success')[:len(discounted_scores('soft'))] >= ESCAPES).all() -->
 # <!-- claim: all(run.agent.settings.gamma == 0.8 for run in shipped_runs('soft')) -->
@@ -232,23 +231,21 @@ on_the_road += f"and {100 * np.mean(tried.accident > 0):.1f} % of all end in an 
 table(headings, rows, below=f"In 5,000 attempts. {on_the_road}")
 
 # %% [markdown]
-# **See.** The way out is not one rare sequence, which would hardly be hit in 5,000 attempts: on the
-# road {{ by_chance().success.sum() }} get out, as if between four and five of nine actions were
-# right each time. But each of these lucky drives ends in an accident, with a return below zero, so
-# not even they show that leaving pays.
+# **See.** The way out is not one rare sequence, which would hardly be hit in 5,000 attempts: {{
+# by_chance().success.sum() }} get out, as if between four and five of nine actions were right each
+# time. But each of these lucky drives ends in an accident, with a return below zero, so not even
+# they show that leaving pays.
 # <!-- claim: (4 / 9) ** 8 < by_chance().success.mean() < (5 / 9) ** 8 -->
 # <!-- claim: 1 - (1 - (1 / 9) ** 8) ** 5000 < 0.001 -->
 # <!-- claim: (by_chance().accident[by_chance().success] > 0).all() -->
 # <!-- claim: by_chance().returns[by_chance().success].max() < 0 < idle().rewards.sum() -->
 #
-# That is no fair picture of an attempt. Here are four kinds, and the rule,
-# on {{ len(tested('stays').ahead) }} roads:
+# That is no fair picture of an attempt. Here are four kinds:
 #
 # - *random for 150 s*: one of the nine actions each second;
 # - *4 random actions, then accelerates*: after 4 s a lane keeper steers, and goes to 15 m/s;
-# - *random lanes and speeds*: random lane changes, braking and accelerating; a lane keeper steers;
-# - *one plan, then accelerates*: right for 1 s, left for 4 s, right for 3 s, then faster. It looks
-#   at nothing.
+# - *random lanes and speeds*: random wishes, each second another; a lane keeper steers;
+# - *one plan, then accelerates*: right for 1 s, left for 4 s, right for 3 s, then faster.
 #
 # > **Predict.** Which of these attempts are worth more, on average, than staying? An accident costs
 # > 10.
@@ -309,8 +306,8 @@ table(headings, rows, below=f"{len(few)} roads each.")
 
 # %% [markdown]
 # **See.** The later start takes the delay away: at both discounts a car that accelerates at once
-# earns much more than one that stays. Neither road takes the crashes away: nine in ten of the
-# random drives or more end in an accident, and at γ = 0.8 one random action before the right drive
+# earns much more than one that stays. Neither road takes the crashes away: nine in ten or more of
+# the random drives end in an accident, and at γ = 0.8 one random action before the right drive
 # makes it worth less than staying.
 # <!-- claim: all(worth_of('a later start', AT_ONCE, g) > 4 * worth_of('a later start', 'stays', g)
 #   for g in (0.8, 0.95)) -->
@@ -337,7 +334,7 @@ for kind, results in shipped.shipped_experiment("easier").items():
         rows.append([kind, gamma, won, stays.sum(), crash.sum(), f"{returns.max():.1f}"])
 headings = ["ten agents each", "γ", "escape", "stay, hardly an accident", "crash on most"]
 below = "Escape: ahead of trap 1 at the end of 95 % of the drives, crashed or not. "
-below += "η = 1: the target entropy is 1."
+below += "Some agents are in no column. η = 1: the target entropy is 1."
 table([*headings, "highest return"], rows, below=below)
 
 # %% [markdown]
@@ -381,10 +378,11 @@ table(
 
 # %% [markdown]
 # **So what keeps agents in?** On the road as it is staying is worth more, at γ = 0.8, than each
-# attempt of the figure. Changing only the discount, the target entropy, the steering or the start
-# frees hardly any agent; nor does changing γ and η together. So no single one of these changes is
-# enough, and what keeps agents in we have not found: their own draws after a good action are a
-# suspect. With the rule as a soft constraint each of the {{ len(changed_agents('soft')) }} escapes.
+# attempt of the figure. But changing only the discount, the target entropy, the steering or the
+# start frees hardly any agent; nor does changing γ and η together. So we have not found what keeps
+# agents in. Their own draws after a good action are a suspect; a road on which accidents cost
+# nothing we have not tried. With the rule as a soft constraint each of the {{
+# len(changed_agents('soft')) }} agents of this table escapes.
 # <!-- claim: not changed_agents('sac').any() and changed_agents('soft').all() and
 #   len(changed_agents('sac')) == 18 -->
 
@@ -407,8 +405,7 @@ table(
 # <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
 #   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
 #
-# Staying pays about what a second behind the traps does ({{ second_pays(10) | .3f }}), and the free
-# road about what 15 m/s does.
+# Staying pays about what a second behind the traps does, the free road about what 15 m/s does.
 #
 # > **Predict.** Does leaving pay at γ = 0.8? From which γ on?
 
@@ -524,7 +521,7 @@ table(["", "ε", "γ", "demonstration", "learn to leave"], rows)
 # The paper's answer is the last row of the chain: somebody who knows a way, although not the best
 # one. It uses the rule twice, as a **soft constraint** (lesson [[soft_constraint]]) and for
 # **demonstrations** (lesson [[demonstrations]]), which end at episode {{ SETTINGS.beta_episodes | ,
-# }} (what happens then: lesson [[found_and_kept]]). Here are ten agents of each kind:
+# }} (lesson [[found_and_kept]]). Here are ten agents of each kind:
 
 # %%
 study = bc.shipped_results()
@@ -541,8 +538,8 @@ bc.show(bc.training_curves(curves, title, constants={"rule": level}))
 # 1. Most plain SAC agents stay behind trap 1 or crash: {{ len(of('sac')) - escaped('sac') }} of the
 #    study's {{ len(of('sac')) }} do not escape.
 # 2. At γ = 0.8 staying is worth more than each attempt that we drove on the road as it is; at γ =
-#    0.95 only the skilled ones pay. From a later start a skilled drive pays at both, and still none
-#    of twenty agents finds it.
+#    0.95 only the skilled ones pay. From a later start one acceleration pays at both, and still
+#    none of twenty agents gets out.
 # <!-- claim: all(tested(kind).values(0.8).mean() < tested('stays').values(0.8).mean() for kind in
 #   KINDS_OF_ATTEMPTS) and not tested("the rule's way").accident.any() -->
 # 3. Leaving can pay at γ = 0.8: agents with the soft constraint do it.

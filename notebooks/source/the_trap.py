@@ -38,9 +38,10 @@ from bootcourse.road import formulas, observation
 # ## Look first
 #
 # This is the road that you drove in lesson [[start]]. The driver is labelled **ego**. It starts at
-# {{ DEFAULT.ego.speed }} m/s, and two dark red cars box it in: **trap 1** is ahead in its lane,
-# **trap 2** is in the next lane. Both drive {{ DEFAULT.traps.speed }} m/s, too. The left lane is
-# free. Everything else (grey) is traffic that drives up to {{ DEFAULT.traffic.desired_speed }} m/s.
+# {{ DEFAULT.ego.speed }} m/s, boxed in by two dark red cars as fast as itself: **trap 1** is ahead
+# in its lane, **trap 2** is in the next lane. The left lane is free. Everything else (grey) is
+# traffic that drives up to {{ DEFAULT.traffic.desired_speed }} m/s.
+# <!-- claim: DEFAULT.traps.speed == DEFAULT.ego.speed -->
 #
 # Here is the way out of the ghost, which is the hand-written **rule**.
 
@@ -78,8 +79,7 @@ table(["", "left", "straight", "right"], rows)
 
 # %% [markdown]
 # **See.** Two seconds of steering bring you more than half of the way into the next lane, and
-# leave the car turned. That is a coarse way to drive: every lane change needs a turn and a turn
-# back.
+# leave the car turned: every lane change needs a turn and a turn back.
 # <!-- claim: np.ptp(record(plan_policy([('keep left', 2)]), [ROAD])[0].states[[0, 4], EGO, Y]) >
 #   DEFAULT.road.lane_width / 2 -->
 #
@@ -149,8 +149,8 @@ table(["plan", "ends with", "after"], rows)
 bc.panels.drive_panel(seed=7, ghost=bc.idle_policy)
 
 # %% [markdown]
-# Take the plans that steer left, straight or right in each of eight seconds at the same speed, and
-# then accelerate for five: there are {{ 3 ** 8 | , }} of them.
+# Take the {{ 3 ** 8 | , }} plans that steer left, straight or right in each of eight seconds at the
+# same speed, and then accelerate for five.
 #
 # > **Predict.** How many of the {{ 3 ** 8 | , }} get out unhurt on road 7?
 
@@ -229,7 +229,7 @@ for name, plan in three.items():
 table(["then accelerate", "gets out unhurt", "on far roads", "on the others"], rows)
 
 # %% [markdown]
-# **See.** On most roads a fixed plan is enough, without a brake and without looking. The pause in
+# **See.** On most roads a fixed plan is enough, without braking and without looking. The pause in
 # the first plan matters: it carries the car across the middle lane, behind trap 2, into the free
 # one. Without it, as in the third, the car straightens in the middle lane, where trap 2 is, and
 # gets out on none of the 400. So why should a learner stay?
@@ -285,16 +285,14 @@ table(["number", "observed", "scale", "in m, m/s"], rows, below="(the first 16 o
 # **See.** The nearest is trap 2, and its `dy` is
 # {{ idle().states[0, TRAP_2, Y] - idle().states[0, EGO, Y] }} m: one lane to the left.
 #
-# In a *Markov decision process* (MDP), the next **state** and the reward depend on the present
-# state and the action alone: $p(s', r \,|\, s, a)$. The road is such a process. Its state holds for
-# each of the {{ DEFAULT.vehicles }} cars its place, speed, heading and steering, the lane that it
-# wants, and the time of its last lane-change decision; and the time since the start.
+# The road is a *Markov decision process* (MDP): its next **state** and the reward depend on the
+# present state and the action alone, $p(s', r \,|\, s, a)$. The state holds the time, and the
+# motion and the lane decisions of all {{ DEFAULT.vehicles }} cars. The observation o leaves out the
+# cars beyond the four nearest, the lanes that cars want, and the seconds that are left. So to the
+# agent the world is a *partially observed* MDP, and its policy is a $\pi(a \,|\, o)$. The learners
+# of this course, like the paper's, treat o as if it were the state s. The rule reads the true
+# places and speeds.
 # <!-- claim: DEFAULT.vehicles == 9 -->
-#
-# The observation o is *not* the state. It leaves out the cars beyond the four nearest, the lanes
-# that the cars want, and the seconds that are left: to the agent the world is a *partially
-# observed* MDP, and its policy is a $\pi(a \,|\, o)$. The learners of this course, like the
-# paper's, treat o as if it were the state s. The rule reads the true places and speeds of the cars.
 # <!-- claim: DEFAULT.vehicles - 1 > DEFAULT.sight.neighbours == 4 -->
 # <!-- claim: not any('lane' in name or 'time' in name for name in observation.names(DEFAULT)) -->
 
@@ -331,8 +329,8 @@ bc.show(figures.reward_curve())
 #   / 25 * 15 - 19 / 5, 12.6: 8 / 25 * 12.6 - 19 / 5, 12.5: 2 / 75 * 12.5 - 2 / 15, 5.1: 2 / 75 *
 #   5.1 - 2 / 15, 5: 0}.items()) -->
 #
-# > **Predict.** You do nothing at all for 150 s: 10 m/s, centred, no steering. What do you earn in
-# > these 150 s? Use pen and paper.
+# > **Predict.** You do nothing at all for 150 s: 10 m/s, centred, no steering. What do you
+# > earn? Use pen and paper.
 
 # %%
 predict("the_trap.3", "What does doing nothing earn in 150 s?", unit="")
@@ -375,8 +373,7 @@ print(f"return {idle.rewards.sum():.4f}, distance {idle.distance:.0f} m, success
 # so $r_y$ = 1, and does not steer, so $r_\theta$ = 0. One second pays (1.5 · {{ speed_reward(10.0)
 # | .4f }} + 0.05 · 1) / 1.6 = {{ second_pays(10) | .5f }}, and 150 seconds pay {{ 150 *
 # second_pays(10) | .4f }}. An accident costs what {{ -DEFAULT.reward.accident / second_pays(10) |
-# .0f }} s of doing nothing earn. On a free road at 15 m/s a second pays {{ second_pays(15) | .5f
-# }}, so 150 s pay {{ 150 * second_pays(15) | .0f }}.
+# .0f }} s of doing nothing earn.
 #
 # </details>
 #
@@ -414,9 +411,8 @@ learned = training.run(progress=False, callback=live, stop=lambda: training.upda
 live.show(training)
 
 # %% [markdown]
-# *Success* is the share of episodes that end ahead of trap 1. A crash in the first seconds returns
-# about −9.5, doing nothing {{ idle().rewards.sum() | .1f }}. Now the first agent with help, before
-# and after its training:
+# A crash in the first seconds returns about −9.5, doing nothing {{ idle().rewards.sum() | .1f }}.
+# Now the first agent with help, before and after its training:
 
 # %% tags=["nbval-ignore-output"]
 before = bc.record(beginner, [ROAD], label="bootstrapped")[0]
@@ -429,9 +425,9 @@ for drive, who in ((before, "Untrained"), (after, f"After {training.updates:,} u
     bc.show(bc.top_view_over_time(drive, times=times, title=f"{who}, it {ending}"))
 
 # %% [markdown]
-# **See.** Your curves will differ from those that were saved here, and from your neighbour's. Which
-# lines have risen from −9.5? Which agents have success? If an agent's return has risen without
-# success, it now survives longer behind the traps.
+# **See.** Your curves will differ from those that were saved here. Which lines have risen from
+# −9.5, and which agents have success? A return that has risen without success belongs to an agent
+# that survives longer behind the traps.
 #
 # Two agents say little. In our study {{ len(of('sac')) }} agents of each kind learned, each on
 # {{ of('sac').curves['success'].shape[1] | , }} roads, and then each drove {{ roads() | , }}
@@ -463,7 +459,8 @@ succeeds, crashes = (f"{100 * np.mean(x > 0):.0f} %" for x in (blind.success, bl
 rows.append(
     ["the plan right 1, left 4, right 3", f"succeeds on {succeeds} of the roads", mean, crashes]
 )
-table(["", "agents that escape", "mean return", "drives that end in an accident"], rows)
+below = "In brackets: 95 % intervals, over agents; of rule and plan over roads."
+table(["", "agents that escape", "mean return", "drives that end in an accident"], rows, below)
 
 # %% [markdown]
 # **See.** Most agents of plain SAC miss a way out that the rule, which learns nothing, finds on
@@ -472,8 +469,7 @@ table(["", "agents that escape", "mean return", "drives that end in an accident"
 # of('bootstrapped').scores('success') >= ESCAPES].max() | .0f }} % of their drives, the others in
 # {{ 100 * of('bootstrapped').scores('accident')[of('bootstrapped').scores('success') <
 # ESCAPES].min() | .0f }} % or more. In brackets is the 95 % *interval*: the mean over very many
-# agents of this kind probably lies in it. It is wide because we have only ten. (For rule and plan,
-# which do not learn, it is over roads.)
+# agents of this kind probably lies in it. It is wide because we have only ten.
 #
 # Look at the last row. A plan of 13 actions that looks at nothing for 150 s earns more than the
 # mean agent of either kind, though less than each helped agent that escapes, and it crashes often.
@@ -510,8 +506,7 @@ bc.show(figures.running_lead(lead, int(behind)))
 # %% [markdown]
 # **See.** The escape's running total is never behind by more than
 # {{ -(by_rule().rewards - idle().rewards).cumsum().min() | .1f }}, which is little if rewards are
-# simply added up. (The steps of the curve come from how the rule drives after its escape; lesson
-# [[the_rule]] looks for the reason.)
+# added up as they are. (Lesson [[the_rule]] explains the steps of the curve.)
 #
 # **Exercise (8 min, ●●○).** A driver that stays behind the traps earns the return `stay`. An
 # attempt to escape ends in an accident with probability q, and then returns `crash`; otherwise it
@@ -528,10 +523,9 @@ def bearable_risk(stay, escape, crash):
 check.bearable_risk(bearable_risk)
 
 # %% [markdown]
-# The agents of Round 5 do not add up all rewards alike. They **discount** them: a reward t seconds
-# later counts γᵗ as much, and the paper's γ ("gamma") is {{ SETTINGS.gamma }}. What an attempt may
-# risk depends on that. Here it is for an attempt that drives like the rule, and may crash after
-# 3 s; the last column is the answer of your exercise:
+# The agents of Round 5 **discount** rewards: one that comes t seconds later counts γᵗ as much, and
+# the paper's γ ("gamma") is {{ SETTINGS.gamma }}. What may an attempt risk that drives like the
+# rule, if its crash comes after 3 s? The last column is the answer of your exercise:
 
 # %% tags=["hide-input"]
 bearable, rows = own_code.yours_or_ours("bearable_risk", doing="Judging attempts"), []
@@ -544,11 +538,11 @@ headings = ["γ", "staying", "the rule's escape", "a crash after 3 s", "bearable
 table(headings, rows, below=f"Discounted sums from the start, road {ROAD}.")
 
 # %% [markdown]
-# **Explain.** At the agents' γ = {{ SETTINGS.gamma }} the rule's escape is worth *less* than
-# staying, even without a crash: it costs now and pays too late. With γ = 1 such an attempt may
-# crash in more than a third of the cases and still pay. So an agent that stays is not stupid. Is
-# there a way out that pays at γ = {{ SETTINGS.gamma }}, and what are an agent's own attempts worth?
-# Lesson [[the_barrier]] measures both, on more roads.
+# **Explain.** On this road, at the agents' γ = {{ SETTINGS.gamma }}, the rule's escape is worth
+# *less* than staying, even without a crash: it costs now and pays too late. With γ = 1 such an
+# attempt may crash in more than a third of the cases and still pay. So an agent that stays is not
+# stupid. Is there a way out that pays at γ = {{ SETTINGS.gamma }}, and what are an agent's own
+# attempts worth? Lesson [[the_barrier]] measures both, on more roads.
 # <!-- claim: SETTINGS.gamma == 0.8 and discounted(by_rule(), 0.8) < discounted(idle(), 0.8) -->
 # <!-- claim: 1 / 3 < (by_rule().rewards.sum() - idle().rewards.sum()) / (by_rule().rewards.sum() -
 #   by_rule().rewards[:3].sum() + 10) < 1 / 2 -->
@@ -572,8 +566,8 @@ table(headings, rows, below=f"Discounted sums from the start, road {ROAD}.")
 # 4. The rule falls back and changes lane behind trap 2. There are other ways: one plan without
 #    braking gets out unhurt on most roads.
 # <!-- claim: unhurt(RIGHT_FIRST).mean() > 0.5 -->
-# 5. An attempt costs now and pays later, and one accident costs what about a minute of doing
-#    nothing earns. So its worth depends on the discount.
+# 5. An attempt costs now and pays later, and one accident costs about as much as a minute of
+#    doing nothing earns. So its worth depends on the discount.
 # <!-- claim: 50 < -DEFAULT.reward.accident / second_pays(DEFAULT.traps.speed) < 70 -->
 #
 # **Three questions to think about**

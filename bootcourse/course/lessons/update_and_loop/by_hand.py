@@ -41,11 +41,15 @@ def batch_of(rows: Tensor) -> Batch:
 
 
 class SAC:
-    """An actor, two critics, their slow copies and log α, with an optimiser for each of the three."""
+    """An actor, two critics, their slow copies and log α, with an optimiser for each of the three.
+
+    rates: of the critics, the actor and log α. The last is three times the paper's: with that the entropy reaches its
+    target within the lesson's 1,936 updates (on four seeds), with the paper's it was still below (on three).
+    """
 
     gamma, tau, target_entropy = 0.99, 0.05, 0.3 * float(np.log(2))
 
-    def __init__(self, seed: int = 0, optimiser: type = torch.optim.Adam, rates: tuple = (1e-3, 5e-4, 1e-3)):
+    def __init__(self, seed: int = 0, optimiser: type = torch.optim.Adam, rates: tuple = (1e-3, 5e-4, 3e-3)):
         torch.manual_seed(seed)
         self.actor = mlp(*SIZES, HIDDEN)
         self.critics = nn.ModuleList([mlp(*SIZES, HIDDEN) for _ in range(2)])
@@ -97,15 +101,20 @@ def balanced(agent: SAC, episodes: int = 10) -> float:
 
 
 class Watched:
-    """An update that notes for how many pushes the agent balances the pole, after each `every` updates."""
+    """An update that notes the policy's entropy in the batch (nats) and α, after each update.
+
+    And after each `every` updates, for how many pushes the agent balances the pole.
+    """
 
     def __init__(self, update, every: int = 250):
-        self.update, self.every, self.updates, self.balanced = update, every, 0, []
+        self.update, self.every, self.balanced, self.entropy, self.alpha = update, every, [], [], []
 
     def __call__(self, agent: SAC, batch: Batch) -> None:
         self.update(agent, batch)
-        self.updates += 1
-        if self.updates % self.every == 0:
+        with torch.no_grad():
+            self.entropy.append(float(sac.entropy(agent.log_pi(batch.states)).mean()))
+            self.alpha.append(float(agent.log_alpha.exp()))
+        if len(self.alpha) % self.every == 0:
             self.balanced.append(balanced(agent))
 
 

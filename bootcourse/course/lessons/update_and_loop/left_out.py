@@ -13,7 +13,7 @@ from bootcourse.learn.training import Training
 from bootcourse.research import checks
 from bootcourse.research.checks import several
 
-WHOLE = "nothing"
+WHOLE = "nothing: the whole agent"
 KINDS = (WHOLE, "the entropy", "the second critic", "the slow copies", "(1 − terminated)")
 
 
