@@ -349,10 +349,10 @@ table(["teacher", f"{at} success", f"{at} return"], rows, below)
 #   (students('timid')['accident'] == 0).all() -->
 #
 # It also depends on *when*. All twelve are verdicts on {{ taught_agents.UPDATES | , }} updates,
-# about a tenth of a full training. After {{ taught_agents.LONG | , }} only {{
-# (long()['success'] >= ESCAPES).sum() }} of ten students of the racer escape, although in training
-# their success was once {{ 100 * long()['escapes'].mean(0).max() | .0f }} %; and they crash less,
-# in {{ 100 * long()['accident'].mean() | .0f }} % of their drives. So the racer helps to *find* the
+# about a tenth of a full training. After {{ taught_agents.LONG | , }} only {{ (long()['success'] >=
+# ESCAPES).sum() }} of ten students of the racer escape, although in training their success was once
+# {{ 100 * long()['escapes'].mean(0).max() | .0f }} %; and they crash less, in {{ 100 *
+# long()['accident'].mean() | .0f }} % of their drives. So the racer helped these ten to *find* the
 # way out, and not to *keep* it. We have not trained the students of the other five for so long.
 # <!-- claim: long()['escapes'].mean(0).max() > 0.9 and (long()['success'] >= ESCAPES).sum() < 5 and
 #   long()['xi'].max() < 1e-3 and long()['beta'].max() == 0 and
@@ -426,8 +426,9 @@ bc.show(figures.learners(worth, title))
 # - **No learner finds here what no drive shows**: from the mirrored teacher none of fifty agents
 #   escapes.
 # - **The best driver is not the best to copy**: the planner's DAgger agents crash in nearly all
-#   drives, and most of the rule's escape. Why, we have not
-#   tested; its decisions depend on the other cars' next seconds, which the 26 numbers do not hold.
+#   drives; {{ worth()['rule', 'dagger'].escapers('dagger') }} of the rule's ten escape. We have not
+#   tested why. The planner's decisions depend on the other cars' next seconds, which the 26 numbers
+#   do not hold.
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
 #   sum(worth()['random-50', m].escapers(m) for m in ('dagger', 'ppo_cloned', 'soft', 'rlpd')) == 1
 #   and fisher(10, 1) < 0.005 / 10 -->
