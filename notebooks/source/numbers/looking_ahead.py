@@ -9,11 +9,9 @@ from bootcourse.episodes.lookahead import HORIZON, lookahead
 from bootcourse.episodes.models import MODELS
 from bootcourse.policies import idle_policy, random_policy
 from bootcourse.research import distil
-from bootcourse.research.beyond import lengths
 from bootcourse.research.lookahead import MANY, ROADS, Cell, Score, score
 from bootcourse.research.results import Results, experiment
-from bootcourse.statistics import Estimate, interval
-from tools.course.known import shipped_teachers
+from bootcourse.road.state import Accident
 
 NOISE, LATE = "places off by 1 m, speeds by 0.5 m/s", "everything a second late"
 OTHERS_LATE = "the others a second late"
@@ -48,10 +46,27 @@ def better(base: str, form: str) -> int:
     return sum(per_thousand(base, form, model=model) < alone for model in MODELS if model != "exact")
 
 
-def worse_than_shield(base: str) -> int:
-    """With how many of the wrong models the rollouts have more accidents for each drive than the shield."""
+def clearly_safer(base: str) -> int:
+    """With how many of the wrong models the shield's interval of accidents lies below that of the rollouts."""
     wrong = [model for model in MODELS if model != "exact"]
-    return sum(per_thousand(base, model=one) > per_thousand(base, "shield", model=one) for one in wrong)
+    rates = [[ahead(base, form, model=one).accident_rate for form in ("shield", "rollouts")] for one in wrong]
+    return sum(shield.high < rollouts.low for shield, rollouts in rates)
+
+
+def each(form: str, measure: str) -> np.ndarray:
+    """The accidents or the mean return of each of the paper's agents, (agents,)."""
+    return shipped()[Cell("bootstrapped", form).name].measured[measure]
+
+
+def of_the_worst(count: int) -> int:
+    """The accidents of so many of these agents, those that have most."""
+    return int(np.sort(each("alone", "accidents"))[-count:].sum())
+
+
+def all_ten_gain() -> bool:
+    """Whether each of them has fewer accidents with rollouts, and a higher return."""
+    fewer = each("rollouts", "accidents") < each("alone", "accidents")
+    return bool((fewer & (each("rollouts", "returns") > each("alone", "returns"))).all())
 
 
 @cache
@@ -65,27 +80,22 @@ def before():
     return shipped()[Cell(distil.BASE, "alone").name].measured["accidents"][: distil.AGENTS]
 
 
-def taught_by(teacher: str, method: str) -> Estimate:
-    """The return of a teacher's ten agents."""
-    return interval(shipped_teachers()[teacher, method].scores("returns"))
-
-
-def decided(teacher: str, method: str) -> float:
-    """The thousand decisions of each of these agents' training, the mean."""
-    return float(np.nansum(lengths(shipped_teachers()[teacher, method].curves), axis=1, dtype=float).mean()) / 1000
-
-
-def escaping(teacher: str, method: str) -> int:
-    """How many of these escape."""
-    return shipped_teachers()[teacher, method].escapers(method)
-
-
 @cache
-def five_accidents() -> list[int]:
-    """The accidents of each bootstrapped agent that ships on the lesson's 40 roads."""
+def how_five_end() -> list[np.ndarray]:
+    """How the drives of each bootstrapped agent that ships end on the lesson's 40 roads."""
     roads = held_out_seeds(15, 40)
-    agents = course.shipped_agents("bootstrapped")
-    return [int((drive_episodes(agent.as_policy(), roads).accident > 0).sum()) for agent in agents]
+    return [drive_episodes(agent.as_policy(), roads).accident for agent in course.shipped_agents("bootstrapped")]
+
+
+def five_accidents() -> list[int]:
+    """The accidents of each of them."""
+    return [int((ends > 0).sum()) for ends in how_five_end()]
+
+
+def departures() -> float:
+    """The share of road departures in the accidents of the one that has most."""
+    ends = max(how_five_end(), key=lambda each: (each > 0).sum())
+    return float((ends == Accident.ROAD_DEPARTURE).sum() / (ends > 0).sum())
 
 
 @cache

@@ -1,18 +1,22 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 from functools import cache
+from itertools import combinations
 
 import numpy as np
-from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.course.lessons.your_teacher import taught_agents
+from bootcourse.course.lessons.your_teacher.taught_agents import holm, p_value
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
+from bootcourse.learn.teachers import teacher_policy
 from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.beyond import at_budget
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results, found  # noqa: F401
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES, Estimate, difference, interval
+from bootcourse.statistics import ESCAPES, Estimate, interval
 from tools.course.known import shipped_experiment, shipped_teachers, varied
 
 FIRST, SECOND, LAST = BUDGETS
@@ -49,9 +53,27 @@ def middle(method: str, budget: int = FIRST) -> float:
     return score_at(method, budget).value
 
 
-def less(method: str, other: str) -> Estimate:
-    """The interquartile mean of a method's returns less the other's, after the second budget."""
-    return difference(at(method, "returns", SECOND), at(other, "returns", SECOND))
+@cache
+def pairs(budget: int) -> dict[tuple[str, str], float]:
+    """{a pair of the methods with a teacher: p of the rank test of their returns, after Holm}."""
+    taught = [method for method in compared() if method != "ppo"]
+    of = list(combinations(taught, 2))
+    p = [p_value(*(at(method, "returns", budget) for method in pair)) for pair in of]
+    return {pair: float(each) for pair, each in zip(of, holm(p), strict=True)}
+
+
+def at_edge() -> set[str]:
+    """The methods with a teacher whose best attempt of the search is its first or its last."""
+    places = {method: np.argmax(list(search(method).values())) for method in compared() if method != "ppo"}
+    return {method for method, place in places.items() if place != 1}
+
+
+@cache
+def near_rule() -> tuple[float, int]:
+    """(mean return, accidents) of the rule that sees 30 m, on 200 held-out roads."""
+    policy = teacher_policy(taught_agents.TEACHERS["the rule, 30 m"])
+    driven = drive_episodes(policy, held_out_seeds(1, 200))
+    return float(driven.returns.mean()), int((driven.accident > 0).sum())
 
 
 def changed_sacs() -> list[Results]:

@@ -66,6 +66,16 @@ def two_situations(slow: float):
 
 
 @cache
+def one_situation(speed: float):
+    """How a rule drives there that aims for one speed (m/s), and for the next lane to the left, everywhere."""
+
+    def rule(cars, scenario):
+        return toward(cars, speed, max(0, int(cars[EGO, LANE]) - 1), scenario)
+
+    return example_teachers.examine(rule).episodes
+
+
+@cache
 def near_rule():
     """How the rule that sees less far drives on the exam's roads."""
     return example_teachers.examine(taught_agents.near_sighted).episodes

@@ -126,8 +126,8 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     legend = f"● rollouts{_drives(scores_of[-0.14])}    □ shield by simulation{_drives(scores_of[0.14])}"
     figure.text(0.012, 0.1 / height, legend, fontsize=SMALL, color=INK)
     title = (
-        f"{display_name(base)}, looking ahead with a wrong model: rollouts crash less than the base policy with "
-        f"{better['rollouts']} models, the shield with {better['shield']}"
+        f"{display_name(base)} with a wrong model: fewer accidents than alone by the shield with {better['shield']} "
+        f"models, by rollouts with {better['rollouts']}"
     )
     alt = (
         f"For each model, accidents in 1,000 drives and the return. Alone: {1000 * alone.accident_rate.value:.1f} and "

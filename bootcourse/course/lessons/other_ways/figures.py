@@ -25,6 +25,8 @@ from bootcourse.statistics import Estimate, interval
 
 START, TRAINED, END = 210, 560, 690  # pixels: the training begins and ends, and the trained agent drives
 ROW, TOP, THICK = 52, 62, 18
+LINES = {"--": ", dashed", "-.": ", dash-dot"}
+LEAST = 100  # the return at which the axis of the comparison begins
 TAKES = {  # learner: (what it takes, from, until, whether it fades)
     "ppo_cloned": ("a first policy", START - 34, START, False),
     "bootstrapped": ("a KL, and demonstrations with a bonus", START, TRAINED - 110, True),
@@ -74,9 +76,10 @@ def one_above_the_other(
 def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -> Figure:
     """Returns with their 95 % intervals: left against decisions, right after the same seconds of a core.
 
-    computed: see `equal_decisions.by_method`; rule: what the rule earns, the green line.
+    The left panel begins at `LEAST`, and a line below it says who earns less. computed: see
+    `equal_decisions.by_method`; rule: what the rule earns, the green line.
     """
-    figure, ends, alt_parts = new_figure(4.9), [], []
+    figure, ends, alt_parts, below = new_figure(4.9), [], [], [f"the rule, {rule:.0f}"]
     left, right = axes_at(figure, 0.45, 1.0, 2.9, 2.9), axes_at(figure, 5.0, 1.0, 1.85, 2.9)
     for place, (method, results) in enumerate(computed.items()):
         look, shift = style(method), 1.03 ** (place - 2)
@@ -86,13 +89,20 @@ def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -
         quick = after_seconds(results)
         _draw(right, [place], [quick], look)
         last = max(tested)
-        ends.append((tested[last].value, display_name(method), look.colour))
+        if tested[last].value > LEAST:
+            ends.append((tested[last].value, display_name(method) + LINES.get(look.line, ""), look.colour))
+        else:
+            below.append(f"{display_name(method)}, {_range([one.value for one in tested.values()])}")
+        below += [f"the lower end of {display_name(method)}'s interval at {budget:,}, {one.low:.0f}"
+                  for budget, one in tested.items() if one.low < LEAST < one.value]  # fmt: skip
         numbers = (f"{b:,} decisions {_words(one)}" for b, one in tested.items())
         alt_parts.append(f"{display_name(method)}: {'; '.join(numbers)}; equal seconds {_words(quick)}")
     for ax, words in ((left, "return after training"), (right, f"after {equal_decisions.SECONDS} s of a core")):
         plain_axes(ax, words)
-        ax.axhline(rule, color=style("rule").colour, linewidth=2, zorder=1.5)
-        ax.set_ylim(0, 145)
+    left.set_ylim(LEAST, 140)
+    right.axhline(rule, color=style("rule").colour, linewidth=2, zorder=1.5)
+    right.text(len(computed) - 0.35, rule + 3, "the rule", color=style("rule").colour, fontsize=SMALL, ha="right")
+    right.set_ylim(0, 145)
     left.set_xscale("log")
     left.set_xlim(80_000, 1_000_000)
     left.xaxis.set_minor_locator(NullLocator())
@@ -102,8 +112,13 @@ def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -
     right.set_xticks(range(len(names)), names, rotation=40, ha="right", rotation_mode="anchor")
     right.tick_params(axis="x", labelcolor=INK, labelsize=SMALL)
     right.set_xlim(-0.7, len(computed) - 0.3)
-    label_ends(left, [*ends, (rule, "the rule", style("rule").colour)], gap=0.03)
+    label_ends(left, ends, gap=0.03)
+    figure.text(0.012, 0.025, f"Below the left axis: {'; '.join(below)}.", fontsize=SMALL, color=INK)
     return finish(figure, title, f"Returns and their 95 % intervals. {'. '.join(alt_parts)}. The rule: {rule:.0f}.")
+
+
+def _range(values: Sequence[float]) -> str:
+    return f"{min(values):.0f} to {max(values):.0f}"
 
 
 def after_seconds(results: Results) -> Estimate:
@@ -114,8 +129,8 @@ def after_seconds(results: Results) -> Estimate:
 
 def _draw(ax, places: Sequence[float], estimates: Sequence[Estimate], look) -> None:
     middle, low, high = np.array(estimates).T
-    ax.errorbar(places, middle, [middle - low, high - middle], fmt="o", color=look.colour, linestyle=look.line,
-                ms=5, linewidth=1.8, elinewidth=1.2, zorder=3)  # fmt: skip
+    ax.errorbar(places, middle, [middle - low, high - middle], fmt=look.marker or "o", color=look.colour,
+                linestyle=look.line, ms=5, linewidth=1.8, elinewidth=1.2, zorder=3)  # fmt: skip
 
 
 def _words(one: Estimate) -> str:

@@ -1,4 +1,4 @@
-"""How five agents of each method did, what each method closes of the gap on six problems, and a drive of DoorKey."""
+"""How five agents of each method did, what each method closes of the gap on some problems, and a drive of DoorKey."""
 
 from collections.abc import Mapping, Sequence
 
@@ -9,7 +9,7 @@ from matplotlib.patches import Rectangle
 from bootcourse.colours import Style
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
-from bootcourse.research.elsewhere_claims import Cells
+from bootcourse.research.elsewhere_claims import TEACHER, Cells
 from bootcourse.research.problems import PROBLEMS
 
 NAMES = {
@@ -46,13 +46,13 @@ def agents(success: Mapping[str, np.ndarray], title: str) -> Figure:
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
 
 
-def gap(cells: Cells, title: str) -> Figure:
+def gap(cells: Cells, problems: Sequence[str], title: str) -> Figure:
     """For each problem and teacher, what four methods close of the gap in return from plain SAC to the problem's best.
 
-    A method below plain SAC stands at the left edge.
+    A green line: the teacher itself. What earns less than plain SAC stands at the left edge.
     """
-    rows = cells.rows()
-    problems = list(dict.fromkeys(problem for problem, _ in rows))
+    rows = [row for row in cells.rows() if row[0] in problems]
+    rows.sort(key=lambda row: problems.index(row[0]))
     figure = new_figure(HEAD + ROW * len(rows) + 0.12 * len(problems) + FOOT)
     ax = axes_at(figure, 2.15, HEAD, 4.55, ROW * len(rows) + 0.12 * len(problems))
     places, alt_parts = [], []
@@ -64,17 +64,20 @@ def gap(cells: Cells, title: str) -> Figure:
             ax.text(-0.46, place, PROBLEMS[problem].name, transform=ax.get_yaxis_transform(), fontsize=TEXT,
                     fontweight="bold", color=INK, va="center")  # fmt: skip
         shares = {name: 100 * cells.share(problem, teacher, name) for name in NAMES}
+        own = 100 * cells.share(problem, teacher, TEACHER)
+        ax.plot([np.clip(own, -4, 100)] * 2, [place - 0.42, place + 0.42], color=style("rule").colour, linewidth=3,
+                solid_capstyle="butt", zorder=2)  # fmt: skip
         for shift, (name, share) in zip((-0.27, -0.09, 0.09, 0.27), shares.items(), strict=True):
             at = np.clip(share, -4, 100)
             ax.scatter(at, place + shift, s=20, color=look(name).colour, marker=MARKS[name], zorder=3, clip_on=False)
         words = ", ".join(f"{NAMES[name]} {share:.0f} %" for name, share in shares.items() if np.isfinite(share))
-        alt_parts.append(f"{PROBLEMS[problem].name}, {teacher} teacher: {words}")
+        alt_parts.append(f"{PROBLEMS[problem].name}, {teacher} teacher ({own:.0f} %): {words}")
     plain_axes(ax, "", grid="x")
     ax.set_yticks(places, [teacher for _, teacher in rows])
     ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
     ax.set(xlim=(-6, 103), ylim=(places[-1] + 0.7, -0.8))
     ax.set_xticks([0, 25, 50, 75, 100], ["plain SAC", "25", "50", "75", "the best"])
-    ax.set_xlabel("share of the gap in return that is closed (%)", fontsize=TEXT, color=INK)
+    ax.set_xlabel("share of the gap in return that is closed (%); green line: the teacher", fontsize=TEXT, color=INK)
     for x, (name, words) in zip((0.31, 0.43, 0.63, 0.81), NAMES.items(), strict=True):
         y = 1 - 0.7 / figure.get_figheight()
         ax.scatter([x - 0.017], [y], s=34, color=look(name).colour, marker=MARKS[name], clip_on=False,

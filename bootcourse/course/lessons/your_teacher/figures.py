@@ -17,6 +17,7 @@ from bootcourse.research.teachers import PLANNER, TEACHERS
 from bootcourse.statistics import ESCAPES
 
 HEAD, FOOT = 0.75, 0.55  # inches, above and below the rows of a figure
+WORDS = {"rule": "the rule", "random-50": "half random", "mirrored": "mirrored", "planner": "the planner"}
 
 
 def students(groups: Mapping[str, Mapping[str, np.ndarray]], title: str) -> Figure:
@@ -66,11 +67,11 @@ def learners(computed: Cells, title: str) -> Figure:
         escape = f"{agents.escapers(method)} of {len(agents)}"
         _beside(ax, (f"{escape} escape",), at)
         mean = agents.scores("returns").mean()
-        alt_parts.append(f"{TEACHERS[teacher].words}, {display_name(method)}: {escape} escape, mean return {mean:.0f}")
+        alt_parts.append(f"{name_of(teacher)}, {display_name(method)}: {escape} escape, mean return {mean:.0f}")
     for at, teacher in heads.items():
         last = at + sum(each == teacher for each, _ in labels.values())
         ax.plot([own[teacher]] * 2, [at + 0.5, last + 0.5], color=style("rule").colour, linewidth=2.5, zorder=2)
-        ax.text(-0.4, at, TEACHERS[teacher].words, transform=ax.get_yaxis_transform(), fontsize=TEXT,
+        ax.text(-0.4, at, name_of(teacher), transform=ax.get_yaxis_transform(), fontsize=TEXT,
                 fontweight="bold", color=INK, va="center")  # fmt: skip
     words = "return of an agent after training; filled: it escapes; green line: its teacher's own return"
     _finish_axes(ax, [display_name(method) for _, method in labels.values()], words, list(labels))
@@ -99,6 +100,11 @@ def _finish_axes(ax: Axes, names: list[str], words: str, places: list[float] | N
     ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
     ax.set_ylim(len(names) - 0.5, -0.5)
     ax.set_xlabel(words, fontsize=SMALL, color=INK)
+
+
+def name_of(teacher: str) -> str:
+    """The lesson's name of a teacher, or else the report's."""
+    return WORDS.get(teacher, TEACHERS[teacher].words)
 
 
 def own_returns(teachers: Iterable[str]) -> dict[str, float]:
