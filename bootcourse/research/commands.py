@@ -96,9 +96,6 @@ def assets(
         help="verify: check them. build: make them from a study's folder. report: only the report, from themselves.",
     ),
     study: Path | None = typer.Option(None, help="The study's folder, for build."),
-    replace_larger: bool = typer.Option(
-        False, "--replace-larger", help="Let build replace results of more agents or episodes."
-    ),
 ) -> None:
     """Check the files that ship with the course, or make them again."""
     from bootcourse.storage import assets
@@ -109,8 +106,7 @@ def assets(
     if what != "verify":
         from bootcourse.research.ship import build
 
-        build(study if what == "build" else None, assets.FOLDER, replace_larger)
-    assets.put_back(assets.FOLDER)
+        build(study if what == "build" else None)
     raise typer.Exit(report_assets(assets.FOLDER))
 
 
