@@ -34,7 +34,6 @@ def study(
     backend: str = typer.Option("loky", help="loky (this machine) or dask."),
     scheduler: str = typer.Option("", help="The address of a dask cluster that you have."),
     workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
-    recompute: bool = typer.Option(False, "--recompute", help="Compute damaged jobs again."),
 ) -> None:
     """Train and test methods with many seeds; write tables, figures and the fidelity report.
 
@@ -67,8 +66,7 @@ def study(
             write_bytes(out / f"{name}.md", page.encode())
             print(page, out / f"{name}.md", sep="\n")
 
-    how = {"backend": backend, "scheduler": scheduler, "workers": workers, "recompute": recompute}
-    raise typer.Exit(compute(wanted, out, report, **how))
+    raise typer.Exit(compute(wanted, out, report, backend=backend, scheduler=scheduler, workers=workers))
 
 
 def compute(wanted: list, out: Path, after: Callable[[list[str]], None], **how) -> int:
