@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from bootcourse.episodes.rollout import OPTIONAL, Rollout
+from bootcourse.episodes.rollout import BY_RULE, OPTIONAL, Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
 from bootcourse.research.results import Results, experiment, load_bound, load_results
@@ -73,7 +73,7 @@ def beginning(drive: Rollout, seconds: int) -> Rollout:
     decisions = int(seconds * clock.decision_rate)
     if decisions >= len(drive.actions):
         return drive
-    each = {name: getattr(drive, name) for name in ("actions", "rewards", "terms", *OPTIONAL)}
+    each = {name: getattr(drive, name) for name in ("actions", "rewards", "terms", *BY_RULE, *OPTIONAL)}
     cut = {name: values[:decisions] for name, values in each.items() if values is not None}
     states = drive.states[: decisions * clock.steps + 1]
     return replace(drive, states=states, observations=drive.observations[: decisions + 1], accident=0, **cut)

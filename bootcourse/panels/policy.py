@@ -21,7 +21,7 @@ from bootcourse.plots.road import road_svg
 from bootcourse.plots.svg import GRID, INK, QUIET, drawing, line, rect, text
 from bootcourse.policies import Policy
 from bootcourse.road.state import EGO, SPEED
-from bootcourse.rule import SENTENCES, Reason, rule
+from bootcourse.rule import SENTENCES, Reason
 from bootcourse.scenario import ACTION_NAMES, N_ACTIONS, check_p
 
 GREEN = style("rule").colour
@@ -41,7 +41,6 @@ class PolicyPanel(Panel):
         self.rollout, self.rate = rollout, rollout.scenario.clock.decision_rate
         self.imagined = None if futures is None else nine_drives(rollout.cars, futures, rollout.scenario)
         self.width = WIDTH if futures is None else WIDTH + ROLLOUTS
-        self.decisions = rule(np.ascontiguousarray(rollout.cars), rollout.scenario)
         self.moment = self._moment()
         self.p = Number("p", p, 0.12, 0.99, 0.01, "Probability that π̃ gives to the rule's own action.", check=check_p)
         self.xi = Number("ξ", xi, 0, 5, 0.05, "Weight of the KL, which pulls π to the rule.",
@@ -68,7 +67,7 @@ class PolicyPanel(Panel):
         k = int(self.moment.value * self.rate + 1e-9)
         policy, q = (None if a is None else a[k] for a in (self.rollout.policy, self.rollout.q_values))
         p, xi, alpha = self.p.value, self.xi.value, self.alpha
-        self.seen = policy_numbers(policy, q, int(self.decisions.actions[k]), p, xi, alpha)
+        self.seen = policy_numbers(policy, q, int(self.rollout.rule_actions[k]), p, xi, alpha)
         scenario, colour = self.rollout.scenario, style(self.rollout.label).colour
         scale = ROAD / (scenario.road.lanes * scenario.road.lane_width)
         ahead = [] if self.imagined is None else trails(self.imagined, int(self.rollout.actions[k]), k)
@@ -81,8 +80,9 @@ class PolicyPanel(Panel):
 
     def _head(self, k: int) -> list[str]:
         """The time, the car's speed, and why the rule does what it does."""
-        why = SENTENCES[Reason(int(self.decisions.reasons[k]))]
-        aim = f"It aims at lane {self.decisions.lanes[k]} (0 is the leftmost) and {self.decisions.speeds[k]:g} m/s."
+        why = SENTENCES[Reason(int(self.rollout.rule_reasons[k]))]
+        lane, speed = self.rollout.rule_lanes[k], self.rollout.rule_speeds[k]
+        aim = f"It aims at lane {lane} (0 is the leftmost) and {speed:g} m/s."
         kl = "" if self.seen.kl is None else f"KL(π‖π̃) = {self.seen.kl:.2f} nats"
         return [
             text(0, ROAD + 22, f"{k / self.rate:g} s", bold=True, size=15),
@@ -95,7 +95,7 @@ class PolicyPanel(Panel):
     def _marks(self, k: int, colour: str) -> list[str]:
         """A triangle at the action that was driven, a dot at the rule's own, and what they stand for."""
         driven = ROWS + int(self.rollout.actions[k]) * ROW + 15
-        by_rule = ROWS + int(self.decisions.actions[k]) * ROW + 15
+        by_rule = ROWS + int(self.rollout.rule_actions[k]) * ROW + 15
         return [
             text(0, driven, "▸", fill=colour, size=14, bold=True),
             f'<circle cx="13" cy="{by_rule - 4}" r="4" fill="{GREEN}"/>',
@@ -107,7 +107,7 @@ class PolicyPanel(Panel):
 
     def _alt(self, k: int) -> str:
         seen = self.seen
-        by_rule, driven = ACTION_NAMES[self.decisions.actions[k]], ACTION_NAMES[self.rollout.actions[k]]
+        by_rule, driven = ACTION_NAMES[self.rollout.rule_actions[k]], ACTION_NAMES[self.rollout.actions[k]]
         sentences = [
             f"{k / self.rate:g} s into the drive of the {display_name(self.rollout.label)}.",
             f"The rule says {by_rule}; {driven} is driven.",
