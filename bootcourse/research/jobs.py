@@ -7,7 +7,6 @@
 The folder is moved in one step, so every folder in `jobs` is complete.
 """
 
-import importlib
 import json
 import os
 import shutil
@@ -15,6 +14,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Annotated, Any
 
 import numpy as np
@@ -109,7 +109,7 @@ class LessonJob:
     arguments: dict = field(default_factory=dict)
 
     def compute(self, folder: Path) -> None:
-        write_arrays(folder / "results.npz", named_function(self.function)(**self.arguments))
+        write_arrays(folder / "results.npz", resolve_name(self.function)(**self.arguments))
 
 
 @dataclass(frozen=True)
@@ -145,12 +145,6 @@ class StayingJob:
 
 
 AnyJob = Job | LessonJob | BoundJob | StayingJob
-
-
-def named_function(name: str) -> Callable:
-    """The function of that name, "module:function"."""
-    module, _, function = name.partition(":")
-    return getattr(importlib.import_module(module), function)
 
 
 def asked(job: AnyJob) -> dict:
