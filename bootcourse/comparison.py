@@ -18,7 +18,7 @@ from bootcourse.learn.settings import Settings, with_seeds
 from bootcourse.learn.training import Result, Training
 from bootcourse.markup import html
 from bootcourse.plots.training_curves import training_curves
-from bootcourse.statistics import interval
+from bootcourse.statistics import bracketed, interval
 
 Entry = Settings | Callable[[int], Training]
 
@@ -40,8 +40,9 @@ class Comparison:
         for name, result in self.results.items():
             decisions = np.nansum(result.curves["decisions"], axis=1).mean()
             success, returns = 100 * self.scores(name, "success"), self.scores(name)
-            cells = _bracketed(success), _bracketed(returns), f"{decisions:,.0f}", f"{result.seconds:.0f}"
-            table.append((name + ", interrupted" * result.interrupted, str(len(result.agents)), *cells))
+            scores = ["–" if np.isnan(each).any() else bracketed(interval(each)) for each in (success, returns)]
+            cells = str(len(result.agents)), *scores, f"{decisions:,.0f}", f"{result.seconds:.0f}"
+            table.append((name + ", interrupted" * result.interrupted, *cells))
         return table
 
     def figure(self, title: str = "") -> Figure:
@@ -103,11 +104,3 @@ def compare(
     if not tested:
         raise BootcourseError("The first training was interrupted before its first update: nothing can be compared.")
     return Comparison(results, tested)
-
-
-def _bracketed(scores: np.ndarray) -> str:
-    """ "62.0 [39.1, 83.2]": the interquartile mean of scores (seeds,) with its interval; "–" for unknown ones."""
-    if np.isnan(scores).any():
-        return "–"
-    middle, low, high = interval(scores)
-    return f"{middle:.1f}" if np.isnan(low) else f"{middle:.1f} [{low:.1f}, {high:.1f}]"

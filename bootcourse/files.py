@@ -19,18 +19,15 @@ import secrets
 import shutil
 import stat
 import zipfile
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
 import msgspec
 import numpy as np
-from filelock import FileLock, Timeout
 
 from bootcourse.errors import BootcourseError, RuleFailed
 
 TEMPORARY = ".tmp"  # at the end of every temporary name
-PATIENCE = 20  # seconds that a process waits for a file that another one changes
 LARGEST_JSON = 2**25  # bytes; the manifest of the assets has 0.1 MB
 LARGEST_ARRAYS = 2**32  # bytes; the checkpoint of 100 agents with full replay buffers has 1.3 GB
 UNPACKED = 2**28  # bytes that an .npz file may unpack to beyond its own size; ours compress to a tenth at best
@@ -62,24 +59,6 @@ def write_bytes(path: Path, data: bytes) -> None:
             temporary.unlink(missing_ok=True)
 
 
-@contextlib.contextmanager
-def alone_with(path: Path) -> Iterator[None]:
-    """No other process that asks for the same is between reading a file and writing it. Raises BootcourseError."""
-    path = Path(path).absolute()
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        lock = FileLock(path.with_name(f".{path.name}.lock"), timeout=PATIENCE)
-        lock.acquire()
-    except Timeout:
-        raise BootcourseError(f"Another program has locked {path} for {PATIENCE} s: end it, then try again.") from None
-    except OSError as error:
-        raise BootcourseError(f"Cannot write {path}: {error.strerror}. Choose another folder.") from None
-    try:
-        yield
-    finally:
-        lock.release()
-
-
 def remove_temporary(folder: Path) -> None:
     """Remove the temporary files and folders that killed processes left in a folder and below it."""
     for path in [*Path(folder).rglob(f".*{TEMPORARY}")]:
@@ -108,14 +87,6 @@ def check_replaceable(path: Path, *endings: str) -> Path:
             if not file.read(20).lower().startswith(FIRST_BYTES[ending].lower()):
                 raise BootcourseError(f"{path} exists already and is not a {ending[1:]} file: choose another name.")
     return path
-
-
-def check_own(path: Path, mark: str) -> None:
-    """Raise BootcourseError if a file is there that does not hold this mark of those which bootcourse writes."""
-    if os.path.lexists(path):
-        with open_regular(path) as file:
-            if mark.encode() not in file.read():
-                raise BootcourseError(f"{path} exists already, and bootcourse did not write it: choose another name.")
 
 
 def open_regular(path: Path, largest: float = math.inf):

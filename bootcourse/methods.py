@@ -8,8 +8,8 @@ there, too) and one entry:
 Training, files, evaluation, figures and the training panel then include it.
 """
 
-import importlib
 from dataclasses import dataclass, field
+from pkgutil import resolve_name
 
 from bootcourse.colours import OTHER, Style
 
@@ -43,10 +43,7 @@ class Method:
 
 
 def _imported(place: str | type) -> type:
-    if isinstance(place, type):
-        return place
-    module, _, name = place.partition(":")
-    return getattr(importlib.import_module(module), name)
+    return place if isinstance(place, type) else resolve_name(place)
 
 
 # The baselines learn from demonstrations without the soft constraint and the bonus. Their share of demonstrations is

@@ -25,6 +25,22 @@ class Estimate(NamedTuple):
     high: float
 
 
+def number(value: float) -> str:
+    """Two decimals, fewer for large numbers, without an exponent."""
+    if np.isnan(value):
+        return "?"
+    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.1f}" if abs(value) >= 100 else f"{value:.2f}"
+
+
+def bracketed(estimate: Estimate, scale: float = 1) -> str:
+    """ "62 [39, 83]": with the decimals that the interval's length leaves meaningful; one seed has no interval."""
+    value, low, high = (scale * part for part in estimate)
+    if np.isnan(low):
+        return number(value)
+    decimals = 0 if high - low >= 10 else 1 if high - low >= 1 else 2
+    return f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]"
+
+
 def rate(hits: np.ndarray) -> Estimate:
     """A rate with its exact (Clopper-Pearson) interval: hits (n,) bool."""
     test = scipy.stats.binomtest(int(np.sum(hits)), len(hits))

@@ -4,11 +4,8 @@ import numpy as np
 import pytest
 
 from bootcourse.course.lessons.your_teacher.figures import learners
-from bootcourse.course.shipped import shipped_teachers
-from bootcourse.errors import BootcourseError
-from bootcourse.files import write_json
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.research.results import Results, agent_entries, save_results
+from bootcourse.research.results import Results, agent_entries
 from bootcourse.research.teacher_worth import QUANTITIES, cells, in_words, worth_rows
 
 EPISODES, TESTS = 120, 20
@@ -63,12 +60,3 @@ def test_the_figure_has_a_dot_for_each_agent_and_says_what_it_shows(worth):
     figure = learners(worth, "Learners of three teachers")
     dots = [len(each.get_offsets()) for ax in figure.axes for each in ax.collections]
     assert sum(dots) == 40 and "planner, RLPD" in figure.alt and "nan" not in figure.alt
-
-
-def test_a_study_s_folder_is_read_and_one_without_such_jobs_says_what_to_run(tmp_path):
-    with pytest.raises(BootcourseError, match="no results of the experiment teachers yet: run `bootcourse study teach"):
-        shipped_teachers(tmp_path)
-    job = tmp_path / "jobs/teachers/rule-soft"
-    save_results(ten_agents("rule", "soft", 4), job / "results.npz", {})
-    write_json(job / "job.json", {"asked": {}, "sha256": {}, "provenance": {"seconds": 60}})
-    assert list(shipped_teachers(tmp_path)) == [("rule", "soft")]

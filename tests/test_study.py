@@ -67,19 +67,20 @@ def test_a_finished_job_is_not_computed_again_and_another_question_is_refused(st
     assert run_jobs(BOTH, study) == []
     for other, name in ((job(episodes=7), "episodes"), (job(gamma=0.9), "settings")):
         with pytest.raises(BootcourseError, match=f"computed with other {name}: choose another folder"):
-            run_jobs([other], study, recompute=True)
+            run_jobs([other], study)
 
 
 @pytest.mark.parametrize("name", ["results.npz", "job.json", "runs/sac-0/weights.safetensors"])
-def test_a_damaged_job_is_named_and_computed_again_only_on_request(study, tmp_path, name):
+def test_a_damaged_job_is_named_and_computed_again_when_it_is_deleted(study, tmp_path, name):
     root = shutil.copytree(study, tmp_path / "study")
     path, other = root / "jobs/default/sac-0-1" / name, root / "jobs/default/soft-0-1/results.npz"
     path.write_bytes(path.read_bytes()[:-20])
     before = other.stat().st_mtime_ns
-    with pytest.raises(BootcourseError, match="sac-0-1.* is damaged.*--recompute"):
+    with pytest.raises(BootcourseError, match="sac-0-1.* is damaged.*delete .*sac-0-1, and start"):
         run_jobs(BOTH, root, workers=1)
-    assert run_jobs(BOTH, root, workers=1, recompute=True) == []
-    assert finished(job(), root) and len(list((root / "damaged").iterdir())) == 1 and path.exists()
+    shutil.rmtree(root / "jobs/default/sac-0-1")
+    assert run_jobs(BOTH, root, workers=1) == []
+    assert finished(job(), root) and path.exists()
     assert other.stat().st_mtime_ns == before
 
 
@@ -91,7 +92,7 @@ def test_a_job_that_was_interrupted_goes_on_as_if_it_never_was(study, root, monk
     checkpoint = root / "unfinished/default/sac-0-1/checkpoint.npz"
     whole = checkpoint.read_bytes()
     checkpoint.write_bytes(b"half")
-    assert "Add --recompute" in run_job(job(), root)
+    assert "To begin this job again, delete" in run_job(job(), root)
     checkpoint.write_bytes(whole)
     assert run_job(job(), root) == ""
     straight, resumed = (load_results(each / "jobs/default/sac-0-1/results.npz") for each in (study, root))

@@ -9,7 +9,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import course_rule, slow, teacher_name, teacher_policy
 from bootcourse.learn.training import Training
-from bootcourse.research.jobs import Job, OtherQuestion, finished, run_job
+from bootcourse.research.jobs import Job, finished, run_job
 from bootcourse.research.results import load_job
 from bootcourse.research.teachers import (
     LATE,
@@ -100,7 +100,7 @@ def test_a_job_trains_with_its_teacher_and_its_results_say_so(tmp_path):
     by_hand = Training(list(job("mirrored").settings), 4, teacher=mirrored).run(progress=False)
     np.testing.assert_array_equal(results.curves["return"], by_hand.curves["return"].astype(np.float32))
     assert [agent["teacher"] for agent in results.agents] == ["mirrored", "mirrored"]
-    with pytest.raises(OtherQuestion, match="computed with other teacher: choose another folder"):
+    with pytest.raises(BootcourseError, match="computed with other teacher: choose another folder"):
         finished(job("rule"), tmp_path)
 
 

@@ -4,9 +4,9 @@ Commands import their modules themselves, so that `bootcourse --help` is fast.
 """
 
 import codecs
-import importlib
 import sys
 import unicodedata
+from pkgutil import resolve_name
 
 import typer
 from typer.core import TyperGroup
@@ -35,9 +35,8 @@ class Commands(TyperGroup):
 
     def get_command(self, ctx, name):
         if name in LAZY and self.commands[name] is None:
-            module, _, function = LAZY[name].partition(":")
             alone = typer.Typer(**PLAIN)
-            alone.command(name)(getattr(importlib.import_module(module), function))
+            alone.command(name)(resolve_name(LAZY[name]))
             self.commands[name] = get_command(alone)
         return super().get_command(ctx, name)
 

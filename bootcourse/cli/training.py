@@ -8,7 +8,6 @@
 A training that is stopped by Ctrl-C (exit status 130) or killed goes on with --resume.
 """
 
-import importlib
 import importlib.util
 import os
 import shlex
@@ -16,6 +15,7 @@ import shutil
 import sys
 from dataclasses import replace
 from pathlib import Path
+from pkgutil import resolve_name
 
 import typer
 
@@ -24,7 +24,7 @@ from bootcourse.errors import BootcourseError, check_known, described, did_you_m
 from bootcourse.methods import METHODS, Method
 
 INTERRUPTED = 130  # exit status
-NAMED = "bootcourse.research.teachers"  # the module of the teachers with a name, loaded when one is asked for
+NAMED = "bootcourse.research.teachers:TEACHERS"  # the teachers with a name, loaded when one is asked for
 UNFINISHED, CHECKPOINT, SAVING, COMPLETE = "unfinished", "checkpoint.npz", "saving", "complete"  # see above
 SECONDS_BETWEEN = 20.0  # of checkpoints
 BEGINNING = ("method", "seeds", "first_seed", "episodes", "scenario", "setting", "p", "xi", "c")  # fixed by the start
@@ -176,7 +176,7 @@ def teacher_from(place: str):
     if not place:
         return course_rule
     if ":" not in place:
-        teachers = importlib.import_module(NAMED).TEACHERS  # slow: it loads the planner
+        teachers = resolve_name(NAMED)  # slow: it loads the planner
         if place not in teachers:
             own = "or give a rule of your own, FILE.py:FUNCTION"
             raise BootcourseError(f"Teacher {did_you_mean(place, teachers)}, {own}.")

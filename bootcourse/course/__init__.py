@@ -1,10 +1,9 @@
 """What only the notebooks need: exercises and their checks, the library's own source, live curves, small figures."""
 
-import importlib
 import inspect
-import operator
 import textwrap
 from collections.abc import Sequence
+from pkgutil import resolve_name
 
 from bootcourse.course.predictions import compare_predictions, predict
 
@@ -27,7 +26,7 @@ def source(module: str, *names: str):
     """
     from IPython.display import Code
 
-    parts = [operator.attrgetter(name)(importlib.import_module(module)) for name in names]
+    parts = [resolve_name(f"{module}:{name}") for name in names]
     texts = [textwrap.dedent(inspect.getsource(getattr(part, "py_func", part))).rstrip() for part in parts]
     code = Code("\n\n".join(texts), language="python")
     listed = ", ".join(f"<code>{name}</code>" for name in names)

@@ -26,6 +26,7 @@ from bootcourse.plots.figure import (
 from bootcourse.scenario import ACTION_NAMES
 
 HEIGHT, GAP, LEFT, FOOT = 1.15, 0.42, 0.5, 0.5  # inches, of the panels of `many`
+COLUMNS = 3
 
 
 def lines(
@@ -141,47 +142,44 @@ def many(
     title: str,
     x_label: str,
     y_label: str,
-    reference: str | None = None,
-    columns: int = 3,
+    reference: str,
     limits: tuple[float, float] | None = None,
     x_scale: str = "linear",
 ) -> Figure:
     """A panel for each name, {name: (x (points,), values (seeds, points))}: a line for each seed.
 
-    reference: the name of one that has no panel of its own and is drawn in grey in every other panel. All
-    panels share their axes; limits cuts the values' axis; x_scale: "linear" or "log". The alt text gives where
-    every line ends.
+    reference: the name of one that has no panel of its own and is drawn in grey in every other panel. All panels
+    share their axes; limits cuts the values' axis; x_scale: "linear" or "log". The alt text gives where every line
+    ends.
     """
     own = [name for name in named if name != reference]
-    rows, below_title = math.ceil(len(own) / columns), 0.36 + 0.2 * wrapped(title).count("\n")
+    rows, below_title = math.ceil(len(own) / COLUMNS), 0.36 + 0.2 * wrapped(title).count("\n")
     head = 0.46 + below_title
     total = head + rows * HEIGHT + (rows - 1) * GAP + FOOT
-    width = (WIDTH - LEFT - 0.15 - 0.25 * (columns - 1)) / columns
+    width = (WIDTH - LEFT - 0.15 - 0.25 * (COLUMNS - 1)) / COLUMNS
     figure = new_figure(total)
     low, high = limits or _limits(named)
     last_x = max(x[-1] for x, _ in named.values())
     for k, label in enumerate(own):
-        row, column = divmod(k, columns)
+        row, column = divmod(k, COLUMNS)
         left, bottom = LEFT + column * (width + 0.25), total - head - (row + 1) * HEIGHT - row * GAP
         ax = figure.add_axes((left / WIDTH, bottom / total, width / WIDTH, HEIGHT / total))
-        if reference is not None:
-            x, values = named[reference]
-            ax.plot(x, values.T, color="#9AA5B1", linewidth=1.0, zorder=2)
+        x, values = named[reference]
+        ax.plot(x, values.T, color="#9AA5B1", linewidth=1.0, zorder=2)
         x, values = named[label]
         ax.plot(x, values.T, color=OTHER.colour, linewidth=1.3, zorder=3)
         plain_axes(ax, "")
         ax.text(0, 1.05, label, transform=ax.transAxes, fontsize=TEXT, color=INK, fontweight="bold", va="bottom")
         ax.set(xscale=x_scale, xlim=(0 if x_scale == "linear" else x[0], last_x), ylim=(low, high))
         if x_scale == "linear":
-            ax.xaxis.set_major_locator(MaxNLocator(3 if columns < 5 else 2))
+            ax.xaxis.set_major_locator(MaxNLocator(3))
         if column:
             ax.tick_params(labelleft=False)
-        if k + columns < len(own):
+        if k + COLUMNS < len(own):
             ax.tick_params(labelbottom=False)
         else:
             ax.set_xlabel(x_label, fontsize=SMALL, color=QUIET)
-    grey = f"; grey: {reference}" if reference is not None else ""
-    words = f"{y_label}, a line for each seed{grey}"
+    words = f"{y_label}, a line for each seed; grey: {reference}"
     figure.text(0.012, 1 - below_title / total, words, fontsize=TEXT, color=QUIET, va="top")
     return finish(figure, title, f"Small panels of {y_label} against {x_label}. {_ends(named)}")
 

@@ -5,20 +5,24 @@ as "the_barrier.1" that stays when a lesson gets another number. The first answe
 `prediction_form.py` is the form that a notebook shows.
 """
 
+import contextlib
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
+from filelock import FileLock, Timeout
+
 from bootcourse.course.lessons import LESSONS, number
 from bootcourse.errors import BootcourseError, check_known
-from bootcourse.files import alone_with, read_json, write_json
+from bootcourse.files import read_json, write_json
 from bootcourse.markup import html
 
 FILE = Path("answers/predictions.json")  # in the folder of the notebooks, where a kernel works
 LONGEST = 2000  # characters of an answer
+PATIENCE = 20  # seconds that a notebook waits for another one that writes
 NAME = re.compile(rf"({'|'.join(LESSONS)})\.\d{{1,2}}")
 NOTHING = "You committed to no prediction in this lesson."
 
@@ -97,6 +101,24 @@ def commit(question: Question, answer: object) -> dict:
         if question.name not in entries:
             write_json(FILE, entries | {question.name: one})
     return entries.get(question.name, one)
+
+
+@contextlib.contextmanager
+def alone_with(path: Path) -> Iterator[None]:
+    """No other process that asks for the same is between reading a file and writing it. Raises BootcourseError."""
+    path = Path(path).absolute()
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        lock = FileLock(path.with_name(f".{path.name}.lock"), timeout=PATIENCE)
+        lock.acquire()
+    except Timeout:
+        raise BootcourseError(f"Another program has locked {path} for {PATIENCE} s: end it, then try again.") from None
+    except OSError as error:
+        raise BootcourseError(f"Cannot write {path}: {error.strerror}. Choose another folder.") from None
+    try:
+        yield
+    finally:
+        lock.release()
 
 
 def predict(

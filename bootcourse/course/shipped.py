@@ -1,15 +1,14 @@
 """What ships with the course, loaded for a lesson: the study's results, its trained agents and recorded drives."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
-from bootcourse.episodes.rollout import OPTIONAL, Rollout
+from bootcourse.episodes.rollout import BY_RULE, OPTIONAL, Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
 from bootcourse.research.results import Results, experiment, load_bound, load_results
-from bootcourse.research.teacher_worth import Cells, taught
+from bootcourse.research.teacher_worth import Cells, cells
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import Run, find_runs, load_run
 
@@ -50,13 +49,9 @@ def shipped_experiment(name: str) -> dict[str, Results]:
     return results
 
 
-def shipped_teachers(study: Path | str = "") -> Cells:
-    """What agents of several methods learned from teachers from bad to perfect: {(teacher, method): results}.
-
-    study: a folder in which `bootcourse study teachers` has finished jobs; by default what ships. Raises
-    BootcourseError if there are no such results.
-    """
-    return taught(study)
+def shipped_teachers() -> Cells:
+    """What agents of several methods learned from teachers from bad to perfect: {(teacher, method): results}."""
+    return cells(shipped_experiment("teachers"))
 
 
 def shipped_bound(scenario: str = "default") -> np.ndarray:
@@ -78,7 +73,7 @@ def beginning(drive: Rollout, seconds: int) -> Rollout:
     decisions = int(seconds * clock.decision_rate)
     if decisions >= len(drive.actions):
         return drive
-    each = {name: getattr(drive, name) for name in ("actions", "rewards", "terms", *OPTIONAL)}
+    each = {name: getattr(drive, name) for name in ("actions", "rewards", "terms", *BY_RULE, *OPTIONAL)}
     cut = {name: values[:decisions] for name, values in each.items() if values is not None}
     states = drive.states[: decisions * clock.steps + 1]
     return replace(drive, states=states, observations=drive.observations[: decisions + 1], accident=0, **cut)

@@ -11,7 +11,6 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, whole
 from bootcourse.policies import PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
 
@@ -30,12 +29,12 @@ class InteractiveEpisode:
         if self.over:
             raise BootcourseError("This drive is over: start another.")
         whole(action, "action", N_ACTIONS - 1)
-        output, by_rule = PolicyOutput(np.array([action])), rule(self.env.cars, self.scenario)
+        output = PolicyOutput(np.array([action]))
         observations, rewards, terminated, truncated, infos = self.env.step(output.actions)
         self.accident = int(infos["accident"][0])
         terms = [float(infos[name][0]) for name in ("r_v", "r_y", "r_theta")]
         states = driven(self.env.trace[0], self.accident)
-        self.recorder.add(output, by_rule, states, observations[0], rewards[0], terms, road=0)
+        self.recorder.add(output, states, observations[0], rewards[0], terms, road=0)
         self.over = bool(terminated[0] or truncated[0])
 
     @property

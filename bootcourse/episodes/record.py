@@ -11,8 +11,8 @@ from bootcourse.errors import whole
 from bootcourse.files import provenance
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.rule import RuleDecisions, rule
-from bootcourse.scenario import DEFAULT, RULE_P, Scenario
+from bootcourse.rule import rule
+from bootcourse.scenario import DEFAULT, Scenario
 
 
 class EpisodeRecorder:
@@ -22,10 +22,9 @@ class EpisodeRecorder:
         self.states, self.observations = [cars.copy()], [observation.copy()]
         self.actions, self.rewards, self.terms = [], [], []
         self.policy, self.q_values = [], []  # empty for policies without π or Q
-        self.rule = []  # the rule's decisions: a value of each field of `RuleDecisions`
 
-    def add(self, output: PolicyOutput, by_rule: RuleDecisions, states, observation, reward, terms, road: int) -> None:
-        """Record a decision on a road, the policy's and the rule's, and its outcome.
+    def add(self, output: PolicyOutput, states, observation, reward, terms, road: int) -> None:
+        """Record a policy's decision on a road, and its outcome.
 
         The outcome: the state after each simulation step, the next observation, r, and (r_v, r_y, r_θ).
         """
@@ -34,20 +33,21 @@ class EpisodeRecorder:
             self.policy.append(output.policy[road])
         if output.q_values is not None:
             self.q_values.append(output.q_values[road])
-        self.rule.append([values[road] for values in vars(by_rule).values()])
         self.states.extend(np.array(state) for state in states)
         self.observations.append(np.array(observation, dtype=np.float32))
         self.rewards.append(reward)
         self.terms.append(terms)
 
-    def rollout(self, scenario: Scenario, label: str, seed: int, accident: int, rule_p: float = RULE_P) -> Rollout:
-        """The episode so far as a `Rollout`."""
-        actions, speeds, lanes, distances, reasons = (np.array(column) for column in zip(*self.rule, strict=True))
+    def rollout(self, scenario: Scenario, label: str, seed: int, accident: int) -> Rollout:
+        """The episode so far as a `Rollout`, with what the rule would have done in its place."""
+        states = np.array(self.states)
+        decided = states[:: scenario.clock.steps][: len(self.actions)]
+        by_rule = rule(np.ascontiguousarray(decided), scenario)
         return Rollout(
             scenario=scenario,
             label=label,
             seed=int(seed),
-            states=np.array(self.states),
+            states=states,
             observations=np.array(self.observations),
             actions=np.array(self.actions, dtype=np.int64),
             rewards=np.array(self.rewards),
@@ -55,13 +55,8 @@ class EpisodeRecorder:
             accident=int(accident),
             policy=np.array(self.policy) if self.policy else None,
             q_values=np.array(self.q_values) if self.q_values else None,
-            rule_actions=actions,
-            rule_speeds=speeds,
-            rule_lanes=lanes,
-            rule_distances=distances,
-            rule_reasons=reasons,
-            rule_p=rule_p,
             provenance=provenance(),
+            **{f"rule_{name}": values for name, values in vars(by_rule).items()},
         )
 
 
@@ -70,12 +65,10 @@ def record(
     seeds: Sequence[int],
     scenario: Scenario = DEFAULT,
     label: str = "driver",
-    rule_p: float = RULE_P,
 ) -> list[Rollout]:
     """Drive one episode on the compiled road of each seed; returns a `Rollout` of each.
 
-    label: the driver, such as "sac, seed 3"; rule_p: p of the stochastic rule in the drive's KL (Equation 15).
-    Raises BootcourseError for a seed that is not a whole number of 0 or more.
+    label: the driver, such as "sac, seed 3". Raises BootcourseError for a seed that is not a whole number of 0 or more.
     """
     seeds = [whole(seed, "seed") for seed in (seeds if np.iterable(seeds) else [seeds])]
     env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED, record=True)
@@ -83,15 +76,14 @@ def record(
     for step in steps(policy, env, seeds):
         if not recorders:
             recorders = [EpisodeRecorder(*start) for start in zip(step.cars, step.observations, strict=True)]
-        by_rule = rule(step.cars, scenario)
         terms = np.stack([step.infos[name] for name in ("r_v", "r_y", "r_theta")], axis=1)
         for road in np.flatnonzero(step.running):
             accidents[road] = step.infos["accident"][road]
             states = driven(env.trace[road], accidents[road])
             outcome = states, step.next_observations[road], step.rewards[road], terms[road]
-            recorders[road].add(step.output, by_rule, *outcome, road)
+            recorders[road].add(step.output, *outcome, road)
     each = zip(recorders, seeds, accidents, strict=True)
-    return [recorder.rollout(scenario, label, seed, accident, rule_p) for recorder, seed, accident in each]
+    return [recorder.rollout(scenario, label, seed, accident) for recorder, seed, accident in each]
 
 
 def driven(trace: np.ndarray, accident: int) -> np.ndarray:

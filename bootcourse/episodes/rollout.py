@@ -17,9 +17,10 @@ from bootcourse.scenario import N_ACTIONS, RULE_P, Scenario, check_p
 LONGEST_LABEL = 100  # characters
 LARGEST = 1e9  # of any number of a drive, either sign; a road is some kilometres long
 RECORD_AGAIN = "record it again, or restore it from a copy"
-REQUIRED = ("states", "observations", "actions", "rewards", "terms")
+BY_RULE = ("rule_actions", "rule_speeds", "rule_lanes", "rule_distances", "rule_reasons")
+REQUIRED = ("states", "observations", "actions", "rewards", "terms", *BY_RULE)
 HIGHEST = {"actions": N_ACTIONS - 1, "rule_actions": N_ACTIONS - 1, "rule_lanes": 7, "rule_reasons": max(Reason)}
-OPTIONAL = ("policy", "q_values", "rule_actions", "rule_speeds", "rule_lanes", "rule_distances", "rule_reasons")
+OPTIONAL = ("policy", "q_values")
 
 
 class Header(msgspec.Struct, forbid_unknown_fields=True):
@@ -39,7 +40,7 @@ class Header(msgspec.Struct, forbid_unknown_fields=True):
 class Rollout:
     """T decisions of one drive, S simulation steps (T x steps per decision; fewer after an accident).
 
-    The optional arrays are None if the driver does not provide them (the idle policy has no Q).
+    π and Q are None if the driver does not provide them (the idle policy has neither).
     Raises BootcourseError if the arrays' shapes do not fit together or a number is not finite.
     """
 
@@ -52,13 +53,13 @@ class Rollout:
     rewards: np.ndarray  # (T,) float
     terms: np.ndarray  # (T, 3) float: r_v, r_y, r_θ, unweighted
     accident: int  # the number of an `Accident`
+    rule_actions: np.ndarray  # (T,) int, the rule's action
+    rule_speeds: np.ndarray  # (T,) m/s, the rule's target speed
+    rule_lanes: np.ndarray  # (T,) int, the rule's target lane
+    rule_distances: np.ndarray  # (T,) m, the rule's safety distance
+    rule_reasons: np.ndarray  # (T,) int, the number of a `bootcourse.rule.Reason`
     policy: np.ndarray | None = None  # (T, 9) the driver's probabilities π(a|s)
     q_values: np.ndarray | None = None  # (T, 9) the smaller of the driver's two Q(s, a)
-    rule_actions: np.ndarray | None = None  # (T,) int, the rule's action
-    rule_speeds: np.ndarray | None = None  # (T,) m/s, the rule's target speed
-    rule_lanes: np.ndarray | None = None  # (T,) int, the rule's target lane
-    rule_distances: np.ndarray | None = None  # (T,) m, the rule's safety distance
-    rule_reasons: np.ndarray | None = None  # (T,) int, the number of a `bootcourse.rule.Reason`
     rule_p: float = RULE_P  # p of the stochastic rule in this drive's KL (Equation 15)
     provenance: dict = field(default_factory=dict)  # versions, see `bootcourse.files.provenance`
 

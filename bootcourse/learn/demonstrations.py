@@ -14,7 +14,7 @@ from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, all_roads, course_rule, teacher_of
 from bootcourse.policies import Policy, PolicyOutput, stochastic_policy
-from bootcourse.scenario import DEFAULT, Scenario
+from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
 FIRST_SEED = 2**34  # seed of the first demonstration's road; training and held-out roads have other seeds
 
@@ -88,6 +88,7 @@ def demonstrations_for(
     teacher: Rule | None,
     scenario: Scenario | None = DEFAULT,
     make_env: Callable[[int], VectorEnv] | None = None,
+    n_actions: int = N_ACTIONS,
 ) -> Tensor | None:
     """The rows that agents with these settings train with, (transitions, row); None if no agent needs any.
 
@@ -113,7 +114,6 @@ def demonstrations_for(
             "Agents that train side by side share their demonstrations, so with stochastic_demonstrations "
             "they need the same rule_p: train these apart.",
         )
-        n_actions = int(one_episode_each(1, scenario, make_env).single_action_space.n)
         decide = teacher_of(teacher, scenario, n_actions)
         policy = stochastic_policy(decide, np.random.default_rng(0), shared.rule_p, n_actions)
     return collect(shared.demonstration_episodes, scenario, policy, teacher, make_env)

@@ -30,9 +30,7 @@ class RLPDSettings(Settings):
     """The settings of RLPD, whose authors have 10 critics and make 20 updates for each decision."""
 
     critics: int = shared(5, low=1)  # § in the ensemble
-    target_critics: int = shared(
-        2, low=1
-    )  # ‡ of them, drawn for each update, smallest value in the target; authors' code
+    target_critics: int = shared(2, low=1)  # ‡ of them, drawn for each update, the smallest counts; authors' code
 
     def __post_init__(self):
         super().__post_init__()

@@ -115,7 +115,7 @@ class Training:
         if device != "cpu":
             move_to(self.learner, device_named(device))
         self._set_teacher(course_rule if teacher is None and self.on_the_trap else teacher)
-        rows = demonstrations_for(self.settings, demonstrations, self.teacher, self.scenario, make_env)
+        rows = demonstrations_for(settings, demonstrations, self.teacher, self.scenario, make_env, self.n_actions)
         self.replay = self.learner.make_buffer(size, rows)
         self.curves = Curves(self.n_agents, self.envs_per_agent, self.episodes)
         streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]

@@ -7,8 +7,6 @@
 `episodes/interactive.py` drives, `cockpit.py` draws, `pad.py` reads the keys.
 """
 
-from collections.abc import Callable
-
 import ipywidgets as widgets
 import numpy as np
 
@@ -16,7 +14,7 @@ from bootcourse.episodes.interactive import InteractiveEpisode
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError, whole
+from bootcourse.errors import whole
 from bootcourse.panels.cockpit import cockpit
 from bootcourse.panels.number import Number, whole_number
 from bootcourse.panels.pad import Pad
@@ -31,17 +29,15 @@ LAST_ROAD = 2**32 - 1  # the training roads have higher seeds
 class DrivePanel(Panel):
     """`.rollout` is the present drive (None before its first decision), `.demonstrations` the drives that were kept."""
 
-    def __init__(
-        self, seed: int, scenario: Scenario, ghost_of: Callable[[int], Rollout], fixed: str, futures: Policy | None
-    ):
-        self.scenario, self.ghost_of, self.base = scenario, ghost_of, futures or rule_policy(scenario)
-        self.drive, self.ghost = InteractiveEpisode(seed, scenario), ghost_of(seed)
+    def __init__(self, seed: int, scenario: Scenario, ghost: Policy | None, futures: Policy | None):
+        self.scenario, self.base = scenario, futures or rule_policy(scenario)
+        self.rival, self.name = (rule_policy(scenario), "rule") if ghost is None else (ghost, "agent")
+        self._begin(seed)
         self.chosen: dict[InteractiveEpisode, Rollout] = {}
         self.view = widgets.HTML()
         self.view.add_class("bc-road")
         self.road = Number("road", seed, 0, 99, 1, "The seed of the road. Another one begins a new drive.",
                            check=whole_number("road", 0, LAST_ROAD))  # fmt: skip
-        self.road.lock(fixed)
         self.again = self.make_button("Drive again", "refresh", "The same road, from its start", self._again,
                                       width="124px")  # fmt: skip
         self.keep = self.make_button("Keep as demonstration", "graduation-cap",
@@ -88,11 +84,12 @@ class DrivePanel(Panel):
         imagined = nine_drives(np.array(self.drive.recorder.states[-1])[None], self.base, self.scenario)
         return trails(imagined, int(imagined.values[0].argmax())), in_words(imagined)
 
-    def _again(self) -> None:
-        seed = int(self.road.value)
-        if seed != self.drive.seed:
-            self.ghost = self.ghost_of(seed)
+    def _begin(self, seed: int) -> None:
         self.drive = InteractiveEpisode(seed, self.scenario)
+        self.ghost = record(self.rival, [seed], self.scenario, self.name)[0]
+
+    def _again(self) -> None:
+        self._begin(int(self.road.value))
         self.update()
 
     def _keep(self) -> None:
@@ -103,25 +100,12 @@ class DrivePanel(Panel):
 
 
 def drive_panel(
-    seed: int = 0,
-    ghost: Rollout | Policy | None = None,
-    scenario: Scenario = DEFAULT,
-    futures: Policy | None = None,
+    seed: int = 0, ghost: Policy | None = None, scenario: Scenario = DEFAULT, futures: Policy | None = None
 ) -> DrivePanel:
     """Drive the road of a seed yourself.
 
-    ghost: whom you drive against. None: the rule. A policy (such as `agent.as_policy()`) drives each road that you
-    choose; a rollout is one drive, of this seed and scenario. futures: the base policy of the nine imagined drives,
-    which the panel then draws from the start. Without one, the switch "nine futures" takes the rule. Raises
-    BootcourseError for a rollout of another road, and for a seed that is not a whole number in range.
+    ghost: whom you drive against, a policy such as `agent.as_policy()`; None: the rule. futures: the base policy of
+    the nine imagined drives, which the panel then draws from the start. Without one, the switch "nine futures" takes
+    the rule. Raises BootcourseError for a seed that is not a whole number in range.
     """
-    seed = whole(seed, "seed", LAST_ROAD)
-    if isinstance(ghost, Rollout):
-        if ghost.seed != seed or ghost.scenario != scenario:
-            raise BootcourseError(
-                f"This ghost drove road {ghost.seed} of the scenario '{ghost.scenario.name}', and you drive road "
-                f"{seed} of '{scenario.name}': give a drive of the same road."
-            )
-        return DrivePanel(seed, scenario, lambda seed: ghost, "The road of the ghost that you gave.", futures)
-    policy, label = (rule_policy(scenario), "rule") if ghost is None else (ghost, "agent")
-    return DrivePanel(seed, scenario, lambda seed: record(policy, [seed], scenario, label)[0], "", futures)
+    return DrivePanel(whole(seed, "seed", LAST_ROAD), scenario, ghost, futures)

@@ -86,17 +86,16 @@ def _name_trap(canvas: Canvas, cars, trap: int, left: float, right: float, origi
 
 def road_svg(
     cars: np.ndarray, scenario: Scenario, colour: str, width: float, scale: float,
-    ghosts: Sequence[tuple[np.ndarray, str]] = (), behind: float = BEHIND, names: bool = True, trails: Sequence = (),
+    ghosts: Sequence[tuple[np.ndarray, str]] = (), trails: Sequence = (),
 ) -> tuple[list[str], float]:  # fmt: skip
     """The SVG parts of one moment around the ego, and their height in pixels.
 
-    width: pixels; scale: pixels per metre; behind: share of the width that lies behind the ego. trails: imagined
-    drives, each a `futures.Trail`.
+    width: pixels; scale: pixels per metre. trails: imagined drives, each a `futures.Trail`.
     """
-    left, right, (top, bottom) = -behind * width / scale, (1 - behind) * width / scale, edges_of(scenario.road)
+    left, right, (top, bottom) = -BEHIND * width / scale, (1 - BEHIND) * width / scale, edges_of(scenario.road)
     canvas = SvgAxes(0, 0, width, (bottom - top) * scale, (left, right), (bottom, top))
     draw_road(canvas, scenario, left, right, cars[EGO, X])
-    draw_cars(canvas, cars, scenario, colour, left, right, cars[EGO, X], ghosts, names)
+    draw_cars(canvas, cars, scenario, colour, left, right, cars[EGO, X], ghosts)
     for trail in trails:
         x = np.where(trail.x - cars[EGO, X] <= right, trail.x - cars[EGO, X], np.nan)
         canvas.line(x, trail.y, trail.colour, 2.6 if trail.chosen else 1.1)

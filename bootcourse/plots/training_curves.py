@@ -64,20 +64,19 @@ def window_of(curves: Sequence[Mapping[str, np.ndarray]]) -> int:
     return max(1, min(WINDOW, max(map(finished, curves), default=0) // 4))
 
 
-def draw_training(canvas: Canvas, at: np.ndarray, means: np.ndarray, look: Style, seeds: bool = True) -> float:
+def draw_training(canvas: Canvas, at: np.ndarray, means: np.ndarray, look: Style) -> float:
     """Thin lines for the seeds, a thick one for their interquartile mean (of a few: mean) as far as all of them got.
 
-    at (points,), means (seeds, points): what `rolling_means` returns; without `seeds` it is faint, an earlier
-    training behind the last. Returns where the thick line ends, NaN where there is none.
+    at (points,), means (seeds, points): what `rolling_means` returns. Returns where the thick line ends, NaN where
+    there is none.
     """
-    for seed in means if seeds else ():
+    for seed in means:
         canvas.line(at, seed, look.colour, 0.6, opacity=0.5)
     whole = np.isfinite(means).all(axis=0)
     if not whole.any():
         return float("nan")
     middle = (np.mean if len(means) < FEW else iqm)(means[:, whole], axis=0)
-    width, opacity = (max(1.8, look.width), 1.0) if seeds else (1.1, 0.5)
-    canvas.line(at[whole], middle, look.colour, width, look.line, opacity)
+    canvas.line(at[whole], middle, look.colour, max(1.8, look.width), look.line)
     return float(middle[-1])
 
 

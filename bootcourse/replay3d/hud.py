@@ -103,13 +103,12 @@ def _reward(timeline: Timeline, t: float) -> Markup:
 
 
 def _choice(timeline: Timeline, t: float) -> Markup:
-    """The nine actions with π, π̃ and Q, KL(π ‖ π̃), and the rule's reason, as far as the drive recorded them."""
+    """The nine actions with π, π̃ and Q, KL(π ‖ π̃), and the rule's reason; π and Q if the driver has them."""
     rollout, k = timeline.rollout, timeline.decision(t)
     own, columns = style(rollout.label).colour, {}  # {heading: (its colour, the nine numbers)}
     if rollout.policy is not None:
         columns["π"] = own, rollout.policy[k]
-    if rollout.rule_actions is not None:
-        columns["π̃"] = GREEN, stochastic_rule(rollout.rule_actions[k], rollout.rule_p)
+    columns["π̃"] = GREEN, stochastic_rule(rollout.rule_actions[k], rollout.rule_p)
     bars = list(columns.values())
     if rollout.q_values is not None:
         columns["Q"] = "inherit", rollout.q_values[k]
@@ -128,17 +127,9 @@ def _choice(timeline: Timeline, t: float) -> Markup:
         page += html("<div>KL(π‖π̃) = <b>{:.2f}</b> nats</div>", kl)
     if rollout.policy is not None and rollout.q_values is None:
         page += Markup('<div class="dim">No Q: this agent has none, or it was not recorded.</div>')
-    return page + _why(timeline, k)
-
-
-def _why(timeline: Timeline, k: int) -> Markup:
-    rollout, aim = timeline.rollout, ""
-    if rollout.rule_reasons is None:
-        return Markup("")
-    if rollout.rule_lanes is not None and rollout.rule_speeds is not None:
-        aim = f"(lane {int(rollout.rule_lanes[k])}, {rollout.rule_speeds[k]:.1f} m/s)"
-    page = '<div class="why"><b>Rule:</b> {} <span class="dim">{}</span></div>'
-    return html(page, SENTENCES[Reason(int(rollout.rule_reasons[k]))], aim)
+    aim = f"(lane {int(rollout.rule_lanes[k])}, {rollout.rule_speeds[k]:.1f} m/s)"
+    why = '<div class="why"><b>Rule:</b> {} <span class="dim">{}</span></div>'
+    return page + html(why, SENTENCES[Reason(int(rollout.rule_reasons[k]))], aim)
 
 
 def table(timelines: list[Timeline], t: float) -> Markup:

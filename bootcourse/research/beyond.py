@@ -6,20 +6,13 @@ import numpy as np
 
 from bootcourse.research.results import Results
 from bootcourse.research.tables import bracketed, escaped, score
-from bootcourse.scenario import DEFAULT
 
 SHARE, WINDOW = 0.95, 50  # an agent has learned the way out when this share of so many episodes in a row ended ahead
 
 
-def lengths(curves: dict[str, np.ndarray]) -> np.ndarray | None:
-    """Decisions of each training episode, (agents, episodes); None if no curve tells.
-
-    Curves without decisions have the distance and the mean speed. Their quotient is within 1 % of the sum.
-    """
-    if "decisions" in curves:
-        return curves["decisions"]
-    known = {"distance", "speed"} <= curves.keys()
-    return curves["distance"] / curves["speed"] * DEFAULT.clock.decision_rate if known else None
+def lengths(curves: dict[str, np.ndarray]) -> np.ndarray:
+    """Decisions of each training episode, (agents, episodes)."""
+    return curves["decisions"]
 
 
 def decisions_until(success: np.ndarray, decisions: np.ndarray, share: float = SHARE, window: int = WINDOW):
@@ -66,11 +59,9 @@ def at_budget(curves: dict[str, np.ndarray], decisions: float | np.ndarray, meas
     """Mean of a measure over the last `WINDOW` training episodes that ended within so many decisions, (agents,).
 
     curves: each (agents, episodes), NaN for episodes that were not driven. decisions: of each agent, or (agents,). NaN
-    for an agent whose whole training was shorter, or that ended fewer episodes, and where a curve is missing.
+    for an agent whose whole training was shorter, or that ended fewer episodes.
     """
-    episodes, values = lengths(curves), curves.get(measure)
-    if episodes is None or values is None:
-        return np.full(len(next(iter(curves.values()), [0])), np.nan)
+    episodes, values = lengths(curves), curves[measure]
     means, totals = np.full(len(values), np.nan), np.nansum(episodes, axis=1, dtype=float)
     for i, budget in enumerate(np.broadcast_to(decisions, len(values))):
         ended = np.searchsorted(np.cumsum(episodes[i], dtype=float), budget, side="right")

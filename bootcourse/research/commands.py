@@ -34,7 +34,6 @@ def study(
     backend: str = typer.Option("loky", help="loky (this machine) or dask."),
     scheduler: str = typer.Option("", help="The address of a dask cluster that you have."),
     workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
-    recompute: bool = typer.Option(False, "--recompute", help="Compute damaged jobs again."),
 ) -> None:
     """Train and test methods with many seeds; write tables, figures and the fidelity report.
 
@@ -67,8 +66,7 @@ def study(
             write_bytes(out / f"{name}.md", page.encode())
             print(page, out / f"{name}.md", sep="\n")
 
-    how = {"backend": backend, "scheduler": scheduler, "workers": workers, "recompute": recompute}
-    raise typer.Exit(compute(wanted, out, report, **how))
+    raise typer.Exit(compute(wanted, out, report, backend=backend, scheduler=scheduler, workers=workers))
 
 
 def compute(wanted: list, out: Path, after: Callable[[list[str]], None], **how) -> int:
@@ -96,9 +94,6 @@ def assets(
         help="verify: check them. build: make them from a study's folder. report: only the report, from themselves.",
     ),
     study: Path | None = typer.Option(None, help="The study's folder, for build."),
-    replace_larger: bool = typer.Option(
-        False, "--replace-larger", help="Let build replace results of more agents or episodes."
-    ),
 ) -> None:
     """Check the files that ship with the course, or make them again."""
     from bootcourse.storage import assets
@@ -109,8 +104,7 @@ def assets(
     if what != "verify":
         from bootcourse.research.ship import build
 
-        build(study if what == "build" else None, assets.FOLDER, replace_larger)
-    assets.put_back(assets.FOLDER)
+        build(study if what == "build" else None)
     raise typer.Exit(report_assets(assets.FOLDER))
 
 

@@ -109,32 +109,25 @@ class Claim:
         return [self.where, self.words, *values, p, self.verdict]
 
 
-@dataclass(frozen=True)
-class Expectation:
-    """A comparison before it is made. sides: of what was computed; it raises Missing for what was not."""
-
-    where: str
-    words: str
-    sides: Callable[[Cells], tuple[np.ndarray | float, np.ndarray | float]]
-    expected: str
+Expectation = Callable[[Cells], Claim]  # a comparison before it is made; it raises Missing for what was not computed
 
 
 def compared(problem: str, teacher: str, left: str, expected: str, right: str, measure="returns") -> Expectation:
     """Two methods with the same problem and teacher. The teacher itself is one number."""
-
-    def side(cells: Cells, method: str) -> np.ndarray | float:
-        scores = cells.scores(problem, teacher, method, measure)
-        return scores[0] if method == TEACHER else scores
-
     words = f"{left} {expected.replace('>=', '≥')} {right}, {measure.replace('returns', 'return')}"
-    where = f"{PROBLEMS[problem].name}, {teacher}"
-    return Expectation(where, words, lambda cells: (side(cells, left), side(cells, right)), expected)
+
+    def claim(cells: Cells) -> Claim:
+        scores = {method: cells.scores(problem, teacher, method, measure) for method in (left, right)}
+        sides = (each[0] if method == TEACHER else each for method, each in scores.items())
+        return Claim(f"{PROBLEMS[problem].name}, {teacher}", words, *sides, expected)
+
+    return claim
 
 
 def hardly_succeeds(problem: str, method: str) -> Expectation:
     """A method without a teacher succeeds in less than 10 %."""
     name, words = PROBLEMS[problem].name, f"10 % > {method}, success"
-    return Expectation(name, words, lambda cells: (0.1, cells.scores(problem, NOBODY, method, "success")), ">")
+    return lambda cells: Claim(name, words, 0.1, cells.scores(problem, NOBODY, method, "success"), ">")
 
 
 def gains_more(problem: str, other: str) -> Expectation:
@@ -146,7 +139,7 @@ def gains_more(problem: str, other: str) -> Expectation:
 
     where = f"{PROBLEMS[problem].name} and {PROBLEMS[other].name}, good"
     words = "gain of soft over the better SAC, success"
-    return Expectation(where, words, lambda cells: (gain(cells, problem), gain(cells, other)), ">")
+    return lambda cells: Claim(where, words, gain(cells, problem), gain(cells, other), ">")
 
 
 TEACHERS = ("good", "random", "systematic")
@@ -177,7 +170,7 @@ def claims_of(hypothesis: str, cells: Cells) -> tuple[list[Claim], list[str]]:
     claims, lacking = [], []
     for each in EXPECTED[hypothesis]:
         try:
-            claims.append(Claim(each.where, each.words, *each.sides(cells), each.expected))
+            claims.append(each(cells))
         except Missing as missing:
             lacking.append(str(missing))
     return claims, lacking

@@ -18,6 +18,20 @@ from bootcourse.research.tables import escaped
 from bootcourse.statistics import interval
 
 TRAINING = {"success": "success", "return": "returns", "speed": "speed", "distance": "distance"}  # curve: column
+TRAINING_FIGURES = {  # the paper's Figures 4 to 6: the methods, and those whose agents the title counts, by name
+    "margin-against-bonus": (
+        ("margin", "margin_soft", "demos", "bootstrapped"),
+        {"demos": "with the bonus", "margin": "with the margin"},
+    ),
+    "ablation": (
+        ("sac", "soft", "demos", "bootstrapped"),
+        {"sac": "plain", "soft": "soft constraint", "demos": "demonstrations", "bootstrapped": "both"},
+    ),
+    "baselines": (
+        ("bc", "cql", "gail", "sac", "bootstrapped"),
+        {"bc": "BC", "cql": "CQL", "gail": "GAIL", "sac": "SAC", "bootstrapped": "bootstrapped"},
+    ),
+}
 
 
 def of_methods(results: Results, methods: Sequence[str]) -> dict[str, dict[str, np.ndarray]]:
@@ -32,39 +46,18 @@ def of_methods(results: Results, methods: Sequence[str]) -> dict[str, dict[str, 
     return of_method
 
 
-def training_panels(results: Results, methods: Sequence[str], title: str, rule: Results | None = None) -> Figure:
-    """Success, return, speed and distance in training, the rule's level and the paper's test results."""
+def training_panels(results: Results, name: str, rule: Results | None = None) -> Figure:
+    """One of `TRAINING_FIGURES`: success, return, speed and distance, the rule's level and the paper's test results."""
+    methods, named = TRAINING_FIGURES[name]
     printed = {
         method: {curve: PRINTED[method][column].mean / MEASURES[curve].factor for curve, column in TRAINING.items()}
         for method in methods
         if method in PRINTED and method in results.methods
     }
     levels = {curve: float(rule.scores(column)[0]) for curve, column in TRAINING.items()} if rule is not None else {}
-    return training_curves(of_methods(results, methods), title, {"rule": levels}, printed, tuple(TRAINING))
-
-
-def _escapes(results: Results, methods: Sequence[str], short: dict[str, str], rule: Results | None) -> Figure:
-    """Training panels of these methods. short: {method: its name in the title, which counts who escapes}."""
-    counts = ", ".join(f"{escaped(results, method)} {name}" for method, name in short.items())
-    return training_panels(results, methods, f"Agents that escape: {counts}", rule)
-
-
-def margin_against_bonus(results: Results, rule: Results | None = None) -> Figure:
-    """The paper's first training figure (Figure 4): demonstrations by a bonus, or by a large margin."""
-    methods = ("margin", "margin_soft", "demos", "bootstrapped")
-    return _escapes(results, methods, {"demos": "with the bonus", "margin": "with the margin"}, rule)
-
-
-def ablation(results: Results, rule: Results | None = None) -> Figure:
-    """The paper's second training figure (Figure 5): each ingredient alone, and both."""
-    short = {"sac": "plain", "soft": "soft constraint", "demos": "demonstrations", "bootstrapped": "both"}
-    return _escapes(results, tuple(short), short, rule)
-
-
-def baselines(results: Results, rule: Results | None = None) -> Figure:
-    """The paper's third training figure (Figure 6): the method against others."""
-    short = {"bc": "BC", "cql": "CQL", "gail": "GAIL", "sac": "SAC", "bootstrapped": "bootstrapped"}
-    return _escapes(results, tuple(short), short, rule)
+    counts = ", ".join(f"{escaped(results, method)} {words}" for method, words in named.items())
+    curves, title = of_methods(results, methods), f"Agents that escape: {counts}"
+    return training_curves(curves, title, {"rule": levels}, printed, tuple(TRAINING))
 
 
 def exploration(results: Results) -> Figure:

@@ -7,15 +7,14 @@
 The folder is moved in one step, so every folder in `jobs` is complete.
 """
 
-import importlib
 import json
 import os
 import shutil
-import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Annotated, Any
 
 import numpy as np
@@ -61,10 +60,6 @@ class Interrupted(Exception):
     """The study was stopped. A `Job` has written a checkpoint; a `LessonJob` begins again."""
 
 
-class OtherQuestion(BootcourseError):
-    """The folder holds a job of the same name with other settings: it is not damaged and must not be replaced."""
-
-
 @dataclass(frozen=True)
 class Job:
     """Train some agents side by side and test them on the same held-out episodes."""
@@ -101,7 +96,7 @@ class Job:
         training = load_checkpoint(folder / CHECKPOINT, teacher)
         wanted = ([*self.settings], self.episodes, self.scenario)
         if (training.settings, training.episodes, training.scenario) != wanted:
-            raise OtherQuestion(f"{folder} was begun with other settings: choose another folder, or delete this one.")
+            raise BootcourseError(f"{folder} was begun with other settings: choose another folder, or delete this one.")
         return training
 
 
@@ -114,7 +109,7 @@ class LessonJob:
     arguments: dict = field(default_factory=dict)
 
     def compute(self, folder: Path) -> None:
-        write_arrays(folder / "results.npz", named_function(self.function)(**self.arguments))
+        write_arrays(folder / "results.npz", resolve_name(self.function)(**self.arguments))
 
 
 @dataclass(frozen=True)
@@ -150,12 +145,6 @@ class StayingJob:
 
 
 AnyJob = Job | LessonJob | BoundJob | StayingJob
-
-
-def named_function(name: str) -> Callable:
-    """The function of that name, "module:function"."""
-    module, _, function = name.partition(":")
-    return getattr(importlib.import_module(module), function)
 
 
 def asked(job: AnyJob) -> dict:
@@ -199,14 +188,14 @@ def orphaned() -> bool:
 
 
 def finished(job: AnyJob, root: Path) -> bool:
-    """Is it done? Raises BootcourseError if its folder is damaged, OtherQuestion if that holds another job."""
+    """Is it done? Raises BootcourseError if its folder is damaged, or holds another job."""
     folder = root / "jobs" / job.name
     if not folder.exists():
         return False
     before = read_job(folder)["asked"]
     different = [name for name, value in asked(job).items() if before.get(name) != value]
     if different:
-        raise OtherQuestion(
+        raise BootcourseError(
             f"{folder} was computed with other {', '.join(different)}: choose another folder for this study."
         )
     return True
@@ -214,24 +203,22 @@ def finished(job: AnyJob, root: Path) -> bool:
 
 def read_job(folder: Path) -> dict:
     """The `job.json` of a finished job, after a check of all its files. Raises BootcourseError if one is damaged."""
-    description = read_sealed(folder / "job.json", FORMAT)
-    with decoding(folder / "job.json"):
+    remedy = f"delete {folder}, and start the same command again"
+    description = read_sealed(folder / "job.json", FORMAT, remedy)
+    with decoding(folder / "job.json", remedy):
         convert(description, Description)
     damaged = [name for name, digest in description["sha256"].items() if not is_file_with(folder / name, digest)]
     if damaged:
-        raise BootcourseError(f"{folder} is damaged ({', '.join(damaged)}).")
+        raise BootcourseError(f"{folder} is damaged ({', '.join(damaged)}): {remedy}.")
     return description
 
 
-def run_job(job: AnyJob, root: Path, recompute: bool = False) -> str:
-    """Compute a job and move it to `jobs`. Returns "", or a sentence that says what went wrong.
-
-    recompute: begin again, with the old files moved aside, if it was begun and its checkpoint is damaged.
-    """
+def run_job(job: AnyJob, root: Path) -> str:
+    """Compute a job and move it to `jobs`. Returns "", or a sentence that says what went wrong."""
     try:
         if not (root / "study.json").exists():  # on a machine of a cluster that has another disk
             return f"{root} is not there for the process that should compute {job.name}: use a folder that all share."
-        _run(job, root, recompute)
+        _run(job, root)
     except (BootcourseError, OSError) as error:
         return f"{job.name}: {error}"
     except (Interrupted, KeyboardInterrupt):
@@ -239,7 +226,7 @@ def run_job(job: AnyJob, root: Path, recompute: bool = False) -> str:
     return ""
 
 
-def _run(job: AnyJob, root: Path, recompute: bool) -> None:
+def _run(job: AnyJob, root: Path) -> None:
     final, folder = root / "jobs" / job.name, root / "unfinished" / job.name
     if final.exists():  # another process was faster: a cluster may start a job twice
         return
@@ -248,11 +235,7 @@ def _run(job: AnyJob, root: Path, recompute: bool) -> None:
     try:
         earlier = job.compute(folder)
     except DamagedCheckpoint as error:
-        if not recompute:
-            raise BootcourseError(f"{error} Add --recompute to begin this job again.") from None
-        os.rename(folder, aside(root, job.name))
-        folder.mkdir()
-        earlier = job.compute(folder)
+        raise BootcourseError(f"{error} To begin this job again, delete {folder}.") from None
     seconds = (earlier or 0.0) + time.perf_counter() - started
     (folder / CHECKPOINT).unlink(missing_ok=True)
     files = [path for path in sorted(folder.rglob("*")) if path.is_file() and path.name != "job.json"]
@@ -265,9 +248,3 @@ def _run(job: AnyJob, root: Path, recompute: bool) -> None:
     write_sealed(folder / "job.json", description)
     final.parent.mkdir(parents=True, exist_ok=True)
     os.rename(folder, final)
-
-
-def aside(root: Path, name: str) -> Path:
-    """A free place in `damaged` for the files of a job."""
-    (root / "damaged").mkdir(parents=True, exist_ok=True)
-    return Path(tempfile.mkdtemp(dir=root / "damaged", prefix=f"{name.replace('/', '-')}-")) / "job"

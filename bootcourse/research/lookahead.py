@@ -31,7 +31,7 @@ from bootcourse.learn.settings import stored_settings
 from bootcourse.methods import display_name
 from bootcourse.policies import Policy, rule_policy
 from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned
-from bootcourse.research.plan import LessonExperiment, chosen, folder
+from bootcourse.research.plan import LessonExperiment, folder
 from bootcourse.research.results import Results, as_arrays, load_results
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
@@ -105,29 +105,21 @@ class CellJob:
 
 @dataclass(frozen=True)
 class CellExperiment(LessonExperiment):
-    """The cells: {their names: {"cell": each}}."""
-
-    def only(self, words: str) -> "CellExperiment":
-        """The cells that are named by their folder, base policy, form or model; "" for all."""
-        names = {}
-        for name, variation in self.variations.items():
-            cell = variation["cell"]
-            names[name] = {folder(name), cell.base, cell.form, folder(cell.model)}
-        return replace(self, variations=chosen(self.variations, names, words))
+    """The cells: {their names: the fields of each}."""
 
     def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 0) -> list[CellJob]:
         """One job for each cell, with at most so many agents and roads. Raises BootcourseError for `episodes`."""
         if episodes:
             raise BootcourseError(f"The experiment {name} trains nothing: leave out --episodes.")
         jobs = []
-        for each, variation in self.variations.items():
-            cell = variation["cell"]
+        for each, fields in self.variations.items():
+            cell = Cell(**fields)
             agents, roads = min(seeds or cell.agents, cell.agents), min(tests or cell.roads, cell.roads)
             jobs.append(CellJob(f"{name}/{folder(each)}", replace(cell, agents=agents, roads=roads)))
         return jobs
 
 
-EXPERIMENT = CellExperiment(f"{__name__}:drive", {cell.name: {"cell": cell} for cell in cells()})
+EXPERIMENT = CellExperiment(f"{__name__}:drive", {cell.name: vars(cell) for cell in cells()})
 
 
 def drive(cell: Cell, trained: Path) -> Results:

@@ -4,11 +4,12 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
+from pkgutil import resolve_name
 
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.settings import SETTINGS, settings_for, with_seeds
 from bootcourse.methods import ABLATION, AFTER, BASELINES
-from bootcourse.research.jobs import BoundJob, Job, LessonJob, StayingJob, named_function
+from bootcourse.research.jobs import BoundJob, Job, LessonJob, StayingJob
 from bootcourse.research.teachers import RULE
 from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
 
@@ -161,7 +162,7 @@ EXPERIMENTS = {  # "module:name" of each, imported when it is used
 def experiment_named(name: str) -> Experiment | LessonExperiment:
     """The experiment of that name. Raises BootcourseError for an unknown one."""
     check_known("Experiment", name, EXPERIMENTS)
-    return named_function(EXPERIMENTS[name])
+    return resolve_name(EXPERIMENTS[name])
 
 
 def chosen(variations: dict, names: dict[str, set[str]], words: str) -> dict:

@@ -24,12 +24,6 @@ from bootcourse.research.results import WINDOW as IN_A_ROW
 from bootcourse.scenario import Scenario
 from bootcourse.statistics import ESCAPES, Estimate, mean
 
-FIGURES = {  # name: (function, the methods that it needs)
-    "margin-against-bonus": (training_figures.margin_against_bonus, ("margin", "demos")),
-    "ablation": (training_figures.ablation, ("sac", "soft", "demos", "bootstrapped")),
-    "baselines": (training_figures.baselines, ("bc", "cql", "gail", "sac", "bootstrapped")),
-}
-
 
 def rule_results(scenario: Scenario, tests: int) -> Results:
     """The rule controller on the held-out episodes, as one agent without a history."""
@@ -80,7 +74,11 @@ def study_part(study: StudyResults, name: str, rule: Results, everyone: Results,
 def pictures(folder: Path, name: str, results: Results, rule: Results) -> list[str]:
     """Draw the figures whose methods are there; returns the Markdown that shows them."""
     there = set(results.methods)
-    figures = {title: draw(results, rule) for title, (draw, needed) in FIGURES.items() if set(needed) <= there}
+    figures = {
+        title: training_figures.training_panels(results, title, rule)
+        for title, (_, named) in training_figures.TRAINING_FIGURES.items()
+        if there.issuperset(named)
+    }
     if {"sac", "bootstrapped"} <= there:
         figures["exploration"] = training_figures.exploration(results)
     for column in ("returns", "success"):

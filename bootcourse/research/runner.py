@@ -10,7 +10,7 @@ import numpy as np
 
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import write_json
-from bootcourse.research.jobs import AnyJob, Job, OtherQuestion, aside, finished, run_job
+from bootcourse.research.jobs import AnyJob, Job, finished, run_job
 from bootcourse.research.results import Results, load_job, load_results
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.work import locked
@@ -25,16 +25,14 @@ def run_jobs(
     backend: str = "loky",
     scheduler: str | None = None,
     workers: int | None = None,
-    recompute: bool = False,
     after: Callable[[list[str]], None] = lambda problems: None,
 ) -> list[str]:
     """Compute the jobs that are not done yet. Returns what went wrong, a sentence each.
 
     backend: one of `BACKENDS`; loky uses this machine's cores. scheduler: the address of a dask scheduler; without one,
-    dask starts its own on this machine. workers: processes, by default one for each core. recompute: compute damaged
-    jobs again. after: called with what went wrong, while the folder is still locked. Raises BootcourseError, before
-    anything is computed, for a mistyped argument, a folder in use or with the runs of a training, and a damaged job
-    without `recompute`.
+    dask starts its own on this machine. workers: processes, by default one for each core. after: called with what went
+    wrong, while the folder is still locked. Raises BootcourseError, before anything is computed, for a mistyped
+    argument, a folder in use or with the runs of a training, and a damaged job.
     """
     check_known("Backend", backend, BACKENDS)
     if scheduler and backend == "loky":
@@ -42,7 +40,7 @@ def run_jobs(
     if any(root.glob("*/provenance.json")):
         raise BootcourseError(f"{root} holds runs of `bootcourse train`: choose another folder for a study.")
     with locked(root):
-        waiting = to_do(jobs, root, recompute)
+        waiting = [job for job in jobs if not finished(job, root)]
         done, listed = len(jobs) - len(waiting), f"{len(jobs)} job{'s' * (len(jobs) != 1)}"
         print(f"{listed} in {root}: {done} done already, {len(waiting)} to compute.")
         problems = []
@@ -50,41 +48,21 @@ def run_jobs(
             print(time_needed(waiting, root, workers))
             write_json(root / "study.json", {"jobs": [job.name for job in jobs]})
             with connected(backend, scheduler, workers):
-                problems = _compute(waiting, root.resolve(), recompute)
+                problems = _compute(waiting, root.resolve())
         after(problems)
         return problems
 
 
-def _compute(waiting: list, root: Path, recompute: bool) -> list[str]:
+def _compute(waiting: list, root: Path) -> list[str]:
     from bootcourse.progress import progress_bar
 
-    calls = (joblib.delayed(run_job)(job, root, recompute) for job in waiting)
+    calls = (joblib.delayed(run_job)(job, root) for job in waiting)
     try:
         answers = joblib.Parallel(batch_size=1, pre_dispatch="all", return_as="generator_unordered")(calls)
         bar = progress_bar(answers, total=len(waiting), unit="job", smoothing=0)
         return [answer for answer in bar if answer]
     except joblib.externals.loky.process_executor.TerminatedWorkerError:
         return ["A process was killed, perhaps for lack of memory: start the same command again, with fewer --workers."]
-
-
-def to_do(jobs: Sequence, root: Path, recompute: bool) -> list:
-    """The jobs that are not done. Damaged ones are moved to `damaged` if `recompute`, otherwise an error names them."""
-    waiting, damaged = [], []
-    for job in jobs:
-        try:
-            if not finished(job, root):
-                waiting.append(job)
-        except OtherQuestion:
-            raise
-        except BootcourseError as error:
-            damaged.append(str(error))
-            waiting.append(job)
-            if recompute:
-                os.rename(root / "jobs" / job.name, aside(root, job.name))
-                print(f"{error} It is computed again; the old one is in {root / 'damaged'}.")
-    if damaged and not recompute:
-        raise BootcourseError(" ".join(damaged) + " Add --recompute to compute it again.")
-    return waiting
 
 
 @contextmanager

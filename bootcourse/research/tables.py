@@ -7,7 +7,7 @@ import numpy as np
 from bootcourse.methods import display_name
 from bootcourse.research.paper import COLUMNS, PRINTED, RATES, ROWS
 from bootcourse.research.results import MEASURES, Results
-from bootcourse.statistics import ESCAPES, Estimate, improvement, interval, iqm, mean, rate
+from bootcourse.statistics import ESCAPES, Estimate, bracketed, improvement, interval, iqm, mean, number, rate
 
 FOUND_AND_KEPT = "found, kept"  # the heading of what `found_and_kept` says
 HEADINGS = COLUMNS | {"road_departure": "road departures, %", "stoppage": "stops, %"}
@@ -17,22 +17,6 @@ def markdown(headings: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """A table in Markdown, a line for each row."""
     lines = [headings, ["---"] * len(headings), *rows]
     return "\n".join("| " + " | ".join(str(cell).replace("|", "\\|") for cell in line) + " |" for line in lines) + "\n"
-
-
-def number(value: float) -> str:
-    """Two decimals, fewer for large numbers, without an exponent."""
-    if np.isnan(value):
-        return "?"
-    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.1f}" if abs(value) >= 100 else f"{value:.2f}"
-
-
-def bracketed(estimate: Estimate, scale: float = 1) -> str:
-    """ "62 [39, 83]": with the decimals that the interval's length leaves meaningful; one seed has no interval."""
-    value, low, high = (scale * part for part in estimate)
-    if np.isnan(low):
-        return number(value)
-    decimals = 0 if high - low >= 10 else 1 if high - low >= 1 else 2
-    return f"{value:.{decimals}f} [{low:.{decimals}f}, {high:.{decimals}f}]"
 
 
 def k_of_n(hits: np.ndarray) -> str:

@@ -7,15 +7,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
-from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name
 from bootcourse.research.beyond import SHARE, WINDOW, spent
 from bootcourse.research.plan import Experiment, Variation
-from bootcourse.research.results import Results, experiment
+from bootcourse.research.results import Results
 from bootcourse.research.tables import bracketed, k_of_n
 from bootcourse.research.teachers import PLANNER, TEACHERS
 from bootcourse.statistics import ESCAPES, Estimate, escapes, interval, median
@@ -52,18 +50,6 @@ def cells(varied: dict[str, Results]) -> Cells:
     """The variations that were computed, by (teacher, method), in the orders of `TEACHERS` and `TAUGHT`."""
     of = {(agents.agents[0]["teacher"], agents.agents[0]["method"]): agents for agents in varied.values()}
     return {(t, m): of[t, m] for t in TEACHERS for m in TAUGHT if (t, m) in of}
-
-
-def taught(study: Path | str = "") -> Cells:
-    """The cells in the folder of a study; by default those that ship. Raises BootcourseError if there are none."""
-    computed = cells(experiment("teachers", study))
-    if not computed:
-        where = study or "This copy of the course"
-        raise BootcourseError(
-            f"{where} holds no results of the experiment teachers yet: "
-            f"run `bootcourse study teachers --out {study or 'DIR'}`{'' if study else ', then give study=DIR'}."
-        )
-    return computed
 
 
 @dataclass(frozen=True)

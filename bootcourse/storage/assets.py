@@ -4,7 +4,6 @@
 `bootcourse.research.ship` makes the files.
 """
 
-import os
 from pathlib import Path
 from typing import Annotated, TypedDict
 
@@ -42,18 +41,6 @@ def read_manifest(folder: Path) -> Manifest:
     content = read_sealed(path, FORMAT)
     with decoding(path):
         return convert(content, Manifest)
-
-
-def unfinished(folder: Path) -> Path:
-    """Where new files are made, and the old ones lie for a moment, before the new ones take their place."""
-    return folder.parent / f".{folder.name}.unfinished"
-
-
-def put_back(folder: Path) -> None:
-    """Put back the old files, if the process that was replacing them was killed in that moment."""
-    old = unfinished(folder) / "old"
-    if old.exists() and not folder.exists():
-        os.rename(old, folder)
 
 
 def verify(folder: Path = FOLDER) -> list[str]:

@@ -32,7 +32,7 @@ from bootcourse.course.judge import judge
 from bootcourse.course.lessons import LESSONS, number, registry
 from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.errors import BootcourseError
-from bootcourse.files import check_own
+from bootcourse.files import open_regular
 from bootcourse.policies import rule_policy
 from bootcourse.scenario import DEFAULT
 
@@ -82,6 +82,14 @@ class Verdicts:
         self.known[key] = judged
         with self.path.open("ab") as file:
             file.write(msgspec.json.encode(Line(key, judged)) + b"\n")
+
+
+def check_own(path: Path, mark: str) -> None:
+    """Raise BootcourseError if a file is there that does not hold this mark of those which bootcourse writes."""
+    if os.path.lexists(path):
+        with open_regular(path) as file:
+            if mark.encode() not in file.read():
+                raise BootcourseError(f"{path} exists already, and bootcourse did not write it: choose another name.")
 
 
 def judge_all(submissions: Sequence[Submission], wanted: Sequence[str], verdicts: Verdicts, workers: int) -> list[str]:

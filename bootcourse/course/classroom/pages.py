@@ -14,14 +14,14 @@ from itertools import groupby
 from pathlib import Path
 from urllib.parse import quote
 
-from bootcourse.course.classroom.grading import MISSING, Graduate, Judged
+from bootcourse.course.classroom.grading import MISSING, Graduate, Judged, check_own
 from bootcourse.course.classroom.sandbox import HOLDS
 from bootcourse.course.classroom.submission import fingerprint
 from bootcourse.course.lessons import registry
 from bootcourse.course.predictions import number_of, worded
 from bootcourse.course.verdict import COLOURS, MARKS, marked
 from bootcourse.errors import BootcourseError
-from bootcourse.files import check_own, write_bytes
+from bootcourse.files import write_bytes
 from bootcourse.markup import Markup, html, joined
 
 STYLE = """<style>:root {color-scheme: light dark} small {opacity: 0.7}
