@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 import torch
 
+from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import record
 from bootcourse.learn.bootstrap import kl_to_rule
 from bootcourse.panels import policy_panel
 from bootcourse.panels.policy_numbers import policy_numbers
-from bootcourse.policies import idle_policy
+from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Clock, Road
 from tests.panels import at_its_ends, from_page, raise_in_callbacks, words  # noqa: F401
@@ -89,6 +90,15 @@ def test_a_drive_shows_what_there_is_of_policy_and_q_and_says_what_is_missing(ag
     from_page(panel.p.slider, value=0.5)
     assert panel.seen.rule.max() == 0.5
     ElementTree.fromstring(panel.svg)
+
+
+def test_the_values_of_nine_imagined_drives_stand_beside_the_policies(agents_drive):
+    driver = rule_policy(DEFAULT)
+    panel = policy_panel(agents_drive, futures=driver)
+    panel.moment.value = 2
+    for value in nine_drives(agents_drive.cars[2:3], driver).values[0]:
+        assert f"{value:.1f}".replace("-", "−") in panel.svg
+    assert "rollouts" in panel.svg and "rollouts" not in policy_panel(agents_drive).svg
 
 
 def test_a_drive_of_one_decision_and_one_of_another_clock_are_shown():

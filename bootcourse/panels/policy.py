@@ -4,7 +4,11 @@
 """
 
 import ipywidgets as widgets
+import numpy as np
+from matplotlib.colors import to_hex
 
+from bootcourse.colours import ALARM
+from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import Settings
@@ -12,8 +16,10 @@ from bootcourse.methods import display_name, style
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.panels.policy_numbers import PolicyNumbers, check_weights, policy_numbers
+from bootcourse.plots.futures import SHADES, in_words, trails
 from bootcourse.plots.road import road_svg
 from bootcourse.plots.svg import GRID, INK, QUIET, drawing, line, rect, text
+from bootcourse.policies import Policy
 from bootcourse.road.state import EGO, SPEED
 from bootcourse.rule import SENTENCES, Reason
 from bootcourse.scenario import ACTION_NAMES, N_ACTIONS, check_p
@@ -24,13 +30,17 @@ BOTTOM = ROWS + N_ACTIONS * ROW
 BAR, COLUMNS = 128, (148, 338, 528)  # a whole bar's length; where the bars of π, π̃ and the optimum begin
 SHARE, PER_NAT, MOST_NATS = 738, 17, 8  # the KL's bars: from here, so long for a nat, cut at so many nats
 Q, WORTH = 938, 1032  # right ends of the two columns of numbers
+ROLLOUTS = 204  # the width of the column of rollouts
+BEST = to_hex(SHADES(1.0))
 
 
 class PolicyPanel(Panel):
     """A view on `policy_numbers` at one decision of a drive; `svg` is what it shows, `seen` the numbers."""
 
-    def __init__(self, rollout: Rollout, p: float, xi: float, alpha: float):
+    def __init__(self, rollout: Rollout, p: float, xi: float, alpha: float, futures: Policy | None = None):
         self.rollout, self.rate = rollout, rollout.scenario.clock.decision_rate
+        self.imagined = None if futures is None else nine_drives(rollout.cars, futures, rollout.scenario)
+        self.width = WIDTH if futures is None else WIDTH + ROLLOUTS
         self.moment = self._moment()
         self.p = Number("p", p, 0.12, 0.99, 0.01, "Probability that π̃ gives to the rule's own action.", check=check_p)
         self.xi = Number("ξ", xi, 0, 5, 0.05, "Weight of the KL, which pulls π to the rule.",
@@ -60,10 +70,13 @@ class PolicyPanel(Panel):
         self.seen = policy_numbers(policy, q, int(self.rollout.rule_actions[k]), p, xi, alpha)
         scenario, colour = self.rollout.scenario, style(self.rollout.label).colour
         scale = ROAD / (scenario.road.lanes * scenario.road.lane_width)
-        road, _ = road_svg(self.rollout.cars[k], scenario, colour, WIDTH, scale)
+        ahead = [] if self.imagined is None else trails(self.imagined, int(self.rollout.actions[k]), k)
+        road, _ = road_svg(self.rollout.cars[k], scenario, colour, self.width, scale, trails=ahead)
         table = action_table(self.seen, p, xi, alpha, display_name(self.rollout.label), colour)
+        if self.imagined is not None:
+            table += rollout_bars(self.imagined.values[k], self.imagined.accidents[k] > 0)
         inner = ['<g transform="translate(8 0)">', *road, *self._head(k), *table, *self._marks(k, colour), "</g>"]
-        self.svg = self.view.value = drawing(WIDTH + 16, BOTTOM + 50, inner, self._alt(k))
+        self.svg = self.view.value = drawing(self.width + 16, BOTTOM + 50, inner, self._alt(k))
 
     def _head(self, k: int) -> list[str]:
         """The time, the car's speed, and why the rule does what it does."""
@@ -107,6 +120,8 @@ class PolicyPanel(Panel):
                 f"With ξ = {self.xi.value:g} and α = {self.alpha:g} the best compromise gives "
                 f"{seen.optimum[best]:.2f} to {ACTION_NAMES[best]}."
             )
+        if self.imagined is not None:
+            sentences.append(f"{in_words(self.imagined, k)}.")
         return " ".join(sentences)
 
 
@@ -155,6 +170,21 @@ def action_table(seen: PolicyNumbers, p: float, xi: float, alpha: float, who: st
     return [*parts, text(0, BOTTOM + 20, price, bold=True), text(0, BOTTOM + 39, formula, fill=QUIET)]
 
 
+def rollout_bars(values: np.ndarray, hurt: np.ndarray) -> list[str]:
+    """The values of nine imagined drives, (9,), as bars from the least of those without an accident; hurt in red."""
+    parts = heading(WIDTH + 40, "rollouts", "bold: driven; red: accident", BEST)
+    rows = [ROWS + action * ROW for action in range(N_ACTIONS)]
+    parts += [line(WIDTH, y, WIDTH + ROLLOUTS, y, GRID) for y in (*rows[::3], BOTTOM)]
+    safe = values[~hurt]
+    low, spread = (safe.min(), max(float(np.ptp(safe)), 1e-9)) if len(safe) else (0.0, 1.0)
+    for y, value, end in zip(rows, values, hurt, strict=True):
+        part = 0.0 if end else float(value - low) / spread
+        length = 4.0 + (BAR - 30) * part
+        parts.append(rect(WIDTH + 40, y + 4, length, ROW - 8, ALARM if end else to_hex(SHADES(part)), 'rx="1.5"'))
+        parts.append(text(WIDTH + 45 + length, y + 15, f"{value:.1f}".replace("-", "−"), fill=QUIET, size=11))
+    return parts
+
+
 def heading(x: float, symbol: str, words: str, colour: str) -> list[str]:
     """A column's symbol, and below it what the symbol stands for."""
     square = rect(x, ROWS - 35, 10, 10, colour, 'rx="1.5"')
@@ -166,12 +196,19 @@ def two_digits(value: float) -> str:
     return words.replace("-", "−")
 
 
-def policy_panel(rollout: Rollout, p: float | None = None, xi: float = 2.0, alpha: float | None = None) -> PolicyPanel:
+def policy_panel(
+    rollout: Rollout,
+    p: float | None = None,
+    xi: float = 2.0,
+    alpha: float | None = None,
+    futures: Policy | None = None,
+) -> PolicyPanel:
     """See π, π̃ and their best compromise at each decision of a drive, while you move p and ξ.
 
     rollout: a recorded drive; only an agent with Q and `with_q=True` gives all that is shown. p: the drive's own
-    `rule_p` if None. alpha: the paper's start value, 0.01, if None. xi: the paper's 200 α, 2. Raises BootcourseError
-    for anything but a recorded drive, and for values out of range.
+    `rule_p` if None. alpha: the paper's start value, 0.01, if None. xi: the paper's 200 α, 2. futures: the base policy
+    of nine imagined drives at each decision, which are drawn on the road with their values.
+    Raises BootcourseError for anything but a recorded drive, and for values out of range.
     """
     if not isinstance(rollout, Rollout):
         given = f"a {type(rollout).__name__}"
@@ -180,4 +217,4 @@ def policy_panel(rollout: Rollout, p: float | None = None, xi: float = 2.0, alph
     alpha = Settings().alpha_init if alpha is None else alpha
     check_p(p)
     check_weights(xi, alpha)
-    return PolicyPanel(rollout, p, xi, alpha)
+    return PolicyPanel(rollout, p, xi, alpha, futures)
