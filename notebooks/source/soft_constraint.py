@@ -134,8 +134,8 @@ check.log_stochastic_rule(log_stochastic_rule)
 #   p))(torch.tensor([3]), torch.tensor(0.9)) == 0) -->
 #
 # > **Predict.** The rule says "keep left", p = 0.9. Three agents: one is sure of "keep left", one
-# > is sure of "accelerate straight", one gives every action the same probability. Put them in
-# > order of their KL. Is any of them 0?
+# > is sure of "accelerate straight", one gives every action the same probability. Which has the
+# > smallest KL, and is it 0?
 
 # %%
 predict(
@@ -407,8 +407,8 @@ table(headings, rows, below)
 
 # %% [markdown]
 # **Explain.** Without the KL in the target following is worth a little, and more than a crash. With
-# it and ξ = 2 it is worth less, since the rule would do something else in each second. Then why not
-# crash at once? A third way is better than both: to be sure of the rule's action costs 0.21 a
+# it and ξ = 2 it is worth less, since the rule would do something else in each second. But a
+# third way is better than both: to be sure of the rule's action costs 0.21 a
 # second, so falling back as the rule does, for ever, is worth {{ (by_rule(0).rewards[3] + 2 *
 # math.log(RULE_P)) / (1 - 0.8) | .1f }}. So the KL does more than pull towards the next action:
 # through the critic it raises the cost of futures in which the rule would have acted differently.
