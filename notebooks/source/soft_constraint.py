@@ -407,10 +407,10 @@ table(headings, rows, below)
 
 # %% [markdown]
 # **Explain.** Without the KL in the target following is worth a little, and more than a crash. With
-# it and ξ = 2 it is worth less, since the rule would do something else in each second. But a
-# third way is better than both: to be sure of the rule's action costs 0.21 a
-# second, so falling back as the rule does, for ever, is worth {{ (by_rule(0).rewards[3] + 2 *
-# math.log(RULE_P)) / (1 - 0.8) | .1f }}. So the KL does more than pull towards the next action:
+# it and ξ = 2 it is worth less, since the rule would do something else in each second. But a third
+# way is better than both: to be sure of the rule's action costs 0.21 a second, so falling
+# back as the rule does, for ever, is worth {{ (by_rule(0).rewards[3] + 2 * math.log(RULE_P)) /
+# (1 - 0.8) | .1f }}. So the KL does more than pull towards the next action:
 # through the critic it raises the cost of futures in which the rule would have acted differently.
 # <!-- claim: round(-2 * math.log(RULE_P), 2) == 0.21 -->
 # <!-- claim: (0.15625 - 2 * math.log(8 / 0.1)) / (1 - 0.8) < DEFAULT.reward.accident < -1 <
