@@ -18,8 +18,8 @@
 # - derive the best compromise between a learner's Q and what the rule says;
 # - write the two losses that the pull enters, and show what happens if the pull does not fade.
 #
-# **Time** 73 minutes; running it takes about one minute. **You need** the rule of lesson
-# [[the_rule]], and actor, critic and soft value from lesson [[discrete_sac]].
+# **Time** 73 minutes; running it takes about one minute. **It builds on** the rule of
+# lesson [[the_rule]], and actor, critic and soft value of lesson [[discrete_sac]].
 
 # %%
 import math
@@ -102,8 +102,7 @@ table(["p", "price of the rule's action (nats)", "of any other (nats)"], rows)
 
 # %% [markdown]
 # **See.** A tenth of the probability costs $\log 10$, about 2.3 nats, more. The rule names the same
-# action in each line, so it has not become better. What has changed is the price of doing something
-# else.
+# action in each line: it has not become better, only the price of doing something else has risen.
 #
 # **Exercise (3 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
 
@@ -135,8 +134,8 @@ check.log_stochastic_rule(log_stochastic_rule)
 #   p))(torch.tensor([3]), torch.tensor(0.9)) == 0) -->
 #
 # > **Predict.** The rule says "keep left", p = 0.9. Three agents: one is sure of "keep left", one
-# > is sure of "accelerate straight", one gives every action the same probability. Put them in
-# > order of their KL. Is any of them 0?
+# > is sure of "accelerate straight", one gives every action the same probability. Which has the
+# > smallest KL, and is it 0?
 
 # %%
 predict(
@@ -163,9 +162,9 @@ table(["the agent is sure of", "its KL (nats)"], rows)
 # π̃, which gives that action a probability of {{ 100 * RULE_P | .0f }} %. So the constraint also
 # charges for being surer than π̃.
 #
-# The order of the two matters. Ours, the *reverse* KL, is large if the agent gives a large
-# probability to an action that π̃ takes seldom. The *forward* KL, $D_\mathrm{KL}(\tilde\pi \|
-# \pi)$, is large if the agent gives a small probability to an action that π̃ takes often.
+# The order of the two matters. Ours, the *reverse* KL, is large if the agent often does what π̃ does
+# seldom. The *forward* KL, $D_\mathrm{KL}(\tilde\pi \| \pi)$, is large if the agent seldom does
+# what π̃ does often.
 #
 # **Exercise (5 min, ●●○).** Write the KL for a batch of states.
 
@@ -260,11 +259,11 @@ pi = {"sac, Q alone": alone, "rule": log_rule.exp()[0].tolist(), "soft, best": b
 bc.show(charts.action_bars(pi, title))
 
 # %% [markdown]
-# Read the objective once more. The KL is $-\mathcal{H} - \sum_a \pi \log\tilde\pi$, so it is SAC's
-# objective with the reward $r + \xi\log\tilde\pi(a|s)$ and the temperature α + ξ. **The soft
-# constraint is SAC with another reward and another temperature**: it pays each decision that is the
-# rule's $\xi \log \frac{8p}{1-p}$ more than any other, and it values entropy more at the same time.
-# That payment is the **head start** of the rule's action: the difference of two prices, times ξ.
+# The KL is $-\mathcal{H} - \sum_a \pi \log\tilde\pi$. So the whole objective is SAC's, with the
+# reward $r + \xi\log\tilde\pi(a|s)$ and the temperature α + ξ. **The soft constraint is SAC with
+# another reward and another temperature**: it pays $\xi \log \frac{8p}{1-p}$ more for the rule's
+# action than for any other, and it values entropy more. That payment is the **head start** of the
+# rule's action: the difference of two prices, times ξ.
 #
 # > **Predict.** With p = 0.9 and the paper's first ξ = 2, how large is that head start? Compare it
 # > with the most that one second on the road can pay, about 1.
@@ -401,21 +400,21 @@ other, same, gamma, rows = math.log(8 / 0.1), -math.log(0.9), 0.8, []
 for xi in (0.0, 0.02, 0.2, 2.0):
     seconds = idle.rewards.mean() - xi * other, falls_back - xi * same
     rows.append([xi, *(f"{each:.2f}" for s in seconds for each in (s, s / (1 - gamma)))])
-headings = ["ξ", "following: a second", "all of them", "as the rule: a second", "all of them"]
+headings = ["ξ", "follow: per second", "follow: for ever, γ = 0.8"]
+headings += ["fall back as the rule does: per second", "for ever"]
 below = f"The rule agrees with following in {100 * agrees:.0f} % of its seconds. A crash pays −10."
 table(headings, rows, below)
 
 # %% [markdown]
 # **Explain.** Without the KL in the target following is worth a little, and more than a crash. With
-# it and ξ = 2 it is worth less, since the rule would do something else in each second. Then why not
-# crash at once? A third way is better than both: to be sure of the rule's action costs 0.21 a
-# second, so falling back as the rule does, for ever, is worth {{ (second_pays(by_rule().states[6,
-# EGO, SPEED]) + 2 * math.log(RULE_P)) / (1 - 0.8) | .1f }}. So the KL does more than pull towards
-# the next action: through the critic it raises the cost of futures in which the rule would have
-# acted differently.
+# it and ξ = 2 it is worth less, since the rule would do something else in each second. But a third
+# way is better than both: to be sure of the rule's action costs 0.21 a second, so falling
+# back as the rule does, for ever, is worth {{ (by_rule(0).rewards[3] + 2 * math.log(RULE_P)) /
+# (1 - 0.8) | .1f }}. So the KL does more than pull towards the next action:
+# through the critic it raises the cost of futures in which the rule would have acted differently.
 # <!-- claim: round(-2 * math.log(RULE_P), 2) == 0.21 -->
 # <!-- claim: (0.15625 - 2 * math.log(8 / 0.1)) / (1 - 0.8) < DEFAULT.reward.accident < -1 <
-#   (second_pays(by_rule().states[6, EGO, SPEED]) + 2 * math.log(RULE_P)) / (1 - 0.8) < 0.15625 -->
+#   (by_rule(0).rewards[3] + 2 * math.log(RULE_P)) / (1 - 0.8) < 0.15625 -->
 #
 # In the program of lesson [[update_and_loop]], `bootcourse/learn/textbook.py`, the KL stands in two
 # places:
@@ -452,7 +451,7 @@ def note(training):
 
 training = own_code.training(agents, episodes=5000)
 result = training.run(callback=note, stop=lambda: training.updates > UPDATES)
-print(f"{result.seconds:.0f} s; episodes of each agent: {training.curves.finished.tolist()}")
+print(f"episodes of each agent: {training.curves.finished.tolist()}")
 
 # %%
 updates, xi = np.array(list(noted)), np.array(list(noted.values())).T
@@ -470,11 +469,12 @@ for agent, name in zip(result.agents, ["fades"] * 2 + ["stays at 2"] * 2, strict
 table(["ξ", "seed", "its likeliest action is the rule's"], rows, "In the states of eight drives.")
 
 # %% [markdown]
-# **See.** ξ falls fast at first, then more slowly: the gradient of the temperature's loss, $\alpha
-# (\mathcal{H} - \eta)$, shrinks as α falls, and Adam divides it by an average over about the last
-# thousand gradients, which were larger. In the study ξ is a tenth of its start after {{
-# tenth_of_xi('soft').min() }} to {{ tenth_of_xi('soft').max() }} episodes. Do your parts make the
-# same update as ours?
+# **See.** In the study ξ is a tenth of its start after {{ tenth_of_xi('soft').min() }} to {{
+# tenth_of_xi('soft').max() }} episodes.
+#
+# The table: in our run even with ξ = 2 a third of the likeliest actions was not the rule's. Round 3
+# speaks of the *best* policy, and after 5,000 updates these networks are still learning it. Do your
+# parts make the same update as ours?
 # <!-- claim: tenth_of_xi('soft').max() < SETTINGS.beta_episodes / 2 -->
 
 # %%
@@ -502,7 +502,7 @@ earned = [each.reshape(len(each), -1, window).mean(2) for each in earned]
 middle = np.arange(earned[0].shape[1]) * window + window / 2
 drawn = {name: bc.statistics.iqm(each, 0) for name, each in zip(kinds, earned, strict=True)}
 drawn["rule"] = np.full(len(middle), rule_test.returns.value)
-looks = [charts.Style("#56B4E9", "--"), charts.Style("#1F2933"), charts.Style("#009E73")]
+looks = [charts.Style("#56B4E9", "--"), charts.Style("#5F6B77"), charts.Style("#009E73")]
 title = "With ξ fixed no agent earns more than the rule; with a fading ξ most earn far more"
 x_label, y_label = "training episode", "return in training (thin: agents)"
 figure = charts.lines(middle, drawn, title, x_label, y_label, limits=(-15, 140), looks=looks)
@@ -511,33 +511,37 @@ for each, look in zip(earned, looks, strict=False):
 bc.show(figure)
 
 # %%
+fades, stays = kinds.values()
+escape = fades.scores("success") >= bc.statistics.ESCAPES
+groups = {"ξ fades: those that escape": (fades, escape), "ξ fades: the others": (fades, ~escape)}
+groups["ξ stays at 2: all"] = (stays, np.full(len(stays), True))
 rows = []
-for name, r in kinds.items():
-    low, half, high = np.percentile(r.scores("returns"), [0, 50, 100])
-    crashed = 100 * r.episodes("accident").mean()
-    numbers = (f"{half:.0f} ({low:.0f} to {high:.0f})", f"{crashed:.1f}")
-    kind = name.removeprefix("soft, ")
-    rows.append([kind, f"{r.escapers('soft')} of {len(r)}", *numbers])
+for name, (agents_of, chosen) in groups.items():
+    row = [name, int(chosen.sum())]
+    for scores in (agents_of.scores("returns"), 100 * agents_of.scores("accident")):
+        low, half, high = np.percentile(scores[chosen], [0, 50, 100])
+        row.append(f"{half:.0f} ({low:.0f} to {high:.0f})")
+    rows.append(row)
 rows.append(["rule", "", f"{rule_test.returns.value:.0f}", "0"])
-headings = ["after training", "agents that escape", "return: median (lowest to highest)"]
-table([*headings, "accidents, %"], rows, below="1,000 held-out roads each.")
+below = "The median agent (lowest to highest). 1,000 held-out roads each."
+table(["after training", "agents", "return", "accidents, %"], rows, below=below)
 
 # %% [markdown]
-# **Explain.** A constraint that stays makes a second rule: all ten agents earn a little less than
-# the rule, with few accidents, as Round 3 says they should. A constraint that fades lets most
-# agents earn more than twice as much, at a risk: accidents are four times as frequent, because one
-# agent crashes in nearly all of its drives, and two of ten get out on hardly any road, although one
-# of these still did in most of its last training episodes. (In training agents draw their
-# actions from π; in the test they take the likeliest, and those with a fixed ξ earn more.)
-# <!-- claim: ((of('soft').scores('success') < 0.01) & (in_training('soft', -50, None) >
-#   0.5)).sum() == 1 -->
-# <!-- claim: accidents('soft') > 4 * stays().episodes('accident').mean() -->
-# <!-- claim: beyond_the_rule() > 5 -->
-# <!-- claim: stays().escapers('soft') == escaped('soft') == 8 and
+# **Explain.** A constraint that stays makes a second rule: each of the ten agents earns a little
+# less than the rule, as Round 3 says it should, and gets out on most roads. A constraint that fades
+# makes two groups. {{ escaped('soft') }} of ten escape and earn more than twice as much as the
+# rule. (With a sight of 30 m instead of our 200 m the rule would earn {{
+# rule_seeing(30.0).returns.mean() | .0f }}: lesson [[the_rule]].) The other two get out on hardly
+# any road: one crashes in nearly all of its drives, one in none. (In training agents draw their
+# actions from π, in the test they take the likeliest: those with a fixed ξ earn {{
+# np.median(stays().scores('returns')) | .0f }} in the table and about 30 in the figure.)
+# <!-- claim: beyond_the_rule() == escaped('soft') == 8 and
 #   sorted(of('soft').scores('success'))[1] < 0.01 < 0.85 < stays().scores('success').min() -->
+# <!-- claim: sorted(of('soft').scores('accident')[of('soft').scores('success') < 0.01])[0] == 0 and
+#   of('soft').scores('accident').max() > 0.99 -->
 # <!-- claim: len(stays()) == len(of('soft')) == 10 and stays().sizes == of('soft').sizes -->
 # <!-- claim: stays().scores('returns').max() < of('rule').scores('returns').mean() -->
-# <!-- claim: stays().episodes('accident').mean() < 0.05 < accidents('soft') -->
+# <!-- claim: 110 < of('soft').scores('returns')[of('soft').scores('success') > 0.9].min() -->
 #
 # Must ξ fade to 0, or would a small ξ do that stays? α falls until the policy's entropy has come
 # down to the target η. With η = 1 that is early: three such agents of the study earn {{
@@ -564,9 +568,9 @@ table([*headings, "accidents, %"], rows, below="1,000 held-out roads each.")
 # 4. The KL belongs in the actor's loss and in the critics' target. In the target it lowers the
 #    value of staying in the trap.
 # 5. With ξ fixed at 2 the study's agents end near the rule's return. With ξ = {{
-#    SETTINGS.xi_multiplier }} α, which fades, most earn more than twice as much, some lose the way
-#    out, and accidents are more frequent.
-# <!-- claim: 5 < beyond_the_rule() < 10 and of('soft').scores('success').min() < 0.01 -->
+#    SETTINGS.xi_multiplier }} α, which fades, {{ beyond_the_rule() }} of ten earn more than twice
+#    as much, and the others do not get out.
+# <!-- claim: beyond_the_rule() == escaped('soft') -->
 #
 # %%
 kl_alone = "less than a crash, but only with the KL"

@@ -18,8 +18,8 @@
 # - start a traffic jam with one slow driver, and say why it travels backwards;
 # - find out when a simulated car swings off the road.
 #
-# **Time** 35 minutes; running it takes under one minute. An appendix: no other lesson needs it.
-# **It builds on** [lesson [[the_trap]]](the_trap.ipynb).
+# **Time** 35 minutes; running it takes under one minute. An appendix for those who write or choose
+# a simulator: no other lesson needs it. **It builds on** [lesson [[the_trap]]](the_trap.ipynb).
 
 # %%
 import dataclasses
@@ -40,12 +40,13 @@ from bootcourse.course.lessons.traffic import simulation as traffic
 
 # %% tags=["hide-input"]
 rings = {f"{spacing} m apart": traffic.ring(spacing) for spacing in (20, 30)}
-title = "One slow driver starts a jam at 20 m; at 30 m the disturbance dies out"
+title = "One slow driver starts a jam at 20\u00a0m; at 30\u00a0m the disturbance dies out"
 bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 
 # %% [markdown]
 # > **Predict.** At 20 m each car has four car lengths of road, its own included, and yet cars stop.
-# > The band of standing cars moves *backwards*, while the cars drive forwards. Why?
+# > The band of standing cars moves *backwards*, while the cars drive forwards. Why? (Round 2 comes
+# > back to it.)
 
 # %%
 choices = [
@@ -54,9 +55,6 @@ choices = [
     "cars leave it at its front and join it at its back",
 ]
 predict("traffic.1", "Why does the jam move backwards?", choices)
-
-# %% [markdown]
-# Round 2 comes back to it.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let them find the band's speed: in the 400 s of the picture it goes back by a little more than
@@ -68,7 +66,7 @@ predict("traffic.1", "Why does the jam move backwards?", choices)
 # ## Round 1: the gap that a driver wants
 #
 # The other cars follow the **Intelligent Driver Model** (IDM). It begins with the gap that a driver
-# wants. The driver's speed is $v$, and $\Delta v$ is how much faster it is than the car ahead:
+# wants. The driver's speed is $v$, and $\Delta v$ is $v$ minus the speed of the car ahead:
 #
 # $$ s^*(v, \Delta v) = s_0 + T v + \frac{v\, \Delta v}{2 \sqrt{a_{\max} b}} $$
 #
@@ -77,8 +75,7 @@ predict("traffic.1", "Why does the jam move backwards?", choices)
 # driver closes in; $a_{\max}$ is the strongest acceleration, and $b$ a comfortable braking.
 #
 # > **Predict.** $s_0$ = 10 m, $T$ = 1.5 s, $a_{\max} = b$ = 0.5 m/s². At 10 m/s you want 25 m
-# > behind
-# > a car that drives 10 m/s, too. What gap do you want behind one at 8 m/s?
+# > behind a car that drives 10 m/s, too. What gap do you want behind one at 8 m/s?
 
 # %%
 predict("traffic.2", "The gap that you want behind the car at 8 m/s?", unit="m")
@@ -98,15 +95,11 @@ def desired_gap(v, dv, s0, time_gap, a_max, b):
 check.desired_gap(desired_gap)
 
 # %% [markdown]
-# <details><summary>Answer</summary>
-#
-# {{ formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) | g }} m: a difference of two metres per second
-# nearly doubles the gap that the driver wants.
+# **Answer.** {{ formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) | g }} m: a difference of two metres
+# per second nearly doubles the gap that the driver wants.
 # <!-- claim: formulas.desired_gap(10, 0, 10, 1.5, 0.5, 0.5) == 25 -->
 # <!-- claim: 1.7 < formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) / formulas.desired_gap(10, 0, 10,
 #   1.5, 0.5, 0.5) < 2 -->
-#
-# </details>
 #
 # Distances here go from centre to centre, as highway-env measures them: subtract one car's length
 # to get the free space.
@@ -121,29 +114,25 @@ check.desired_gap(desired_gap)
 # $$ a = a_{\max} \left[ 1 - \left( \frac{v}{v_\text{desired}} \right)^{\delta} - \left(
 # \frac{s^*}{s} \right)^2 \right] $$
 #
-# > **Predict.** A driver is at exactly its desired speed, and its gap is exactly the $s^*$ that it
-# > wants. Does it accelerate, hold its speed, or brake?
+# > **Predict.** A driver is at exactly the desired speed, and the gap is exactly the desired $s^*$.
+# > Does the driver accelerate, hold the speed, or brake?
 
 # %%
 predict(
     "traffic.3",
-    "At its desired speed and its desired gap, what does it do?",
+    "At the desired speed and the desired gap, what does the driver do?",
     ["accelerate", "hold", "brake"],
 )
 
 # %%
 t = bc.DEFAULT.traffic
-title = "A driver at 10 m/s brakes much earlier when it closes in"
+title = "At 10\u00a0m/s a driver who closes in brakes much earlier"
 bc.show(figures_traffic.following(10.0, closing=(-2, 0, 2), title=title))
 
 # %% [markdown]
-# <details><summary>Answer</summary>
-#
-# It brakes at $a_{\max}$: the bracket is 1 − 1 − 1. So the gap at which a driver holds its speed is
-# longer than $s^*$. In the picture it is where a line crosses zero.
+# **Answer.** The driver brakes at $a_{\max}$: the bracket is 1 − 1 − 1. So the gap at which a
+# driver holds the speed is longer than $s^*$. In the picture it is where a line crosses zero.
 # <!-- claim: formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, 0.5, 4.0) == -0.5 -->
-#
-# </details>
 #
 # A simulation repeats one step. It computes the acceleration a from the present speeds and the
 # present gap. Here a is at least −{{ DEFAULT.traffic.braking_limit | g }} m/s²: no car brakes
@@ -194,10 +183,10 @@ for slowest in (4.0, 8.0):
     print(f"leader down to {slowest:g} m/s, drivers 1 to 8 down to", ", ".join(lowest))
 
 # %% [markdown]
-# **See.** The first driver comes too close and has to open the gap again, so for a moment it is
-# slower than its leader. From driver to driver the lowest speed falls. A gentler disturbance dies
-# out: where the leader slows down to 8 m/s instead of 4, each driver slows down less than the one
-# ahead.
+# **See.** The first driver comes too close and has to open the gap again, so for a moment the first
+# car is slower than the leader. From driver to driver the lowest speed falls. A gentler disturbance
+# dies out: where the leader slows down to 8 m/s instead of 4, each driver slows down less than the
+# one ahead.
 # <!-- claim: (np.diff([8.0, *lowest_speeds(8.0)]) > 0).all() -->
 # <!-- claim: (np.diff([4.0, *lowest_speeds()]) < 0).all() -->
 #
@@ -214,7 +203,9 @@ table(["speed", "wants s*", "settles at"], rows)
 
 # %% [markdown]
 # **See.** Cars that settle about 20 m apart drive 6 m/s, about 30 m apart 9.5 m/s. That is how fast
-# the two rings are without a disturbance.
+# the two rings are without a disturbance. (Set $a = 0$: the gap is $s^* / \sqrt{1 - (v /
+# v_\text{desired})^\delta}$, which has no limit as $v$ nears the desired speed.)
+# <!-- claim: abs(28.0 / math.sqrt(1 - (12 / 12.5) ** DEFAULT.traffic.delta) - 72.1) < 0.1 -->
 #
 # Where does the jam come from? After it has braked, a driver accelerates by at most $a_{\max}$ =
 # {{ DEFAULT.traffic.a_max }} m/s², so the driver behind has to brake a little harder. In the ring

@@ -4,6 +4,7 @@ What takes long to load or to drive is kept for the next expression.
 """
 # ruff: noqa: F401 (what is imported here is for the expressions)
 
+import dataclasses
 import math
 import re
 from functools import cache
@@ -21,7 +22,7 @@ from bootcourse.course.lessons.the_barrier.chain import leaving
 from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.course.lessons.traffic import simulation as traffic
 from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.files import read_arrays
 from bootcourse.learn import bootstrap, sac
@@ -89,6 +90,13 @@ def by_rule(road: int = ROAD):
 def idle(road: int = ROAD):
     """Nobody's drive on one road: 4, "keep straight", for ever."""
     return record(idle_policy, [road])[0]
+
+
+@cache
+def rule_seeing(sight: float) -> Episodes:
+    """The rule with another sight (m), on the held-out roads of the study."""
+    seen = dataclasses.replace(DEFAULT.sight, distance=sight)
+    return drive_episodes(rule_policy(dataclasses.replace(DEFAULT, sight=seen)), held_out_seeds(1, roads()))
 
 
 @cache

@@ -3,12 +3,9 @@
 from functools import cache
 
 import numpy as np
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
-from bootcourse.policies import stochastic_rule_policy
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, LANE, TRAP_1, X
-from bootcourse.scenario import DEFAULT
 from tools.course.known import rule_drives, shipped_runs, shipped_teachers
 
 
@@ -46,15 +43,3 @@ def study_agreement() -> np.ndarray:
 def taught_by_dagger() -> Results:
     """The ten DAgger agents that the rule taught, of the experiment on teachers."""
     return shipped_teachers()["rule", "dagger"]
-
-
-ERRORS = (0.003, 0.01, 0.03)
-
-
-@cache
-def erring(error: float, seconds: float) -> float:
-    """The share of the lesson's 1,000 drives in which a rule that errs has had an accident by then."""
-    rng = np.random.default_rng(0)
-    drives = drive_episodes(stochastic_rule_policy(DEFAULT, rng, 1 - error), held_out_seeds(2, 1000))
-    ended = np.where(drives.accident > 0, drives.distance / drives.speed, np.inf)
-    return float(np.mean(ended <= seconds))

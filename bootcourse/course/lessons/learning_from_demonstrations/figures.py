@@ -15,16 +15,17 @@ def margin_bars(q: Sequence[float], expert: int, margin: float = 1.0) -> Figure:
     q, others = np.asarray(q), np.arange(len(ACTION_NAMES)) != expert
     short = q.max() - q[expert]
     title = f"The expert's action is {short:.1f} short of the largest Q: the printed filter is off"
-    figure, ax = one_axes(3.5, title, "", "value")
+    figure, ax = one_axes(3.5, title, "", "Q", width=0.78)
     at, colour = np.arange(len(q)), style("demos").colour
     ax.bar(at, q, width=0.7, color=np.where(others, "#B8BEC6", colour))
     ax.bar(at[others], margin, width=0.7, bottom=q[others], color="none", edgecolor=QUIET, linestyle=(0, (2, 2)))
     for x, value in zip(at, q, strict=True):
-        ax.annotate(f"{value:.1f}", (x, 0.04), ha="center", va="bottom", fontsize=SMALL, color=INK)
-    for height, words in ((q.max(), "the largest Q"), ((q + margin * others).max(), "the largest Q + l")):
+        ax.annotate(f"{value:.1f}", (x, value + 0.03), ha="center", va="bottom", fontsize=SMALL, color=INK)
+    for height, words in ((q.max(), "largest Q"), ((q + margin * others).max(), "largest Q + l")):
         ax.axhline(height, color=QUIET, linewidth=1, linestyle=(0, (1, 2)), zorder=0)
-        ax.annotate(words, (-0.45, height), (0, 2), textcoords="offset points", fontsize=TEXT, color=INK)
-    ax.annotate("the expert's", (expert, q[expert] + 0.03), ha="center", va="bottom", fontsize=TEXT, color=INK)
+        end = (len(q) - 0.5, height)
+        ax.annotate(words, end, (6, 0), textcoords="offset points", va="center", fontsize=TEXT, color=INK)
+    ax.annotate("expert", (expert, q[expert] / 2), ha="center", va="center", fontsize=SMALL, color=INK)
     ax.set_xticks(at, [action.replace(" ", "\n") for action in ACTION_NAMES], fontsize=SMALL)
     ax.set(xlim=(-0.5, len(q) - 0.5), ylim=(0, 1.12 * (q + margin * others).max()))
     named = ", ".join(f"{action} {value:.1f}" for action, value in zip(ACTION_NAMES, q, strict=True))
