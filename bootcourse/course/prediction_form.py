@@ -17,13 +17,16 @@ STYLE = """<style>
 .bc-panel .widget-radio-box input {flex: none; margin: 2px 0 0}
 </style>"""
 # JupyterLab would use the arrows, which choose among radio buttons, to go from cell to cell, and Enter to edit a cell.
-# Text that is put into a page runs no <script>: this is what an empty image does when it cannot be loaded.
+# Enter in a field commits, once the kernel has what was typed. (How this comes to run: see panels/page_script.py.)
 KEYS = """const image = this; let tries = 0; const waiting = setInterval(() => {
   const form = image.closest('.bc-panel');
   if (form) {
     image.remove();
     form.addEventListener('keydown', event => {
       if (!event.ctrlKey && !event.metaKey && !event.shiftKey) event.stopPropagation();
+      if (event.key === 'Enter' && event.target.type === 'text') {
+        setTimeout(() => form.querySelector('button').click(), 300);
+      }
     });
   }
   if (form || ++tries > 200) clearInterval(waiting);

@@ -14,6 +14,7 @@ from bootcourse import one_per_cell
 from bootcourse.colours import ALARM
 from bootcourse.errors import BootcourseError
 from bootcourse.markup import Markup, html
+from bootcourse.panels.page_script import for_everybody
 from bootcourse.plots.svg import Drawing, printed
 
 STYLE = """<style>
@@ -45,7 +46,8 @@ class Panel(widgets.VBox):
 
     def __init__(self, title: str, *parts: widgets.Widget):
         self.says = widgets.HTML()
-        super().__init__([widgets.HTML(Markup(STYLE) + html("<h3>{}</h3>", title)), *parts, self.says])
+        head = widgets.HTML(Markup(STYLE) + html("<h3>{}</h3>", title) + for_everybody())
+        super().__init__([head, *parts, self.says])
         self.add_class("bc-panel")
         cell = one_per_cell.this_cell()
         place = None if cell is None else (cell, type(self).__name__)
