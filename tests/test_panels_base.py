@@ -104,19 +104,13 @@ def test_the_road_shows_every_car_near_the_ego_to_scale_and_names_the_traps_that
     assert "trap 1, 500 m ahead ▸" in drawn and "◂ trap 2, 400 m behind" in drawn
 
 
-def test_an_axis_has_a_few_round_numbers():
-    assert svg.ticks(0, 100) == [0, 50, 100] and svg.ticks(-10.4, 1.2) == [-10, -5, 0]
-    assert all(2 <= len(svg.ticks(*ends)) <= 5 for ends in ((0, 1e-6), (-3, 1e7), (9.1, 9.3)))
-
-
 A_WEIGHT = "give a finite number|is outside"
 REFUSED = [
     *[(lambda _, wrong=wrong: policy_panel(wrong), "rollout is .*: give one recorded drive") for wrong in ("rule", [])],
     *[(lambda _, wrong=wrong: targets(np.ones(3), wrong), "give a discount") for wrong in (1.0, -0.1, NAN)],
     *[(lambda _, wrong=wrong: policy_numbers(None, None, 0, *wrong), A_WEIGHT)
-      for wrong in ((1.0, 2, 0.1), (0.05, 2, 0.1), (0.9, -1, 0.1), (0.9, 2, 0), (0.9, NAN, 1), (0.9, 1, INF))],
-    *[(lambda drive, wrong=wrong: policy_panel(drive, **wrong), A_WEIGHT)
-      for wrong in ({"p": 1.0}, {"p": "0.9"}, {"xi": -1}, {"xi": None}, {"alpha": 0.0}, {"alpha": NAN})],
+      for wrong in ((1.0, 2, 0.1), (0.9, -1, 0.1), (0.9, 2, 0), (0.9, 1, INF))],
+    (lambda drive: policy_panel(drive, xi=None), A_WEIGHT),
     (lambda _: train_panel(method="magic"), "'magic' is unknown"),
     (lambda _: train_panel(rule_p=1.0), "p = 1.0 is outside"),
     (lambda _: train_panel(gama=0.5), "'gama' is unknown"),
