@@ -31,15 +31,6 @@ def run(result, tmp_path):
     return save_runs(result, tmp_path / "runs")[0]
 
 
-def test_a_run_reads_back_as_it_was_written(result, run):
-    back = load_run(run)
-    observations = np.random.default_rng(0).normal(size=(5, 26))
-    np.testing.assert_array_equal(back.agent.probabilities(observations), result.agents[0].probabilities(observations))
-    np.testing.assert_array_equal(back.curves["return"], result.curves["return"][0])
-    assert back.agent.settings == result.agents[0].settings and back.scenario == result.scenario
-    assert back.provenance["seed"] == 0 and "torch" in back.provenance
-
-
 def test_what_cannot_be_saved_or_asked_is_refused_with_a_sentence(result, run, tmp_path):
     twice = replace(result, agents=result.agents[:1] * 2)
     refused = [
@@ -96,11 +87,6 @@ def test_a_wrong_entry_of_a_run_is_named_even_with_the_right_hash(run, name, ent
     with pytest.raises(BootcourseError) as error:
         load_run(run)
     assert words in str(error.value) and str(run) in str(error.value) and "\n" not in str(error.value)
-
-
-def test_a_folder_without_a_run_says_how_to_train_one(tmp_path):
-    with pytest.raises(BootcourseError, match="bootcourse train"):
-        find_runs(tmp_path)
 
 
 def test_a_run_that_cannot_be_written_leaves_nothing_behind(result, tmp_path, monkeypatch):
