@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from bootcourse.course.lessons.your_teacher.figures import learners
 from bootcourse.course.shipped import shipped_teachers
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_json
@@ -57,12 +56,6 @@ def test_the_table_has_a_row_for_each_cell_with_teachers_from_bad_to_perfect(wor
     headings, rows = worth_rows(worth)
     assert [row[0] for row in rows] == ["rule, half at random", "rule, half at random", "rule", "planner"]
     assert len(rows[2]) == len(headings) and rows[2][2] == "7 of 10 (35 to 93\u00a0%)" and "(7 of 10)" in rows[2][-1]
-
-
-def test_the_figure_has_a_dot_for_each_agent_and_says_what_it_shows(worth):
-    figure = learners(worth, "Learners of three teachers")
-    dots = [len(each.get_offsets()) for ax in figure.axes for each in ax.collections]
-    assert sum(dots) == 40 and "planner, RLPD" in figure.alt and "nan" not in figure.alt
 
 
 def test_a_study_s_folder_is_read_and_one_without_such_jobs_says_what_to_run(tmp_path):
