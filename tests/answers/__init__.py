@@ -1,4 +1,4 @@
-"""What students might write: for each exercise at least two right answers, and wrong ones beside its known mistakes.
+"""What students might write: for each exercise right answers in other styles, and wrong ones beside its mistakes.
 
 One file a lesson, named like its exercises' file. `@right("name")` marks an answer that must pass,
 `@wrong("name", "words")` one that must not; the words must then stand in the check's sentence. Without

@@ -10,11 +10,6 @@ right_lines("""forgetting
     by sliding windows: means = np.lib.stride_tricks.sliding_window_view(np.asarray(success), window, axis=1).mean(-1)
         ends = np.where(means > 0.5, window + np.arange(means.shape[1]), 0)
         np.stack([np.where(ends > 0, ends, 10**9).min(1) * (ends.max(1) > 0), ends.max(1)], 1)
-    agent by agent: rows = []
-        for agent in success:
-            ends = [i for i in range(window, len(agent) + 1) if sum(agent[i - window : i]) > window / 2]
-            rows.append([ends[0], ends[-1]] if ends else [0, 0])
-        rows
 """)
 
 wrong_lines("""forgetting

@@ -70,9 +70,6 @@ def middle_mean(scores):
 right_lines("""difference_interval
     in a loop: each = [middle_mean(x[a]) - middle_mean(y[b]) for a, b in zip(draws_x, draws_y, strict=True)]
         np.array([middle_mean(x) - middle_mean(y), np.percentile(each, 2.5), np.percentile(each, 97.5)])
-    with scipy: each = stats.trim_mean(x[draws_x], 0.25, axis=1) - stats.trim_mean(y[draws_y], 0.25, axis=1)
-        whole = stats.trim_mean(x, 0.25) - stats.trim_mean(y, 0.25)
-        np.concatenate([[whole], np.quantile(each, [0.025, 0.975])])
 """)
 
 

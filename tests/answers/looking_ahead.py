@@ -7,25 +7,6 @@ from tests.answers import right, right_lines, wrong, wrong_lines
 
 
 @right("rollout_values")
-def all_branches_in_one_array(cars, policy, horizon):
-    """Nine copies of each road side by side; the accidents are left out of the array from then on."""
-    roads = len(cars)
-    copies = np.repeat(cars, 9, axis=0)
-    actions = np.tile(np.arange(9), roads)
-    values, going = np.zeros(9 * roads), np.arange(9 * roads)
-    for decision in range(horizon):
-        if decision:
-            actions = policy(copies)
-        copies, rewards, crashed = imagined_road.step(copies, actions)
-        values[going] += rewards
-        going, copies = going[~crashed], copies[~crashed]
-        if not len(going):
-            break
-    values[going] += imagined_road.worth(copies[:, 0, 3])
-    return values.reshape(roads, 9)
-
-
-@right("rollout_values")
 def by_recursion(cars, policy, horizon):
     def earned(cars, actions, left):
         following, rewards, crashed = imagined_road.step(cars, actions)

@@ -41,10 +41,3 @@ def action_by_action(pi, q, rule_actions):
         for a in range(pi.shape[1]):
             found[i, a if q[i, a] > q[i, rule] else rule] += pi[i, a]
     return found
-
-
-@right("better_of_two")
-def with_where(pi, q, rule_actions):
-    at_rule = torch.nn.functional.one_hot(rule_actions, pi.shape[1])
-    kept = torch.where(q > (at_rule * q).sum(-1, keepdim=True), pi, torch.zeros_like(pi))
-    return kept + at_rule * (1 - kept.sum(-1, keepdim=True))

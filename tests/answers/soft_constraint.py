@@ -80,10 +80,6 @@ wrong_lines("""constrained_loss
 """)
 
 right_lines("""constrained_target
-    with the smaller of two: pi, q = next_log_pi.exp(), torch.minimum(next_q_pair[0], next_q_pair[1])
-        entropy = torch.special.entr(pi).sum(-1)
-        value = (pi * q).sum(-1) + alpha * entropy - xi * next_kl
-        torch.where(terminated > 0, reward, reward + gamma * value)
     one row after the other: rows = []
         for i in range(len(reward)):
             q, log_pi = next_q_pair[:, i].min(dim=0).values, next_log_pi[i]

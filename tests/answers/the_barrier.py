@@ -3,7 +3,7 @@
 import numpy as np
 
 from bootcourse.course.lessons.the_barrier import chain
-from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
+from tests.answers import equivalent, right_lines, wrong, wrong_lines
 
 right_lines("""luck
     binomial: 1 - stats.binom.pmf(0, tries, (good / 9) ** decisions)
@@ -38,24 +38,6 @@ right_lines("""learn_chain
             s = chain.NEXT[s, a]
         np.array(q)
 """)
-
-
-@right("learn_chain")
-def episode_by_episode(chances, gamma, step, taught):
-    q = np.zeros((5, 2))
-
-    def update(s, a):
-        after = chain.NEXT[s][a]
-        q[s][a] += step * (chain.REWARD[s][a] + gamma * np.max(q[after]) - q[s][a])
-        return after
-
-    for begin in range(0, len(chances), chain.EPISODE):
-        s = 0
-        for chance in chances[begin : begin + chain.EPISODE]:
-            s = update(s, np.argmax(q[s]) if chance == -1 else chance)
-            for each in taught:
-                update(*each)
-    return q
 
 
 @wrong("learn_chain", "last decision of an episode as an end")

@@ -26,20 +26,6 @@ def as_sums(rewards, values, next_values, terminated, ended, gamma, lam):
     return found
 
 
-@right("advantages")
-def road_by_road(rewards, values, next_values, terminated, ended, gamma, lam):
-    horizon, roads = rewards.shape
-    found = torch.zeros_like(rewards)
-    for road in range(roads):
-        following = 0.0
-        for t in range(horizon - 1, -1, -1):
-            after = 0.0 if terminated[t, road] else next_values[t, road]
-            following = 0.0 if ended[t, road] else following
-            following = rewards[t, road] + gamma * after - values[t, road] + gamma * lam * following
-            found[t, road] = following
-    return found
-
-
 wrong_lines("""advantages
     with the next row's value: shifted = torch.cat([values[1:], next_values[-1:]])
         as_sums(rewards, values, shifted, terminated, ended, gamma, lam)

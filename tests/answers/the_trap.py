@@ -65,14 +65,6 @@ right_lines("""bearable_risk
         if escape <= stay:
             return 0
         1 - max(0.0, (stay - crash) / (escape - crash))
-    by bisection:
-        if escape <= stay:
-            return 0.0
-        low, high = 0.0, 1.0
-        for _ in range(60):
-            middle = (low + high) / 2
-            low, high = (middle, high) if (1 - middle) * escape + middle * crash > stay else (low, middle)
-        low
 """)
 
 wrong_lines("""bearable_risk

@@ -38,16 +38,6 @@ def with_places(leader, v, gap, dt, *driver):
     return np.asarray(states)
 
 
-@right("drive_behind")
-def as_lists(leader, v, gap, dt, *driver):
-    gaps, speeds = [gap], [v]
-    for u in leader.tolist():
-        a = max(-driver[-1], acceleration(speeds[-1], speeds[-1] - u, gaps[-1], *driver[:-1]))
-        gaps.append(gaps[-1] + dt * (u - speeds[-1]))
-        speeds.append(max(0.0, speeds[-1] + dt * a))
-    return [list(state) for state in zip(gaps, speeds, strict=True)]
-
-
 @wrong("drive_behind", "*new* gap")
 def moves_first(leader, v, gap, dt, *driver):
     states = [(gap, v)]

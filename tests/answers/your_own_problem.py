@@ -1,6 +1,5 @@
 """Answers to the exercises of the lesson on a problem of one's own."""
 
-import numpy as np
 from scipy import stats
 
 from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
@@ -29,16 +28,6 @@ wrong_lines("""climb_rule
 def by_scipy(right, votes):
     tie = stats.binom.pmf(votes / 2, votes, right) if votes % 2 == 0 else 0.0
     return stats.binom.sf(votes // 2, votes, right) + 0.5 * tie
-
-
-@right("majority_right")
-def one_label_at_a_time(right, votes):
-    """The distribution of the number of right labels, label after label."""
-    distribution = np.array([1.0])
-    for _ in range(votes):
-        distribution = np.append(distribution, 0) * (1 - right) + np.append(0, distribution) * right
-    counts = 2 * np.arange(votes + 1)
-    return float(distribution @ ((counts > votes) + 0.5 * (counts == votes)))
 
 
 wrong_lines("""majority_right
