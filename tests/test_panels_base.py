@@ -91,19 +91,6 @@ def test_a_panel_escapes_the_librarys_sentence_and_lets_a_bug_through():
     assert 'alt="a &lt; b"' in panel._repr_mimebundle_()["text/html"]
 
 
-def test_the_road_shows_every_car_near_the_ego_to_scale_and_names_the_traps_that_are_out_of_sight(idle):
-    parts, height = road_svg(idle.states[0], DEFAULT, "#123456", width=1000, scale=5.0)
-    drawn = "".join(parts)
-    assert height == 3 * 4.0 * 5.0 and drawn.count('fill="#7A1F1F" stroke="white"') == 2
-    [outline] = re.findall(r'd="M([^"]+)Z" fill="#123456"', drawn)
-    places = np.array([point.split() for point in outline.split("L")], dtype=float)
-    assert np.ptp(places, axis=0) == pytest.approx([25, 10], abs=0.2)
-    cars = idle.states[0].copy()
-    cars[1, 0], cars[2, 0] = cars[0, 0] + 500, cars[0, 0] - 400
-    drawn = "".join(road_svg(cars, DEFAULT, "#123456", 1000, 7.0)[0])
-    assert "trap 1, 500 m ahead ▸" in drawn and "◂ trap 2, 400 m behind" in drawn
-
-
 A_WEIGHT = "give a finite number|is outside"
 REFUSED = [
     *[(lambda _, wrong=wrong: policy_panel(wrong), "rollout is .*: give one recorded drive") for wrong in ("rule", [])],
