@@ -17,8 +17,7 @@ from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel
 from bootcourse.panels.policy_numbers import policy_numbers
 from bootcourse.plots import svg
-from bootcourse.plots.road import road_svg
-from bootcourse.scenario import DEFAULT, check_p
+from bootcourse.scenario import check_p
 from tests.panels import from_page, inside, raise_in_callbacks, words  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
