@@ -122,13 +122,10 @@ def test_the_arrow_keys_drive_and_two_at_once_are_one_action(notebook):
     waits_for(notebook, 0, "[7, 1, 0, 4]")
 
 
-def test_a_press_is_on_the_page_within_a_tenth_of_a_second(notebook):
+def test_a_press_and_a_slider_show_their_effect_within_a_tenth_of_a_second(notebook):
     button(notebook, 0, "Drive again").click()
     took = [changed(notebook, 0, "panel.querySelector('.bc-pad-4').click()") for _ in range(8)]
     assert statistics.median(took) < 100, took
-
-
-def test_a_slider_shows_its_effect_within_a_tenth_of_a_second(notebook):
     took = []
     for key in ("ArrowLeft", "ArrowRight") * 4:
         panel(notebook, 2).locator(".noUi-handle").nth(1).focus()

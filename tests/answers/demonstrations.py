@@ -52,16 +52,6 @@ def with_a_list_of_rows(rows, train, drive, rounds):
     return drivers
 
 
-@right("dagger")
-def by_recursion(rows, train, drive, rounds):
-    driver = train(rows)
-    if rounds == 0:
-        return [driver]
-    own = drive(driver)
-    own[:, ACTION] = own[:, RULE_ACTION]
-    return [driver, *by_recursion(torch.vstack((rows, own)), train, drive, rounds - 1)]
-
-
 wrong_lines("""dagger
     a number of drivers: len(cloning.dagger(rows, train, drive, rounds))
     all columns from the action on: drivers = [train(rows)]

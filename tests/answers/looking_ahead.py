@@ -3,7 +3,7 @@
 import numpy as np
 
 from bootcourse.course.lessons.looking_ahead import imagined_road
-from tests.answers import right, right_lines, wrong, wrong_lines
+from tests.answers import right, right_lines, wrong_lines
 
 
 @right("rollout_values")
@@ -14,22 +14,6 @@ def by_recursion(cars, policy, horizon):
         return rewards + np.where(crashed, 0.0, later)
 
     return np.stack([earned(cars, np.full(len(cars), action), horizon) for action in range(9)], axis=1)
-
-
-@wrong("rollout_values")
-def the_agent_asked_once(cars, policy, horizon):
-    """The policy decides after the first step, and its action is held from then on."""
-    values = np.zeros((len(cars), 9))
-    for action in range(9):
-        here, rewards, crashed = imagined_road.step(cars, np.full(len(cars), action))
-        alive, held = ~crashed, policy(here)
-        values[:, action] = rewards
-        for _ in range(horizon - 1):
-            here, rewards, crashed = imagined_road.step(here, held)
-            values[:, action] += alive * rewards
-            alive &= ~crashed
-        values[:, action] += alive * imagined_road.worth(here[:, 0, 3])
-    return values
 
 
 wrong_lines("""rollout_values

@@ -42,15 +42,6 @@ def with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, we
     return functional.mse_loss(taken, y) + weight * functional.cross_entropy(q, actions)
 
 
-@right("offline_loss")
-def row_by_row(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    total = 0.0
-    for i, action in enumerate(actions):
-        after = next_target[i, next_q[i].argmax()].detach() if terminated[i] == 0 else 0.0
-        total = total + (q[i, action] - rewards[i] - gamma * after) ** 2 + weight * (q[i].logsumexp(0) - q[i, action])
-    return total / len(actions)
-
-
 wrong_lines("""offline_loss
     with the data's next action:
         y = rewards + gamma * (1 - terminated) * next_target.gather(1, actions[:, None])[:, 0].detach()

@@ -1,9 +1,6 @@
 """Answers to the exercises of the lesson on the barrier."""
 
-import numpy as np
-
-from bootcourse.course.lessons.the_barrier import chain
-from tests.answers import equivalent, right_lines, wrong, wrong_lines
+from tests.answers import equivalent, right_lines, wrong_lines
 
 right_lines("""luck
     binomial: 1 - stats.binom.pmf(0, tries, (good / 9) ** decisions)
@@ -38,19 +35,6 @@ right_lines("""learn_chain
             s = chain.NEXT[s, a]
         np.array(q)
 """)
-
-
-@wrong("learn_chain", "last decision of an episode as an end")
-def with_an_end_after_20(chances, gamma, step, taught):
-    q, s, n = np.zeros((5, 2)), 0, 0
-    for chance in chances:
-        a, n = int(np.argmax(q[s])) if chance == -1 else chance, n + 1
-        after = 0 if n == 20 else gamma * max(q[chain.NEXT[s, a]])
-        q[s, a] += step * (chain.REWARD[s, a] + after - q[s, a])
-        for x, u in taught:
-            q[x, u] += step * (chain.REWARD[x, u] + gamma * max(q[chain.NEXT[x, u]]) - q[x, u])
-        s, n = (0, 0) if n == 20 else (chain.NEXT[s, a], n)
-    return q
 
 
 wrong_lines("""learn_chain

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from tests.answers import right, right_lines, wrong, wrong_lines
+from tests.answers import right, right_lines, wrong_lines
 
 
 @right("desired_gap")
@@ -36,16 +36,6 @@ def with_places(leader, v, gap, dt, *driver):
         v = v + a * dt if v + a * dt > 0 else 0.0
         states.append([theirs - mine, v])
     return np.asarray(states)
-
-
-@wrong("drive_behind", "*new* gap")
-def moves_first(leader, v, gap, dt, *driver):
-    states = [(gap, v)]
-    for u in leader:
-        gap += (u - v) * dt
-        v = max(v + max(acceleration(v, v - u, gap, *driver[:-1]), -driver[-1]) * dt, 0.0)
-        states.append((gap, v))
-    return np.array(states)
 
 
 DRIVER = "v_desired, s0, time_gap, a_max, b, delta"
