@@ -84,7 +84,7 @@ def test_a_drive_has_overtaken_when_it_stays_ahead_and_a_moment_after_its_end_is
     assert ahead[escape.times >= passed].all() and not ahead[escape.times == passed - DEFAULT.clock.dt].any()
     assert overtaken(idle) is None and overtaken(crash) is None
     figure = top_view_over_time(crash, times=[0, 2, 500, 600])  # a moment after the end becomes the end
-    assert len(figure.axes) == 3 and "collision" in [text.get_text() for ax in figure.axes for text in ax.texts]
+    assert len(figure.axes) == 3 and "collision" in [text.get_text() for text in figure.texts]
 
 
 def test_training_curves_show_the_paper_s_value_and_agents_that_ended_early():
