@@ -1,4 +1,4 @@
-"""How fast the learner is: `python -m tests.bench_learn`, or `make bench` for the road too.
+"""How fast the learner is: `python -m tests.bench learn`, or `make bench` for the road too.
 
 Milliseconds per update of one agent, two hidden layers of 64 and batches of 64, on one thread: ours with 16 agents
 side by side, the part of it that no implementation can leave out, and a plain loop of one agent. All take turns in one
@@ -124,13 +124,3 @@ def table(turns: int = 25) -> list[Row]:
         Row(f"batched learner, {AGENTS} agents", mine, unit, mine / least, most=MOST),
         Row("plain eager loop, 1 agent, beside ours", best["plain"], unit, best["plain"] / mine),
     ]
-
-
-def main() -> None:
-    torch.set_num_threads(1)
-    for row in table():
-        print(row)
-
-
-if __name__ == "__main__":
-    main()

@@ -93,12 +93,3 @@ def table() -> list[Row]:
             Row(f"compiled road, {ROADS} roads, {name}", ours, "decisions/s", ours / theirs, least=least),
         ]
     return rows
-
-
-def main() -> None:
-    for row in table():
-        print(row)
-
-
-if __name__ == "__main__":
-    main()

@@ -73,17 +73,14 @@ class Notebook:
     def run_all(self, timeout: float = 120.0) -> None:
         """Run every cell and wait until the kernel is idle. Fails if a cell raised."""
         self.page.evaluate("jupyterapp.commands.execute('notebook:run-all-cells')")
-        self.wait_idle(timeout)
-        errors = self.page.locator('.jp-OutputArea-output[data-mime-type="application/vnd.jupyter.error"]')
-        assert errors.count() == 0, errors.first.inner_text()
-
-    def wait_idle(self, timeout: float = 120.0) -> None:
         self.page.wait_for_timeout(300)
         self.page.wait_for_function(
             "() => document.querySelectorAll('.jp-InputPrompt').length > 0 && "
             "![...document.querySelectorAll('.jp-InputPrompt')].some(p => p.innerText.includes('*'))",
             timeout=1000 * timeout,
         )
+        errors = self.page.locator('.jp-OutputArea-output[data-mime-type="application/vnd.jupyter.error"]')
+        assert errors.count() == 0, errors.first.inner_text()
 
 
 @contextlib.contextmanager

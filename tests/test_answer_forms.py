@@ -1,20 +1,16 @@
 """Whatever form an answer has in a notebook: what passes its check there passes when it is graded."""
 
-import subprocess
-import sys
-
 import msgspec
 import numpy as np
 import pytest
 
-from bootcourse.course import answer_files, runner
+from bootcourse.course import runner
 from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook
 from bootcourse.course.judge import judge, outcomes
 from bootcourse.course.lessons import registry
 from bootcourse.course.runner import Report, decoder, encoder
 from bootcourse.course.values import Plain
 from bootcourse.errors import BootcourseError
-from tests.answers import RIGHT, here
 from tests.hostile.submissions import failures
 
 HEAD, LUCK = "def luck(good, decisions, tries):\n    ", "return 1 - (1 - (good / n) ** decisions) ** tries"
@@ -87,36 +83,6 @@ def test_what_the_last_check_said_in_the_notebook_is_known():
     says = {"output_type": "execute_result", "data": {"text/plain": ["✓ Right. Your `luck` agrees"]}}
     assert read(f"{NINE}\ncheck.luck(luck)", outputs=[says]).right == {"luck"}
     assert read(f"{NINE}\ncheck.luck(luck)").right == set()
-
-
-@pytest.fixture(scope="module")
-def rewritten(tmp_path_factory):
-    """Every stored right answer that is a text, as a formatter writes it that breaks lines wherever it can."""
-    folder = tmp_path_factory.mktemp("answers")
-    for name, answers in RIGHT.items():
-        for place, answer in enumerate(answers):
-            texts = {}
-            try:
-                answer_files.collect(answer, texts)
-            except BootcourseError:  # it uses what a notebook's cell does not hold, such as an object of the tests
-                continue
-            texts[""] = f"check.{name}({answer.__name__})"
-            (folder / f"{name}-{place}.py").write_text("\n\n".join(texts.values()), encoding="utf-8")
-    ruff = [sys.executable, "-m", "ruff", "format", "--isolated", "-q", "--line-length", "1", str(folder)]
-    subprocess.run(ruff, check=True)
-    return folder
-
-
-@pytest.mark.parametrize("name", registry())
-def test_a_right_answer_stays_right_as_formatters_break_its_lines(name, rewritten, monkeypatch):
-    monkeypatch.setattr(runner, "run", here)
-    paths = sorted(rewritten.glob(f"{name}-*.py"))
-    assert paths
-    for path in paths:
-        cell = path.read_text(encoding="utf-8")
-        text = read(cell).texts()[name]
-        verdict = judge(registry()[name], text)
-        assert verdict.passed, f"{path.name}: {verdict}\n{text}"
 
 
 # Limits ---------------------------------------------------------------------------------------------

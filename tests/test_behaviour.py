@@ -100,7 +100,10 @@ def test_a_training_that_was_stopped_goes_on_as_if_it_never_was(method, folder):
 @pytest.mark.parametrize("method", METHODS)
 def test_an_agent_is_read_back_as_it_was_saved_and_drives(method, folder, tmp_path):
     result = once(method, folder).result()
-    agent, back = result.agents[1], load_run(save_runs(result, tmp_path)[1]).agent
+    agent, run = result.agents[1], load_run(save_runs(result, tmp_path)[1])
+    back = run.agent
+    np.testing.assert_array_equal(run.curves["return"], result.curves["return"][1])
+    assert run.scenario == result.scenario and run.provenance["seed"] == 1
     assert back.settings == agent.settings and type(back.settings) is type(agent.settings)
     assert all(torch.equal(one, other) for one, other in zip(weights(back), weights(agent), strict=True))
     assert evaluate(back.as_policy(), 3) == evaluate(agent.as_policy(), 3)

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from bootcourse.course.lessons.your_teacher.figures import learners
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.research.results import Results, agent_entries
 from bootcourse.research.teacher_worth import QUANTITIES, cells, in_words, worth_rows
@@ -54,9 +53,3 @@ def test_the_table_has_a_row_for_each_cell_with_teachers_from_bad_to_perfect(wor
     headings, rows = worth_rows(worth)
     assert [row[0] for row in rows] == ["rule, half at random", "rule, half at random", "rule", "planner"]
     assert len(rows[2]) == len(headings) and rows[2][2] == "7 of 10 (35 to 93\u00a0%)" and "(7 of 10)" in rows[2][-1]
-
-
-def test_the_figure_has_a_dot_for_each_agent_and_says_what_it_shows(worth):
-    figure = learners(worth, "Learners of three teachers")
-    dots = [len(each.get_offsets()) for ax in figure.axes for each in ax.collections]
-    assert sum(dots) == 40 and "planner, RLPD" in figure.alt and "nan" not in figure.alt

@@ -69,12 +69,3 @@ def test_no_name_hides_a_module_of_the_package():
 def test_a_wrong_name_gets_the_nearest_one():
     with pytest.raises(AttributeError, match="'setings_for' is unknown: did you mean 'settings_for'"):
         bc.setings_for()
-
-
-def test_a_car_is_recorded_trained_evaluated_and_stored_through_the_front_door(tmp_path):
-    drive = bc.record(bc.rule_policy(bc.DEFAULT), [10], label="rule")[0]
-    assert drive.success
-    result = bc.Training(bc.with_seeds(bc.settings_for("bc"), 1), episodes=1).run(progress=False)
-    (folder,) = bc.save_runs(result, tmp_path)
-    agent = bc.load_run(folder).agent
-    assert bc.evaluate(agent.as_policy(), episodes=5).episodes == 5

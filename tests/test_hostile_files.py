@@ -4,7 +4,7 @@ import io
 import json
 import shutil
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +24,7 @@ from bootcourse.replay3d import export, recording
 from bootcourse.research.jobs import FORMAT as JOB
 from bootcourse.research.jobs import read_job
 from bootcourse.research.results import load_results, save_results
-from bootcourse.scenario import DEFAULT, Clock
+from bootcourse.scenario import DEFAULT, Clock, Sight
 from bootcourse.storage.assets import FOLDER, MANIFEST, read_manifest
 from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
 from bootcourse.storage.runs import HASHED, load_run, save_runs
@@ -174,6 +174,31 @@ def changed_texts(path: Path) -> Iterator[tuple[str, bytes]]:
 def test_text_where_a_number_belongs_is_refused_in_every_field(name, formats):
     for field, changed in changed_texts(formats[name].path):
         assert refusal(formats[name], changed, sealed=True), field
+
+
+@pytest.mark.parametrize(
+    ("entries", "words"),
+    [
+        ({"format": "bootcourse run 99"}, "this version reads 'bootcourse run 1'"),
+        ({"scenario": asdict(replace(DEFAULT, sight=Sight(neighbours=6)))}, "actor.0"),
+        ({"settings": {"method": "bootstrapped", "hidden": [32, 32]}}, "actor.0"),
+        ({"settings": {"method": "bootstrapped", "hidden": [64]}}, "weights.safetensors is incomplete"),
+        ({"settings": {"method": "sac", "invented_later": 1}}, "no invented_later"),
+        ({"settings": {"method": "bootstrapped", "gamma": 10**400}}, "gamma"),
+        ({"episodes": 13}, "curves.npz"),
+        ({"comment": "x"}, "comment"),
+    ],
+)
+def test_a_wrong_entry_of_a_run_is_named(entries, words, formats):
+    config = formats["run: config.json"]
+    sentence = refusal(config, json.dumps(json.loads(config.path.read_text()) | entries).encode(), sealed=True)
+    assert words in sentence and str(config.path.parent) in sentence and "\n" not in sentence
+
+
+def test_weights_that_are_not_numbers_are_refused(formats):
+    weights = load(formats["run: weights.safetensors"].path.read_bytes())
+    changed = save(weights | {"actor.0": np.full_like(weights["actor.0"], np.nan)})
+    assert "NaN or infinity" in refusal(formats["run: weights.safetensors"], changed, sealed=True)
 
 
 @pytest.mark.parametrize("name", ["run: config.json", "manifest", "job"])

@@ -9,14 +9,6 @@ from bootcourse.learn.training import Training
 from bootcourse.methods import ABLATION, METHODS
 
 
-def test_the_defaults_are_the_papers_table():
-    s = settings_for("bootstrapped")
-    assert (s.gamma, s.actor_lr, s.critic_lr, s.alpha_lr) == (0.8, 5e-4, 1e-3, 1e-3)
-    assert (s.batch, s.buffer_size, s.alpha_init, s.target_entropy) == (64, 50_000, 0.01, -1.0)
-    assert (s.beta_start, s.beta_episodes, s.bonus, s.rule_p, s.demonstration_episodes) == (0.6, 1000, 2.0, 0.9, 200)
-    assert s.xi_multiplier * s.alpha_init == 2.0  # w_kl
-
-
 def test_the_paper_s_setting_takes_two_updates_for_each_decision_and_the_quick_one_a_quarter():
     quick, paper = (settings_for("bootstrapped", setting) for setting in ("quick", "paper"))
     assert [s.updates / s.envs_per_agent for s in (quick, paper)] == [0.25, 2.0]

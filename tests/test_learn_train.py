@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 import torch
 from gymnasium.vector import AutoresetMode
+from tqdm.notebook import tqdm as in_notebook
 
+import bootcourse as bc
 from bootcourse.learn.agent import sample_actions
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import FIRST_SEED, Training
+from bootcourse.progress import end_full
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, IDLE
@@ -111,33 +114,8 @@ def test_an_agent_that_has_driven_its_episodes_stays_as_it_was():
         assert not torch.equal(training.agent(i).actor[0], weight)
 
 
-def after(steps: int, act):
-    """A callback that acts once, after so many steps."""
-    seen = []
-
-    def callback(training):
-        seen.append(training)
-        if len(seen) == steps:
-            act()
-
-    return callback
-
-
 def press_ctrl_c():
     os.kill(os.getpid(), signal.SIGINT)
-
-
-@pytest.mark.skipif(os.name == "nt", reason="a process cannot press Ctrl-C for itself on Windows")
-def test_an_interrupt_returns_what_was_learned_so_far():
-    training = training_of("bootstrapped", "sac", episodes=500)
-    result = training.run(progress=False, callback=after(60, press_ctrl_c))
-    assert result.interrupted and len(result.agents) == 2 and result.seconds > 0
-    finished = training.curves.finished
-    assert (finished > 0).all() and (finished < 500).all()
-    for values in result.curves.values():
-        assert values.shape == (2, 500)
-        np.testing.assert_array_equal(np.isnan(values).sum(1), 500 - finished)
-    assert result.agents[0].probabilities(np.zeros((3, INPUTS))).shape == (3, 9)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a process cannot press Ctrl-C for itself on Windows")
@@ -252,3 +230,29 @@ def test_an_agent_with_a_loss_that_is_not_finite_keeps_finite_weights_its_run_sa
         assert torch.equal(result.agents[agent].actor[0], alone.agents[agent].actor[0])
     decisions = [load_run(path).provenance["stopped_at_decision"] for path in save_runs(result, tmp_path)]
     assert decisions == [None, 52, None]
+
+
+# What is said of it: a bar, and three lines
+
+
+def test_a_training_of_so_many_updates_counts_them_and_its_bar_ends_full(capsys):
+    training = bc.Training([bc.settings_for("sac")], 1000)
+    training.run(updates=40)
+    shown = capsys.readouterr().err
+    assert training.updates == 40 and "40/40" in shown.strip().splitlines()[-1] and "\r" not in shown
+
+
+def test_a_bar_in_a_notebook_ends_full_when_less_than_its_total_was_done():
+    bar = in_notebook(total=1000, display=False)
+    bar.update(40)
+    end_full(bar)
+    _, drawn, _ = bar.container.children
+    assert drawn.max == bar.n == 40
+
+
+def test_a_result_has_three_lines(capsys):
+    training = bc.Training(bc.with_seeds(bc.settings_for("sac"), 2), 3)
+    lines = repr(training.run(progress=False)).splitlines()
+    assert len(lines) == 3 and all(len(line) < 120 for line in lines)
+    assert "2 agents of plain SAC on the trap" in lines[0] and lines[1].startswith("6 episodes")
+    assert capsys.readouterr().err == ""

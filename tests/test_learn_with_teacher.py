@@ -6,15 +6,12 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.errors import BootcourseError
 from bootcourse.learn.ibrl import better_of_two
 from bootcourse.learn.jsrl import guide_decisions, holds
 from bootcourse.learn.learner import SACLearner, learner_for
 from bootcourse.learn.networks import init_mlp
 from bootcourse.learn.rlpd import normalised_mlp, smallest_of
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.training import Training
-from bootcourse.research.checks import cartpole, several
 from tests.test_baselines import a_batch
 
 
@@ -152,9 +149,3 @@ def test_an_agent_chooses_by_the_target_critics_as_it_did_in_training():
     for i in range(2):
         driving = one.agent(i).probabilities(batch.states[i].numpy(), batch.rule_actions[i].numpy())
         torch.testing.assert_close(torch.from_numpy(driving), acting[i])
-
-
-@pytest.mark.parametrize("method", ["soft", "bootstrapped", "dagger", "jsrl", "ibrl"])
-def test_a_method_that_asks_the_teacher_is_not_trained_where_there_is_none(method):
-    with pytest.raises(BootcourseError, match=f"Method '{method}' asks a teacher, .*: give teacher=my_rule"):
-        Training([settings_for(method, beta_start=0.0)], 2, make_env=several(cartpole))

@@ -8,8 +8,7 @@ import pytest
 from gymnasium.vector import AutoresetMode
 
 import bootcourse as bc
-from bootcourse.course.lessons.looking_ahead.figures import by_horizon, wrong_models
-from bootcourse.course.lessons.looking_ahead.futures_figure import nine_futures
+from bootcourse.course.lessons.looking_ahead.figures import wrong_models
 from bootcourse.course.shipped import beginning
 from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import imagine, lookahead, lookahead_shield, rollout_values, worth_of_speed
@@ -276,20 +275,13 @@ def results_of(hurt: int, returns: float = 130.0) -> Results:
     return Results([{"method": "ppo_cloned", "seed": seed} for seed in range(2)], np.full(2, -1), measured=measured)
 
 
-def test_the_figures_and_the_table_say_how_many_drives_end_in_an_accident():
+def test_the_figure_and_the_table_say_how_many_drives_end_in_an_accident():
     computed = {cell.name: results_of(60 if cell.form == "alone" else 8) for cell in cells()}
-    assert "accidents in 1,000 drives: 30.0 at 0, 4.0 at 3" in by_horizon(computed, "ppo_cloned", "Longer").alt
     assert "others keep speed and lane 4.0 and 130.0" in wrong_models(computed).alt
     headings, lines = rows(computed, cells())
     assert lines[0][7].startswith("60 in 2,000: 30.00 [") and {len(headings)} == {len(line) for line in lines}
     with pytest.raises(BootcourseError, match="lack ppo_cloned, rollouts"):
         wrong_models({"ppo_cloned, alone": results_of(60)})
-
-
-def test_the_nine_futures_name_the_best_and_the_accidents():
-    cars = Reached(plan_policy(INTO_TRAP_1), 3).cars[:1]
-    figure = nine_futures(cars[0], imagine(cars, np.arange(N_ACTIONS)[None], rule_policy(DEFAULT), 5), "Nine")
-    assert "accelerate straight ends in an accident" in figure.alt and "is worth" in figure.alt
 
 
 def test_the_replay_has_nine_futures_for_each_decision_and_ribbons_along_them():

@@ -14,7 +14,6 @@ from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS, Method, display_name, style
 from bootcourse.panels import train_panel
 from bootcourse.plots.training_curves import training_curves
-from bootcourse.scenario import IDLE
 from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
 from bootcourse.storage.runs import load_run, save_runs
 
@@ -39,13 +38,6 @@ class Follower(SACLearner):
     @classmethod
     def driving_policy(cls, actor, critics, states, rule_actions):
         return torch.nn.functional.one_hot(rule_actions, 9).float()
-
-
-class LateFollower(SACLearner):
-    """It idles for the first three decisions of each episode of training, and follows the teacher from then on."""
-
-    def acting_policy(self, states, rule_actions, decided):
-        return torch.nn.functional.one_hot(torch.where(decided < 3, IDLE, rule_actions), 9).float()
 
 
 def always_faster(cars, scenario):
@@ -76,22 +68,6 @@ def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, 
     assert panel.method.label == display_name(toy) == "toy method"
     assert panel.numbers["xi_multiplier"].slider.disabled
     panel.close()
-
-
-def test_a_learner_decides_with_the_teacher_s_actions_and_the_age_of_each_episode(monkeypatch):
-    monkeypatch.setitem(METHODS, "toy", Method("toy", Style("#117733"), {"xi_multiplier": 0.0}, LateFollower))
-    training, done = Training(with_seeds(settings_for("toy", **SMALL), 2), 3, teacher=always_faster), False
-    decisions = 0
-    while not done:
-        before = training.curves.running[1].copy()
-        training.step()
-        decisions += 1
-        n = training.replay.observation_size
-        last = training.replay.first[:, None] + (training.replay.next - 4 + np.arange(4)) % training.replay.buffer_size
-        taken = training.replay.table[torch.from_numpy(last.ravel()), 2 * n].numpy()
-        np.testing.assert_array_equal(taken, np.where(before < 3, IDLE, 7))
-        done = training.curves.finished.sum() > 2
-    assert decisions > 5
 
 
 @pytest.fixture

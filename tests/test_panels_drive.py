@@ -3,42 +3,14 @@
 import numpy as np
 import pytest
 
-from bootcourse.episodes.interactive import InteractiveEpisode
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.panels import drive_panel
-from bootcourse.panels.cockpit import cockpit
-from bootcourse.panels.pad import ROWS, SCRIPT, Pad
 from bootcourse.policies import idle_policy
 from bootcourse.scenario import ACTION_NAMES, IDLE
 from tests.panels import from_page, raise_in_callbacks, words  # noqa: F401
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
 CRASH = ACTION_NAMES.index("keep right")
-
-
-def test_the_drawing_keeps_its_size_at_every_moment_and_says_how_it_ended(escape):
-    drive = InteractiveEpisode(3)
-    shown = [cockpit(drive, escape)]
-    while not drive.over:
-        drive.decide(CRASH)
-        shown.append(cockpit(drive, escape))
-    assert len({svg[: svg.index("role")] for svg in shown}) == 1
-    assert shown[0].alt.startswith("Road 3 after 0 s: 10.0 m/s in lane 2, ") and "rule controller" in shown[0].alt
-    assert f"return {drive.rewards[0]:.1f}. The ghost, rule controller, has {escape.rewards[0]:.1f}." in shown[1].alt
-    assert "Over: off the road" in shown[-1] and shown[-1].alt.endswith("It is over: off the road.")
-
-
-def test_the_pad_has_a_button_for_each_action_where_the_car_would_go_and_a_script_for_the_keys():
-    pressed = []
-    pad = Pad(pressed.append)
-    for action, button in enumerate(pad.buttons):
-        button.click()
-        assert f"bc-pad-{action}" in button._dom_classes and button.tooltip == ACTION_NAMES[action]
-    assert pressed == list(range(9))
-    names = [[ACTION_NAMES[action] for action in row] for row in ROWS]
-    directions = ("left", "straight", "right")
-    assert names == [[f"{speed} {to}" for to in directions] for speed in ("accelerate", "keep", "brake")]
-    assert 'onerror="' in pad.children[-1].value and '"' not in SCRIPT
 
 
 def test_a_press_is_a_decision_the_drive_is_a_rollout_and_another_begins_after_it():

@@ -1,4 +1,4 @@
-"""`policy_panel`: its numbers against numbers worked by hand, and one walk through its controls."""
+"""`policy_panel` and `bonus_panel`: numbers worked by hand, and one walk through the controls of each."""
 
 import math
 from dataclasses import replace
@@ -11,11 +11,12 @@ import torch
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import record
 from bootcourse.learn.bootstrap import kl_to_rule
-from bootcourse.panels import policy_panel
+from bootcourse.learn.settings import Settings
+from bootcourse.panels import bonus_panel, policy_panel
+from bootcourse.panels.bonus import bonus_numbers, targets
 from bootcourse.panels.policy_numbers import policy_numbers
-from bootcourse.policies import idle_policy, rule_policy
-from bootcourse.rule import rule
-from bootcourse.scenario import DEFAULT, N_ACTIONS, Clock, Road
+from bootcourse.policies import plan_policy, rule_policy
+from bootcourse.scenario import DEFAULT, N_ACTIONS
 from tests.panels import at_its_ends, from_page, raise_in_callbacks, words  # noqa: F401
 from tests.replays import thinking
 
@@ -55,17 +56,6 @@ def test_the_optimum_is_the_softmax_of_q_over_alpha_and_lies_nearer_to_the_rule_
     assert np.allclose(whole.optimum, whole.rule, atol=1e-4)
 
 
-def test_the_panel_shows_policy_and_rule_of_the_moment(agents_drive):
-    panel = policy_panel(agents_drive, p=0.8, xi=1.5)
-    for k in (0, 1, len(agents_drive.actions) - 1):
-        from_page(panel.moment.slider, value=float(k))
-        assert np.array_equal(panel.seen.policy, agents_drive.policy[k])
-        assert panel.seen.rule.argmax() == rule(agents_drive.cars[k][None], DEFAULT).actions[0]
-        assert f"{k} s into the drive of the bootstrapped SAC" in panel.svg.alt
-    assert "the rule, p = 0.8" in panel.svg and "ξ = 1.5, α = 0.01" in panel.svg and "The rule: " in panel.svg
-    assert panel.says.value == ""
-
-
 def test_every_control_moves_its_own_numbers_and_the_picture_and_refuses_nonsense(agents_drive):
     panel = policy_panel(agents_drive, xi=0.0)
     before, by_rule, given = panel.svg, int(panel.seen.rule.argmax()), []
@@ -75,6 +65,8 @@ def test_every_control_moves_its_own_numbers_and_the_picture_and_refuses_nonsens
         from_page(panel.xi.slider, value=xi)
         given.append(panel.seen.optimum[by_rule])
     assert given == sorted(given) and given[-1] > 0.5
+    from_page(panel.moment.slider, value=7.0)
+    assert np.array_equal(panel.seen.policy, agents_drive.policy[7])
     for number in (panel.moment, panel.p, panel.xi):
         at_its_ends(panel, number)
 
@@ -101,9 +93,43 @@ def test_the_values_of_nine_imagined_drives_stand_beside_the_policies(agents_dri
     assert "rollouts" in panel.svg and "rollouts" not in policy_panel(agents_drive).svg
 
 
-def test_a_drive_of_one_decision_and_one_of_another_clock_are_shown():
-    policy_panel(record(idle_policy, [0], replace(DEFAULT, clock=Clock(decisions=1)), "idle")[0])
-    fast = replace(DEFAULT, clock=Clock(decisions=7, decision_rate=2, simulation_rate=4), road=Road(lanes=6))
-    panel = policy_panel(record(idle_policy, [0], fast, "idle")[0])
-    from_page(panel.moment.slider, value=3.0)
-    assert "3 s into" in panel.svg.alt
+# The bonus
+
+
+@pytest.mark.parametrize(
+    "rewards, gamma, options, worth",
+    [
+        ([1.0, 0.0, 4.0], 0.5, {"terminated": True}, [2.0, 2.0, 4.0]),
+        ([0.15625] * 3, 0.8, {}, [0.78125] * 3),  # a drive that ran out of time goes on as it did
+        ([0.25, 0.5], 0.0, {"bonus": 1.0}, [1.25, 1.5]),  # without a future: the reward and the bonus
+        ([0.0] * 3, 0.8, {"bonus": 2.0}, [10.0] * 3),
+    ],
+)
+def test_a_target_is_the_discounted_sum_of_what_follows(rewards, gamma, options, worth):
+    assert np.allclose(targets(np.array(rewards), gamma, **options), worth)
+
+
+def test_at_the_crossing_both_are_worth_the_same_and_every_control_moves_the_picture():
+    panel = bonus_panel()
+    seen = panel.seen
+    assert np.allclose(seen.weight, 5.0) and np.allclose(seen.crossing, (seen.trapped - seen.plain) / 5)
+    assert np.allclose(seen.trapped, 0.15625 / 0.2)  # staying behind earns 0.15625 at each decision
+    for k in (0, 30, 149):
+        settings = replace(Settings(), bonus=float(seen.crossing[k]))
+        crossed = bonus_numbers(panel.demonstration, panel.trapped, settings)
+        assert crossed.augmented[k] == pytest.approx(crossed.trapped[k], abs=1e-9)
+    before = panel.svg
+    assert "A bonus of 2 adds 10 to its target" in before.alt
+    from_page(panel.c.slider, value=1.95)
+    assert np.allclose(panel.seen.augmented, seen.plain + 5 * 1.95) and panel.view.value == panel.svg != before
+    for number in (panel.c, panel.gamma):
+        at_its_ends(panel, number)
+    from_page(panel.gamma.field, value=1.0)
+    assert "0 or more, below 1" in words(panel) and panel.gamma.value < 1
+
+
+def test_a_demonstration_that_ends_in_an_accident_is_worth_nothing_afterwards(idle):
+    [crash] = record(plan_policy([("keep right", 20)]), [0], DEFAULT, "you")
+    seen = bonus_numbers(crash, idle, Settings())
+    assert seen.plain[-1] == pytest.approx(crash.rewards[-1]) and seen.weight[-1] == 1.0
+    assert len(seen.trapped) == len(crash.actions)

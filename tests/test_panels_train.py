@@ -2,16 +2,13 @@
 
 import socket
 import time
-from html import unescape
 
 import numpy as np
 import pytest
 
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.methods import METHODS
 from bootcourse.panels import train_panel
-from bootcourse.panels.train import SHOWN, training_chart
 from tests.panels import from_page, raise_in_callbacks, words  # noqa: F401
 from tests.waiting import until
 
@@ -34,16 +31,6 @@ def trained(panel):
     panel.thread.join(60)
     assert not panel.thread.is_alive() and not panel.train.disabled
     return panel
-
-
-def test_the_drawing_keeps_its_size_and_says_how_far_the_training_is():
-    curves = {name: np.random.default_rng(0).random((2, 20)) for name in (*SHOWN, "decisions")}
-    half = {name: np.where(np.arange(20) < 9, values, np.nan) for name, values in curves.items()}
-    none = {name: np.full((2, 20), np.nan) for name in SHOWN}
-    drawings = [training_chart("sac", each, 20) for each in ({}, none, half, curves)]
-    assert len({svg[: svg.index("role")] for svg in drawings}) == 1 and all("nan" not in svg for svg in drawings)
-    assert "No episode has ended yet" in drawings[0].alt and "No episode has ended yet" in drawings[1]
-    assert "plain SAC, after 9 episodes: success" in drawings[2].alt and drawings[2].count("<circle") == len(SHOWN)
 
 
 def test_train_trains_with_what_the_sliders_show_and_the_best_agent_is_watched():
@@ -105,16 +92,3 @@ def test_what_breaks_in_the_thread_is_a_sentence(monkeypatch):
 
     monkeypatch.setattr(Training, "step", breaks)
     assert "The training broke off. RuntimeError: the road is closed" in words(trained(small()))
-
-
-def test_a_method_s_settings_can_be_chosen_and_what_it_lacks_says_why():
-    panel = small(xi_multiplier=100.0)
-    unused = {"sac": {"rule_p", "xi_multiplier", "bonus"}, "soft": {"bonus"}, "demos": {"rule_p", "xi_multiplier"}}
-    for method in METHODS:
-        from_page(panel.method, index=list(METHODS).index(method))
-        assert panel.settings().method == method and panel.episodes.value == METHODS[method].episodes
-        locked = {name for name, number in panel.numbers.items() if number.slider.disabled}
-        assert locked == unused.get(method, locked)
-        for name in locked:
-            assert "Without use in" in unescape(words(panel.numbers[name]))
-    assert not any(number.slider.disabled for number in small("bootstrapped").numbers.values())

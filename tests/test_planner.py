@@ -23,7 +23,6 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 
 SEEDS = [2**33 - 100, 2**33 - 99, 2**33 - 98]
-SHORT = Search(beam=20, decisions=25)
 
 
 @pytest.fixture(scope="module")

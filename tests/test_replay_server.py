@@ -8,6 +8,7 @@ import threading
 import time
 import urllib.request
 from asyncio.base_events import Server
+from dataclasses import replace
 
 import msgspec
 import numpy as np
@@ -23,9 +24,8 @@ from bootcourse.errors import BootcourseError
 from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.replay3d import replay, scene, server, viewer
 from bootcourse.replay3d.camera import BIRD, SIDE, point, pose
-from bootcourse.road.state import EGO
 from tests.browser import ARTEFACTS, CARS, close_notice, is_blank, needs_browser, open_browser
-from tests.replays import SHORT
+from tests.replays import SHORT, TEN_CARS, thinking
 from tests.waiting import until
 
 
@@ -236,11 +236,17 @@ def test_in_a_browser_the_buttons_and_the_slider_work(drives):
         assert until(lambda: live.stage.dark)
 
 
-def test_one_moment_is_one_batch(shown):
-    """Whatever changes between two frames leaves within one atomic block of the server."""
-    buffer = shown.server._websock_server._broadcast_buffer
-    depths, push = [], buffer.push
-    buffer.push = lambda message: (depths.append(buffer.atomic_counter), push(message))
-    shown._frame(3.3)
-    assert len(depths) > 10 and min(depths) >= 1
-    assert shown.stage.drives[0].cars[EGO].position[0] == 0.0
+# How fast, in time of the processor: other tests run beside these
+
+
+def test_ten_cars_are_ready_in_two_seconds_and_a_frame_of_five_drives_in_half_of_a_thirtieth():
+    drive = thinking(record(rule_policy(TEN_CARS), [1], TEN_CARS, "rule")[0])
+    started = time.process_time()
+    with replay(drive):
+        assert time.process_time() - started < 2.0
+    five = [replace(drive, label=label) for label in ("sac", "rule", "bootstrapped", "planner", "my own")]
+    with replay(five) as live:
+        started = time.process_time()
+        for k in range(60):
+            live._frame(3.0 + k / 30)
+        assert (time.process_time() - started) / 60 < 1 / 30 / 2

@@ -15,7 +15,7 @@ from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, Accident, X,
 from bootcourse.road.trap_env import TrapEnv
 from bootcourse.scenario import DEFAULT, IDLE, Clock
 
-LEFT, RIGHT, BRAKE = 3, 5, 1
+RIGHT, BRAKE = 5, 1
 
 
 def make(**options) -> gym.Env:
@@ -176,16 +176,6 @@ def test_a_road_that_ends_starts_anew_in_the_same_step_and_reports_how_it_ended(
     assert observations[1][3] * 15 == pytest.approx(10.0), "the new episode starts at 10 m/s"
     assert env.unwrapped.decisions.tolist() == [10, 0, 10]
     assert env.unwrapped.final_cars[1, EGO, SPEED] < 1.0
-
-
-def test_an_episode_out_of_time_is_truncated_not_terminated():
-    env = make_vec(2, scenario=replace(DEFAULT, clock=Clock(decisions=2)))
-    env.reset(seed=0)
-    env.step(np.full(2, IDLE))
-    _, rewards, terminated, truncated, infos = env.step(np.full(2, IDLE))
-    assert truncated.all() and not terminated.any()
-    assert rewards == pytest.approx([0.15625, 0.15625])
-    assert infos["final_info"]["distance"].tolist() == [20.0, 20.0]
 
 
 def test_without_autoreset_a_finished_road_rests_until_all_are_reset():

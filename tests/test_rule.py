@@ -9,7 +9,7 @@ import bootcourse  # noqa: F401  registers the road
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.policies import rule_policy
-from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, TRAP_2, Accident, X, Y
+from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TARGET_LANE, Accident, X, Y
 from bootcourse.rule import (
     SENTENCES,
     Reason,
@@ -143,15 +143,6 @@ def test_cars_of_another_road_and_a_p_outside_its_range_are_refused_in_one_sente
 # The tracker
 
 
-def test_it_steers_back_to_the_centre_and_straightens_a_skewed_car():
-    cars = np.concatenate([road((0.0, 1, 15.0)) for _ in range(4)])
-    cars[0, EGO, Y] += 1.8
-    cars[1, EGO, Y] -= 1.8
-    cars[2, EGO, HEADING] = 0.1
-    cars[3, EGO, HEADING] = -0.1
-    assert (rule(cars, DEFAULT).actions % 3).tolist() == [0, 2, 0, 2]
-
-
 @pytest.mark.parametrize("speed", [6.0, 8.25, 10.0, 12.5, 15.0, 20.0])
 @pytest.mark.parametrize("offset", [-1.9, 0.3, 1.9])
 def test_from_anywhere_in_a_lane_it_comes_to_its_middle_and_stays_there(speed, offset):
@@ -181,20 +172,6 @@ def test_it_has_no_accident_behind_the_calibrated_traps_or_on_four_lanes():
     for scenario in (CALIBRATED, Scenario(road=Road(lanes=4)), Scenario(road=Road(lanes=2))):
         episodes = drive_episodes(rule_policy(scenario), held_out_seeds(2, 200), scenario)
         assert (episodes.accident == Accident.NONE).all()
-
-
-def test_it_escapes_by_the_backward_gap():
-    env = gym.make_vec("bootcourse:Trap-v0", num_envs=1).unwrapped
-    env.reset(seed=3)
-    behind_trap_2, lanes = [], []
-    for _ in range(60):
-        env.step(rule(env.cars, DEFAULT).actions)
-        behind_trap_2.append(env.cars[0, TRAP_2, X] - env.cars[0, EGO, X])
-        lanes.append(int(env.cars[0, EGO, LANE]))
-    assert behind_trap_2[0] < max(behind_trap_2[:20]), "it falls back first"
-    changes = [lane for lane, before in zip(lanes[1:], lanes, strict=False) if lane != before]
-    assert changes == [1, 0], "then left, and left again"
-    assert env.cars[0, EGO, X] > env.cars[0, TRAP_1, X]
 
 
 # The stochastic form

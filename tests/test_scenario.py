@@ -65,16 +65,6 @@ def test_an_impossible_value_is_refused_in_one_sentence_that_names_it(make, word
     assert "\n" not in sentence and sentence.endswith(".")
 
 
-def test_the_default_scenario_has_the_papers_numbers():
-    s = DEFAULT
-    assert (s.clock.decisions, s.clock.steps, s.clock.dt) == (150, 2, 0.5)
-    assert (s.road.lanes, s.road.lane_width, s.car.length, s.car.width) == (3, 4.0, 5.0, 2.0)
-    assert (s.traps.d1, s.traps.d2, s.traps.speed, s.ego.speed) == ((14.80, 16.44), (4.06, 7.43), 10.0, 10.0)
-    assert (s.reward.w_v, s.reward.w_y, s.reward.w_theta, s.reward.accident) == (1.5, 0.05, 0.05, -10.0)
-    assert (s.ego.acceleration, s.ego.steering) == (1.0, math.pi / 50)
-    assert (s.observation_size, s.vehicles) == (26, 9)
-
-
 def test_the_calibrated_scenario_differs_only_in_its_traps():
     assert CALIBRATED.traps.speed == 10.9
     assert dataclasses.replace(CALIBRATED, name="default", traps=Traps()) == DEFAULT

@@ -14,7 +14,6 @@ from pathlib import Path
 import pytest
 
 from bootcourse import __version__, doctor
-from bootcourse.errors import BootcourseError
 from bootcourse.storage import assets
 from tests.jupyterlab import CALM
 
@@ -206,23 +205,6 @@ def test_help_can_be_printed_in_windows_usual_encoding(command, bootcourse, monk
 def test_the_version_is_the_packages_own(bootcourse):
     assert bootcourse("--version").out == f"bootcourse {__version__}\n"
     assert f"\nversion: {__version__}\n" in (ROOT / "CITATION.cff").read_text()
-
-
-@pytest.mark.parametrize(
-    "error, status, said",
-    [
-        (BootcourseError("xi = -1 is negative: give 0 or more."), 2, "xi = -1 is negative: give 0 or more.\n"),
-        (KeyboardInterrupt(), 130, ""),
-    ],
-    ids=["a mistake of the user's is one sentence", "Ctrl-C is quiet"],
-)
-def test_how_a_command_that_is_cut_short_ends(error, status, said, bootcourse, monkeypatch):
-    def cut_short():
-        raise error
-
-    monkeypatch.setattr(doctor, "main", cut_short)
-    answer = bootcourse("doctor")
-    assert (answer.status, answer.err) == (status, said)
 
 
 @pytest.mark.skipif(not Path("/bin/sh").exists(), reason="make is for Linux and macOS")

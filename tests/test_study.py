@@ -6,6 +6,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 from dataclasses import replace
 
@@ -163,6 +164,24 @@ def test_a_killed_study_goes_on_where_it_was(tmp_path, unrendered):
     assert again.exit_code == 0, again.output
     assert "2 of 2 jobs are done" in again.stdout and done[0].stat().st_mtime_ns == before
     assert (tmp_path / "study/report.md").exists()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL to send")
+def test_a_study_on_a_dask_cluster_survives_the_death_of_a_worker(root):
+    distributed = pytest.importorskip("distributed", reason="dask is an extra: pip install 'bootcourse[dask]'")
+    jobs = [job(f"default/sac-{gamma}", episodes=60, gamma=gamma) for gamma in (0.6, 0.7, 0.8, 0.9)]
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+
+        def kill_a_busy_worker():
+            while not list(root.glob("jobs/default/*/job.json")):
+                time.sleep(0.01)
+            os.kill(next(iter(cluster.workers.values())).pid, signal.SIGKILL)
+
+        killer = threading.Thread(target=kill_a_busy_worker, daemon=True)
+        killer.start()
+        assert run_jobs(jobs, root, "dask", cluster.scheduler_address) == []
+    killer.join(5)
+    assert not killer.is_alive() and all(finished(each, root) for each in jobs)
 
 
 def test_results_of_several_jobs_join_and_read_back_and_each_agent_counts_once(study, tmp_path):

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from bootcourse.course.lessons.found_and_kept.figures import fading, half_found
-from bootcourse.course.shipped import shipped_experiment
+from bootcourse.course.lessons.found_and_kept.figures import half_found
 from bootcourse.research.clocks import cells, pattern, pattern_rows
 from bootcourse.research.results import Results
 from bootcourse.research.tables import found_and_kept
@@ -38,15 +37,10 @@ def test_a_row_stands_for_a_choice_whose_four_methods_were_computed():
     assert len(headings) == len(rows[0])
 
 
-def test_the_figure_of_the_clocks_marks_where_half_of_the_agents_have_found_the_way_out():
-    shipped = cells(shipped_experiment("clocks"))
+def test_half_of_the_agents_have_found_the_way_out_with_the_middle_one():
     success = np.zeros((3, 200))
     success[0, 10:], success[1, 100:] = 1, 1  # a window of fifty has 26 successes at episodes 36 and 126
     assert half_found(Results([], np.zeros(0), curves={"success": success})) == 126
-    figure = fading(shipped)
-    dots = [line.get_xdata()[0] for line in figure.axes[0].lines if len(line.get_xdata()) == 1]
-    assert dots == [half_found(shipped[updates, "π̃"].of("soft")) for updates in ("1/4", "1", "2", "4")]
-    assert f"half have the way out after {dots[2]}" in figure.alt
 
 
 def test_an_agent_has_found_the_way_out_if_most_of_fifty_episodes_in_a_row_end_ahead_and_kept_it_if_it_escapes():

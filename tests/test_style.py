@@ -1,5 +1,6 @@
-"""Ruff, over every file of the course and every cell of its notebooks."""
+"""Ruff, over every file of the course and every cell of its notebooks; and which room imports from which."""
 
+import ast
 import subprocess
 import sys
 from pathlib import Path
@@ -19,3 +20,21 @@ def test_ruff_has_nothing_to_say():
 def test_every_file_is_formatted():
     result = ruff("format", "--check", ".")
     assert result.returncode == 0, f"run `ruff format`:\n{result.stdout}{result.stderr}"
+
+
+def imported(path: Path) -> set[str]:
+    """The modules that a file imports, wherever in it."""
+    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    froms = [node for node in nodes if isinstance(node, ast.ImportFrom)]
+    return names | {f"{node.module}.{alias.name}" for node in froms for alias in node.names}
+
+
+CLOSED = {"research": ("bootcourse.course",), "course": ()}  # of the other parts of the package: both
+
+
+def test_no_room_imports_from_one_behind_it():
+    room = ROOT / "bootcourse"
+    for path in room.rglob("*.py"):
+        closed = CLOSED.get(path.relative_to(room).parts[0], ("bootcourse.course", "bootcourse.research"))
+        assert [name for name in imported(path) if name.startswith(closed)] == [], path

@@ -24,10 +24,12 @@ KEYS = """const image = this; let tries = 0; const waiting = setInterval(() => {
     image.remove();
     form.addEventListener('keydown', event => {
       if (!event.ctrlKey && !event.metaKey && !event.shiftKey) event.stopPropagation();
+    });
+    form.addEventListener('keydown', event => {
       if (event.key === 'Enter' && event.target.type === 'text') {
         setTimeout(() => form.querySelector('button').click(), 300);
       }
-    });
+    }, true);  // on the way in: the field itself lets no key out
   }
   if (form || ++tries > 200) clearInterval(waiting);
 }, 50);"""

@@ -31,9 +31,11 @@ const waiting = setInterval(() => {
       box.setAttribute('role', 'radiogroup');
       for (const choice of box.querySelectorAll('input')) choice.name = `${box.getAttribute('aria-label')} ${i}`;
     }
-    if (last?.disabled && document.activeElement === document.body) {  // it has switched itself off
-      panel.querySelector('button:not(:disabled)')?.focus({preventScroll: true});
-    }
+    setTimeout(handOver, 100);  // the browser takes the focus away a little later
+  };
+  const handOver = () => {
+    if (!last?.disabled || document.activeElement !== document.body) return;
+    panel.querySelector('button:not(:disabled)')?.focus({preventScroll: true});
   };
   panel.addEventListener('focusin', event => { last = event.target; });
   panel.addEventListener('focusout', event => { if (!event.target.disabled) last = null; });

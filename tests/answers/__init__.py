@@ -1,9 +1,9 @@
-"""What students might write: for each exercise at least two right answers, and wrong ones beside its known mistakes.
+"""What students might write: for each exercise right answers in other styles, and wrong ones beside its mistakes.
 
 One file a lesson, named like its exercises' file. `@right("name")` marks an answer that must pass,
 `@wrong("name", "words")` one that must not; the words must then stand in the check's sentence. Without
-words any sentence will do. A wrong answer that answers as a known mistake of the exercise does belongs
-here only if it is written in another style (a loop, other rounding): the mistakes are tested themselves.
+words any sentence will do. A known mistake of the exercise is tested itself and belongs here only in another style; a
+constant, a sign or a mean that is another is tried by `tests/mutants.py`.
 
 Short answers stand in a table, `right_lines` or `wrong_lines`: the exercise's name, then for each answer what it is,
 a colon, and its statements, the last of which is what it returns. Its arguments have the exercise's names; `solution`
@@ -63,6 +63,8 @@ from scipy import optimize, stats
 from torch.nn import functional
 import bootcourse as bc
 from bootcourse.learn.bootstrap import kl_to_rule
+from bootcourse.course.lessons.demonstrations import cloning
+from bootcourse.course.lessons.the_barrier import chain
 from bootcourse.course.lessons.your_teacher.example_teachers import watchful
 """  # for the tables
 

@@ -3,9 +3,8 @@
 import numpy as np
 import torch
 
-from bootcourse.course.lessons.demonstrations import cloning
 from bootcourse.course.lessons.demonstrations.cloning import ACTION, RULE_ACTION
-from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
+from tests.answers import equivalent, right, right_lines, wrong_lines
 
 PICKED = "log_pi.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1)"
 equivalent("cloning_loss", f"{PICKED}.mean(-1)  ->  {PICKED}.mean(0)", "the batch is the only axis left")
@@ -31,19 +30,14 @@ wrong_lines("""transitions
 """)
 
 right_lines("""cloning_loss
-    torch's own: torch.nn.functional.nll_loss(log_pi, expert_actions)
     by index: -log_pi[torch.arange(len(log_pi)), expert_actions].mean()
     with one hot: own = torch.nn.functional.one_hot(expert_actions, log_pi.shape[-1]); -(own * log_pi).sum(-1).mean()
-    a row of nine marks: -(torch.nn.functional.one_hot(expert_actions, 9) * log_pi).sum(-1).mean()
 """)
 
 wrong_lines("""cloning_loss
-    as a number: solution(log_pi, expert_actions).item()  # no gradient reaches `log_pi`
     detached: solution(log_pi.detach(), expert_actions)  # no gradient reaches `log_pi`
     in numpy: torch.tensor(-np.mean(log_pi.numpy()[np.arange(len(log_pi)), expert_actions]))  # use torch's functions
-    all actions: -log_pi.mean(-1).mean()  # all nine actions
     one hot mean: own = torch.nn.functional.one_hot(expert_actions, log_pi.shape[-1]); -(own * log_pi).mean()
-    share of errors: (log_pi.argmax(-1) != expert_actions).double().mean()
 """)
 
 
@@ -58,36 +52,8 @@ def with_a_list_of_rows(rows, train, drive, rounds):
     return drivers
 
 
-@right("dagger")
-def by_recursion(rows, train, drive, rounds):
-    driver = train(rows)
-    if rounds == 0:
-        return [driver]
-    own = drive(driver)
-    own[:, ACTION] = own[:, RULE_ACTION]
-    return [driver, *by_recursion(torch.vstack((rows, own)), train, drive, rounds - 1)]
-
-
-@right("dagger")
-def relabelled_row_by_row(rows, train, drive, rounds):
-    drivers = []
-    for number in range(rounds + 1):
-        drivers.append(train(rows))
-        if number < rounds:
-            for row in drive(drivers[-1]):
-                row = row.clone()
-                row[ACTION] = row[RULE_ACTION]
-                rows = torch.cat([rows, row[None]])
-    return drivers
-
-
 wrong_lines("""dagger
-    one round too many: cloning.dagger(rows, train, drive, rounds + 1)  # one driver too many
-    always three rounds: cloning.dagger(rows, train, drive, 3)
-    with half of the rows: cloning.dagger(rows, train, lambda driver: drive(driver)[::2], rounds)
     a number of drivers: len(cloning.dagger(rows, train, drive, rounds))
-    the newest alone: cloning.dagger(rows, train, drive, rounds)[-1]  # the last driver alone
-    the rows: rows  # a list of drivers
     all columns from the action on: drivers = [train(rows)]
         for _ in range(rounds):
             own = drive(drivers[-1])
@@ -95,12 +61,6 @@ wrong_lines("""dagger
             rows = torch.cat([rows, own])
             drivers.append(train(rows))
         drivers  # column `ACTION` alone
-    relabelled after the training: drivers = [train(rows)]
-        for _ in range(rounds):
-            own = drive(drivers[-1])
-            rows = torch.cat([own, rows])
-            drivers.append(train(rows))
-        drivers
     without the rule's own rows: drivers, collected = [train(rows)], rows[:0]
         for _ in range(rounds):
             own = drive(drivers[-1])
@@ -109,13 +69,3 @@ wrong_lines("""dagger
             drivers.append(train(collected))
         drivers
 """)
-
-
-@wrong("dagger")
-def labels_that_do_not_match_the_state(rows, train, drive, rounds):
-    def backwards(driver):
-        own = drive(driver)
-        own[:, RULE_ACTION] = own[:, RULE_ACTION].flip(0)
-        return own
-
-    return cloning.dagger(rows, train, backwards, rounds)

@@ -10,7 +10,6 @@ MEAN = "state_entropy.detach().mean"
 equivalent("temperature_loss", f"{MEAN}(-1)  ->  {MEAN}(0)", "the batch is the only axis")
 
 right_lines("""critic_target
-    with a mask: alive = 1 - terminated; reward + gamma * alive * next_value
     with where: torch.where(terminated.bool(), reward, reward + gamma * next_value)
     one by one: targets = []
         for r, t, v in zip(reward, terminated, next_value, strict=True):
@@ -19,8 +18,6 @@ right_lines("""critic_target
 """)
 
 wrong_lines("""critic_target
-    subtracted: reward - gamma * (1 - terminated) * next_value
-    reward only: reward
     in place: reward += gamma * (1 - terminated) * next_value; reward  # changes its argument `reward`
     a column: (reward + gamma * (1 - terminated) * next_value)[:, None]  # shape
 """)
@@ -37,10 +34,7 @@ wrong_lines("""soft_value
 """)
 
 right_lines("""actor_loss
-    mean cost: (log_pi.exp() * (alpha * log_pi - q.detach())).sum(-1).mean()
     log pi detached in the bracket: -(log_pi.exp() * (q.detach() - alpha * log_pi.detach())).sum(-1).mean()
-    with a categorical: pi = torch.distributions.Categorical(logits=log_pi)
-        -((pi.probs * q.detach()).sum(-1) + alpha * pi.entropy()).mean()
 """)
 
 
@@ -53,20 +47,11 @@ def without_a_graph(log_pi, q, alpha):
     return -torch.mean((pi * worth).sum(-1) + alpha * entropy)
 
 
-wrong_lines("""actor_loss
-    weights detached: (log_pi.exp().detach() * (alpha * log_pi - q.detach())).sum(-1).mean()
-    summed over the batch: (log_pi.exp() * (alpha * log_pi - q.detach())).sum() * 2
-""")
-
 right_lines("""temperature_loss
     two means: gap = torch.mean(state_entropy.detach() - target_entropy); torch.exp(log_alpha) * gap
     gap as a number: gap = state_entropy.mean().item() - target_entropy.item(); gap * log_alpha.exp()
 """)
 
-wrong_lines("""temperature_loss
-    plus target: log_alpha.exp() * (state_entropy.detach() + target_entropy).mean()  # add the target
-    squared: log_alpha.exp() * (state_entropy.detach().mean() - target_entropy) ** 2
-""")
 
 right_lines("""critic_loss
     one critic after the other: rows, y = torch.arange(len(action)), target.detach()
@@ -83,11 +68,5 @@ def with_a_one_hot_mask(q_pair, action, target):
 
 
 wrong_lines("""critic_loss
-    mean of both: rows = torch.arange(len(action))
-        sum(((q[rows, action] - target.detach()) ** 2).mean() for q in q_pair) / 2  # half of the right one
-    summed over states: sum(((q.gather(1, action[:, None])[:, 0] - target.detach()) ** 2).sum() for q in q_pair)
-    half squares: 0.5 * sum(functional.mse_loss(q.gather(1, action[:, None])[:, 0], target.detach()) for q in q_pair)
-        # factor ½
-    absolute: sum((q.gather(1, action[:, None])[:, 0] - target.detach()).abs().mean() for q in q_pair)
     a broadcast: sum(((q.gather(1, action[:, None]) - target.detach()) ** 2).mean() for q in q_pair)
 """)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tests.answers import equivalent, right_lines, wrong, wrong_lines
+from tests.answers import equivalent, right_lines, wrong_lines
 
 right_lines("""exact_interval
     with binomtest: found = stats.binomtest(k, n).proportion_ci(0.95, method="exact"); np.array([found.low, found.high])
@@ -10,14 +10,11 @@ right_lines("""exact_interval
         low = optimize.brentq(lambda rate: stats.binom.sf(k - 1, n, rate) - 0.025, 0, 1, xtol=1e-12) if k else 0.0
         high = optimize.brentq(lambda rate: stats.binom.cdf(k, n, rate) - 0.025, 0, 1, xtol=1e-12) if k < n else 1.0
         np.array([low, high])
-    as two numbers: tuple(solution(k, n))
 """)
 
 wrong_lines("""exact_interval
     without the low end: [stats.beta.ppf(0.025, k, n - k + 1), stats.beta.ppf(0.975, k + 1, n - k) if k < n else 1.0]
         # not a number (NaN) in this case
-    ninety: found = stats.binomtest(k, n).proportion_ci(0.90, method="exact")
-        np.array([found.low, found.high])  # 5 % at each end
     clipped normal: p = k / n; np.clip(p + 1.96 * np.sqrt(p * (1 - p) / n) * np.array([-1, 1]), 0, 1)
 """)
 
@@ -26,20 +23,10 @@ right_lines("""power
         sum(k.pmf(a) * j.pmf(b) for a in range(n + 1) for b in range(n + 1) if shown[a, b])
     as a product of matrices: n = len(shown) - 1; counts = np.arange(n + 1)
         float(stats.binom.pmf(counts, n, first) @ shown @ stats.binom.pmf(counts, n, second))
-    with a mask: n = len(shown) - 1; counts = np.arange(n + 1)
-        k, j = (stats.binom(n, rate).pmf(counts) for rate in (first, second))
-        (k[:, None] * j[None, :] * shown).sum()
 """)
 
 wrong_lines("""power
-    in per cent: 100 * solution(first, second, shown)
-    cumulative: n = len(shown) - 1; counts = np.arange(n + 1)
-        stats.binom.cdf(counts, n, first) @ shown @ stats.binom.cdf(counts, n, second)
     in one direction: solution(first, second, np.tril(shown))
-    by one draw: n = len(shown) - 1; rng = np.random.default_rng(0)
-        float(shown[rng.binomial(n, first), rng.binomial(n, second)])
-    of a thousand draws: n = len(shown) - 1; rng = np.random.default_rng(0)
-        np.mean(shown[rng.binomial(n, first, 1000), rng.binomial(n, second, 1000)])
 """)
 
 right_lines("""interquartile_mean
@@ -56,13 +43,11 @@ wrong_lines("""interquartile_mean
 
 right_lines("""bootstrap_interval
     draw by draw: means = [np.mean([scores[i] for i in draw]) for draw in draws]; np.quantile(means, [0.025, 0.975])
-    as a list: np.percentile(scores[draws].mean(axis=1), [2.5, 97.5]).tolist()
     by counting: counts = np.stack([np.bincount(draw, minlength=len(scores)) for draw in draws])
         np.percentile(counts @ scores / draws.shape[1], (2.5, 97.5))
 """)
 
 wrong_lines("""bootstrap_interval
-    without draws: np.percentile(scores, [2.5, 97.5])
     from a sorted list: means = sorted(scores[draw].mean() for draw in draws)
         means[int(0.025 * len(means))], means[int(0.975 * len(means))]  # single means at the two ends
 """)
@@ -85,39 +70,13 @@ def middle_mean(scores):
 right_lines("""difference_interval
     in a loop: each = [middle_mean(x[a]) - middle_mean(y[b]) for a, b in zip(draws_x, draws_y, strict=True)]
         np.array([middle_mean(x) - middle_mean(y), np.percentile(each, 2.5), np.percentile(each, 97.5)])
-    with scipy: each = stats.trim_mean(x[draws_x], 0.25, axis=1) - stats.trim_mean(y[draws_y], 0.25, axis=1)
-        whole = stats.trim_mean(x, 0.25) - stats.trim_mean(y, 0.25)
-        np.concatenate([[whole], np.quantile(each, [0.025, 0.975])])
 """)
 
 
 wrong_lines("""difference_interval
     medians of both: each = np.median(x[draws_x], axis=1) - np.median(y[draws_y], axis=1)
         np.array([np.median(x) - np.median(y), *np.percentile(each, [2.5, 97.5])])
-    without the difference:
-        each = [middle_mean(x[a]) - middle_mean(y[b]) for a, b in zip(draws_x, draws_y, strict=True)]
-        np.percentile(each, [2.5, 97.5])
-    draws swapped:
-        each = [middle_mean(x[a % len(x)]) - middle_mean(y[b % len(y)]) for a, b in zip(draws_y, draws_x, strict=True)]
-        np.array([middle_mean(x) - middle_mean(y), *np.percentile(each, [2.5, 97.5])])
-    mean of the resamples: each = [middle_mean(x[a]) - middle_mean(y[b]) for a, b in zip(draws_x, draws_y, strict=True)]
-        np.array([np.mean(each), *np.percentile(each, [2.5, 97.5])])
-    in per cent: 100 * solution(x, y, draws_x, draws_y)
-    normal errors: each = [middle_mean(x[a]) - middle_mean(y[b]) for a, b in zip(draws_x, draws_y, strict=True)]
-        middle_mean(x) - middle_mean(y) + np.array([0, -1.96, 1.96]) * np.std(each)
 """)
-
-
-@wrong("difference_interval")
-def always_two_cut(x, y, draws_x, draws_y):
-    def iqm(rows):
-        return np.sort(rows, -1)[..., 2:-2].mean(-1) if rows.shape[-1] > 4 else rows.mean(-1)
-
-    return np.array([iqm(x) - iqm(y), *np.percentile(iqm(x[draws_x]) - iqm(y[draws_y]), [2.5, 97.5])])
 
 
 equivalent("power", "np.outer(k, j)[shown]  ->  np.outer(j, k)[shown]", "a pair and its mirror image are both shown")
-
-wrong_lines("""bootstrap_interval
-    with shares: np.percentile(np.take(scores, draws).mean(-1), (0.025, 0.975))  # takes per cent
-""")

@@ -7,16 +7,10 @@ right_lines("""discriminator_loss
         of_the_rule = functional.binary_cross_entropy_with_logits(rule_logits, ones)
         of_the_rule + functional.binary_cross_entropy_with_logits(own_logits, zeros)
     by logsigmoid: -functional.logsigmoid(rule_logits).mean() - functional.logsigmoid(-own_logits).mean()
-    by logaddexp: terms = (torch.logaddexp(x, torch.zeros_like(x)).mean() for x in (-rule_logits, own_logits))
-        sum(terms)
 """)
 
 wrong_lines("""discriminator_loss
     of all logits together: functional.softplus(torch.cat([-rule_logits, own_logits])).mean()
-    loop with the wrong sign: right = sum(functional.logsigmoid(x) for x in rule_logits) / len(rule_logits)
-        right + sum(functional.logsigmoid(-x) for x in own_logits) / len(own_logits)  # take each for the other
-    half of it: (functional.softplus(-rule_logits).mean() + functional.softplus(own_logits).mean()) / 2
-    with the same sign: functional.softplus(rule_logits).mean() + functional.softplus(own_logits).mean()
     safe by clamping: d = torch.sigmoid(rule_logits), torch.sigmoid(own_logits)
         -d[0].clamp(min=1e-6).log().mean() - (1 - d[1]).clamp(min=1e-6).log().mean()
     as a number: float(solution(rule_logits, own_logits))  # no gradient
@@ -27,14 +21,10 @@ wrong_lines("""discriminator_loss
 right_lines("""imitation_reward
     log of a sum: torch.logaddexp(own_logits, torch.zeros_like(own_logits))
     by symmetry: -functional.logsigmoid(-own_logits)
-    large and small apart: own_logits.clamp(min=0) + torch.log1p(torch.exp(-own_logits.abs()))
 """)
 
 wrong_lines("""imitation_reward
-    clipped: -torch.log((1 - torch.sigmoid(own_logits)).clamp(min=1e-6))
     cut at zero: torch.relu(own_logits)
     with numpy: np.logaddexp(0, own_logits.numpy())  # training needs one
     one for the batch: functional.softplus(own_logits).mean()  # shape
-    in bits: functional.softplus(own_logits) / math.log(2)
-    shifted to zero where it cannot tell: functional.softplus(own_logits) - math.log(2)
 """)

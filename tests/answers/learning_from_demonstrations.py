@@ -46,16 +46,9 @@ wrong_lines("""mixed_batch
     bonus of the course: with_choice(own, demonstrations, size, beta, 2.0, rng)
     the bonus as a mark: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
         rows, bonus * marks  # else 0
-    minus one for the own rows: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
-        rows, 2 * marks - 1  # else 0
-    too many rows: theirs, _ = with_choice(own, demonstrations, size, beta, bonus, rng)
-        torch.cat([theirs, own.sample(1, rng)]), torch.ones(size + 1)
     in double precision: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
         rows.double(), marks  # in float64
     without rng: with_choice(own, demonstrations, size, beta, bonus, np.random.default_rng())
-    the column counted from the left: rows, marks = with_choice(own, demonstrations, size, beta, 0.0, rng)
-        rows[:, 4] += bonus * marks
-        rows, marks  # to the rewards of the demonstrations
     one demonstration for all: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
         n = int(marks.sum())
         rows[:n] = rows[: min(n, 1)]
@@ -93,21 +86,15 @@ right_lines("""large_margin_loss
 """)
 
 wrong_lines("""large_margin_loss
-    a number: torch.tensor(with_one_hot(q, expert_action).detach().numpy())  # no gradient
-    margin for the expert: margin = torch.nn.functional.one_hot(expert_action, q.shape[-1])
-        (q + margin).amax(-1) - of_expert(q, expert_action)
     cross entropy: torch.nn.functional.cross_entropy(q, expert_action, reduction="none")
 """)
 
 right_lines("""paper_q_filter
     no action is valued higher: 1.0 - (q > of_expert(q, expert_action)[:, None]).any(dim=1).double()
-    level with the best: torch.where(of_expert(q, expert_action) == q.max(dim=1).values, 1.0, 0.0)
 """)
 
 wrong_lines("""paper_q_filter
     the greedy action: (q.argmax(dim=1) == expert_action).float()  # compare the values
-    always on: torch.ones(len(q))
-    never on: (of_expert(q, expert_action) > q.amax(-1)).double()
 """)
 
 right_lines("""margin_loss
@@ -124,24 +111,7 @@ right_lines("""margin_loss
 """)
 
 wrong_lines("""margin_loss
-    unfiltered: sum((with_one_hot(q, action) * is_demonstration).mean() for q in q_pair)  # Q-filter
-    summed: solution(q_pair, action, is_demonstration) * len(action)
-    everybody is an expert: solution(q_pair, action, torch.ones_like(is_demonstration))  # own rows
     strictly ahead: taken = torch.stack([of_expert(q, action) for q in q_pair])
         rivals = q_pair.scatter(-1, action.expand(2, -1)[..., None], float("-inf")).amax(-1)
         (torch.relu(rivals + 1 - taken) * (taken > rivals) * is_demonstration).mean(-1).sum()
-""")
-
-wrong_lines("""margin_loss
-    of the demonstrations alone: some = is_demonstration > 0
-        total = 0.0
-        for q in q_pair[:, some]:
-            on = (q.gather(1, action[some, None])[:, 0] >= q.amax(1)).float()
-            total = total + (on * bc.bootstrap.large_margin_loss(q, action[some])).mean()
-        total  # number of demonstrations
-    where it is on: total = 0.0
-        for q in q_pair:
-            on = (q.gather(1, action[:, None])[:, 0] >= q.amax(1)) * (is_demonstration > 0)
-            total = total + bc.bootstrap.large_margin_loss(q, action)[on].mean()
-        total  # where the filter is on
 """)

@@ -11,7 +11,6 @@ equivalent("conservative_loss", f"{TERMS}.mean(-1)  ->  {TERMS}.mean(0)", "the b
 
 right_lines("""conservative_loss
     as a clone of softmax: functional.cross_entropy(q, actions)
-    a row of nine marks: (q.logsumexp(-1) - (functional.one_hot(actions, 9) * q).sum(-1)).mean()
     state by state: total = 0.0
         for row, action in zip(q, actions, strict=True):
             total = total + torch.log(torch.exp(row).sum()) - row[action]
@@ -22,11 +21,6 @@ wrong_lines("""conservative_loss
     as a number: functional.cross_entropy(q, actions).item()  # no gradient reaches `q`
     only the others: others = q.masked_fill(functional.one_hot(actions, q.shape[-1]).bool(), -torch.inf)
         (others.logsumexp(-1) - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()
-    summed: functional.cross_entropy(q, actions, reduction="sum")
-    with numpy: rows = q.detach().numpy()
-        torch.tensor((np.log(np.exp(rows).sum(-1)) - rows[np.arange(len(rows)), actions.numpy()]).mean())  # no gradient
-    over the states: (q.logsumexp(0).mean() - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()
-    of nine actions each with its share: (q.softmax(-1) * q).sum(-1).mean() - q.gather(-1, actions.unsqueeze(-1)).mean()
 """)
 
 
@@ -48,46 +42,20 @@ def with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, we
     return functional.mse_loss(taken, y) + weight * functional.cross_entropy(q, actions)
 
 
-@right("offline_loss")
-def row_by_row(q, next_q, next_target, actions, rewards, terminated, gamma, weight):
-    total = 0.0
-    for i, action in enumerate(actions):
-        after = next_target[i, next_q[i].argmax()].detach() if terminated[i] == 0 else 0.0
-        total = total + (q[i, action] - rewards[i] - gamma * after) ** 2 + weight * (q[i].logsumexp(0) - q[i, action])
-    return total / len(actions)
-
-
 wrong_lines("""offline_loss
-    half squared:
-        y = rewards + gamma * (1 - terminated) * next_target.gather(1, next_q.argmax(1, keepdim=True))[:, 0].detach()
-        taken = q.gather(1, actions[:, None])[:, 0]
-        0.5 * (taken - y).pow(2).mean() + weight * functional.cross_entropy(q, actions)
-    summed over the batch: len(q) * with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, weight)
-    with a number for gamma: with_no_grad(q, next_q, next_target, actions, rewards, terminated, 0.8, weight)
     with the data's next action:
         y = rewards + gamma * (1 - terminated) * next_target.gather(1, actions[:, None])[:, 0].detach()
         functional.mse_loss(q.gather(1, actions[:, None])[:, 0], y) + weight * functional.cross_entropy(q, actions)
-    all actions learn:
-        y = rewards + gamma * (1 - terminated) * next_target.gather(1, next_q.argmax(1, keepdim=True))[:, 0].detach()
-        (q - y[:, None]).pow(2).mean() + weight * functional.cross_entropy(q, actions)
-    as a number too: with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, weight).item()
-        # no gradient reaches `q`
     with half of it detached: squares = with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, 0.0)
         squares + weight * functional.cross_entropy(q.detach(), actions)  # slope in `q` is wrong
-    with the smallest next value: with_no_grad(q, -next_q, next_target, actions, rewards, terminated, gamma, weight)
 """)
 
 right_lines("""share_of_the_bound
     of sums: returns.sum(axis=1) / bound.sum()
     weighted: np.average(returns / bound, axis=1, weights=bound)
-    agent by agent: [sum(row) / sum(bound) for row in returns.tolist()]
 """)
 
 wrong_lines("""share_of_the_bound
-    of all agents: np.mean([row.mean() for row in returns]) / bound.mean()  # share of its own
-    upside down: bound.mean() / returns.mean(axis=1)
     by road: returns.mean(axis=0) / bound
-    not above the bound: np.array([min(1.0, row.sum() / bound.sum()) for row in returns])  # clip at 1
     of the middle road: np.median(returns, axis=1) / np.median(bound)
-    in percent: 100 * returns.mean(axis=1) / bound.mean()
 """)

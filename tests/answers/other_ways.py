@@ -8,7 +8,6 @@ EITHER = "of two actions with the same value, either is the better one"
 equivalent("better_of_two", "pi * (q > q_rule)  ->  pi * (q >= q_rule)", EITHER)
 
 right_lines("""smallest_of
-    one after the other: torch.stack([q[int(i)] for i in chosen]).min(0).values
     indexed: torch.index_select(q, 0, chosen).min(dim=0)[0]
     the others left out: q[[int(i) for i in chosen]].amin(dim=0)
 """)
@@ -19,25 +18,17 @@ right_lines("""guide_shrinks
 """)  # noqa: E501
 
 wrong_lines("""smallest_of
-    one number: q[chosen].min()
     the smallest of each state: q[chosen].amin(0).amin(-1)  # shape
     two at a time: torch.minimum(q[chosen[0]], q[chosen[-1]])
-    the best chosen critic: q[chosen[q[chosen].mean((1, 2)).argmin()]]
-    a copy of itself: q  # shape
 """)
 
 wrong_lines("""better_of_two
     the soft choice: w = torch.sigmoid(q - q.gather(-1, rule_actions[:, None])); t = pi * w; t.scatter_add(-1, rule_actions[:, None], (pi - t).sum(-1, keepdim=True))
-    the values: torch.maximum(q, q.gather(-1, rule_actions[:, None]))
     the rule's probability replaced: t = pi * (q > q.gather(-1, rule_actions[:, None])); t.scatter(-1, rule_actions[:, None], pi.gather(-1, rule_actions[:, None]))
-    the rule's value at another place: t = pi * (q > q[:, :1]); t.scatter_add(-1, rule_actions[:, None], 1 - t.sum(-1, keepdim=True))
 """)  # noqa: E501
 
 wrong_lines("""guide_shrinks
-    no tolerance: bool(len(returns) >= window and np.mean(returns[-window:]) >= best)  # leave out the tolerance
     a median: bool(len(returns) >= window and np.median(returns[-window:]) >= best - tolerance * abs(best))
-    the last one alone: bool(len(returns) >= window and returns[-1] >= best - tolerance * abs(best))
-    one too many: bool(len(returns) > window and np.mean(returns[-window:]) >= best - tolerance * abs(best))  # one return too many
     the mean's share: m = np.mean(returns[-window:] or [0.0]); bool(len(returns) >= window and m >= best - tolerance * abs(m))
 """)  # noqa: E501
 
@@ -50,20 +41,3 @@ def action_by_action(pi, q, rule_actions):
         for a in range(pi.shape[1]):
             found[i, a if q[i, a] > q[i, rule] else rule] += pi[i, a]
     return found
-
-
-@right("better_of_two")
-def with_where(pi, q, rule_actions):
-    at_rule = torch.nn.functional.one_hot(rule_actions, pi.shape[1])
-    kept = torch.where(q > (at_rule * q).sum(-1, keepdim=True), pi, torch.zeros_like(pi))
-    return kept + at_rule * (1 - kept.sum(-1, keepdim=True))
-
-
-wrong_lines("""smallest_of
-    values and places: torch.stack([q[int(c)] for c in chosen]).min(dim=0)  # take `.values`
-""")
-
-wrong_lines("""better_of_two
-    divided by their sum: stays = torch.where(q >= q.gather(1, rule_actions[:, None]), pi, torch.zeros_like(pi))
-        stays / stays.sum(1, keepdim=True)  # share what is left over
-""")

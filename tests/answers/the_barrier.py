@@ -1,9 +1,6 @@
 """Answers to the exercises of the lesson on the barrier."""
 
-import numpy as np
-
-from bootcourse.course.lessons.the_barrier import chain
-from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
+from tests.answers import equivalent, right_lines, wrong_lines
 
 right_lines("""luck
     binomial: 1 - stats.binom.pmf(0, tries, (good / 9) ** decisions)
@@ -14,8 +11,6 @@ right_lines("""luck
 """)
 
 wrong_lines("""luck
-    capped: min(1.0, tries * (good / 9) ** decisions)  # counts two lucky ones twice
-    no luck: (1 - (good / 9) ** decisions) ** tries  # *no* attempt is lucky
     of eight: 1 - (1 - (good / 8) ** decisions) ** tries
 """)
 
@@ -42,93 +37,6 @@ right_lines("""learn_chain
 """)
 
 
-@right("learn_chain")
-def episode_by_episode(chances, gamma, step, taught):
-    q = np.zeros((5, 2))
-
-    def update(s, a):
-        after = chain.NEXT[s][a]
-        q[s][a] += step * (chain.REWARD[s][a] + gamma * np.max(q[after]) - q[s][a])
-        return after
-
-    for begin in range(0, len(chances), chain.EPISODE):
-        s = 0
-        for chance in chances[begin : begin + chain.EPISODE]:
-            s = update(s, np.argmax(q[s]) if chance == -1 else chance)
-            for each in taught:
-                update(*each)
-    return q
-
-
-@right("learn_chain")
-def with_one_row_of_numbers(chances, gamma, step, taught):
-    q, s = np.zeros(10), 0
-    for t in range(len(chances)):
-        s = 0 if t % 20 == 0 else s
-        a = int(chances[t]) if chances[t] != -1 else int(q[2 * s + 1] > q[2 * s])
-        for x, u in ((s, a), *taught):
-            y = chain.NEXT[x, u]
-            error = chain.REWARD[x, u] + gamma * max(q[2 * y], q[2 * y + 1]) - q[2 * x + u]
-            q[2 * x + u] = q[2 * x + u] + step * error
-        s = chain.NEXT[s, a]
-    return q.reshape(5, 2)
-
-
-def chain_learner(first=0, ties=0, ahead=0, sarsa=False, own=True):
-    """Q-learning in the chain with other slips than the exercise knows."""
-
-    def answer(chances, gamma, step, taught):
-        q, s = np.zeros((5, 2)), 0
-        for t, chance in enumerate(chances):
-            s = 0 if t % 20 == first else s
-            greedy = int(q[s, 1] > q[s, 0]) if not ties else int(q[s, 1] >= q[s, 0])
-            a = greedy if chance < 0 else chance
-            for x, u in [(s, a)] * own + list(taught):
-                y = chain.NEXT[x, u] if not ahead else x
-                best = q[y, u] if sarsa else q[y].max()
-                q[x, u] += step * (chain.REWARD[x, u] + gamma * best - q[x, u])
-            s = chain.NEXT[s, a]
-        return q
-
-    return answer
-
-
-for _slip in ({"first": 19}, {"ahead": 1}, {"own": False}):
-    wrong("learn_chain")(chain_learner(**_slip))
-wrong("learn_chain", "Of two equal actions")(chain_learner(ties=1))
-wrong("learn_chain", "repeating the same action")(chain_learner(sarsa=True))
-
-
-@wrong("learn_chain", "last decision of an episode as an end")
-def with_an_end_after_20(chances, gamma, step, taught):
-    q, s, n = np.zeros((5, 2)), 0, 0
-    for chance in chances:
-        a, n = int(np.argmax(q[s])) if chance == -1 else chance, n + 1
-        after = 0 if n == 20 else gamma * max(q[chain.NEXT[s, a]])
-        q[s, a] += step * (chain.REWARD[s, a] + after - q[s, a])
-        for x, u in taught:
-            q[x, u] += step * (chain.REWARD[x, u] + gamma * max(q[chain.NEXT[x, u]]) - q[x, u])
-        s, n = (0, 0) if n == 20 else (chain.NEXT[s, a], n)
-    return q
-
-
-@wrong("learn_chain", "the value of state 0, where the walk starts again")
-def with_the_next_episode(chances, gamma, step, taught):
-    q, s = np.zeros((5, 2)), 0
-    for t, chance in enumerate(chances):
-        a = int(np.argmax(q[s])) if chance == -1 else chance
-        after = chain.NEXT[s, a]
-        if t % 20 == 19:
-            after = 0
-        q[s, a] += step * (chain.REWARD[s, a] + gamma * q[after].max() - q[s, a])
-        for x, u in taught:
-            q[x, u] += step * (chain.REWARD[x, u] + gamma * q[chain.NEXT[x, u]].max() - q[x, u])
-        s = after
-    return q
-
-
 wrong_lines("""learn_chain
-    with a step of a half: chain.learn_chain(chances, gamma, 0.5, taught)
-    with the paper's discount: chain.learn_chain(chances, 0.8, step, taught)
     the values of the states: chain.learn_chain(chances, gamma, step, taught).max(axis=1)
 """)

@@ -26,37 +26,9 @@ def as_sums(rewards, values, next_values, terminated, ended, gamma, lam):
     return found
 
 
-@right("advantages")
-def road_by_road(rewards, values, next_values, terminated, ended, gamma, lam):
-    horizon, roads = rewards.shape
-    found = torch.zeros_like(rewards)
-    for road in range(roads):
-        following = 0.0
-        for t in range(horizon - 1, -1, -1):
-            after = 0.0 if terminated[t, road] else next_values[t, road]
-            following = 0.0 if ended[t, road] else following
-            following = rewards[t, road] + gamma * after - values[t, road] + gamma * lam * following
-            found[t, road] = following
-    return found
-
-
 wrong_lines("""advantages
-    with the values added: as_sums(rewards, values, next_values, terminated, ended, gamma, lam) + values
-    normalised: found = as_sums(rewards, values, next_values, terminated, ended, gamma, lam)
-        (found - found.mean()) / (found.std() + 1e-8)
     with the next row's value: shifted = torch.cat([values[1:], next_values[-1:]])
         as_sums(rewards, values, shifted, terminated, ended, gamma, lam)
-    returns to go: found, following = torch.zeros_like(rewards), next_values[-1]
-        for t in reversed(range(len(rewards))):
-            following = rewards[t] + gamma * (1 - terminated[t]) * following
-            found[t] = following - values[t]
-        found
-    stopped a row late: delta = rewards + gamma * (1 - terminated) * next_values - values
-        found, following = torch.zeros_like(delta), torch.zeros_like(delta[0])
-        for t in reversed(range(len(delta))):
-            going_on = 1 - ended[t + 1] if t + 1 < len(delta) else 1.0
-            found[t] = following = delta[t] + gamma * lam * going_on * following
-        found
 """)
 
 right_lines("""clipped_loss
@@ -68,13 +40,9 @@ right_lines("""clipped_loss
 """)
 
 wrong_lines("""clipped_loss
-    as a number: solution(ratio, advantage, clip).item()  # gradient
     with numpy: r, a = ratio.detach().numpy(), advantage.numpy()
         torch.tensor(-np.minimum(r * a, np.clip(r, 1 - clip, 1 + clip) * a).mean())  # gradient
-    with a number for epsilon: solution(ratio, advantage, 0.2)
     clipped above only: -torch.minimum(ratio * advantage, ratio.clamp(max=1 + clip) * advantage).mean()
-    of each decision: -torch.minimum(ratio * advantage, ratio.clamp(1 - clip, 1 + clip) * advantage)
-    of the logarithm: solution(ratio.log(), advantage, clip)
 """)
 
 right_lines("""ppo_loss
@@ -92,16 +60,8 @@ right_lines("""ppo_loss
 """)  # noqa: E501
 
 wrong_lines("""ppo_loss
-    as a number: solution(log_pi, values, actions, old_log_pi, advantage, returns, clip, entropy_weight).item()  # gradient
-    without the values: solution(log_pi, returns, actions, old_log_pi, advantage, returns, clip, entropy_weight)
     nothing clipped: solution(log_pi, values, actions, old_log_pi, advantage, returns, 1e9, entropy_weight)
-    shifted only: taken = log_pi.gather(-1, actions[:, None])[:, 0]
-        good = advantage - advantage.mean()
-        ratio = (taken - old_log_pi).exp()
-        loss = -torch.minimum(ratio * good, ratio.clamp(1 - clip, 1 + clip) * good).mean()
-        loss + (values - returns).square().mean() / 2 + entropy_weight * (log_pi.exp() * log_pi).sum(-1).mean()
-    the values learn the advantages: solution(log_pi, values, actions, old_log_pi, advantage, advantage, clip, entropy_weight)
-""")  # noqa: E501
+""")
 
 
 SCALED = "(advantage - advantage.mean()) / (advantage.std() {})"
@@ -112,17 +72,3 @@ for _change, _why in {
     "(:, 0)  ->  (:, -1)": "there is one column",
 }.items():
     equivalent("ppo_loss", _change, _why)
-
-wrong_lines("""advantages
-    into the next episode: delta = rewards + gamma * (1 - terminated) * next_values - values
-        powers = (gamma * lam) ** torch.arange(len(delta))
-        torch.stack([(powers[: len(delta) - t, None] * delta[t:]).sum(0) for t in range(len(delta))])  # next episode
-""")
-
-wrong_lines("""ppo_loss
-    with n below the deviation: good = advantage - advantage.mean()
-        good = good / good.square().mean().sqrt()
-        ratio = torch.exp(log_pi[torch.arange(len(actions)), actions] - old_log_pi)
-        loss = -torch.minimum(ratio * good, ratio.clamp(1 - clip, 1 + clip) * good).mean()
-        loss + (values - returns).square().mean() / 2 + entropy_weight * (log_pi.exp() * log_pi).sum(-1).mean()  # n - 1
-""")

@@ -5,7 +5,6 @@ import collections
 import torch
 
 from bootcourse.course.lessons.update_and_loop import by_hand
-from bootcourse.learn import sac
 from tests.answers import equivalent, right, wrong
 
 TARGET = "target = critic_target(batch.rewards, batch.terminated,"
@@ -72,47 +71,16 @@ class WithSlicing:
         return self.rows[rng.integers(0, len(self.rows), batch)]
 
 
-@wrong("ReplayBuffer", "copies all its rows")
-class StackedAtEachDraw(WithADeque):
-    def sample(self, batch, rng):
-        return torch.stack(list(self.rows))[rng.integers(len(self.rows), size=batch)]
-
-
 @wrong("ReplayBuffer", "in float64: keep them in float32")
 class WithATableOfNumPy(WithATable):
     def sample(self, batch, rng):
         return super().sample(batch, rng).double()
 
 
-@wrong("ReplayBuffer", "again and again")
-class OneRowManyTimes(WithADeque):
-    def sample(self, batch, rng):
-        return self.rows[rng.integers(len(self.rows))].repeat(batch, 1)
-
-
-@wrong("ReplayBuffer", "`return super().sample(batch, rng)[batch]`: IndexError")
-class ANumberTooMany(WithADeque):
-    def sample(self, batch, rng):
-        return super().sample(batch, rng)[batch]
-
-
 @wrong("ReplayBuffer", "without replacement")
 class EachRowOnce(WithADeque):
     def sample(self, batch, rng):
         return torch.stack([self.rows[i] for i in rng.choice(len(self.rows), batch, replace=False)])
-
-
-@wrong("ReplayBuffer", "without replacement")
-class EachRowOnceWhereThatIsPossible(WithADeque):
-    def sample(self, batch, rng):
-        places = [i for _ in range(batch) for i in rng.permutation(len(self.rows))]
-        return torch.stack([self.rows[i] for i in places[:batch]])
-
-
-@wrong("ReplayBuffer", "keeps every row")
-class WithoutAnEnd(WithADeque):
-    def __init__(self, size):
-        self.rows = []
 
 
 @wrong("ReplayBuffer", "gives back the rows")
@@ -176,33 +144,6 @@ def without_functions(agent, batch):
     move_copies(agent)
 
 
-@wrong("update", "the critics")
-def with_half_a_loss(agent, batch):
-    with torch.no_grad():
-        value = sac.soft_value(agent.log_pi(batch.next_states), agent.slow_q(batch.next_states).amin(0), torch.ones(()))
-        y = sac.critic_target(batch.rewards, batch.terminated, value, agent.gamma)
-    taken = agent.q(batch.states)[:, torch.arange(len(y)), batch.actions]
-    optimiser = agent.optimisers[0]
-    optimiser.zero_grad()
-    (taken - y).square().mean().backward()
-    optimiser.step()
-    move_copies(agent)
-
-
-@wrong("update", "your first update log α differs")
-def without_the_actor(agent, batch):
-    alpha = agent.log_alpha.exp().detach()
-    with torch.no_grad():
-        value = sac.soft_value(agent.log_pi(batch.next_states), agent.slow_q(batch.next_states).amin(0), alpha)
-        y = sac.critic_target(batch.rewards, batch.terminated, value, agent.gamma)
-    q = agent.q(batch.states)
-    loss = sac.critic_loss(q.gather(-1, batch.actions.expand(2, -1).unsqueeze(-1)).squeeze(-1), y).sum()
-    agent.optimisers[0].zero_grad()
-    loss.backward()
-    agent.optimisers[0].step()
-    move_copies(agent)
-
-
 @right("train")
 def with_a_while(agent, env, buffer, update, pushes, rng):
     done, over = 0, True
@@ -239,46 +180,12 @@ def without_a_memory(agent, env, buffer, update, pushes, rng):
             state, _ = env.reset()
 
 
-@wrong("update", "Step 8 changes their weights in place")
-def without_step_8(agent, batch):
-    with torch.no_grad():
-        before = [each.clone() for each in agent.copies.parameters()]
-    without_functions(agent, batch)
-    with torch.no_grad():
-        for each, old in zip(agent.copies.parameters(), before, strict=True):
-            each.copy_(old)
-
-
 @wrong("update", "your first update the critics differ")
 def with_the_larger_of_two(agent, batch):
     slow = agent.slow_q
     agent.slow_q = lambda states: slow(states).amax(0).expand(2, -1, -1)
     without_functions(agent, batch)
     del agent.slow_q
-
-
-def loop(often=4, rows=64, wrap=by_hand.batch_of, times=1):
-    """The loop with other slips than the exercise knows."""
-
-    def answer(agent, env, buffer, update, pushes, rng):
-        state, _ = env.reset()
-        for push in range(pushes):
-            action, before = agent.draw(state, rng), state
-            state, reward, fell, late, _ = env.step(action)
-            buffer.add(by_hand.row(before, action, reward, fell, state))
-            if fell or late:
-                state, _ = env.reset()
-            if push >= 256 and push % often == 0:
-                for _ in range(times):
-                    update(agent, wrap(buffer.sample(rows, rng)))
-
-    return answer
-
-
-wrong("train", "`by_hand.batch_of` of 64 rows")(loop(wrap=lambda rows: rows))
-wrong("train", "`by_hand.batch_of` of 64 rows")(loop(rows=32))
-wrong("train", "one after each fourth push")(loop(times=4))
-wrong("train", "updates: after the first 256")(loop(often=64))
 
 
 @wrong("train", "`pushes` counts single pushes, not episodes")

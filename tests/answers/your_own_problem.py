@@ -1,6 +1,5 @@
 """Answers to the exercises of the lesson on a problem of one's own."""
 
-import numpy as np
 from scipy import stats
 
 from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
@@ -16,18 +15,12 @@ def by_energy(position, speed):
 
 right_lines("""climb_rule
     by the sign: int(1 + np.sign(speed)) if speed else 2
-    as a number: 2 * int(speed > -1e-9)
-    with a table: {True: 2, False: 0}[bool(speed >= 0)]
 """)
 
 wrong_lines("""climb_rule
-    a string: "right"
     nothing for the left: 2 if speed >= 0 else None  # returns nothing
     at random: int(np.random.default_rng().integers(3))  # differently each time
-    to the left: 0
-    a fraction: 1.5  # something else than an action
     once up: 2 if position > -0.3 else 0
-    only when fast: 1 if abs(speed) < 0.02 else solution(position, speed)
 """)
 
 
@@ -37,22 +30,9 @@ def by_scipy(right, votes):
     return stats.binom.sf(votes // 2, votes, right) + 0.5 * tie
 
 
-@right("majority_right")
-def one_label_at_a_time(right, votes):
-    """The distribution of the number of right labels, label after label."""
-    distribution = np.array([1.0])
-    for _ in range(votes):
-        distribution = np.append(distribution, 0) * (1 - right) + np.append(0, distribution) * right
-    counts = 2 * np.arange(votes + 1)
-    return float(distribution @ ((counts > votes) + 0.5 * (counts == votes)))
-
-
 wrong_lines("""majority_right
     the normal approximation: stats.norm.sf(votes / 2, votes * right, np.sqrt(votes * right * (1 - right)) + 1e-9)
-    per cent: 100 * solution(right, votes)
-    of one label more: solution(right, votes + 1)
     ties are lost: stats.binom.sf(votes // 2, votes, right)
-    at least half: stats.binom.sf((votes - 1) // 2, votes, right)
 """)
 
 
@@ -62,33 +42,9 @@ right_lines("""drowning_bonus
 """)
 
 
-@right("drowning_bonus")
-def by_two_lines(reward, goal, decisions, shown, gamma):
-    """Both values are lines in c: where do they meet?"""
-
-    def difference(c):
-        discounts = gamma ** np.arange(decisions)
-        way = reward * discounts.sum() + c * discounts[:shown].sum() + goal * discounts[-1]
-        return (reward + c) / (1 - gamma) - way
-
-    return -difference(0.0) / (difference(1.0) - difference(0.0))
-
-
 @wrong("drowning_bonus")
 def without_discounts(reward, goal, decisions, shown, gamma):
     return (goal + reward * decisions) / max(decisions - shown, 1)
 
 
-wrong_lines("""drowning_bonus
-    as if all were shown: (1 - gamma) * goal / gamma - reward
-    at least nothing: max(0.0, solution(reward, goal, decisions, shown, gamma))
-    upside down: 1 / (solution(reward, goal, decisions, shown, gamma) + 1e-9)
-    the value of the loop: (reward + 2.0) / (1 - gamma)
-""")
-
 equivalent("climb_rule", "2 if speed >= 0 else 0  ->  2 if speed > 0 else 0", "at rest, either side will do")
-
-wrong_lines("""climb_rule
-    minus one: 1 if speed >= 0 else -1  # a number that is not an action
-    counted from one: 3 if speed >= 0 else 1  # a number that is not an action
-""")
