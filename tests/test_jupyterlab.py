@@ -1,6 +1,7 @@
 """Replays, panels and predictions where people meet them: in a real JupyterLab, in headless Chromium."""
 
 import json
+import re
 import statistics
 
 import pytest
@@ -69,7 +70,9 @@ def notebook(open_notebook):
         "trainer = train_panel('bootstrapped', seeds=2, episodes=5000)\ntrainer",
         THINKING + "weighed = policy_panel(drive)\nweighed",
         "from bootcourse.panels import bonus_panel\nbonus = bonus_panel()\nbonus",
-        "from bootcourse.course import predict\npredict('the_barrier.1', 'Does <b>it</b> stay?', ['<i>yes</i>', 'no'])",
+        "from bootcourse.course import predict",
+        "predict('the_barrier.1', 'Does <b>it</b> stay?', ['<i>yes</i>', 'no', 'perhaps'])",
+        "predict('the_barrier.2', 'For how long?', unit='s')",
     )
     with open_notebook(*cells) as it:
         it.page.set_default_timeout(20_000)
@@ -137,8 +140,9 @@ def test_a_press_and_a_slider_show_their_effect_within_a_tenth_of_a_second(noteb
 
 def test_a_training_grows_on_the_page_stops_and_is_watched(notebook):
     shown = panel(notebook, 1)
-    button(notebook, 1, "Train").click()
+    button(notebook, 1, "Train").press("Enter")
     waits_for(notebook, 1, "<circle")
+    notebook.page.wait_for_function("document.activeElement.getAttribute('aria-label') === 'Stop'")
     waits_for(notebook, 1, "decisions/s")
     took = [changed(notebook, 0, "panel.querySelector('.bc-pad-4').click()") for _ in range(4)]
     shown.screenshot(path=str(ARTEFACTS / "train-panel.png"))
@@ -153,16 +157,30 @@ def test_a_training_grows_on_the_page_stops_and_is_watched(notebook):
 def test_the_keyboard_commits_a_prediction(notebook):
     shown = panel(notebook, 4)
     shown.locator("input[type=radio]").first.focus()
-    for key in ("ArrowDown", "Tab", "Enter"):
+    for key in ("ArrowDown", "Tab", "Enter"):  # the arrow chooses, and one Tab leaves all three choices
         notebook.page.keyboard.press(key)
     waits_for(notebook, 4, "You predict: no.")
     assert "<i>yes</i>" in shown.inner_text()  # a choice is text; the question stands above the form
-    assert json.loads((notebook.folder / FILE).read_text())["the_barrier.1"]["answer"] == "no"
+    panel(notebook, 5).locator("input").focus()
+    notebook.page.keyboard.type("12")
+    notebook.page.keyboard.press("Enter")
+    waits_for(notebook, 5, "You predict: 12 s.")
+    kept = json.loads((notebook.folder / FILE).read_text())
+    assert (kept["the_barrier.1"]["answer"], kept["the_barrier.2"]["answer"]) == ("no", 12)
+
+
+def test_each_control_of_a_panel_has_a_name_in_letters(notebook):
+    controls = ".bc-panel [role=slider], .bc-panel input:not([type=radio], [type=checkbox]), .bc-panel button"
+    names = notebook.page.locator(controls).evaluate_all(
+        "each => each.map(one => one.getAttribute('aria-label') ?? '')"
+    )
+    assert len(names) > 30 and all(re.search("[a-z]{3}", name) for name in names), names
+    assert "accelerate left" in names and "Prediction 4.2" in names
 
 
 def test_the_panels_fit_their_column_and_the_console_has_no_error(notebook):
     widths = notebook.page.evaluate(
         "[...document.querySelectorAll('.bc-panel')].map(p => [p.scrollWidth, p.clientWidth])"
     )
-    assert len(widths) == 5 and all(scroll <= client for scroll, client in widths)
+    assert len(widths) == 6 and all(scroll <= client for scroll, client in widths)
     assert not [error for error in notebook.shown.errors if "WebGL" not in error]

@@ -47,5 +47,5 @@ const waiting = setInterval(() => {
 
 
 def for_everybody() -> Markup:
-    """Give a panel's controls their names, radio buttons their arrow keys, and the focus of a button that is off away."""
+    """Controls get names, radio buttons arrow keys; a button that switches itself off hands the focus on."""
     return html('<img src="data:," alt="" style="display:none" onerror="{}">', SCRIPT)
