@@ -1,7 +1,9 @@
 """A class: answers are read without running a notebook, judged in closed processes, and shown in a table and pages."""
 
+import contextlib
 import csv
 import functools
+import io
 import json
 import os
 import socket
@@ -94,7 +96,7 @@ def folder(tmp_path):
 def test_submit_puts_answers_and_predictions_into_one_file_that_is_read_as_it_was(bootcourse, folder):
     out = folder.parent / "class" / "ada.json"
     answer = bootcourse("submit", folder, "--name", "Ada <b>Lovelace", "--out", out)
-    assert answer.status == 0 and "2 answers, 1 predictions. Hand in this file." in answer.out, answer.err
+    assert answer.status == 0 and "Answers: 2. Predictions: 1. Hand in this file." in answer.out, answer.err
     (one,) = collect(out.parent)
     assert (one.student, one.name, one.exercises) == ("ada", "Ada <b>Lovelace", fingerprint())
     assert one.answers[NAME] == RIGHT.rstrip() + "\n" and one.predictions["5.1"].answer == "none"
@@ -297,9 +299,10 @@ def graded(tmp_path_factory):
         patch.chdir(folder / "class")
         patch.setattr(sys, "argv", ["bootcourse", *map(str, arguments)])
         patch.setattr(grading, "LONGER", 0.5)
-        with pytest.raises(SystemExit) as ended:
+        with pytest.raises(SystemExit) as ended, contextlib.redirect_stderr(io.StringIO()) as said:
             main()
     assert not ended.value.code and not (folder / "ran").exists()
+    (folder / "said").write_text(said.getvalue())
     return folder
 
 
@@ -309,6 +312,7 @@ def test_each_student_is_graded_whatever_the_others_do(graded):
     assert rows["ada"][NAME] == rows["Åke & co"][NAME] == "2"
     assert all(float(rows[student]["points"]) == 0 for student in ("empty", "damaged", "endless", "mallory"))
     assert rows["mistaken"]["name"] == "'=1+1", "a name that a spreadsheet would compute is only text"
+    assert "damaged: not all could be read. damaged.json is damaged" in (graded / "said").read_text()
 
 
 def test_the_page_about_the_class_says_what_to_look_at_and_escapes_what_students_wrote(graded):

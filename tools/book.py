@@ -8,6 +8,7 @@ solutions, in build/book/instructor.
 import json
 import re
 import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -74,11 +75,26 @@ def build(source: Path, html: Path) -> int:
     return main(["-b", "html", "-q", "-W", "--keep-going", "-d", str(html.parent / "doctrees"), str(source), str(html)])
 
 
+def changed_notebooks() -> list[str]:
+    """The lessons' notebooks that differ from the last commit; none where git does not say."""
+    command = ["git", "-C", str(ROOT), "diff", "--name-only", "HEAD", "--", "notebooks/*.ipynb"]
+    try:
+        told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        return []
+    return [Path(name).name for name in told.splitlines() if Path(name).parent.name == "notebooks"]
+
+
 def main(edition: str = "student") -> int:
     if edition not in ("student", "instructor"):
         print(f"EDITION={edition}: choose student or instructor.", file=sys.stderr)
         return 2
     html = BUILD / ("html" if edition == "student" else edition)
+    if changed := changed_notebooks():
+        print(f"The book shows these notebooks as you changed them: {', '.join(changed)}.", file=sys.stderr)
+        print(
+            "`git checkout notebooks` brings back the lessons as they came, and drops your changes.", file=sys.stderr
+        )
     gather(BUILD / "source", edition)
     status = build(BUILD / "source", html)
     if status == 0:

@@ -41,10 +41,12 @@ def evaluate(
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
     from bootcourse.cli.training import register_learner
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
+    from bootcourse.progress import progress_bar
 
     register_learner(learner)
     seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who, scenario, seed, teacher, lookahead)
-    summaries = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in drivers}
+    bar = progress_bar(drivers, shown=bool(lookahead), unit="driver")  # looking ahead takes a minute and more
+    summaries = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in bar}
     means = {name: over_seeds([summaries[label] for label in labels]) for name, labels in alike(drivers).items()}
     columns = {label: vars(each) for label, each in summaries.items()} | means
     ahead = f", looking {lookahead} decisions ahead" if lookahead else ""

@@ -137,7 +137,7 @@ CHECKS = {
         acrobot, online("sac", acrobot, 100_000, **SAC, updates=4),
     ),
     "cql-cartpole": Check(
-        "CQL, offline", "CartPole-v1", 170.0, "20,000 transitions, 5,000 updates", "the same",
+        "CQL, offline", "CartPole-v1", 170.0, "20,000 transitions, 5,000 updates; its own test stops there", "the same",
         "[Tianshou, test_discrete_cql.py](https://github.com/thu-ml/tianshou/blob/master/test/offline/test_discrete_cql.py)",
         cartpole, cql, "the data's policies",
     ),

@@ -22,7 +22,7 @@ def submit(
     path, submission = write(folder, name, out)
     written = submission.written
     print(path)
-    print(f"{len(written)} answers, {len(submission.predictions)} predictions.", end=" ")
+    print(f"Answers: {len(written)}. Predictions: {len(submission.predictions)}.", end=" ")
     print("Hand in this file." if written else "No exercise is answered yet.")
     print(*submission.problems, sep="\n", end="\n" * bool(submission.problems))
 
@@ -49,6 +49,11 @@ def grade(
         raise typer.Exit(INTERRUPTED) from None
     for path in write_report([graded(one, worth, verdicts) for one in submissions], out, holds):
         print(path)
+    for one in submissions:
+        if one.problems:
+            more = f" (and {len(one.problems) - 1} more)" if len(one.problems) > 1 else ""
+            words = f"{one.student}: not all could be read. {one.problems[0]}{more}"
+            print("".join(each if each.isprintable() else "?" for each in words), file=sys.stderr)
 
 
 def handout(
