@@ -131,12 +131,12 @@ theirs = f"the paper's success, {paper.EPISODES} drives"
 table(["", "agents that escape (95 %)", theirs, "p against ours, if one agent drove all"], rows)
 
 # %% [markdown]
-# **See.** Two rows look opposite: the soft constraint alone, and the demonstrations alone. They do
-# not contradict the paper. Twenty drives of one agent say how that agent drives; they are *one*
-# sample, not twenty, of how often training succeeds. A row with one agent behind it can neither
-# contradict our ten nor agree with them: even the most extreme case, one of one against none of
-# ten, has a p of {{ with_one_agent('demos') | .2f }}, so this test cannot find a difference,
-# whatever happens.
+# **See.** Two rows look opposite: the soft constraint alone, and the demonstrations alone. They
+# need not contradict the paper. Twenty drives of one agent say how that agent drives; they are
+# *one* sample, not twenty, of how often training succeeds. A row with one agent behind it can
+# neither contradict our ten nor agree with them: even the most extreme case, one of one against
+# none of ten, has a p of {{ with_one_agent('demos') | .2f }}, so this test cannot find a
+# difference, whatever happens.
 # <!-- claim: 0.05 < with_one_agent('demos') < with_one_agent('soft') and escaped('soft') > 5 and
 #   escaped('demos') == 0 and abs(with_one_agent('demos') - 1 / 11) < 1e-9 -->
 
@@ -320,8 +320,8 @@ bc.show(figures.final_scores(study, methods, title=title))
 # Do not trust a short interval from few seeds. If three agents happen to agree, it is short: with
 # the soft constraint it is {{ bracketed(interval(of('soft').scores('returns')[:3], np.mean)) }},
 # and ten agents have a mean of {{ of('soft').scores('returns').mean() | .0f }}. Resampling draws
-# from the agents that were trained, and from no others. Nor does an interval over seeds hold what
-# another moment of stopping would change (lesson [[found_and_kept]]).
+# from the agents that were trained, and from no others. Nor does such an interval cover the moment
+# of stopping: another moment gives other returns (lesson [[found_and_kept]]).
 # <!-- claim: of('soft').scores('returns').mean() < interval(of('soft').scores('returns')[:3],
 #   np.mean).low -->
 #
@@ -348,8 +348,8 @@ table(headings, rows)
 # %% [markdown]
 # **See.** Agents with the soft constraint that escape drive faster than the rule, and have an
 # accident in {{ accidents_of('soft', True) | .0f }} to {{ accidents_of('bootstrapped', True) | .0f
-# }} % of their drives, the rule in none. The large rates are those of the agents that do *not*
-# escape. (The rule is slow by our choice of its sight: lesson [[the_rule]].)
+# }} % of their drives, the rule in none. Of these two methods the large rates are those of the
+# agents that do *not* escape. (The rule is slow by our choice of its sight: lesson [[the_rule]].)
 # <!-- claim: all(accidents_of(m, False) > 5 * accidents_of(m, True) for m in ('soft',
 #   'bootstrapped')) and accidents('rule') == 0 -->
 
