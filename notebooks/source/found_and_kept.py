@@ -197,7 +197,7 @@ bc.show(figures.seed_by_seed(study, shown, title, gone, "β is 0 from here on"))
 # %% [markdown]
 # **See.** As the demonstrations run out, most agents with both aids lose the way out, and most of
 # these find it again. So the moment counts: of the {{ lost_and_kept().n }} agents with the soft
-# constraint that keep the way out in our table, {{ lost_and_kept().kept }} had lost it for a while
+# constraint that keep the way out, {{ lost_and_kept().kept }} had lost it for a while
 # (fewer than half of some {{ WINDOW }} episodes in a row).
 # <!-- claim: lost_and_kept().kept > 0.7 * lost_and_kept().n -->
 # <!-- claim: losing('bootstrapped').sum() > 5 and (losing('bootstrapped') &
@@ -311,7 +311,7 @@ bc.show(figures.found_and_kept(cells))
 #   {{ over_updates('π̃').kept }} keep it, with μ {{ over_updates('μ').found }} and
 #   {{ over_updates('μ').kept }} of {{ over_updates('μ').n }}.
 #
-# These are hints: their p values follow below.
+# Their p values follow below.
 # <!-- claim: all(5 <= way(clocks()[of], 'soft').kept <= 6 for of in (('1/4', 'π̃'), ('1', 'μ'),
 #   ('2', 'π̃'))) and way(clocks()['4', 'μ'], 'soft') == (2, 0, 3) -->
 # <!-- claim: min(way(r, 'bootstrapped').kept / way(r, 'bootstrapped').n for r in clocks().values())
@@ -369,7 +369,7 @@ table(["updates for a decision", "driver", "reads as the paper's, % [95 % over s
 # %% [markdown]
 # **See.** With two updates and π̃ the success rates of the paper's table are an ordinary outcome,
 # if one agent stands behind each row; with the study's choices it is rare. We looked at all these
-# rows and quote the largest: it is the most favourable of the readings that we tried.
+# rows and quote the largest: it is the most favourable reading that we tried.
 # <!-- claim: pattern(clocks()['2', 'π̃']).low > 0.05 > pattern(clocks()['1/4', 'μ']).value >
 #   pattern(of_all()).value and clocks()['1/4', 'μ'].curves['success'].shape[1] == 1200 -->
 
@@ -378,8 +378,7 @@ table(["updates for a decision", "driver", "reads as the paper's, % [95 % over s
 #
 # Here are all comparisons of this lesson, with p values corrected for their number (lesson
 # [[how_many_seeds]], round 2). The last two rows are the paper's first ablation (lesson
-# [[learning_from_demonstrations]]) with two updates and π̃; in the paper the bonus is better in each
-# metric.
+# [[learning_from_demonstrations]]), with two updates and π̃.
 #
 # | comparison | agents that keep the way out | p | p after Holm |
 # |---|---|---|---|

@@ -132,10 +132,10 @@ def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail")
         named[label] = going.mean(axis=0)
         looks.append(style(method)._replace(marker=None))
         ended[label] = 100 - going[:, -1].mean()
-    others = {label: share for label, share in ended.items() if label != SHORT[single]}
-    whose = " and ".join(f"{label}'s" for label in others)
-    rest = f"at most {max(others.values()):.1f} % of {whose}"
-    title = f"An accident ends {ended[SHORT[single]]:.1f} % of {SHORT[single]}'s drives, {rest}"
+    title = f"An accident ends {ended.pop(SHORT[single]):.1f} % of {SHORT[single]}'s drives"
+    if ended:  # the other methods
+        whose = " and ".join(f"{label}'s" for label in ended)
+        title += f", at most {max(ended.values()):.1f} % of {whose}"
     words = "test drives that still go on (%); thin: GAIL's agents"
     figure = lines(seconds, named, title, "second of the drive", words, limits=(0, 101), looks=looks)
     for line in figure.axes[0].lines[len(methods) - 1 : -1]:
