@@ -74,8 +74,11 @@ def exploration(results: Results) -> Figure:
     return training_curves(curves, title, measures=("entropy", "effective"))
 
 
-def final_scores(results: Results, methods: Sequence[str], column: str = "returns") -> Figure:
-    """Each agent's score on the held-out episodes, and their interquartile mean with its interval."""
+def final_scores(results: Results, methods: Sequence[str], column: str = "returns", title: str = "") -> Figure:
+    """Each agent's score on the held-out episodes, and their interquartile mean with its interval.
+
+    title: "" for one that names the methods with the highest scores.
+    """
     methods = [method for method in methods if method in results.methods]
     height = 1.2 + 0.42 * len(methods)
     figure = new_figure(height)
@@ -101,5 +104,5 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     best = max(middles.values(), key=lambda middle: middle.value)
     ahead = [display_name(m) for m, middle in middles.items() if middle is best or middle.high >= best.low]
     within = ", as far as the intervals tell" * (len(ahead) > 1)
-    title = f"Highest {label.split(',')[0]}{within}: {', '.join(ahead)}"
+    title = title or f"Highest {label.split(',')[0]}{within}: {', '.join(ahead)}"
     return finish(figure, title, "Interquartile means over agents with 95 % intervals: " + "; ".join(words) + ".")

@@ -25,6 +25,7 @@
 import bootcourse as bc
 import numpy as np
 import torch
+from bootcourse.colours import OTHER
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, shipped, table
 from bootcourse.course.lessons.imitation import figures as figures_baselines
 from bootcourse.course.lessons.imitation.reachable_entropy import by_entropy
@@ -151,14 +152,14 @@ table(["", *"abc"], [[n, *row] for n, row in zip(names, cells, strict=True)], be
 # conservative Q of c lies far below its target, and the highest Q is that of a, which the data hold
 # most often.
 #
-# An action that the data do not hold has π̂ = 0: the rule's drives hold one action in a state. No
-# Q is the best one there. The term pushes it down at each update, and only what it shares with
-# the values of other states in the network slows it down. Watch it in the figure below.
+# An action that the data do not hold has π̂ = 0, and for it the formula gives no smallest Q: the
+# term pushes it down at each update, ever more weakly, since the push is w π(a). The rule's drives
+# hold one action in a state, so this happens to the eight others. Watch it in the figure below.
 #
-# Mind what is shown. The bound is for the policy softmax(Q), and against the *targets*, which
-# contain values of Q themselves. Our agent takes the action with the highest Q, which is another
-# policy, and the Q of this action can lie *above* its target: look at action a. Whether the critic
-# is careful for the agent that drives has to be measured. We do that below.
+# And the bound is for the policy softmax(Q), against the *targets*, which contain values of Q
+# themselves. Our agent takes the action with the highest Q, which is another policy, and the Q of
+# this action can lie *above* its target: look at action a. Whether the critic is careful for the
+# agent that drives has to be measured, and will be.
 #
 # **Exercise (20 min, ●●●).** Write the whole loss that trains CQL's critic, from a batch of
 # the data. The target is that of *double* Q-learning: the critic itself chooses the next action,
@@ -210,9 +211,9 @@ for update in range(UPDATES + 1):
 # %%
 mine, rival = np.array(found).transpose(1, 2, 0)
 plain = slice(SEEDS, 2 * SEEDS)
-named = {"with the term: the rule's action": mine[:SEEDS], "the best other": rival[:SEEDS]}
+named = {"with it: the rule's action": mine[:SEEDS], "with it: the best other": rival[:SEEDS]}
 named |= {"without: the rule's action": mine[plain], "without: the best other": rival[plain]}
-looks = [charts.Style(c, line) for c in ("#999933", "#5F6B77") for line in ("-", "--")]
+looks = [charts.Style(c, line) for c in ("#999933", OTHER.colour) for line in ("-", "--")]
 likes = ["an untried action" if more > 0 else "the rule's" for more in (rival - mine)[:, -1]]
 title = f"Without CQL's term the critic prefers {likes[SEEDS]}; with it, {likes[0]}"
 gamma = learner.settings[0].gamma
@@ -325,8 +326,8 @@ table(["", "agents that escape", "mean speed", "returns of the agents, sorted"],
 # <!-- claim: escaped('cql_sac') == 0 and np.allclose(np.sort(of('cql_sac').scores('returns'))[4:],
 #   idle().rewards.sum(), atol=1) and (of('cql_sac').scores('accident') == 1).sum() == 4 -->
 #
-# **Explain.** So *which* CQL it was is a strong suspect. That does not show that the paper's CQL
-# had an actor. Two more suspects are cleared: behind faster traps, and with the setting of lesson
+# **Explain.** So the paper's CQL may have had an actor: a strong suspect, not a proof. Two more
+# suspects are cleared: behind faster traps, and with the setting of lesson
 # [[found_and_kept]], CQL without an actor escapes as well (at least {{ min(escaped('cql', s) for s
 # in ('calibrated', 'paper')) }} of ten agents each).
 # <!-- claim: min(escaped('cql', s) for s in ('calibrated', 'paper')) >= 9 -->
@@ -410,8 +411,9 @@ bc.show(figures.shares_of_the_bound(study, compared, bound, marks | {"the planne
 #   of('cql').scores('returns').max()).mean() > 0.5 and of('bootstrapped').scores('collision').max()
 #   > 0.9 -->
 #
-# **Explain.** CQL earns a little more than its teacher and no more: it may use the rewards, but its
-# term lowers the value of whatever was not demonstrated. None of the ten clones earns more than the
+# **Explain.** CQL earns a little more than its teacher, which is slow by our choice of its sight
+# (lesson [[the_rule]]), and no more: it may use the rewards, but its term lowers the value of
+# whatever was not demonstrated. None of the ten clones earns more than the
 # rule. (Elsewhere a clone can beat its teacher: if a teacher errs at random, its clone may learn
 # the most frequent action and leave out the errors. This teacher does not err at random.) The
 # bootstrapped agents also try other actions. Most of them come much nearer to the bound, and some
@@ -435,7 +437,7 @@ bc.show(figures.shares_of_the_bound(study, compared, bound, marks | {"the planne
 # ## What you now know
 #
 # 1. CQL's term is the cloning loss of softmax(Q). Ten of our ten CQL agents take the way out and
-#    earn more than their teacher.
+#    earn a little more than their teacher.
 # <!-- claim: len(of('cql')) == escaped('cql') == 10 and of('cql').scores('returns').min() >
 #   of('rule').scores('returns')[0] -->
 # 2. Without the term, offline Q-learning trusts guesses about actions that the data do not hold,

@@ -9,7 +9,7 @@ from bootcourse.research import clocks as study_clocks
 from bootcourse.research.results import WINDOW, Results
 from bootcourse.rule import stochastic_rule
 from scipy import stats
-from tools.course.known import clocks, fisher, of, shipped_experiment, shipped_results
+from tools.course.known import clocks, escapers, fisher, of, shipped_experiment, shipped_results, varied
 
 
 def undecided(method: str, first: int, last: int | None) -> float:
@@ -82,30 +82,55 @@ def kept_of(method: str, stays: bool) -> str:
     return f"{counted.kept} of {counted.found}"
 
 
-def stratified_p(pairs: list[tuple[Counted, Counted]], which: str) -> float:
-    """The exact p of a difference between the first and the second group, compared within each pair.
+def keepers(results: Results, method: str, measure: str) -> float:
+    """The mean of a measure over the agents of a method that keep the way out."""
+    return float(results.of(method).scores(measure)[results.found_and_kept(method)[1]].mean())
+
+
+def lost_and_kept() -> Counted:
+    """Of the study's agents with the soft constraint that keep the way out: how many had lost it for a while.
+
+    Lost: after the first good window, fewer than half of some `WINDOW` episodes in a row ended ahead.
+    """
+    lost = []
+    for method in ("soft", "bootstrapped"):
+        for success in of(method).curves["success"][of_all().found_and_kept(method)[1]]:
+            ahead = np.lib.stride_tricks.sliding_window_view(success, WINDOW).mean(axis=1)
+            lost.append(ahead[np.argmax(ahead > 0.5) :].min() < 0.5)
+    return Counted(len(lost), sum(lost), len(lost))
+
+
+def elsewhere(method: str) -> Counted:
+    """The agents with another γ or target entropy than the paper's, over all such changes: escaped is kept."""
+    each = [agents.of(method) for change, agents in varied().items() if "γ" in change or "entropy" in change]
+    won = sum(escapers(agents, method) for agents in each)
+    return Counted(won, won, sum(map(len, each)))
+
+
+def stratified_p(pairs: list[tuple[Counted, Counted]]) -> float:
+    """The exact p of a difference in keeping between the first and the second group, compared within each pair.
 
     Given how many agents won in each pair, those of the first group have a hypergeometric distribution; their sum
     over the pairs has the convolution. As in Fisher's test, p adds up what is at most as probable as what happened.
     """
     chances, won = np.ones(1), 0
     for first, second in pairs:
-        both, won = getattr(first, which) + getattr(second, which), won + getattr(first, which)
+        both, won = first.kept + second.kept, won + first.kept
         own = stats.hypergeom(first.n + second.n, both, first.n).pmf(np.arange(first.n + 1))
         chances = np.convolve(chances, own)
     return float(chances[chances <= chances[won] * (1 + 1e-9)].sum())
 
 
-def driver_p(which: str) -> float:
+def driver_p() -> float:
     """μ against π̃, with demonstrations alone, at each number of updates."""
     pairs = [tuple(way(clocks()[updates, d], "demos") for d in ("μ", "π̃")) for updates in study_clocks.UPDATES]
-    return stratified_p(pairs, which)
+    return stratified_p(pairs)
 
 
-def updates_p(which: str) -> float:
+def updates_p() -> float:
     """A quarter of an update against two, with demonstrations alone, for each driver."""
     pairs = [tuple(way(clocks()[updates, d], "demos") for updates in ("1/4", "2")) for d in ("μ", "π̃")]
-    return stratified_p(pairs, which)
+    return stratified_p(pairs)
 
 
 def trend_p() -> float:
@@ -129,10 +154,8 @@ def p_values() -> dict[str, float]:
         "keeping": keeping_p("demos"),
         "keeping, both": keeping_p("bootstrapped"),
         "trend": trend_p(),
-        "driver, found": driver_p("found"),
-        "driver, kept": driver_p("kept"),
-        "updates, found": updates_p("found"),
-        "updates, kept": updates_p("kept"),
+        "driver": driver_p(),
+        "updates": updates_p(),
         "choices": fisher(*(way(clocks()[cell], "demos").kept for cell in (("1/4", "μ"), ("2", "π̃")))),
         "bonus, margin": fisher(kept["demos"], kept["margin"]),
         "bonus, margin, with ξ": fisher(kept["bootstrapped"], kept["margin_soft"]),
@@ -147,14 +170,26 @@ def holm() -> dict[str, float]:
     return corrected
 
 
-def p_of(*names: str) -> str:
-    """These p values as a table's cells."""
-    return " | ".join(_short(p_values()[name]) for name in names)
+def p_and_holm(name: str) -> str:
+    """This p value and the corrected one, as a table's cells."""
+    return f"{_short(p_values()[name])} | {_short(holm()[name])}"
 
 
-def after_holm(*names: str) -> str:
-    """The same, corrected."""
-    return " | ".join(_short(holm()[name]) for name in names)
+def soft_kept() -> str:
+    """How many agents of the soft constraint alone keep the way out, by the updates for a decision."""
+    each = [way(clocks()[updates, "π̃"], "soft") for updates in study_clocks.UPDATES]
+    return ", ".join(f"{counted.kept} of {counted.n}" for counted in each)
+
+
+def of_updates(updates: str) -> str:
+    """ "8 of 20": of the agents with demonstrations alone and so many updates, of both drivers, how many keep it."""
+    each = [way(clocks()[updates, driver], "demos") for driver in ("μ", "π̃")]
+    return f"{sum(counted.kept for counted in each)} of {sum(counted.n for counted in each)}"
+
+
+def of_driver(driver: str) -> str:
+    """The same of one driver, over all numbers of updates."""
+    return f"{over_updates(driver).kept} of {over_updates(driver).n}"
 
 
 def _short(p: float) -> str:
@@ -162,5 +197,5 @@ def _short(p: float) -> str:
 
 
 def kept_against(first: tuple[Results, str], second: tuple[Results, str]) -> str:
-    """ "2 against 10": how many agents of two groups keep the way out."""
-    return f"{way(*first).kept} against {way(*second).kept}"
+    """ "2 of 10 against 10 of 10": how many agents of two groups keep the way out."""
+    return " against ".join(f"{way(*group).kept} of {way(*group).n}" for group in (first, second))

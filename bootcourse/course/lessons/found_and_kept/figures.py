@@ -86,10 +86,9 @@ def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
         below = part[half - 1] < LEAST
         ax.plot(half, max(part[half - 1], LEAST), "v" if below else "o", color=soft, mec=INK, ms=8, zorder=4,
                 clip_on=False)  # fmt: skip
-        named = f"ξ, {SHORT.get(updates, updates)} update{'s' if updates in ('2', '4') else ''} for a decision"
         ax.annotate(
-            f"{named}: below" if below else named, (half, max(part[half - 1], LEAST)), (8, 4),
-            textcoords="offset points", fontsize=TEXT, color=INK,
+            SHORT.get(updates, updates), (half, max(part[half - 1], LEAST)), (0, 8) if below else (8, 4),
+            ha="center", textcoords="offset points", fontsize=TEXT, color=INK,
         )  # fmt: skip
         words = f"ξ with {updates} updates is a tenth after {tenth} episodes, and half have the way out after {half}"
         alt_parts.append(f"{words}, at {part[half - 1]:.2g} of ξ")
@@ -98,7 +97,14 @@ def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
     ax.plot(episodes, np.where(share > 0, share, np.nan), color=demos, linewidth=2)
     found = [half_found(cells[updates, "π̃"].of("demos")) for updates in UPDATES]
     ax.plot(found, share[np.array(found) - 1], "o", color=demos, mec=INK, ms=8, zorder=4)
+    for episode in sorted({round(at, -1) for at in found}):  # dots that lie on each other have one label
+        numbers = ", ".join(SHORT.get(u, u) for u, at in zip(UPDATES, found, strict=True) if round(at, -1) == episode)
+        ax.annotate(
+            numbers, (episode, share[episode - 1]), (0, 7), ha="center", textcoords="offset points", fontsize=TEXT,
+            color=INK,
+        )  # fmt: skip
     ax.annotate("β", (of["beta_episodes"], 0.02), (5, 0), textcoords="offset points", fontsize=TEXT, color=INK)
+    ax.annotate("ξ", (98, 1e-3), (-16, 0), textcoords="offset points", fontsize=TEXT, color=INK)
     alt_parts.append(f"On β half of the agents with demonstrations alone have the way out after {found}")
     ax.set(xscale="log", yscale="log", xlim=(20, len(part)), ylim=(LEAST, 1.5))
     for axis, places in ((ax.xaxis, [20, 50, 100, 200, 500, 1000]), (ax.yaxis, [1, 1e-1, 1e-2, 1e-3, 1e-4])):
@@ -122,7 +128,7 @@ def found_and_kept(cells: Mapping[tuple[str, str], Results]) -> Figure:
     those driven by μ, those driven by π̃.
     """
     title = (
-        "With two updates instead of a quarter demonstrations alone keep the way out more often, "
+        "With more updates, demonstrations alone seem to keep the way out more often; "
         "the soft constraint alone does not"
     )
     figure, alt_parts = new_figure(5.3), []

@@ -122,7 +122,7 @@ def success_in_training(results: Results, methods: Sequence[str] = ("bc", "cql",
 def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail"), single: str = "gail") -> Figure:
     """The share of test drives that have not ended, over time: a mean for each method, thin lines for one's agents."""
     longest = round(float((results.tested["distance"] / results.tested["speed"]).max()))
-    seconds, named, looks, ended = np.arange(longest + 1), {}, [], []
+    seconds, named, looks, ended = np.arange(longest + 1), {}, [], {}
     for method in methods:
         tested, label = results.of(method).tested, SHORT.get(method, method)
         going = 100 * ((tested["distance"] / tested["speed"])[..., None] >= seconds - 0.25).mean(axis=1)
@@ -131,11 +131,15 @@ def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail")
             looks.append(style(method)._replace(marker=None))
         named[label] = going.mean(axis=0)
         looks.append(style(method)._replace(marker=None))
-        ended.append(f"{100 - going[:, -1].mean():.1f} % of {label}'s")
-    title = f"An accident ends {', '.join(ended[::-1])} drives"
+        ended[label] = 100 - going[:, -1].mean()
+    title = f"An accident ends {ended.pop(SHORT[single]):.1f} % of {SHORT[single]}'s drives"
+    if ended:  # the other methods
+        whose = " and ".join(f"{label}'s" for label in ended)
+        title += f", at most {max(ended.values()):.1f} % of {whose}"
     words = "test drives that still go on (%); thin: GAIL's agents"
     figure = lines(seconds, named, title, "second of the drive", words, limits=(0, 101), looks=looks)
     for line in figure.axes[0].lines[len(methods) - 1 : -1]:
         line.set(alpha=0.5, linewidth=0.8)
     figure.axes[0].lines[-1].set_linewidth(3)
+    figure.alt = figure.alt.replace(" : ", f" {SHORT[single]}, single agents: ")
     return figure
