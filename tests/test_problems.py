@@ -115,7 +115,7 @@ def test_a_cell_is_trained_tested_and_shown(tmp_path):
 def test_the_lander_is_left_out_with_a_sentence_where_box2d_is_missing(monkeypatch, capsys):
     lander = EXPERIMENT.only("lander")
     monkeypatch.setattr(elsewhere, "has_box2d", lambda: True)
-    assert {job.arguments["seeds"] for job in lander.jobs("elsewhere")} == {5}
+    assert {job.arguments["seeds"] for job in lander.jobs("elsewhere")} == {10}
     monkeypatch.setattr(elsewhere, "has_box2d", lambda: False)
     assert lander.jobs("elsewhere") == []
     assert capsys.readouterr().out == (

@@ -64,8 +64,12 @@ class LiveCurves:
         labels = self.labels or [settings.method for settings in training.settings]
         curves = {measure: np.stack([means[measure] for means in self.means], axis=1) for measure in MEASURES}
         each = by_label(labels, curves)
-        shares = [
-            f"{display_name(label)} in {100 * np.nanmean(of['success'][:, -1]):.0f} %" for label, of in each.items()
-        ]
-        title = f"After {training.updates:,} updates, ahead of trap 1 at the end of an episode: {', '.join(shares)}"
+        if self.drawn.get("measures") == ("return",):
+            now = [f"{display_name(label)} {np.nanmean(of['return'][:, -1]):.1f}" for label, of in each.items()]
+            title = f"Return after {training.updates:,} updates: {', '.join(now)}"
+        else:
+            now = [
+                f"{display_name(label)} in {100 * np.nanmean(of['success'][:, -1]):.0f} %" for label, of in each.items()
+            ]
+            title = f"After {training.updates:,} updates, ahead of trap 1 at the end of an episode: {', '.join(now)}"
         return training_curves(each, title, updates=np.array(self.updates), **self.drawn)

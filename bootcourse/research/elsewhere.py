@@ -22,7 +22,7 @@ from bootcourse.research.plan import LessonExperiment
 from bootcourse.research.problems import LANDER, PROBLEMS, Problem, has_box2d
 from bootcourse.research.results import found
 
-TESTS, WINDOW = 100, 20  # held-out episodes; training episodes in a row
+SEEDS, TESTS, WINDOW = 10, 100, 20  # of training; held-out episodes; training episodes in a row
 NOBODY = "none"  # the teacher of a method without one
 USABLE = "0.3 log |A|"
 ALONE = {"SAC": ("sac", {}), f"SAC, η = {USABLE}": ("sac", {"target_entropy": USABLE}), "PPO": ("ppo", {})}
@@ -112,7 +112,7 @@ class Elsewhere(LessonExperiment):
 def _cells() -> dict[str, dict]:
     cells = {}
     for problem, one in PROBLEMS.items():
-        numbers = {"seeds": one.seeds, "episodes": 0, "tests": TESTS}  # 0: the problem's own number
+        numbers = {"seeds": SEEDS, "episodes": 0, "tests": TESTS}  # 0: the problem's own number
         for teacher, method in [*product([NOBODY], ALONE), *product(one.teachers(), TAUGHT)]:
             named = {"problem": problem, "teacher": teacher, "method": method}
             cells[f"{problem}, {teacher}, {method}"] = named | numbers

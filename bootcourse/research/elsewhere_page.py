@@ -175,9 +175,9 @@ HEAD = """# When does a sub-optimal teacher help?
 The paper's method on other problems, with hand-written teachers: *good* is the rule as it is, *random* errs in states
 that look random, *systematic* makes the same error everywhere in one region. γ, episodes and the copies driven at once
 are the same for all methods but PPO of a problem. SAC, soft, demonstrations and both have the paper's target entropy of
--1. Every number on this page is computed from the results. A cell has ten agents, and five on Lunar lander,
-which is slow and needs box2d (`pip install bootcourse[lander]`). highway-env's merge is left out: one core makes about
-46 decisions a second there, so that its cells would take many hours.
+-1. Every number on this page is computed from the results. A cell has ten agents; on Lunar lander, which needs box2d
+(`pip install bootcourse[lander]`), they trained in two groups of five. highway-env's merge is left out: one core makes
+about 46 decisions a second there, so that its cells would take many hours.
 """
 
 RULE = f"""They were written before any cell was run with more than two seeds, and are quoted as they were. A comparison

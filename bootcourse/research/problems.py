@@ -5,7 +5,7 @@ looks random; "systematic" takes the same wrong action everywhere in one region 
 contains the time, or never returns to the same value, random errors average out over an episode. DoorKey's returns:
 there a teacher that errs in a state errs whenever it comes back, and may turn in circles.
 
-Lunar lander needs box2d (`pip install bootcourse[lander]`), and its study has five seeds, since it is slow.
+Lunar lander needs box2d (`pip install bootcourse[lander]`).
 highway-env's merge is left out: one core makes about 46 decisions a second there, so its cells would take many hours.
 
 All teachers answer for many observations in one call, (n, observation) -> (n,).
@@ -264,7 +264,6 @@ class Problem:
     region: Callable[[np.ndarray], np.ndarray]  # where the "systematic" teacher is wrong: (n, observation) -> (n,) bool
     gamma: float
     episodes: int  # of training
-    seeds: int = 10  # of training, in the study
 
     def teachers(self) -> dict[str, Rule]:
         """{"good", "random", "systematic": the teacher}."""
@@ -310,6 +309,6 @@ PROBLEMS = {
         "DoorKey 5x5", DoorKey, 5, fetch_and_open, 0.8, lambda seen: seen[:, 12] == 1, 0.97, 300
     ),
     LANDER: Problem(
-        "Lunar lander", several(landing), 4, hover_and_land, 0.85, lambda seen: seen[:, 0] > 0.1, 0.99, 200, seeds=5
+        "Lunar lander", several(landing), 4, hover_and_land, 0.85, lambda seen: seen[:, 0] > 0.1, 0.99, 200
     ),
 }  # fmt: skip

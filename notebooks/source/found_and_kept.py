@@ -132,7 +132,7 @@ table(["", "found, kept"], rows)
 
 # %%
 who = ["plain SAC", "the soft constraint alone", "both about the same"]
-predict("found_and_kept.2", "Chooses among more actions in episodes 200 to 300", who)
+predict("found_and_kept.2", "Who chooses among more actions in episodes 200 to 300?", who)
 
 # %%
 spans = ((0, 100), (200, 300), (900, 1000), (episodes - 100, episodes))
@@ -221,7 +221,9 @@ bc.show(figures.seed_by_seed(study, shown, title, gone, "β is 0 from here on"))
 # > much, or less than those whose β ends?
 
 # %%
-predict("found_and_kept.3", "If β never ends, both aids earn", ["more", "about as much", "less"])
+predict(
+    "found_and_kept.3", "What do both aids earn if β never ends?", ["more", "about as much", "less"]
+)
 
 # %% tags=["hide-input"]
 ablations = shipped.shipped_experiment("ablations")
@@ -279,7 +281,11 @@ table([*headings, "accidents, %"], rows)
 
 # %%
 choices = ["the soft constraint alone", "demonstrations alone", "about the same"]
-predict("found_and_kept.4", "Two updates for each decision: of which do more keep it?", choices)
+predict(
+    "found_and_kept.4",
+    "With two updates for a decision, of which do more agents keep the way out?",
+    choices,
+)
 
 # %%
 cells = clocks.cells(shipped.shipped_experiment("clocks"))
@@ -343,7 +349,7 @@ bc.show(figures.found_and_kept(cells))
 
 # %%
 how_often = ["in under 1 %", "in 10 to 60 %", "in over 90 %"]
-predict("found_and_kept.5", "The four rates read as the paper's", how_often)
+predict("found_and_kept.5", "How often do the four rates read as the paper's?", how_often)
 
 # %% [markdown]
 # **Exercise (10 min, ●●○).** Compute it. For each row you get the success rates of its agents, one

@@ -56,13 +56,17 @@ for agent in (bc.shipped_agents("sac")[i] for i in (0, 3)):
 # demonstrations. That makes four methods: neither (plain SAC), each alone, and both. You know our
 # counts from the last lessons. What are they worth?
 #
-# > **Predict.** Eight of ten agents with the soft constraint alone escape. You train very many
-# > more. At least what share of them will escape? Name the highest share on which you would bet 39
-# > to 1, that is, of which you are 97.5 % sure.
+# > **Predict.** Eight of ten agents with the soft constraint alone escape. Suppose that each agent
+# > escapes with the same probability. Which is the lowest probability with which eight or more of
+# > ten still happen in one of forty studies?
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 
 # %%
-predict("how_many_seeds.1", "At least this share of very many more escapes", unit="%")
+predict(
+    "how_many_seeds.1",
+    "With which lowest probability do 8 or more of 10 happen in one of 40 studies?",
+    unit="%",
+)
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask how many of them have published or handed in a figure with one training behind each line.
@@ -170,7 +174,11 @@ table(["agents that escape, the KL ...", *kinds], rows)
 # <!-- claim: max(p_changed(m) for m in ('soft', 'bootstrapped')) > 0.5 -->
 
 # %%
-predict("how_many_seeds.2", "Of 100 studies, ten against ten, that find it", unit="of 100")
+predict(
+    "how_many_seeds.2",
+    "How many of 100 studies, ten against ten, find the difference?",
+    unit="of 100",
+)
 
 # %% [markdown]
 # This share is the **power** of the comparison. You can compute it before you train anything.
@@ -278,7 +286,7 @@ table(headings, rows, below=below)
 
 # %%
 predict(
-    "how_many_seeds.4", "A repetition differs, in 95 of 100 cases, by at most", unit="of return"
+    "how_many_seeds.4", "By how much may a repetition differ, in 95 of 100 cases?", unit="of return"
 )
 
 # %% [markdown]
@@ -416,7 +424,7 @@ check.difference_interval(difference_interval)
 # > **Predict.** By how many points of success does your change raise or lower the IQM?
 
 # %%
-predict("how_many_seeds.6", "Effect of my change on the success", unit="points")
+predict("how_many_seeds.6", "By how many points does my change move the success?", unit="points")
 
 # %%
 CHANGE = {"bonus": 0.0}  # yours

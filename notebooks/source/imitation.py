@@ -253,7 +253,11 @@ check.discriminator_loss(discriminator_loss)
 # > more than a crash after 5 s?
 
 # %%
-predict("imitation.2", "A long drive is better with", ["−log (1 − D)", "log D", "both", "neither"])
+predict(
+    "imitation.2",
+    "With which reward does the long drive earn more?",
+    ["−log (1 − D)", "log D", "both", "neither"],
+)
 
 # %% [markdown]
 # **Exercise (6 min, ●●○).** Write the reward, from the logit x of each decision. It, too, must
@@ -290,7 +294,7 @@ table(headings, rows, below="A crash ends both: 0 from then on.")
 # > share of *these* drives counts as a success?
 
 # %%
-predict("imitation.3", "Of the drives that leave the road, successes", unit="%")
+predict("imitation.3", "What share of the drives that leave the road count as a success?", unit="%")
 
 # %% tags=["hide-input"]
 rows = []
@@ -404,7 +408,7 @@ table(["200 roads", "success, %", "collisions, %", "road departures, %", "return
 
 # %%
 choices = ["fewer", "about as many", "more than twice as many"]
-predict("imitation.4", "Paid log D, in as many updates each agent drives episodes", choices)
+predict("imitation.4", "How many episodes does each agent drive if it is paid log D?", choices)
 
 
 # %%
@@ -441,7 +445,7 @@ table(headings, rows)
 
 # %%
 choices = ["CQL", "GAIL", "about as many"]
-predict("imitation.5", "Fewer updates until half of the drives succeed", choices)
+predict("imitation.5", "Who needs fewer updates until half of the drives succeed?", choices)
 
 # %%
 bc.show(figures_baselines.success_in_training(study))

@@ -68,7 +68,7 @@ bc.show(charts.lines(np.arange(60), named, title, "second of the drive", label))
 # %%
 predict(
     "learning_from_demonstrations.1",
-    "The smallest bonus c with which the way out is worth more is about",
+    "From about which bonus c on is the way out worth more?",
     ["0.005", "0.05", "0.5", "5"],
 )
 
@@ -106,7 +106,7 @@ print(f"{len(demonstrations):,} transitions of 200 drives of the rule")
 # %%
 predict(
     "learning_from_demonstrations.2",
-    "Rows of the rule's after 500 episodes",
+    "How many of the 64 rows are the rule's after 500 episodes?",
     ["10", "19", "32", "38"],
 )
 
@@ -178,7 +178,7 @@ table(headings, rows)
 # %%
 predict(
     "learning_from_demonstrations.3",
-    "c = 2 in each second raises the discounted return by",
+    "By how much does c = 2 in each second raise the discounted return?",
     ["2", "4", "10", "300"],
 )
 
@@ -231,7 +231,7 @@ bc.panels.bonus_panel()
 # %%
 predict(
     "learning_from_demonstrations.4",
-    "With c = 2 the demonstrated action leads the mean of the others by",
+    "With c = 2, by how much does the demonstrated action lead the others' mean?",
     ["10", "3", "less than 1"],
 )
 
@@ -323,7 +323,7 @@ table(headings, rows, below=below)
 # %%
 predict(
     "learning_from_demonstrations.5",
-    "The loss if the expert took the third",
+    "What is the loss if the expert took the third action?",
     ["1", "2.4", "3", "4"],
 )
 
@@ -424,7 +424,7 @@ bc.show(figures.margin_bars(q, bc.ACTION_NAMES.index("brake straight")))
 # %%
 predict(
     "learning_from_demonstrations.6",
-    "After 1,000 updates the filter is on in",
+    "In how many of these states is the filter on after 1,000 updates?",
     ["under 10 %", "about 10 %", "over 20 %"],
 )
 
@@ -506,7 +506,7 @@ own_code.compare()
 # %%
 predict(
     "learning_from_demonstrations.7",
-    "Agents of the three that end ahead on most of 200 roads",
+    "How many of the three end ahead on most of 200 roads?",
     ["0", "1", "2", "3"],
 )
 

@@ -88,7 +88,7 @@ bc.show(bc.top_view_over_time(drive, times=[end - 6, end - 3, end], title=title)
 # %%
 predict(
     "looking_ahead.1",
-    "Without an accident end",
+    "How many of the nine end without an accident?",
     ["none", "one or two", "three to six", "seven or more"],
 )
 
@@ -166,7 +166,11 @@ source("bootcourse.episodes.lookahead", "imagine")
 # > how many does it have an accident?
 
 # %%
-predict("looking_ahead.2", "Accidents with the look-ahead", unit=f"of {len(roads)} drives")
+predict(
+    "looking_ahead.2",
+    "On how many roads does the look-ahead have an accident?",
+    unit=f"of {len(roads)} drives",
+)
 
 # %%
 values_of = own_code.yours_or_ours("rollout_values", doing="Driving")
@@ -230,7 +234,7 @@ bc.recording(beginning(again, 40), height=360, futures=agent)
 
 # %%
 choices = ["the rule", "plain SAC", "demonstrations only", "soft constraint only"]
-predict("looking_ahead.3", "With rollouts, it gets out least often", choices)
+predict("looking_ahead.3", "Which of the four gets out least often with rollouts?", choices)
 
 # %%
 study, rows, gets_out = shipped_experiment("look-ahead"), [], {}
@@ -361,7 +365,7 @@ table(["the same agent", f"accidents in {len(roads)}", "return"], rows)
 
 # %%
 choices = ["the full look-ahead", "the shield", "both about the same"]
-predict("looking_ahead.4", "With a wrong model more accidents has", choices)
+predict("looking_ahead.4", "Which has more accidents with a wrong model?", choices)
 
 # %%
 forms = {"rollouts": bc.lookahead, "shield": lookahead_shield}

@@ -90,7 +90,7 @@ own_code.load()
 # %%
 predict(
     "soft_constraint.1",
-    "The price of another action grows by a factor of",
+    "By what factor does the price of another action grow?",
     ["10", "2", "about 1.5"],
 )
 
@@ -140,7 +140,7 @@ check.log_stochastic_rule(log_stochastic_rule)
 # %%
 predict(
     "soft_constraint.2",
-    "The smallest KL has",
+    "Which of the three has the smallest KL?",
     ["the one that is sure of keep left: 0", "the same one, but not 0", "the even one"],
 )
 
@@ -197,7 +197,7 @@ check.soft_constraint(soft_constraint)
 # %%
 predict(
     "soft_constraint.3",
-    "With all Q equal and α = ξ, the best π is",
+    "With all Q equal and α = ξ, what is the best π?",
     ["π̃", "halfway between π̃ and even", "proportional to the root of π̃", "even"],
 )
 
@@ -270,7 +270,7 @@ bc.show(charts.action_bars(pi, title))
 
 # %%
 choices = ["half as large", "twice", "9 times", "40 times"]
-predict("soft_constraint.4", "Compared with the best reward of a second it is", choices)
+predict("soft_constraint.4", "How large is it, compared with the best reward of a second?", choices)
 
 # %%
 step = math.log(8 * 0.9 / 0.1)
@@ -383,7 +383,7 @@ check.constrained_target(constrained_target)
 # %%
 predict(
     "soft_constraint.5",
-    "Following is worth",
+    "What is following worth, compared with a crash?",
     [
         "more than a crash in both",
         "less than a crash, but only with the KL",
@@ -489,7 +489,7 @@ own_code.compare()
 
 # %%
 choices = ["those whose ξ fades", "those whose ξ stays", "about the same"]
-predict("soft_constraint.6", "The higher return has", choices)
+predict("soft_constraint.6", "Which agents earn more after training?", choices)
 
 # %%
 study = shipped.shipped_results()

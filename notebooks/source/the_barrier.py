@@ -140,7 +140,9 @@ shown(alone.agents, tests)
 # > from the seconds that are 5 s ahead or more?
 
 # %%
-predict("the_barrier.2", "Share of the value more than 5 s ahead, γ = 0.8", unit="%")
+predict(
+    "the_barrier.2", "What share of the sum comes from 5 s ahead or later, at γ = 0.8?", unit="%"
+)
 
 # %% [markdown]
 # **See.** It is {{ 100 * 0.8**5 | .0f }} %, and from 20 s on {{ 100 * 0.8**20 | .0f }} %; with γ =
@@ -199,7 +201,7 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 
 # %%
 choices = ["none", "about 20", "about 200", "about 1,000"]
-predict("the_barrier.4", "Of 5,000 random drives, ahead of trap 1 are", choices)
+predict("the_barrier.4", "How many of 5,000 random drives end ahead of trap 1?", choices)
 
 # %% [markdown]
 # What would one rare sequence give? Suppose that at each of an attempt's decisions `good` of the
@@ -268,7 +270,8 @@ title += "at γ = 0.95 the skilled ones are"
 bc.show(figures.worth(outcomes, title))
 
 # %% [markdown]
-# **Explain.** Two things make leaving worth less than staying. They are the **barrier**.
+# **Explain.** Two things make leaving worth less than staying; we call them the **barrier**. Whether
+# they keep agents in is the next question.
 #
 # - *The gain comes late.* At γ = 0.8 even the plan, which gets out unhurt on most roads, is worth
 #   less than staying, and so is the rule's way, without any accident.
@@ -320,7 +323,7 @@ table(headings, rows, below=f"{len(few)} roads each.")
 
 # %%
 choices = ["none", "about 5", "about 10", "nearly all"]
-predict("the_barrier.6", "From the later start, of twenty agents escape", choices)
+predict("the_barrier.6", "How many of the twenty agents escape from the later start?", choices)
 
 # %%
 rows = []
@@ -410,7 +413,7 @@ table(
 # > **Predict.** Does leaving pay at γ = 0.8? From which γ on?
 
 # %%
-predict("the_barrier.7", "Leaving the chain's trap pays from this γ on", unit="")
+predict("the_barrier.7", "From which γ on does leaving the chain's trap pay?", unit="")
 
 # %% [markdown]
 # <details><summary>The answer, in four lines</summary>
@@ -478,7 +481,7 @@ check.learn_chain(learn_chain)
 # > **Predict.** In which of the five kinds do more than half of the thirty learn to leave?
 
 # %%
-predict("the_barrier.8", "Kinds of which more than half learn to leave, such as A, C")
+predict("the_barrier.8", "In which kinds do more than half learn to leave? Letters, as in: A, C")
 
 # %%
 # NBVAL_CHECK_OUTPUT

@@ -97,7 +97,7 @@ table(["", "ahead of trap 1 in the end, %", "return"], rows)
 
 # %%
 choices = ["about half", "the same", "about twice as much", "almost four times as much"]
-predict("the_second_trap.1", "Changing between 5 and 15 m/s earns", choices)
+predict("the_second_trap.1", "What does changing between 5 and 15 m/s earn?", choices)
 
 # %% tags=["hide-input"]
 v = np.linspace(5, 15, 101)
@@ -368,7 +368,7 @@ bc.show(bc.traces(your_drive, title=title, what=("speed", "distance")))
 
 # %%
 choices = ["it leaves", "it drives steadily behind trap 1", "it falls back and sprints as before"]
-predict("the_second_trap.3", "With the concave reward", choices)
+predict("the_second_trap.3", "What does PPO do with the concave reward?", choices)
 
 # %%
 concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD])[0]
@@ -441,7 +441,7 @@ table(["PPO, paid", "agents that escape", "the road's return", "accidents, %"], 
 
 # %%
 choices = ["in less than half", "in about three quarters", "in nearly all"]
-predict("the_second_trap.4", "It does as the rule would", choices)
+predict("the_second_trap.4", "How often does it do what the rule would?", choices)
 
 # %% tags=["nbval-ignore-output"]
 training = own_code.training([ppo_kinds.settings_of("cloned")], MOST)

@@ -58,7 +58,11 @@ print(f"Entropy of the untrained policy: {entropy:.3f} of at most {np.log(2):.3f
 
 # %%
 choices = ["about 20", "about 100", "about 250", "nearly 500"]
-predict("update_and_loop.1", "For how many pushes, after 8,000 to learn from?", choices)
+predict(
+    "update_and_loop.1",
+    "For how many pushes does it balance the pole, after 8,000 pushes of training?",
+    choices,
+)
 
 # %% [markdown]
 # ## Round 1: where does a batch come from?

@@ -48,7 +48,9 @@ from bootcourse.research.results import experiment
 
 # %%
 choices = ["to the flag", "close to the flag", "not out of the valley"]
-predict("your_own_problem.1", "A car that is pushed right all the time comes", choices)
+predict(
+    "your_own_problem.1", "How far does the car come if it is always pushed to the right?", choices
+)
 
 # %%
 ours = PROBLEMS["mountain-car"].teachers()["good"]  # it sees the speed in parts of 0.07
@@ -115,7 +117,9 @@ table([f"teacher, {problem.name}", "success, %", "return"], rows)
 
 # %%
 choices = ["less often than its teacher", "about as often", "in nearly all episodes"]
-predict("your_own_problem.2", "The clone of the random teacher reaches the flag", choices)
+predict(
+    "your_own_problem.2", "How often does the clone of the random teacher reach the flag?", choices
+)
 
 # %% [markdown]
 # A clone sees many alike states with different labels, and its most probable action is what most of
@@ -168,7 +172,7 @@ table(["MountainCar, success in %", *headings], rows)
 
 # %%
 four = ["cloning", "soft", "demonstrations", "both"]
-predict("your_own_problem.3", "The flag is reached most often by", list(figures.NAMES.values()))
+predict("your_own_problem.3", "Which reaches the flag most often?", list(figures.NAMES.values()))
 
 # %% [markdown]
 # `bc.compare` trains each of them with five seeds and tests them in the same episodes. An interrupt
@@ -288,7 +292,9 @@ bc.show(figures.room(longest, "This drive of the random teacher does not get to 
 
 # %%
 choices = ["less often than plain SAC", "about as often", "more often"]
-predict("your_own_problem.4", "With both aids and c = 2 the agents reach the goal", choices)
+predict(
+    "your_own_problem.4", "How often do agents with both aids and c = 2 reach the goal?", choices
+)
 
 # %%
 # NBVAL_CHECK_OUTPUT

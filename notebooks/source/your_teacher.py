@@ -91,7 +91,7 @@ predict(
 
 # %%
 choices = ["less than those alone", "about as much", "more"]
-predict("your_teacher.2", "The students of the racer earn", choices)
+predict("your_teacher.2", "What do the students of the racer earn?", choices)
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Collect the predictions on the board. Expect most people to rank the students as the teachers are
@@ -149,7 +149,9 @@ source("bootcourse.course.lessons.your_teacher.example_teachers", "timid", "race
 # > each of 100 roads?
 
 # %%
-predict("your_teacher.3", "Situations that a rule must tell apart", ["one", "two", "three", "four"])
+predict(
+    "your_teacher.3", "How many situations must a rule tell apart?", ["one", "two", "three", "four"]
+)
 
 # %% [markdown]
 # **Exercise (12 min, ●●○).** Write a rule that gets out. The check drives it on 24 roads: it
@@ -314,7 +316,11 @@ bc.show(figures.students(shown, title))
 # > three taught ones come out on top if the teacher makes no difference?
 
 # %%
-predict("your_teacher.4", "Three on top of three by luck", ["1 in 6", "1 in 20", "1 in 100"])
+predict(
+    "your_teacher.4",
+    "How likely is three on top of three by luck?",
+    ["1 in 6", "1 in 20", "1 in 100"],
+)
 
 # %% [markdown]
 # Each order of the six agents is then as likely as any other, and one of
@@ -409,7 +415,7 @@ table(["teacher", f"{at} success", f"{at} return"], rows, below)
 
 # %%
 choices = ["none", "1 to 3", "4 to 7", "8 to 10"]
-predict("your_teacher.5", "Of ten students of the half-random teacher escape", choices)
+predict("your_teacher.5", "How many of ten students of the half-random teacher escape?", choices)
 
 # %%
 four = ("rule", "random-50", "mirrored", "planner")
@@ -423,8 +429,8 @@ bc.show(figures.learners(worth, title))
 #   teachers_success('random-50') | .0f }} % of its drives all ten bootstrapped agents escape; of
 #   the thirty agents of DAgger, PPO and the soft constraint {{ sum(worth()['random-50',
 #   m].escapers(m) for m in ('dagger', 'ppo_cloned', 'soft')) }} escapes.
-# - **No learner finds here what no drive shows**: from the mirrored teacher none of fifty agents
-#   escapes.
+# - **No agent finds a way out that its teacher does not show**: from the mirrored teacher none of
+#   fifty escapes.
 # - **The best driver is not the best to copy**: the planner's DAgger agents crash in nearly all
 #   drives; {{ worth()['rule', 'dagger'].escapers('dagger') }} of the rule's ten escape. We have not
 #   tested why. The planner's decisions depend on the other cars' next seconds, which the 26 numbers

@@ -4,12 +4,13 @@
 
 `LaneKeeper`: the nine actions are wishes that a lane keeper carries out, so attempts to leave are better driven.
 `LaterStart`: an episode begins after the 8 s in which the lesson's plan steers, on the free lane, behind the traps and
-as fast as they are. (One second later a car passes them even if it does nothing.) In the last kind the temperature does
-not fall to 0, either. Each kind has ten agents with the paper's γ and ten that look further ahead; they learn by
+as fast as they are. (One second later a car passes them even if it does nothing.) In its second kind the temperature
+does not fall to 0, either. `free_accidents`: an accident ends the drive and costs nothing. Each kind has ten agents with the paper's γ and ten that look further ahead; they learn by
 themselves, as those of the lesson's first round do.
 """
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from bootcourse.research.teachers import RULE
 from bootcourse.road import twin
 from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import N_ACTIONS
+from bootcourse.scenario import DEFAULT, N_ACTIONS
 
 SEEDS, GAMMAS = 10, (0.8, 0.95)
 UPDATES = 2_000  # as the agents of the lesson have
@@ -60,11 +61,17 @@ class LaterStart(TrapVectorEnv):
             mask = mask & (accidents != 0)
 
 
+def free_accidents(roads: int) -> TrapVectorEnv:
+    """The road as it is, where an accident ends the drive and costs nothing."""
+    return TrapVectorEnv(roads, replace(DEFAULT, reward=replace(DEFAULT.reward, accident=0.0)))
+
+
 KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the settings that differ
     "as it is": (TrapVectorEnv, {}),
     "a lane keeper": (LaneKeeper, {}),
     "a later start": (LaterStart, {}),
     "a later start, η = 1": (LaterStart, {"target_entropy": 1.0}),
+    "free accidents": (free_accidents, {}),
 }
 EXPERIMENT = LessonExperiment(f"{__name__}:train_kind", {kind: {"kind": kind} for kind in KINDS})
 
