@@ -160,8 +160,7 @@ table(["effective actions, episodes", *(f"{a:,} to {b:,}" for a, b in spans)], r
 #   -->
 #
 # **The paper says the opposite** (Section V): in its figure SAC stays undecided for longer, and the
-# paper's method loses its entropy rapidly, which it reads as efficient exploration. We do not know
-# why the two differ.
+# paper's method loses its entropy rapidly. We do not know why the two differ.
 # <!-- claim: undecided('bootstrapped', 200, 300) > 1.2 * undecided('sac', 200, 300) and
 #   undecided('bootstrapped', 0, 100) > undecided('sac', 0, 100) -->
 #
@@ -450,8 +449,7 @@ table(["updates for a decision", "driver", "reads as the paper's, % [95 % over s
 # %% [markdown]
 # ## What you now know
 #
-# 1. To find the way out and to keep it are two things: count both. One number at the end of
-#    training mixes them.
+# 1. To find the way out and to keep it are two things: count both.
 # 2. ξ fades with updates and β with episodes, so which aid lasts may depend on how often you update
 #    (for the demonstrations our counts are a hint, for the soft constraint they show nothing yet).
 #    Name the updates for a decision, the roads at a time and the
@@ -498,8 +496,8 @@ compare_predictions(
 #   {{ losing('bootstrapped').sum() }} of ten agents lose 20 points or more. Watch the success of
 #   each seed around that episode, and the Q of the demonstrated actions.
 # - *A larger target entropy?* With finding: η = 0.3 nat lies below the entropy of π̃
-# ({{ math.log(rule_actions()) | .2f }} nat), so α and ξ fall more slowly, and an agent goes on
-# trying. η = 1 lies above it: ξ = 200α pulls the policy to π̃, so its entropy stays below η, and α
-# and ξ rise again. Whether a larger η also helps keeping was tried with three agents a row.
+#   ({{ math.log(rule_actions()) | .2f }} nat), so α and ξ fall more slowly, and an agent goes on
+#   trying. η = 1 lies above it: ξ = 200α pulls the policy to π̃, so its entropy stays below η, and
+#   α and ξ rise again. Whether a larger η also helps keeping was tried with three agents a row.
 # - *The reviewer?* How many trainings found it and how many kept it, each of how many, beside the
 #   share of drives of those that kept it.

@@ -84,7 +84,7 @@ print(paper.arithmetic("cql"))
 
 # %%
 choices = ["lower than the rule's action", "about as high", "higher than the rule's action"]
-predict("offline_learning.1", "Q-learning values the best untried action", choices)
+predict("offline_learning.1", "How does Q-learning value the best untried action?", choices)
 
 # %% [markdown]
 # You will see the answer below, when six learners are trained. Offline, the action with the highest
