@@ -70,7 +70,7 @@ print(f"after training: ahead of trap 1 on {100 * tested:.0f} % of the held-out 
 #
 # Neither says how well it drives: an accident after overtaking counts, too, as in the paper. And
 # two things differ between the counts. *Kept* is a count at one moment. And in training an agent
-# draws its actions, while the test takes the most probable one: of the {{ len(failed_soft()) }}
+# draws its actions, while the test takes the most probable one: of the two
 # agents with the soft constraint that fail the test, one is ahead in {{ 100 * failed_soft().max() |
 # .0f }} % of its last 200 training episodes. It has not lost the way out; its most probable actions
 # miss it.

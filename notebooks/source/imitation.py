@@ -407,7 +407,8 @@ table(headings, rows)
 # **See.** (These two were trained on your machine: your numbers will differ from ours.) A
 # discriminator that says D = ½ to everything has a loss of 2 log 2, the dotted line. The second
 # part of its loss, −E log (1 − D), is what the agent is paid on average: less if it is recognised.
-# Compare the table's two rows: which of them would you have reported, if you had trained one?
+# In our run one of the two brakes to a stop in most of its drives. Which row would you have
+# reported, if you had trained one?
 #
 # > **Predict.** Now pay log D instead, for as many updates, of which there is one for each four
 # > decisions. How many episodes will each agent drive: fewer than these, about as many, or more
