@@ -68,7 +68,7 @@ table(["in 150 s", "in the end", "return"], rows)
 
 # %%
 choices = ["none", "one or two", "three or four", "five", "all six"]
-predict("bug_hunt.1", "Broken agents that still succeed in training", choices)
+predict("bug_hunt.1", "How many of the broken agents still succeed in training?", choices)
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Collect the names on the board. If somebody names all six, ask why. Come back to the list at the
@@ -82,8 +82,8 @@ predict("bug_hunt.1", "Broken agents that still succeed in training", choices)
 # has short episodes, so it drives more of them; that is why the axis is logarithmic.
 
 # %%
-episode, share = "training episode (logarithmic)", "success, share of the last 30 episodes"
-curves = hunt.curves("success")
+episode, share = "training episode (logarithmic)", "success in the last 30 episodes (%)"
+curves = {name: (x, 100 * each) for name, (x, each) in hunt.curves("success").items()}
 title = "Most of the agents with a bug succeed in training"
 bc.show(charts.many(curves, title, episode, share, reference="healthy", x_scale="log"))
 
@@ -120,7 +120,7 @@ table(["at the end of training", "success", "return"], rows, "Means of two seeds
 
 # %%
 names = list(bugs.BUGS)
-predict("bug_hunt.2", "Q falls below −10 at accidents because of", names)
+predict("bug_hunt.2", "Which bug pulls Q below −10 at accidents?", names)
 
 # %% [markdown]
 # **Exercise (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an
@@ -159,13 +159,13 @@ bc.show(
 # > promise if it counts the road's rewards alone, without a bonus?
 
 # %%
-predict("bug_hunt.3", "The most that such a critic may promise", unit="")
+predict("bug_hunt.3", "What is the most that such a critic may promise?", unit="")
 
 # %%
 gamma, c = 0.8, 2.0
 print(f"honest: {1 / (1 - gamma):.0f}; with the bonus in every second: {(1 + c) / (1 - gamma):.0f}")
 probes = hunt.probes("promise")
-title = "Without a bonus no correct critic promises more than 5"
+title = "Two agents promise far more than the healthy one"
 bc.show(
     charts.many(
         probes, title, "updates", "promise Σ π Q, cut off at 20", "healthy", limits=(-2, 20)
@@ -176,8 +176,8 @@ bc.show(
 # **Explain.** For the road's rewards alone 5 is the limit. The critics of this method count more:
 # part of each batch is demonstrations, which do get the bonus (lesson
 # [[learning_from_demonstrations]]), the entropy is paid for, and ignoring the rule costs. So the
-# healthy promise may lie a little over 5. In two panels it is far above that: E's rises slowly past
-# 10, F's leaves the axes in both seeds (one comes back).
+# healthy promise may lie a little over 5. In two panels it is far above that: one rises slowly past
+# 10, in the other both seeds leave the axes (one comes back).
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} and
 #   (hunt().probe('F', 'promise').max(axis=1) > 20).all() and 5 < hunt().probe('F', 'promise')[:,
 #   -1].min() < 7 -->
@@ -194,8 +194,8 @@ bc.show(
 #
 # - **entropy** of π, in nats: 0 is sure of one action, log {{ N_ACTIONS }} ≈ {{ math.log(N_ACTIONS)
 #   | .1f }} is the same probability for each action;
-# - **alike**: the share of seconds in which the likeliest action is the rule's (also as a curve,
-#   `hunt.probes("alike")`);
+# - **alike**: the share of seconds in which the most probable action is the rule's (also as a
+#   curve, `hunt.probes("alike")`);
 # - **late**: the same with what the rule does *one second later*;
 # - **rarest**: the logarithm of the smallest of the nine probabilities.
 #
@@ -230,15 +230,20 @@ bc.show(charts.many(probes, title, "updates", "log of the rarest action's probab
 
 # %%
 choices = ["it drops it", "it keeps it a little likely", "it makes it the favourite"]
-predict("bug_hunt.4", "With the flipped KL the policy treats such an action so:", choices)
+predict("bug_hunt.4", "What does the policy do to such an action, with the flipped KL?", choices)
 
 # %% [markdown]
 # **Explain.** Read the table and the last picture with that question. The stochastic rule gives one
 # in eighty to each action that the rule does not take. With the right KL the policy may drop such
 # an action: dropping it costs little. The flipped KL grows without bound when the probability of
 # one of the nine goes to zero. So the two policies agree with the rule about as often, and differ
-# in what they do with rare actions.
+# in what they do with rare actions. (A little likely is very little: a log π of −16 is a
+# probability of 10⁻⁷, one of −37 is 10⁻¹⁶. In *two* panels it stays likelier than in the healthy
+# agent; Round 4 tells these agents apart.)
 # <!-- claim: math.isclose((1 - RULE_P) / (N_ACTIONS - 1), 1 / 80) -->
+# <!-- claim: round(-16 / math.log(10)) == -7 and round(-37 / math.log(10)) == -16 -->
+# <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'rarest')[:, -1].min() > -20} == {'A', 'B'}
+#   and (hunt().probe('healthy', 'rarest')[:, -1] < -30).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Ask for the limit of both divergences as one probability of π goes to zero, before anybody looks
@@ -288,27 +293,29 @@ check.diagnose(diagnose)
 # %% [markdown]
 # <details><summary>After your verdict: which picture decides which agent</summary>
 #
-# - **A**: the last picture of Round 3. Its rarest action stays far likelier than the healthy one's.
+# - **A**: the last picture of Round 3 *and* Round 4. Two agents keep their rarest action likelier
+#   than the healthy one, A and B. By drawn actions A succeeds about as often as the healthy agent,
+#   so Q reaches its policy: only the KL is left.
 # - **B**: Round 4. It fails as soon as its actions are drawn, and its entropy hardly falls.
-# - **C**: the table of Round 3. Early it agrees with the rule of *now* less often than the others.
-#   (The rule often does the same for several seconds, so its two columns are close.)
+# - **C**: the table of Round 3. Early it agrees with the rule of *now* less often than all but F,
+#   whose critic has left all bounds; and its column of one second later is nearly as large as that
+#   of now. (The rule often does the same for several seconds.)
 # - **D**: the first probe of Round 2. Its Q falls below {{ DEFAULT.reward.accident }} at accidents.
 # - **E**: the promise, which rises past 10, together with the highest return.
 # - **F**: the promise, which leaves the axes, far above any possible return.
 #
 # </details>
-# <!-- claim: (lambda least: least['A'] > max(least[n] for n in ('C', 'D', 'E', 'F', 'healthy')) +
-#   1)({n: hunt().probe(n, 'rarest')[:, -1].mean() for n in hunt().names}) -->
-# <!-- claim: (lambda early: early['C'] < min(early[n] for n in ('A', 'D', 'E', 'healthy')))({n:
-#   hunt().probe(n, 'alike')[:, 2:6].mean() for n in hunt().names}) -->
+# <!-- claim: abs(drawn_success('A') - drawn_success('healthy')) < 0.05 -->
+# <!-- claim: early('F') < early('C') < min(early(n) for n in ('A', 'B', 'D', 'E', 'healthy')) and
+#   early('C', 'late') / early('C') > 0.85 > 0.75 > early('healthy', 'late') / early('healthy') -->
 # <!-- claim: (hunt().probe('D', 'end')[:, -1] < DEFAULT.reward.accident).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The order that works: F (promise leaves the scale), B (undecided, fails when drawn), D
-# (accidents), E (promise too high, the *best* return), C (slow start, later rather than now), A
-# (what is left: the rarest action). Let each group defend its verdict with a single picture. If a
-# group is stuck on A and C, ask which of the two is like the healthy agent in the first thousand
-# updates.
+# (accidents), E (promise too high, the *best* return), C (slow start, nearly as often later as
+# now), A (what is left: the rarest action). Let each group defend its verdict with a single
+# picture. If a group is stuck on A and C, ask which of the two is like the healthy agent in the
+# first thousand updates.
 
 # %% [markdown]
 # ## Round 5: repairs
@@ -442,9 +449,9 @@ source(
 # 1. A curve can look right with a broken part behind it: three of six agents with a bug succeeded
 #    as often as the healthy one, and the one with the highest return had a bug.
 # 2. A probe asks one part of a learner something whose answer is known. Compare with a healthy
-#    agent. Each bug left its trace in one picture: `no_end` in Q at accidents, `bonus_for_all` and
-#    `no_stop` in the promise, `sampled` in the drawn actions, `shifted_labels` in the early
-#    agreement with the rule, `flipped_kl` in the rarest action.
+#    agent. Each bug left its trace: `no_end` in Q at accidents, `bonus_for_all` and `no_stop` in
+#    the promise, `sampled` in the drawn actions, `shifted_labels` in the early agreement with the
+#    rule, `flipped_kl` in the rarest action of an agent that drives well by drawn ones.
 # 3. On this road, without a bonus, a promise far above {{ 1 / (1 - SETTINGS.gamma) | .0f }} is
 #    wrong.
 # 4. No gradient passes through a draw among nine actions. Without the stop-gradient, the actor's
@@ -461,7 +468,7 @@ fine = sum(late[name].mean() > 0.8 for name in "ABCDEF")
 compare_predictions(
     "bug_hunt",
     {
-        1: f"{fine} of six, on more than 80 % of the last episodes",
+        1: f"three or four: {fine} of six, in more than 80 % of the last episodes",
         2: "no_end",
         3: round(1 / (1 - gamma), 1),
         4: "it keeps it a little likely",

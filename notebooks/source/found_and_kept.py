@@ -69,7 +69,12 @@ print(f"after training: ahead of trap 1 on {100 * tested:.0f} % of the held-out 
 #   {{ 100 * ESCAPES | .0f }} % of the held-out roads.
 #
 # Neither says how well it drives: an accident after overtaking counts, too, as in the paper. And
-# *kept* is a count at one moment.
+# two things differ between the counts. *Kept* is a count at one moment. And in training an agent
+# draws its actions, while the test takes the most probable one: of the two
+# agents with the soft constraint that fail the test, one is ahead in {{ 100 * failed_soft().max() |
+# .0f }} % of its last 200 training episodes. It has not lost the way out; its most probable actions
+# miss it.
+# <!-- claim: len(failed_soft()) == 2 and failed_soft().max() > 0.9 -->
 #
 # > **Predict.** None of the study's ten agents with demonstrations alone escapes at the end. How
 # > many of them found the way out?
@@ -111,8 +116,9 @@ rows = [[bc.display_name(m), tables.found_and_kept(study, m)] for m in methods]
 table(["", "found, kept"], rows)
 
 # %% [markdown]
-# **See.** With the soft constraint each agent finds the way out, and most keep it. With
-# demonstrations alone only half of the agents find it, and none of these keeps it.
+# **See.** With the soft constraint each agent finds the way out, and most keep it, by their most
+# probable actions. With demonstrations alone only half of the agents find it, and none of these
+# keeps it.
 # <!-- claim: [way(of_all(), m).found for m in ('sac', 'soft', 'bootstrapped', 'demos')] == [1, 10,
 #   10, 5] and way(of_all(), 'demos').kept == 0 and min(way(of_all(), m).kept for m in ('soft',
 #   'bootstrapped')) > 5 -->
@@ -154,8 +160,7 @@ table(["effective actions, episodes", *(f"{a:,} to {b:,}" for a, b in spans)], r
 #   -->
 #
 # **The paper says the opposite** (Section V): in its figure SAC stays undecided for longer, and the
-# paper's method loses its entropy rapidly, which it reads as efficient exploration. We do not know
-# why the two differ.
+# paper's method loses its entropy rapidly. We do not know why the two differ.
 # <!-- claim: undecided('bootstrapped', 200, 300) > 1.2 * undecided('sac', 200, 300) and
 #   undecided('bootstrapped', 0, 100) > undecided('sac', 0, 100) -->
 #
@@ -275,9 +280,9 @@ table([*headings, "accidents, %"], rows)
 # four.
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 -->
 #
-# > **Predict.** You make two updates for each decision instead, so that ξ fades first. Of which ten
-# > agents will more keep the way out: of those with the soft constraint alone, or of those with
-# > demonstrations alone, driven by π̃?
+# > **Predict.** You make two updates for each decision instead. In which group will more of the ten
+# > agents keep the way out: with the soft constraint alone, or with demonstrations alone, driven by
+# > π̃?
 
 # %%
 choices = ["the soft constraint alone", "demonstrations alone", "about the same"]
@@ -299,9 +304,9 @@ bc.show(figures.fading(cells))
 # So with few updates the soft constraint should carry the learning, and with many updates the
 # demonstrations. This was tested, over {{ clocks()['2', 'π̃'].curves['success'].shape[1] | , }}
 # episodes. The demonstrations were driven by the rule μ, as in the study, or by the stochastic rule
-# π̃, as the paper writes. Two things changed with the updates: a quarter of an update goes with
-# four roads for each agent, as in the study, more with one; and more updates are also more learning
-# in an episode. No run here separates these from ξ's clock.
+# π̃, as the paper writes. Two things changed with the updates: with a quarter of an update for each
+# decision an agent drives four roads at a time, as in the study, with more updates one; and more
+# updates are also more learning in an episode. No run here separates these from ξ's clock.
 
 # %%
 bc.show(figures.found_and_kept(cells))
@@ -444,10 +449,10 @@ table(["updates for a decision", "driver", "reads as the paper's, % [95 % over s
 # %% [markdown]
 # ## What you now know
 #
-# 1. To find the way out and to keep it are two things: count both. One number at the end of
-#    training mixes them.
+# 1. To find the way out and to keep it are two things: count both.
 # 2. ξ fades with updates and β with episodes, so which aid lasts may depend on how often you update
-#    (a hint, not a proof). Name the updates for a decision, the roads at a time and the
+#    (for the demonstrations our counts are a hint, for the soft constraint they show nothing yet).
+#    Name the updates for a decision, the roads at a time and the
 #    demonstrations' driver with the result.
 # 3. With the study's choices five agents with demonstrations alone find the way out, and none keeps
 #    it. With two updates and π̃ ten of ten keep it, over 200 episodes after the demonstrations'
@@ -490,7 +495,9 @@ compare_predictions(
 #   while it lasts the critic values imitation. A reason against: as β ends,
 #   {{ losing('bootstrapped').sum() }} of ten agents lose 20 points or more. Watch the success of
 #   each seed around that episode, and the Q of the demonstrated actions.
-# - *A larger target entropy?* With finding: a reachable target keeps α, and with it ξ, above 0, so
-#   an agent goes on trying. Whether it also helps keeping was tried with three agents a row.
+# - *A larger target entropy?* With finding: η = 0.3 nat lies below the entropy of π̃
+#   ({{ math.log(rule_actions()) | .2f }} nat), so α and ξ fall more slowly, and an agent goes on
+#   trying. η = 1 lies above it: ξ = 200α pulls the policy to π̃, so its entropy stays below η, and
+#   α and ξ rise again. Whether a larger η also helps keeping was tried with three agents a row.
 # - *The reviewer?* How many trainings found it and how many kept it, each of how many, beside the
 #   share of drives of those that kept it.

@@ -70,8 +70,8 @@ print(paper.arithmetic("cql"))
 # The paper's CQL drives like a car that does nothing. The paper's explanation is too little
 # exploration. But an offline learner does not explore at all, and it need not: by the paper's own
 # words, each of its demonstrations gets out. All ten of *our* CQL agents escape (lesson
-# [[imitation]]). So **the question** is: what makes a critic that never drives take the way out,
-# and *which* CQL is it that does not?
+# [[imitation]]). So **the question** is: why does a critic that never drives take the way out,
+# and *which* kind of CQL does not?
 # <!-- claim: escaped('cql') == len(of('cql')) -->
 
 # %% [markdown]
@@ -84,7 +84,7 @@ print(paper.arithmetic("cql"))
 
 # %%
 choices = ["lower than the rule's action", "about as high", "higher than the rule's action"]
-predict("offline_learning.1", "Q-learning values the best untried action", choices)
+predict("offline_learning.1", "How does Q-learning value the best untried action?", choices)
 
 # %% [markdown]
 # You will see the answer below, when six learners are trained. Offline, the action with the highest
@@ -94,8 +94,9 @@ predict("offline_learning.1", "Q-learning values the best untried action", choic
 #
 # $$ \log \sum_a e^{Q(s,a)} - Q(s, a_\text{data}) $$
 #
-# The first part is near the highest Q of the nine, and is pushed down. The second is the Q of the
-# action that the data hold, and is pulled up.
+# The first part is a soft maximum: at least the highest Q of the nine, and at most log 9 ≈ 2.2
+# above it. Its slope in each Q(s, a) is softmax(Q): it pushes all nine down, the highest most. The
+# second is the Q of the action that the data hold, and is pulled up.
 #
 # **Exercise (6 min, ●●○).** Write it, in torch.
 
@@ -113,7 +114,8 @@ check.conservative_loss(conservative_loss)
 
 # %% [markdown]
 # Why is that *conservative*? Take one state. The data hold each action a with a positive share
-# $\hat\pi(a)$, the *policy of the data*, and its target y(a) is given. The loss is the mean of
+# $\hat\pi(a)$, the *policy of the data*, so a mean over the data counts a with that weight. Its
+# target y(a) is given. The loss is the mean of
 # (Q − y)² over the data, plus w times the term. Which Q makes it smallest?
 #
 # <details><summary>The answer</summary>
@@ -214,8 +216,9 @@ plain = slice(SEEDS, 2 * SEEDS)
 named = {"with it: the rule's action": mine[:SEEDS], "with it: the best other": rival[:SEEDS]}
 named |= {"without: the rule's action": mine[plain], "without: the best other": rival[plain]}
 looks = [charts.Style(c, line) for c in ("#999933", OTHER.colour) for line in ("-", "--")]
-likes = ["an untried action" if more > 0 else "the rule's" for more in (rival - mine)[:, -1]]
-title = f"Without CQL's term the critic prefers {likes[SEEDS]}; with it, {likes[0]}"
+more = [(rival - mine)[agents, -1].mean() for agents in (plain, slice(SEEDS))]  # of both seeds
+likes = ["an untried action" if each > 0 else "the rule's" for each in more]
+title = f"Without CQL's term the critic prefers {likes[0]}; with it, {likes[1]}"
 gamma = learner.settings[0].gamma
 most, weights = paper.earned_at(15, 1) / (1 - gamma), gamma ** np.arange(150)
 earned = np.mean([d.rewards[t:] @ weights[: 150 - t] for d in by_rule for t in range(20)])
@@ -252,8 +255,9 @@ table(headings, rows)
 # %% [markdown]
 # **See.** (These six were trained on your machine: your numbers will differ from ours.) Without the
 # term Q-learning values the best untried action highest, and promises far more than it then earns:
-# each target contains a guess that was chosen because it is high, and the guesses raise each other
-# (compare with the dotted line of what the rule earns). In our runs its drives end in accidents.
+# each target contains a guess that was chosen because it is high, and the guesses raise each other.
+# (The figure asks about the rule's states, the last table where the agents drive.) In our runs its
+# drives end in accidents.
 # With the term both agents promise less than they earn, and take the way out.
 # Data, network and number of updates are the same: one term decides.
 #
@@ -403,8 +407,8 @@ title = "CQL stays near its teacher; bootstrapped agents come near the bound, or
 bc.show(figures.shares_of_the_bound(study, compared, bound, marks | {"the planner": 100.0}, title))
 
 # %% [markdown]
-# **See.** Ten clones earn nearly the same, and so do ten CQL agents: nobody can know that from one.
-# GAIL's and the bootstrapped agents differ much more.
+# **See.** Ten clones earn nearly the same, and so do ten CQL agents: one agent of each could not
+# show that. GAIL's and the bootstrapped agents differ much more.
 # <!-- claim: max(np.ptp(of(m).scores('returns')) for m in ('bc', 'cql')) < 6 -->
 # <!-- claim: min(np.ptp(of(m).scores('returns')) for m in ('gail', 'bootstrapped')) > 30 -->
 # <!-- claim: (of('bootstrapped').scores('returns') > 1.5 *

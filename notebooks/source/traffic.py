@@ -35,12 +35,13 @@ from bootcourse.course.lessons.traffic import simulation as traffic
 # ## Look first
 #
 # Thirty drivers go round a ring with one lane. Overtaking is not possible, and each driver follows
-# the same formula. One of them begins slower than the others. Each line in the picture is one car;
-# half of the cars are drawn. On the left the cars are 20 m apart on average, on the right 30 m.
+# the same formula. They begin at the speed that they can hold at their distance, but for one, which
+# begins at 1 m/s. Each line in the picture is one car; half of the cars are drawn. On the left the
+# cars are 20 m apart on average, on the right 35 m.
 
 # %% tags=["hide-input"]
-rings = {f"{spacing} m apart": traffic.ring(spacing) for spacing in (20, 30)}
-title = "One slow driver starts a jam at 20\u00a0m; at 30\u00a0m the disturbance dies out"
+rings = {f"{spacing} m apart": traffic.ring(spacing) for spacing in (20, 35)}
+title = "At 20\u00a0m a disturbance grows into a jam; at 35\u00a0m it dies out"
 bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 
 # %% [markdown]
@@ -50,17 +51,17 @@ bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 
 # %%
 choices = [
-    "each driver brakes later than the one ahead",
+    "the standing cars are pushed back by those behind them",
     "the slow driver falls behind the others",
     "cars leave it at its front and join it at its back",
 ]
 predict("traffic.1", "Why does the jam move backwards?", choices)
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Let them find the band's speed: in the 400 s of the picture it goes back by a little more than
-# one round of the ring, 600 m. The band is a place where cars stop, not a group of cars: cars
-# leave it at its front and join it at its back. A ring of real cars did the same: Sugiyama et al.,
-# *New Journal of Physics* 10 (2008) 033001.
+# Let them find the band's speed: from 100 to 400 s it goes back by about 380 m, 1.3 m/s. The band
+# is a place where cars stop, not a group of cars: cars leave it at its front and join it at its
+# back. A ring of real cars did the same: Sugiyama et al., *New Journal of Physics* 10 (2008)
+# 033001.
 
 # %% [markdown]
 # ## Round 1: the gap that a driver wants
@@ -70,9 +71,11 @@ predict("traffic.1", "Why does the jam move backwards?", choices)
 #
 # $$ s^*(v, \Delta v) = s_0 + T v + \frac{v\, \Delta v}{2 \sqrt{a_{\max} b}} $$
 #
-# $s_0$ is the gap at a standstill. $T$ is a **time gap**: the driver wants to be $T$ seconds behind
-# the car ahead, which is more metres at a higher speed. The last term asks for more room while the
-# driver closes in; $a_{\max}$ is the strongest acceleration, and $b$ a comfortable braking.
+# Distances go from centre to centre, as highway-env measures them: subtract one car's length to get
+# the free space. $s_0$ is the gap at a standstill. $T$ is a **time gap**: the driver wants to be
+# $T$ seconds behind the car ahead, which is more metres at a higher speed. The last term asks for
+# more room while the driver closes in; $a_{\max}$ is the strongest acceleration, and $b$ a
+# comfortable braking.
 #
 # > **Predict.** $s_0$ = 10 m, $T$ = 1.5 s, $a_{\max} = b$ = 0.5 m/s². At 10 m/s you want 25 m
 # > behind a car that drives 10 m/s, too. What gap do you want behind one at 8 m/s?
@@ -100,9 +103,6 @@ check.desired_gap(desired_gap)
 # <!-- claim: formulas.desired_gap(10, 0, 10, 1.5, 0.5, 0.5) == 25 -->
 # <!-- claim: 1.7 < formulas.desired_gap(10, 2, 10, 1.5, 0.5, 0.5) / formulas.desired_gap(10, 0, 10,
 #   1.5, 0.5, 0.5) < 2 -->
-#
-# Distances here go from centre to centre, as highway-env measures them: subtract one car's length
-# to get the free space.
 
 # %% [markdown]
 # ## Round 2: how hard to brake
@@ -158,8 +158,8 @@ check.drive_behind(drive_behind)
 
 # %% [markdown]
 # Here eight of the library's drivers follow each other, {{ SETTLED }} m apart, a distance at which
-# they hold 10 m/s. Their leader drives 10 m/s, then 4 m/s for 20 s, then 10 m/s again. The picture
-# shows the leader and three of the eight.
+# they hold 10 m/s. Their leader, which follows no formula, drives 10 m/s, then 4 m/s for 20 s, then
+# 10 m/s again. The picture shows the leader and three of the eight.
 # <!-- claim: abs(traffic.follow(10.0, 0.0, SETTLED)) < 1e-3 -->
 
 # %% tags=["hide-input"]
@@ -195,27 +195,60 @@ for slowest in (4.0, 8.0):
 # %%
 # NBVAL_CHECK_OUTPUT
 rows = []
-for v in (1.0, 6.0, 9.5, 12.0):
+for v in (1.0, 6.2, 10.3, 12.0):
     wanted = bc.formulas.desired_gap(v, 0.0, t.s0, t.time_gap, t.a_max, t.b)
     settled = traffic.behind(np.full(20_000, v), v, wanted)[-1, 0]  # 10,000 s behind this speed
     rows.append([f"{v:g} m/s", f"{wanted:.1f} m", f"{settled:.1f} m"])
 table(["speed", "wants s*", "settles at"], rows)
 
 # %% [markdown]
-# **See.** Cars that settle about 20 m apart drive 6 m/s, about 30 m apart 9.5 m/s. That is how fast
-# the two rings are without a disturbance. (Set $a = 0$: the gap is $s^* / \sqrt{1 - (v /
+# **See.** Cars that settle about 20 m apart drive 6.2 m/s, about 35 m apart 10.3 m/s. That is how
+# fast the two rings are without a disturbance. (Set $a = 0$: the gap is $s^* / \sqrt{1 - (v /
 # v_\text{desired})^\delta}$, which has no limit as $v$ nears the desired speed.)
 # <!-- claim: abs(28.0 / math.sqrt(1 - (12 / 12.5) ** DEFAULT.traffic.delta) - 72.1) < 0.1 -->
+# <!-- claim: round(traffic.settled_speed(20), 1) == 6.2 and round(traffic.settled_speed(35), 1) ==
+#   10.3 -->
 #
-# Where does the jam come from? After it has braked, a driver accelerates by at most $a_{\max}$ =
-# {{ DEFAULT.traffic.a_max }} m/s², so the driver behind has to brake a little harder. In the ring
-# with 20 m that wave grows from car to car, in the ring with 30 m it shrinks. Cars leave the jam at
-# its front and join it at its back, so the *jam* moves backwards.
+# Which disturbances grow? Here are the rings again, and one with 30 m, for 800 s:
+
+# %%
+# NBVAL_CHECK_OUTPUT
+rows = []
+for words in ("1 m/s", "3 m/s", "0.1 m/s less than the others"):
+    row = [words]
+    for spacing in (20, 30, 35):
+        first = traffic.settled_speed(spacing) - 0.1 if words.startswith("0") else float(words[0])
+        row.append(f"{traffic.ring(spacing, first, seconds=800)[1][-1].min():.1f} m/s")
+    rows.append(row)
+table(["one car begins at", "slowest car in the end, 20 m apart", "30 m", "35 m"], rows)
+
+# %%
+# NBVAL_CHECK_OUTPUT
+rows = []
+for a_max in (0.5, 1.0, 1.5):
+    quicker = dataclasses.replace(t, a_max=a_max)
+    slowest = traffic.ring(20, seconds=800, traffic=quicker)[1][-1].min()
+    rows.append([f"{a_max:g} m/s²", f"{slowest:.1f} m/s"])
+table(["a_max", "one car begins at 1 m/s: slowest car in the end, 20 m apart"], rows)
+
+# %% [markdown]
+# **See.** At 20 m a car that is 0.1 m/s too slow is enough for a jam, at 35 m a car at 1 m/s is
+# not. In between it depends: at 30 m a car that begins at 1 m/s starts a jam, one that begins at 3
+# m/s does not.
+# <!-- claim: slowest(20, traffic.settled_speed(20) - 0.1) < 0.1 and slowest(30, 1.0) < 0.1 and
+#   slowest(30, 3.0) > 9.5 and slowest(35, 1.0) > 10.3 -->
+#
+# Where does the jam come from? A driver who has braked comes back to speed slowly, and the driver
+# behind meets a slower car for longer. Quicker drivers damp the wave: with $a_{\max}$ = 1.5 m/s²
+# the ring of 20 m has no jam; with 1 m/s² it still has one. Cars leave the jam at its front and
+# join it at its back, so the *jam* moves backwards.
+# <!-- claim: slowest(20, 1.0, 1.5) > 6.2 and slowest(20, 1.0, 1.0) < 0.1 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask for a ring of 25 m: does the jam stay or dissolve? It depends on how slowly the first car
-# begins: in `bootcourse.course.lessons.traffic.simulation.ring`, `v[0] = 5.0` and `v[0] = 1.0` end
-# differently. The ring has two stable states there.
+# begins: `traffic.ring(25, first=5.0)` and `traffic.ring(25, first=1.0)` end differently. The ring
+# has two stable states there, as at 30 m.
+# <!-- claim: slowest(25, 5.0) > 8 and slowest(25, 1.0) < 0.1 -->
 
 # %% [markdown]
 # ## Round 3: two steps a second
@@ -302,8 +335,9 @@ table(["time constants", *headings], rows)
 # ## What you now know
 #
 # 1. IDM brakes for the closing speed as well as for the gap, and settles at more than $s^*$.
-# 2. The closer together cars settle, the slower they drive. If they are close enough, a disturbance
-#    can grow into a jam that travels backwards.
+# 2. The closer together cars settle, the slower they drive. If they are close, a small disturbance
+#    grows into a jam that travels backwards; farther apart a large one does, and a small one dies
+#    out; still farther apart both die out in the runs here.
 # 3. A simulated heading swings and grows if dt / τ exceeds 2, even though its differential equation
 #    is stable. Below 2 it settles on its own; whether the whole car does has to be tested.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->

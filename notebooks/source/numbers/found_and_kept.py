@@ -8,6 +8,7 @@ from bootcourse.course.lessons.found_and_kept.exercises import forgetting
 from bootcourse.research import clocks as study_clocks
 from bootcourse.research.results import WINDOW, Results
 from bootcourse.rule import stochastic_rule
+from bootcourse.statistics import ESCAPES
 from scipy import stats
 from tools.course.known import clocks, escapers, fisher, of, shipped_experiment, shipped_results, varied
 
@@ -44,6 +45,13 @@ def way(results: Results, method: str) -> Counted:
     """Of a method's agents, see `Results.found_and_kept`."""
     found, kept = results.found_and_kept(method)
     return Counted(int(found.sum()), int(kept.sum()), len(found))
+
+
+def failed_soft() -> np.ndarray:
+    """Of the study's agents with the soft constraint alone that fail the test: their success in the last 200 training
+    episodes, with drawn actions, (agents,)."""
+    failed = of("soft").scores("success") < ESCAPES
+    return of("soft").curves["success"][failed, -200:].mean(axis=1)
 
 
 def demos_span() -> np.ndarray:

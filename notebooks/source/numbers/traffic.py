@@ -1,9 +1,11 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+import dataclasses
 from functools import cache
 
 import numpy as np
 from bootcourse.course.lessons.traffic import simulation as traffic
+from bootcourse.scenario import DEFAULT
 
 SETTLED = 32.5  # m; at this distance, centre to centre, a driver holds 10 m/s behind a car at 10 m/s
 
@@ -16,3 +18,10 @@ def lowest_speeds(slowest: float = 4.0) -> list[float]:
         ahead = traffic.behind(ahead, v=10.0, gap=SETTLED)[:-1, 1]
         speeds.append(ahead.min())
     return speeds
+
+
+@cache
+def slowest(spacing: float, first: float, a_max: float = 0.5) -> float:
+    """The speed (m/s) of the slowest car of a ring after 800 s, one of whose cars begins at `first` (m/s)."""
+    drivers = dataclasses.replace(DEFAULT.traffic, a_max=a_max)
+    return traffic.ring(spacing, first, seconds=800, traffic=drivers)[1][-1].min()

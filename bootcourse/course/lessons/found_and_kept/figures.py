@@ -74,7 +74,7 @@ def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
 
     cells: `clocks.cells`. Dots on ξ: agents with the soft constraint alone; on β: with demonstrations by π̃ alone.
     """
-    title = "With more updates ξ fades before the way out is found; β does not"
+    title = "With more updates less of ξ is left when the way out is found"
     figure, ax = one_axes(3.8, title, "training episode", "share of its start (ξ: median agent)", width=0.86)
     alt_parts, soft, demos = [], style("soft").colour, style("demos").colour
     for updates in UPDATES:

@@ -3,26 +3,38 @@
 import math
 
 import numpy as np
+from scipy.optimize import brentq
 
 from bootcourse.road.formulas import desired_gap, idm_acceleration
-from bootcourse.scenario import DEFAULT
+from bootcourse.scenario import DEFAULT, Traffic
 
 
-def follow(v: float, dv: float, gap: float) -> float:
+def follow(v: float, dv: float, gap: float, traffic: Traffic = DEFAULT.traffic) -> float:
     """Acceleration (m/s²) of a driver of the traffic at v (m/s), closing in at dv on a car `gap` metres ahead."""
-    t = DEFAULT.traffic
+    t = traffic
     s_star = desired_gap(v, dv, t.s0, t.time_gap, t.a_max, t.b)
     return max(idm_acceleration(v, t.desired_speed, gap, s_star, t.a_max, t.delta), -t.braking_limit)
 
 
-def ring(spacing: float, cars: int = 30, seconds: float = 400, dt: float = 0.5) -> tuple[np.ndarray, np.ndarray]:
-    """Places (m) and speeds (m/s) of cars in a circle, both (steps, cars). They start at 6 m/s, one of them at 1."""
-    x, v = spacing * np.arange(cars, dtype=float), np.full(cars, 6.0)
-    v[0] = 1.0
+def settled_speed(spacing: float) -> float:
+    """The speed (m/s) that cars hold which follow each other at this distance (m, more than s0)."""
+    return brentq(lambda v: follow(v, 0.0, spacing), 0.0, DEFAULT.traffic.desired_speed)
+
+
+def ring(
+    spacing: float, first: float = 1.0, seconds: float = 400, traffic: Traffic = DEFAULT.traffic
+) -> tuple[np.ndarray, np.ndarray]:
+    """Places (m) and speeds (m/s) of 30 cars in a circle, both (steps, cars), in steps of 0.5 s.
+
+    They start at the speed that they hold at this distance (`spacing`, m), one of them at `first` (m/s).
+    """
+    cars, dt = 30, 0.5
+    x, v = spacing * np.arange(cars, dtype=float), np.full(cars, settled_speed(spacing))
+    v[0] = first
     places, speeds = [], []
     for _ in range(int(seconds / dt)):
         gaps = (np.roll(x, -1) - x) % (spacing * cars)
-        a = np.array([follow(*car) for car in zip(v, v - np.roll(v, -1), gaps, strict=True)])
+        a = np.array([follow(*car, traffic) for car in zip(v, v - np.roll(v, -1), gaps, strict=True)])
         x, v = x + v * dt, np.maximum(v + a * dt, 0)
         places.append(x % (spacing * cars))
         speeds.append(v)
