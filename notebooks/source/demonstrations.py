@@ -412,10 +412,10 @@ bc.show(figures.clones(measured, title))
 # **Explain.** In our runs the clones of the stochastic rule had more success and fewer accidents
 # than those of the rule, although they agreed less with their data and learned from less than half
 # as many rows. (Yours will differ.) We see two possible reasons: its drives **cover** more states,
-# and show how to return to the path; or fewer rows are seen more often in 1,500 updates. The third kind
-# keeps the coverage and takes the wrong labels out. Round 6 has a control for the second reason:
-# drives of the rule that give as few rows. (How much coverage matters depends on the number of
-# updates: the study's clones of Round 4 learned from drives of the rule alone.)
+# and show how to return to the path; or fewer rows are seen more often in 1,500 updates. The third
+# kind keeps the coverage and takes the wrong labels out. Round 6 has a control for the second
+# reason: drives of the rule that give as few rows. (How much coverage matters depends on the number
+# of updates: the study's clones of Round 4 learned from drives of the rule alone.)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Return to the hands of *Look first*. The third data set separates two reasons: the states it
