@@ -296,11 +296,11 @@ bc.show(figures.worth(outcomes, title))
 # <!-- claim: (tested(FOUR).ahead & ~tested(FOUR).accident).mean() > 0.02 -->
 # <!-- claim: (by_chance().accident > 0).all() -->
 #
-# Which of the two keeps agents in? Three easier roads help. With *a lane keeper* an
-# action names a lane and a speed, and a controller steers the car there. With *a later start* an
-# episode begins after the plan's {{ easier.LATER }} seconds of steering: on the free lane, behind
-# the traps and as fast as they are. With *free accidents* an accident ends the drive and costs
-# nothing. Here are drives on the first two:
+# Which of the two keeps agents in? Three easier roads help. With *a lane keeper* an action names a
+# lane and a speed, and a controller steers the car there. With *a later start* an episode begins
+# after the plan's {{ easier.LATER }} seconds of steering: on the free lane, behind the traps and as
+# fast as they are. With *free accidents* an accident ends the drive and costs nothing. Here are
+# drives on the first two:
 
 # %%
 few, rows = bc.held_out_seeds(7, 100), []
@@ -365,9 +365,9 @@ table([*headings, "highest return"], rows, below=below)
 # Where accidents are free, {{ often_ahead('free accidents') }} of twenty agents end ahead of trap 1
 # on at least one road in ten; where an accident costs 10, {{ often_ahead('as it is') }}. None of
 # the twenty stays. So the price keeps agents from trying. It is not the whole answer: {{
-# ahead_and_crashed('free accidents')[1] | , }} of these {{ ahead_and_crashed('free accidents')[0] |
-# , }} drives end ahead *crashed*, also those of the agent that "escapes". Without the price they do
-# not learn to survive.
+# ahead_and_crashed('free accidents')[1] | , }} of their {{ ahead_and_crashed('free accidents')[0] |
+# , }} drives that end ahead end there *crashed*; so does the agent that "escapes". Without the
+# price they do not learn to survive.
 # <!-- claim: often_ahead('free accidents') > 2 * often_ahead('as it is') and
 #   safe('free accidents') == 0 and easy('free accidents').scores('accident').min() > 0.99 -->
 # <!-- claim: easy('free accidents').escapers('sac') == 1 and DEFAULT.reward.accident == -10 -->
