@@ -347,9 +347,9 @@ table([*headings, "highest return"], rows, below=below)
 
 # %% [markdown]
 # **Explain.** From the later start one acceleration, and then nothing, gets out without an accident
-# on each of these roads and is worth more than staying, at both discounts (at γ = 0.8 {{
-# worth_of('a later start', ONCE, 0.8) | .2f }} against {{ worth_of('a later start', 'stays', 0.8) |
-# .2f }}); yet none of the twenty agents gets out on any of 200 roads, and {{ safe('a later start')
+# on each of these roads and is worth more than staying, at both discounts ({{ worth_of('a later
+# start', ONCE, 0.8) | .2f }} against {{ worth_of('a later start', 'stays', 0.8) | .2f }} at γ =
+# 0.8); yet none of the twenty agents gets out on any of 200 roads, and {{ safe('a later start')
 # }} stay behind with hardly an accident. So neither the delay nor the price of *this* attempt keeps
 # them in, unless such a gain is too small for a critic to see. An agent does not take it alone,
 # though: the actions that it draws afterwards may crash. With a lane keeper {{ safe('a lane
