@@ -27,8 +27,9 @@ from bootcourse.course import compare_predictions, predict, shipped
 # ## Look first
 #
 # Both drives below start alike on the same road. Two slow cars are dark red: **trap 1** is ahead of
-# the driver, **trap 2** beside it. One program stays behind them, the other gets out. Press play,
-# and turn the road with the mouse.
+# the driver, **trap 2** beside it. One program, labelled *plain SAC*, stays behind them; the other,
+# *bootstrapped SAC*, gets out. (Lesson [[the_trap]] says what the names mean.) Press play, and turn
+# the road with the mouse.
 
 # %% tags=["nbval-ignore-output"]
 escape = bc.shipped_drive("escape")  # by an agent that had help
@@ -40,10 +41,11 @@ bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], he
 # %% [markdown]
 # Both drivers are **agents**, programs that have learned from their own attempts. The one that gets
 # out had help while it learned, from a hand-written controller, the **rule**. We chose these two
-# drives; lesson [[the_trap]] counts how many agents of each kind get out.
+# drives because they differ; lesson [[the_trap]] counts how many agents of each kind get out.
 #
-# Each second pays for speed, most of all at {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
-# and an accident costs about as much as a minute behind the traps earns. Why does a program that
+# A driver is paid for each second: most at {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
+# little at the traps' {{ DEFAULT.traps.speed }} m/s. An accident costs about what a minute behind
+# the traps earns. Why does a program that
 # learns stay behind slow cars, although the left lane is free? That is the question of this course.
 
 # %% [markdown]

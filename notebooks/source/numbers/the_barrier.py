@@ -45,7 +45,8 @@ def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
 
 FOUR = "4 random actions, then accelerates"
 UNSKILLED = ("random for 150 s", FOUR, "random lanes and speeds")
-KINDS_OF_ATTEMPTS = (*UNSKILLED, "one plan, then accelerates", "the rule's way")
+THE_PLAN = "one plan, then accelerates"
+KINDS_OF_ATTEMPTS = (*UNSKILLED, THE_PLAN, "the rule's way")
 
 
 @cache
@@ -60,6 +61,11 @@ def tested(kind: str) -> attempts.Outcome:
     return all_tested()[kind]
 
 
+def unhurt_plan() -> np.ndarray:
+    """What the plan's drives without an accident are worth at γ = 0.8."""
+    return tested(THE_PLAN).values(0.8)[~tested(THE_PLAN).accident]
+
+
 def easy(kind: str) -> Results:
     """The twenty agents of one of `easier.KINDS`."""
     return shipped_experiment("easier")[kind]
@@ -68,6 +74,17 @@ def easy(kind: str) -> Results:
 def safe(kind: str) -> int:
     """How many of them hardly ever end ahead, or in an accident."""
     return int(((easy(kind).scores("success") < 0.05) & (easy(kind).scores("accident") < 0.05)).sum())
+
+
+def often_ahead(kind: str) -> int:
+    """How many of them end ahead of trap 1 on at least one road in ten."""
+    return int((easy(kind).scores("success") >= 0.1).sum())
+
+
+def ahead_and_crashed(kind: str) -> tuple[int, int]:
+    """How many of their drives end ahead of trap 1, and how many of these in an accident."""
+    ahead = easy(kind).episodes("success") > 0
+    return int(ahead.sum()), int((ahead & (easy(kind).episodes("accident") > 0)).sum())
 
 
 def temperature() -> float:

@@ -5,8 +5,8 @@
 `LaneKeeper`: the nine actions are wishes that a lane keeper carries out, so attempts to leave are better driven.
 `LaterStart`: an episode begins after the 8 s in which the lesson's plan steers, on the free lane, behind the traps and
 as fast as they are. (One second later a car passes them even if it does nothing.) In its second kind the temperature
-does not fall to 0, either. `free_accidents`: an accident ends the drive and costs nothing. Each kind has ten agents with the paper's γ and ten that look further ahead; they learn by
-themselves, as those of the lesson's first round do.
+does not fall to 0, either. `free_accidents`: an accident ends the drive and costs nothing. Each kind has ten agents
+with the paper's γ and ten that look further ahead; they learn by themselves, as those of the lesson's first round do.
 """
 
 from collections.abc import Callable, Mapping

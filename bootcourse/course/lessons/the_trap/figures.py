@@ -87,8 +87,8 @@ def running_lead(lead: np.ndarray, behind: int) -> Figure:
     ax.axhline(0, color=QUIET, linewidth=1)
     ax.plot(seconds, lead, color=look.colour, linewidth=2)
     ax.plot(behind, lead[behind - 1], "o", color=INK)
-    ax.annotate(f"still behind after {behind} s", (behind, 0), xytext=(6, -16), textcoords="offset points",
-                fontsize=TEXT, color=INK)  # fmt: skip
+    ax.annotate(f"still behind after {behind} s", (behind, 0), xytext=(-2, 6), textcoords="offset points",
+                ha="right", fontsize=TEXT, color=INK)  # fmt: skip
     ax.text(148, 0.3, "doing nothing", ha="right", va="bottom", fontsize=SMALL, color=QUIET)
     ax.set_xlim(0, len(lead))
     near = ax.inset_axes((0.08, 0.5, 0.4, 0.42))
