@@ -143,7 +143,8 @@ def test_a_comparison_trains_each_entry_and_shows_a_table_and_curves():
     compared = bc.compare(entries, 2, 12, tests=3, make_env=Chain, teacher=chain.rule, progress=False)
     assert compared.scores("bc").tolist() == [10, 10] and compared.scores("bc", "success").tolist() == [1, 1]
     head, clones, own = compared.rows()
-    assert clones[:4] == ("bc", "2", "100.00 [100.00, 100.00]", "10.00 [10.00, 10.00]") and own[:2] == ("sac, mine", "2")
+    assert clones[:4] == ("bc", "2", "100.00 [100.00, 100.00]", "10.00 [10.00, 10.00]")
+    assert own[:2] == ("sac, mine", "2")
     assert "sac, mine" in str(compared) and compared._repr_html_().count("<tr>") == 3
     assert "success" in compared.figure("Cloning is enough").alt
 

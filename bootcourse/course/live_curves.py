@@ -65,8 +65,8 @@ class LiveCurves:
         curves = {measure: np.stack([means[measure] for means in self.means], axis=1) for measure in MEASURES}
         each = by_label(labels, curves)
         if self.drawn.get("measures") == ("return",):
-            now = [f"{display_name(label)} {np.nanmean(of['return'][:, -1]):.1f}" for label, of in each.items()]
-            title = f"Return after {training.updates:,} updates: {', '.join(now)}"
+            now = [f"{np.nanmean(of['return'][:, -1]):.1f} with {display_name(label)}" for label, of in each.items()]
+            title = f"Return after {training.updates:,} updates: {', '.join(now)}".replace("-", "−")
         else:
             now = [
                 f"{display_name(label)} in {100 * np.nanmean(of['success'][:, -1]):.0f} %" for label, of in each.items()
