@@ -151,8 +151,8 @@ bc.show(charts.lines(alphas, values, title, "α", "V"))
 # %% [markdown]
 # **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy: both have the same V
 # at α = 1 / 0.693 = {{ 1 / math.log(2) | .2f }}. The best policy lies between the two: it is a
-# *softmax*, $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$. With a high α this policy is nearly even, with a
-# low α it is nearly sure of one action.
+# *softmax*, $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$. With a high α this policy is nearly even, with
+# a low α it is nearly sure of one action.
 #
 # <details><summary>Why a softmax?</summary>
 #
