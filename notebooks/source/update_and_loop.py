@@ -214,7 +214,8 @@ bc.show(charts.lines(updates, noted, title, "updates", "H (nats), α", "y", mark
 # %% [markdown]
 # **See.** While the entropy is below its target, α rises, and at first nothing follows: α is still
 # small beside the differences in Q, and the best policy is softmax(Q / α). Once it is large enough,
-# the policy becomes less certain; where the entropy passes the target, α falls again. Has yours
+# the policy becomes less certain; where the entropy passes the target, α falls again. (In our run
+# the early peaks of H are not its work: α is then still about 0.01, its start.) Has yours
 # settled? With the paper's η = −1, α would fall from the first update to the last.
 #
 # Is the update made of your parts the same as the library's, which trains many agents at once?
