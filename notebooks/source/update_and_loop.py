@@ -304,7 +304,7 @@ table(["rows, all with terminated = 0", "Q after 4,000 pushes"], rows, "One agen
 # Yet this agent, too, uses a network, learns estimates from estimates, and does so on rows of older
 # policies. (Sutton and Barto, chapter 11, call these three the *deadly triad*: together they *can*
 # diverge.) Does it stop at {{ 1 / (1 - 0.99) | .0f }}, where it belongs if nothing ends? We have
-# trained two such agents for longer, once: after 4,000, 8,000, 12,000 and 16,000 pushes their Q was
+# trained two such agents for longer, once: after 1,000, 2,000, 3,000 and 4,000 updates their Q was
 # 43, 78, 91, 102 and 45, 73, 85, 94. It rises less and less. (Yours will differ.) A target that
 # reads values which no row corrects comes back in lesson [[offline_learning]].
 

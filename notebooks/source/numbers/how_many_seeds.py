@@ -16,7 +16,7 @@ def p_changed(method: str) -> float:
 
 
 def in_actor_only() -> Estimate:
-    """The share of agents with the soft constraint that escape if the KL is in the actor's loss only, exact interval."""
+    """The share of agents with the soft constraint that escape if the KL is in the actor's loss only."""
     agents = shipped_experiment("ablations")["KL in the actor only"].of("soft")
     return rate(agents.scores("success") >= ESCAPES)
 
