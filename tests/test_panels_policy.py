@@ -119,7 +119,7 @@ def test_at_the_crossing_both_are_worth_the_same_and_every_control_moves_the_pic
         crossed = bonus_numbers(panel.demonstration, panel.trapped, settings)
         assert crossed.augmented[k] == pytest.approx(crossed.trapped[k], abs=1e-9)
     before = panel.svg
-    assert "A bonus of 2 adds 10 to its target" in before.alt
+    assert "A bonus of 2 adds 10 to it" in before.alt
     from_page(panel.c.slider, value=1.95)
     assert np.allclose(panel.seen.augmented, seen.plain + 5 * 1.95) and panel.view.value == panel.svg != before
     for number in (panel.c, panel.gamma):

@@ -1,4 +1,4 @@
-"""What the bonus c does: the critic's target along the rule's drive and along a trapped one, while you move c.
+"""What the bonus c does: the discounted return along the rule's drive and along a trapped one, while you move c.
 
 The bonus is r'(s, a_E) = r(s, a_E) + c (Section IV-B, "Demonstration-Guided Reward Augmentation"); it and the target
 are computed in `bootcourse.learn`.
@@ -105,7 +105,7 @@ class BonusPanel(Panel):
         times, room = np.arange(len(seen.plain)) / rate, next((step for step in STEPS if step >= self.c.value), 0.0)
         highest = seen.plain + max(room, self.c.value) * seen.weight
         worth = SvgAxes(*WORTH, (0, times[-1]), span([*seen.plain, *seen.trapped, *highest, 0.0], 0.1))
-        worth.frame("the critic's target along the drive (discounted sum of rewards)")
+        worth.frame("discounted sum of the rewards from here on")
         worth.line(times, seen.plain, own, 1.1, "--")
         worth.line(times, seen.trapped, other, 1.4)
         worth.line(times, seen.augmented, own, 2)
@@ -123,7 +123,7 @@ class BonusPanel(Panel):
         highest, added = float(self.seen.crossing.max()), c * self.seen.weight[0]
         leads = f"From c = {highest:.2g} on" if highest > 0 else "Even without a bonus"
         words = f"{leads} the rule's drive is worth more at every moment."
-        return f"{words} A bonus of {c:g} adds {added:.3g} to its target, c / (1 − γ)."
+        return f"{words} A bonus of {c:g} adds {added:.3g} to it, c / (1 − γ)."
 
 
 def bonus_panel() -> BonusPanel:

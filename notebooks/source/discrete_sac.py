@@ -69,7 +69,7 @@ bc.show(diagrams.sac_diagram())
 # - The **actor** gives each action a probability, π(a|s): its **policy**. It is a small network.
 # - Two **critics** estimate what each action is worth from here on, Q(s, a), all later rewards
 #   included. The smaller estimate of the two counts.
-# - The **temperature** α says how much it counts that the actor stays undecided.
+# - The **temperature** α says how much the actor gains by staying undecided.
 # - The **replay buffer** keeps what happened, a row for each decision. Each update learns from a
 #   **batch** of rows: critics, actor and temperature alike.
 #
@@ -149,9 +149,10 @@ title = f"Above α = {1 / np.log(2):.2f} the even policy is worth more"
 bc.show(charts.lines(alphas, values, title, "α", "V"))
 
 # %% [markdown]
-# **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy. The best policy lies
-# between the two: it is a *softmax*, $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$. With a high α this
-# policy is nearly even, with a low α it is nearly sure of one action.
+# **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy: both have the same V
+# at α = 1 / 0.693 = {{ 1 / math.log(2) | .2f }}. The best policy lies between the two: it is a
+# *softmax*, $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$. With a high α this policy is nearly even, with
+# a low α it is nearly sure of one action.
 #
 # <details><summary>Why a softmax?</summary>
 #
@@ -189,7 +190,7 @@ bc.show(charts.lines(alphas, values, title, "α", "V"))
 #
 # This is the **soft Bellman equation**: one transition is enough to learn from. Its right side,
 # computed with the present estimates, is the **target** y, and the loss is the mean squared
-# distance from it. $y - Q(s,a)$ is the **temporal difference**. To learn an estimate from an
+# distance from it. $y - Q(s,a)$ is the **temporal difference**. Learning an estimate from an
 # estimate is called **bootstrapping**. (The paper's title means another thing: to start with a
 # rule's help.) Below, `terminated` is 1 if no further reward can come after this transition, and
 # otherwise 0.
@@ -197,7 +198,7 @@ bc.show(charts.lines(alphas, values, title, "α", "V"))
 # $$ y = r + \gamma\, (1 - \text{terminated})\, V(s'), \qquad
 # L_\text{critic} = \text{mean of } (Q(s,a) - y)^2 $$
 #
-# > **Predict.** In one episode the pole fell. In another the 500 pushes were over while it stood.
+# > **Predict.** In one episode the pole fell. In another it still stood after 500 pushes.
 # > γ = 0.99, r = 1, and the critic's estimate of V(s') is 50. What is y in each?
 
 # %%
@@ -264,13 +265,17 @@ check.critic_loss(critic_loss)
 # \big(Q(s,a) - \alpha \log \pi(a|s)\big) $$
 #
 # Two things make V larger: a better policy, or higher estimates Q. Which may the gradient change?
+# (Below, a policy is a softmax of one number for each action, its *logits*.)
 #
 # **Exercise (5 min, ●●○).** Write the actor's loss.
 
 
 # %%
 def actor_loss(log_pi, q, alpha):
-    """A scalar tensor. log_pi, q: (batch, actions); alpha: a tensor with one number."""
+    """A scalar tensor. log_pi, q: (batch, actions); alpha: a tensor with one number.
+
+    q is the smaller of the two critics' estimates.
+    """
     # solution: the exercise's own
 
 
@@ -357,9 +362,9 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # 0.66, is three tenths of the largest entropy: there α turns, as a thermostat should. The next
 # lesson shows one at work.
 #
-# Why then −1? For *continuous* actions a rule of thumb sets η to minus the dimension of the action,
-# which gives −1 for an action that is a single number. There an entropy can be negative, since a
-# density can be larger than one.
+# Why then −1? The paper gives no reason. Perhaps it comes from a rule of thumb for *continuous*
+# actions, minus the dimension of the action, which gives −1 for an action that is a single number.
+# There an entropy can be negative, since a density can be larger than one.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=5

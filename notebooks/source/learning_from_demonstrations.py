@@ -199,10 +199,10 @@ bc.panels.bonus_panel()
 # }} to the return: as much as an accident costs, while the rule's own rewards differ by tenths. (In
 # the panel the thick line is the rule's drive with the bonus, the dashed one without it.)
 #
-# Does this make the demonstrated action the best one for a *critic*? Not surely. The learner's own
-# rows pay no bonus: where the same state and action stand in both tables, the critic fits a mean, r
-# plus a part of c. And the other actions' values may rise, too, if they lead to states in which the
-# rule's action is paid. Round 3 measures it.
+# Does this make the demonstrated action the best one for a *critic*? Not necessarily. The learner's
+# own rows pay no bonus: where the same state and action stand in both tables, the critic fits a
+# mean, r plus a part of c. And the other actions' values may rise, too, if they lead to states in
+# which the rule's action is paid. Round 3 measures it.
 # <!-- claim: SETTINGS.bonus > 30 * 0.06 -->
 # <!-- claim: round(SETTINGS.bonus / (1 - SETTINGS.gamma)) == 10 -->
 # <!-- claim: math.isclose(SETTINGS.bonus / (1 - SETTINGS.gamma), -DEFAULT.reward.accident) -->
@@ -288,10 +288,11 @@ table(headings, rows, below=below)
 
 # %% [markdown]
 # **See.** (Yours will differ.) The bonus gives the demonstrated actions a much higher Q than the
-# control has. But the other actions' Q rises with it, so the lead is far from {{ SETTINGS.bonus /
-# (1 - SETTINGS.gamma) | .0f }}. And a high mean is not yet the highest value: in our runs the
-# last column is no higher with c = 2 than with c = 0. So there the bonus does *not* decide which
-# action looks best.
+# control has. But the other actions' Q rises with it. A lead of
+# {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} would need that one other action ends all later
+# bonuses; if the drive goes on as the rule's afterwards, it misses one, c = 2. And a high mean is
+# not yet the highest value: in our runs (two agents each) the last column is no higher with c = 2
+# than with c = 0. So there the bonus does *not* decide which action looks best.
 #
 # **Does the raised value last?** Five `demos` agents of the study ship with their critics. After
 # training, long after β has reached 0, little or nothing of the bonus is left: the mean Q of the
@@ -386,8 +387,8 @@ check.paper_q_filter(paper_q_filter)
 # %% [markdown]
 # An action's Q is at most the largest Q, so ≥ means = here. The printed filter is on only where the
 # expert's action has the largest Q already. All that the loss can do there is raise a lead that is
-# smaller than the margin. (The usual filter, of Nair et al., compares with the policy's average,
-# $\sum_a \pi(a|s) Q(s,a)$.)
+# smaller than the margin. (The usual filter, of Nair et al., compares with the Q of the policy's
+# own action; for a policy over a list of actions that is its mean, $\sum_a \pi(a|s) Q(s,a)$.)
 # <!-- claim: bootstrap.paper_q_filter(torch.tensor([[1, 2, 3]] * 3), torch.arange(3)).tolist()
 #   == [0, 0, 1] -->
 # <!-- claim: settings_for('margin').paper_q_filter and settings_for('margin_soft').paper_q_filter
@@ -451,9 +452,10 @@ table([*headings, "without it, seed 0", "seed 1"], rows)
 
 # %% [markdown]
 # **Explain.** (Yours will differ.) In our runs the filter, which looked useless on paper, is soon
-# on in almost half of these states, because the margin loss itself raises the leads that it finds:
-# in the control, without the loss, it stays about as rare as at the start for 250 updates. Later
-# the critic's own targets give the rule's action the largest Q in some states, too.
+# on in almost half of these states. The loss raises leads only where the rule's action is first
+# already; we think that the network carries this over to similar states, where the filter is then
+# on, too. In the control, without the loss, it stays about as rare as at the start for 250 updates.
+# Later the critic's own targets give the rule's action the largest Q in some states, too.
 #
 # **Does it work?** With the paper's γ and η neither the margin nor the bonus works alone in our
 # study: none of ten agents each escapes. (With γ = 0.9 and the
@@ -482,8 +484,8 @@ table([*headings, "without it, seed 0", "seed 1"], rows)
 # >    0 over {{ SETTINGS.beta_episodes | , }} episodes (Section IV-B).
 # > 3. *Bonus:* in demonstrated rows r becomes r + c, with c = {{ SETTINGS.bonus | g }} (Equation
 # >    20).
-# > 4. *Target:* subtract ξ D_KL(π ‖ π̃), in s', from V(s') (Equations 15 and 16).
-# > 5. *Actor:* add the mean of ξ D_KL(π ‖ π̃), in s, to the loss (Equation 15).
+# > 4. *Target:* subtract ξ D_KL(π ‖ π̃), in **s'**, from V(s') (Equations 15 and 16).
+# > 5. *Actor:* add the mean of ξ D_KL(π ‖ π̃), in **s**, to the loss (Equation 15).
 # > 6. *Fading:* at each update ξ is {{ SETTINGS.xi_multiplier | g }} α (Section IV-A).
 # >
 # > *In place of 3:* the margin loss of the demonstrated rows, where the printed filter is on, is

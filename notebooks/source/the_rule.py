@@ -113,15 +113,15 @@ table(["", "m/s"], rows)
 # %% [markdown]
 # ## Round 2: when to change lane?
 #
-# The car falls back. When is the gap to trap 2 long enough to change lane? The paper compares a
-# distance with a **safety distance** (its Equation 13):
+# The car falls back. When is the gap to trap 2 long enough to change lane? Ask how far you close in
+# on the slower of the two cars ahead during $t_\text{safe}$ seconds. This is our **safety
+# distance**:
 #
-# $$ d_{13} = (v_e - \min\{v_\text{current}, v_\text{new}\})\, t_\text{safe}
-# + \Delta x_\text{current} - \Delta x_\text{new} $$
+# $$ d_s = (v_e - \min\{v_\text{current}, v_\text{new}\})\, t_\text{safe} $$
 #
-# $\Delta x_\text{current}$ and $\Delta x_\text{new}$ are the distances to the cars ahead in your
-# own lane and in the new one. The first term is how far you close in on the slower of the two
-# during $t_\text{safe}$ seconds. *Our* $d_s$ is this term alone.
+# The paper's Equation 13 has two more terms, the distances to the cars ahead in your own lane and
+# in the new one: $d_{13} = d_s + \Delta x_\text{current} - \Delta x_\text{new}$. Below you test
+# it with numbers.
 #
 # > **Predict.** What is our $d_s$ when you are *slower* than both cars? Would you change lane with
 # > that distance to the car ahead?
@@ -186,7 +186,7 @@ bc.show(figures.when_to_change(drive))
 # %% [markdown]
 # **Explain.** As printed, the left side is negative while you are slower than the traps, and the
 # condition stays false. It would be true when you close in fast on a near car, which is when a lane
-# change is dangerous. So we take the printed sign for a misprint. To turn the sign is not enough:
+# change is dangerous. So we take the printed sign for a misprint. Turning the sign is not enough:
 # at the start of this drive trap 2 is {{ by_rule().states[0, TRAP_2, X] - by_rule().states[0, EGO,
 # X] | .1f }} m ahead from centre to centre, the test is true, and the car would turn into it. Our
 # rule changes lane when the gap to the *new* car ahead, from bumper to bumper, is **longer** than
@@ -230,15 +230,16 @@ check.room_to_change(room_to_change)
 source("bootcourse.rule", "decide_rule")
 
 # %% [markdown] tags=["instructor"] minutes=8
-# Do the misprint on the board: write $d_s - \Delta x_\text{current} > 0$ with the printed $d_s$,
-# and let them cancel $\Delta x_\text{current}$. Then ask what a reviewer could have done to notice.
-# (Work one example.)
+# Do the misprint on the board: write $d_{13} - \Delta x_\text{current} > 0$ with the printed
+# $d_{13}$, and let them cancel $\Delta x_\text{current}$. Then ask what a reviewer could have done
+# to notice. (Work one example.)
 
 # %% [markdown]
 # The rule gives a speed and a lane. The paper cites another controller that brings the car there;
-# ours **looks ahead**: it tries the 27 sequences of left, straight and right for the next three
-# seconds on the car's own equations of motion, does the *first step* of the one that stays closest
-# to the middle of the wanted lane, and begins again. This is called *model predictive control*.
+# ours, the **tracker**, looks ahead: it tries the 27 sequences of left, straight and right for the
+# next three seconds on the car's own equations of motion, does the *first step* of the one that
+# stays closest to the middle of the wanted lane, and begins again. This is called *model predictive
+# control*.
 # <!-- claim: 3 ** 3 == 27 -->
 
 # %% [markdown]
@@ -385,7 +386,7 @@ bc.show(figures.speed_and_distance(drive, title))
 # > with probability 0.1. In what share of the episodes does it drive 150 s without an accident?
 
 # %%
-choices = ["nearly all", "about half", "hardly any"]
+choices = ["about 95 %", "about 50 %", "about 10 %"]
 predict("the_rule.7", "In how many episodes is the stochastic rule without an accident?", choices)
 
 # %%
@@ -413,7 +414,7 @@ table(["1,000 roads, p = 0.9", ""], rows, below=ahead)
 #
 # </details>
 #
-# The next table changes p and nothing else.
+# The next table changes p. (It has 500 roads, so p = 0.9 gives a slightly different share.)
 
 # %%
 rows = []
@@ -452,7 +453,7 @@ table(["p", "without an accident (500 roads)"], rows)
 #
 # **Read on**: the [next lesson](demonstrations.ipynb) learns from this rule's drives. The
 # idea of a safety distance that grows with speed is old: Gipps, *A behavioural car-following
-# model* (1981).
+# model for computer simulation* (1981).
 
 # %%
 compare_predictions(
@@ -464,7 +465,7 @@ compare_predictions(
         4: round(result.distance.value),
         5: "a shorter sight",
         6: f"{min(safe)} m",
-        7: "hardly any",
+        7: "about 10 %",
     },
 )
 

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 from bootcourse.research.paper import PRINTED
 from bootcourse.research.tables import bracketed  # noqa: F401 (the text names it)
-from bootcourse.statistics import ESCAPES, interval, iqm, power
+from bootcourse.statistics import ESCAPES, Estimate, interval, iqm, power, rate
 from scipy import stats
 from tools.course.known import escaped, escapers, fisher, of, shipped_experiment
 
@@ -13,6 +13,12 @@ from tools.course.known import escaped, escapers, fisher, of, shipped_experiment
 def p_changed(method: str) -> float:
     """Fisher's p of a method's agents that escape: the study's against those with the KL in the actor only."""
     return fisher(escaped(method), escapers(shipped_experiment("ablations")["KL in the actor only"], method))
+
+
+def in_actor_only() -> Estimate:
+    """The share of agents with the soft constraint that escape if the KL is in the actor's loss only."""
+    agents = shipped_experiment("ablations")["KL in the actor only"].of("soft")
+    return rate(agents.scores("success") >= ESCAPES)
 
 
 def enough(first: float, second: float, wanted: float = 0.8) -> int:

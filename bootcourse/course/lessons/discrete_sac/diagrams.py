@@ -7,7 +7,7 @@ from bootcourse.plots.diagrams import Diagram, arrow, box, label, line
 SAC_PARTS: Mapping[str, tuple] = {  # name -> left, top, lines, tint; each 140 wide and 64 high
     "world": (8, 30, ("world", "road or pole"), "world"),
     "actor": (230, 30, ("actor π", "chooses actions"), "learned"),
-    "temperature": (452, 30, ("temperature α", "worth of a nat"), "learned"),
+    "temperature": (452, 30, ("temperature α", "weight of entropy"), "learned"),
     "buffer": (8, 220, ("replay buffer", "what happened"), "stored"),
     "critics": (230, 220, ("critics Q₁, Q₂", "judge actions"), "learned"),
     "targets": (452, 220, ("target critics", "slow copies"), "stored"),
