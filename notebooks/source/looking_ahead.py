@@ -389,8 +389,8 @@ below = f"An agent with the soft constraint, on {len(few)} roads each."
 table(["the imagined road", *headings], rows, below)
 
 # %% [markdown]
-# So few roads cannot tell small rates apart. In the study each of PPO's ten agents drove 1,000 roads
-# with each model.
+# So few roads cannot tell small rates apart. In the study each of PPO's ten agents drove 1,000
+# roads with each model.
 # <!-- claim: all(ahead('ppo_cloned', form, model=model).drives == 10_000 for model in MODELS for
 #   form in ('rollouts', 'shield')) -->
 
@@ -404,8 +404,8 @@ bc.show(wrong_models(study))
 # them; with {{ clearly_safer('ppo_cloned') }} the intervals do not overlap. (One of these is hardly
 # a gain: everything a second late, 999 against 1,000. The intervals take all drives as
 # independent.)
-# <!-- claim: all(per_thousand('ppo_cloned', 'shield', model=m) < per_thousand('ppo_cloned', model=m)
-#   for m in MODELS if m != 'exact') -->
+# <!-- claim: all(per_thousand('ppo_cloned', 'shield', model=m) < per_thousand('ppo_cloned',
+#   model=m) for m in MODELS if m != 'exact') -->
 # <!-- claim: (round(per_thousand('ppo_cloned', 'shield', model=LATE)), round(per_thousand(
 #   'ppo_cloned', model=LATE))) == (999, 1000) -->
 # <!-- claim: better('ppo_cloned', 'shield') > better('ppo_cloned', 'rollouts') and

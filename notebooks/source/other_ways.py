@@ -165,7 +165,9 @@ table(["", "takes the rule's action, %"], rows)
 # %% tags=["nbval-ignore-output"]
 ahead_first = sorted(drives, key=lambda each: (each.success, len(each.actions)))[-1]
 out = bc.overtaken(ahead_first)
-title = "Your agent's best drive " + ("stays behind" if out is None else f"is ahead after {out:g} s")
+title = "Your agent's best drive " + (
+    "stays behind" if out is None else f"is ahead after {out:g} s"
+)
 bc.show(bc.traces([ahead_first], title=title, what=("speed", "distance")))
 
 # %% [markdown]
@@ -354,8 +356,8 @@ table(["", *headings], rows, below)
 # core, with drawn actions; in those of jump-start RL the rule may still drive the first part. The
 # seconds are those of agents that train side by side on the study's machine, divided by their
 # number. One agent alone needs many times as much for a decision: compare with Round 2.)
-# <!-- claim: middle('ppo') < middle('ppo', SECOND) < middle('ppo', LAST) and len(at('ppo', 'returns',
-#   LAST)) == 10 -->
+# <!-- claim: middle('ppo') < middle('ppo', SECOND) < middle('ppo', LAST) and len(at('ppo',
+#   'returns', LAST)) == 10 -->
 # <!-- claim: score_at('ppo_cloned').high < min(score_at(m).low for m in ('bootstrapped',
 #   'ibrl')) and lowest() == 'ppo_cloned' -->
 # <!-- claim: escaping('ppo_cloned', SECOND) == 10 and all(escaping('ppo', b) == 0 for b in (FIRST,

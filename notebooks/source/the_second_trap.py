@@ -143,8 +143,9 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # **Is it a trap?** None of the {{ ppo_agents() }} agents was ahead in any of its last 300 training
 # episodes. Their return still rises at the end, by driving behind trap 1 better: they climb a hill
 # that does not lead past trap 1. The top of such a hill is a **local optimum**, a way to drive that
-# small changes do not improve; we call this hill the second trap. It is shown for {{ ppo_kinds.KINDS['alone'].decisions | , }} decisions: after as many, ten others with γ
-# = {{ later_ppo().agents[0]['gamma'] }} do not escape either (lesson [[other_ways]]).
+# small changes do not improve; we call this hill the second trap. It is shown for {{
+# ppo_kinds.KINDS['alone'].decisions | , }} decisions: after as many, ten others with γ = {{
+# later_ppo().agents[0]['gamma'] }} do not escape either (lesson [[other_ways]]).
 # <!-- claim: later_ppo_out() == 0 and len(later_ppo()) == 10 and LAST ==
 #   ppo_kinds.KINDS['alone'].decisions -->
 # <!-- claim: (ppo('alone')['escapes'][:, -1] == 0).all() and (ppo('alone')['curve'][:, -1] >
@@ -268,9 +269,9 @@ title = "PPO stops paying once a ratio has moved by 0.2 in the direction that pa
 bc.show(figures.hinges(ppo.clipped_loss, 0.2, title))
 
 # %% [markdown]
-# **The whole loss.** V learns by squared error, which counts half. Its target is $\hat V_t = A_t + V(s_t)$
-# (`returns` in the code), with the V that the decisions were made with: what came, as far as it is known. And a little
-# entropy H is paid for:
+# **The whole loss.** V learns by squared error, which counts half. Its target (`returns` in the
+# code) is $\hat V_t = A_t + V(s_t)$, with the V that the decisions were made with: what came, as
+# far as it is known. And a little entropy H is paid for:
 #
 # $$ L + \tfrac12\, \mathrm{mean}\big[(V - \hat V)^2\big] - c_H\, \mathrm{mean}[H] $$
 #

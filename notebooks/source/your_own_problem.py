@@ -230,10 +230,10 @@ bc.show(figures.gap(cells, shown, "No way to use a teacher is best on all three 
 #   'cloning', 'returns') | .0f }}, and the good teacher {{ score('mountain-car', 'good', 'the
 #   teacher', 'returns') | .0f }}. (On Lunar lander it is {{ score('lander', 'random', 'cloning',
 #   'returns') | .0f }} and {{ score('lander', 'good', 'the teacher', 'returns') | .0f }}.) Where it
-#   is weak, go on: on CartPole the good teacher earns {{ score('cartpole', 'good', 'the teacher', 'returns') | .0f }}
-#   of 500, the clones of the random one {{ score('cartpole', 'random', 'cloning', 'returns') | .0f
-#   }}, and the agents with its soft constraint {{ score('cartpole', 'random', 'soft', 'returns') |
-#   .0f }}.
+#   is weak, go on: on CartPole the good teacher earns {{ score('cartpole', 'good', 'the teacher',
+#   'returns') | .0f }} of 500, the clones of the random one {{ score('cartpole', 'random',
+#   'cloning', 'returns') | .0f }}, and the agents with its soft constraint {{ score('cartpole',
+#   'random', 'soft', 'returns') | .0f }}.
 # - **Some agents outgrow a systematic error.** On CartPole all agents with the soft constraint of
 #   the systematic teacher balance to the end, and the teacher itself for {{ score('cartpole',
 #   'systematic', 'the teacher', 'returns') | .0f }} decisions. But those of the *good* teacher do
@@ -243,15 +243,15 @@ bc.show(figures.gap(cells, shown, "No way to use a teacher is best on all three 
 #   percent('mountain-car', 'systematic', 'soft') }} % of the episodes, the clones in {{
 #   percent('mountain-car', 'systematic', 'cloning') }} %, but earn no more: they arrive later. On
 #   Lunar lander the teacher earns {{ score('lander', 'systematic', 'the teacher', 'returns') | .0f
-#   }}, agents with the soft constraint {{ score('lander', 'systematic', 'soft', 'returns') | .0f }},
-#   with both aids {{ score('lander', 'systematic', 'both', 'returns') | .0f }}.
+#   }}, agents with the soft constraint {{ score('lander', 'systematic', 'soft', 'returns') | .0f
+#   }}, with both aids {{ score('lander', 'systematic', 'both', 'returns') | .0f }}.
 # <!-- claim: score('mountain-car', 'random', 'cloning', 'returns') >
 #   score('mountain-car', 'good', 'the teacher', 'returns') - 10 -->
 # <!-- claim: score('cartpole', 'random', 'soft', 'returns') > 2 * score('cartpole', 'random',
 #   'cloning', 'returns') and score('cartpole', 'good', 'the teacher', 'returns') < 250 -->
 # <!-- claim: (cells().scores('cartpole', 'systematic', 'soft') == 500).all() and score('cartpole',
-#   'good', 'soft', 'returns') < 450 and score('cartpole', 'systematic', 'demonstrations', 'returns')
-#   == 500 -->
+#   'good', 'soft', 'returns') < 450 and score('cartpole', 'systematic', 'demonstrations',
+#   'returns') == 500 -->
 # <!-- claim: score('mountain-car', 'systematic', 'soft') > 0.95 and
 #   score('mountain-car', 'systematic', 'cloning') < 0.85 and abs(score('mountain-car',
 #   'systematic', 'soft', 'returns') - score('mountain-car', 'systematic', 'cloning', 'returns'))
@@ -358,13 +358,13 @@ table(["DoorKey, success in %", *headings], rows, below)
 # demonstrations are in the batch, looping earns more than the goal. But β is 0 from episode {{
 # settings_of(PROBLEMS['doorkey'], 'both').beta_episodes }} of {{ PROBLEMS['doorkey'].episodes }}
 # on: then no loop pays anything, and the agents stay in it. We think that by then, with η = −1,
-# they no longer try other actions. Without the bonus it depends on *how you test*: by their most probable actions the
-# random teacher's agents succeed less often than plain SAC, by drawn actions about as often. We
-# think that drawn actions leave a loop that the most probable ones repeat. The systematic
-# teacher's agents stay behind plain SAC in both tests (by drawn actions {{ percent('doorkey',
-# 'systematic', 'both, c = 0', 'drawn_success') }} % with both aids and c = 0, {{ percent('doorkey',
-# 'systematic', 'soft', 'drawn_success') }} % with the soft constraint, plain SAC {{
-# percent('doorkey', 'random', 'SAC', 'drawn_success') }} %). (Equal episodes again.)
+# they no longer try other actions. Without the bonus it depends on *how you test*: by their most
+# probable actions the random teacher's agents succeed less often than plain SAC, by drawn actions
+# about as often. We think that drawn actions leave a loop that the most probable ones repeat. The
+# systematic teacher's agents stay behind plain SAC in both tests (by drawn actions {{
+# percent('doorkey', 'systematic', 'both, c = 0', 'drawn_success') }} % with both aids and c = 0, {{
+# percent('doorkey', 'systematic', 'soft', 'drawn_success') }} % with the soft constraint, plain SAC
+# {{ percent('doorkey', 'random', 'SAC', 'drawn_success') }} %). (Equal episodes again.)
 # <!-- claim: all(score('doorkey', t, 'both', s) < 0.005 for t in ('random', 'systematic') for s in
 #   ('success', 'drawn_success')) -->
 # <!-- claim: all(score('doorkey', 'random', m) < score('doorkey', 'random', 'SAC') - 0.1 and

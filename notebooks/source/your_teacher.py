@@ -79,8 +79,8 @@ table(["100 roads", "gets out, %", "accidents, %", "return"], rows)
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask for a ranking of the students, on the board. Expect most people to rank them as the teachers
-# are ranked, by what they earn. Keep it visible until Round 3. The one training of this lesson comes out
-# differently on another processor; the groups of ten ship with the course.
+# are ranked, by what they earn. Keep it visible until Round 3. The one training of this lesson
+# comes out differently on another processor; the groups of ten ship with the course.
 
 # %% [markdown]
 # ## Round 1: what a rule reads
@@ -121,8 +121,7 @@ for lane in (2, 1, 0):
 #
 # Nine coarse actions are hard to drive with (lesson [[the_trap]]). You do not have to use them
 # directly: decide on a **speed** and a **lane**, and `toward(cars, speed, lane, scenario)` finds
-# the action that brings the car there. It is the same tracker that the rule of lesson [[the_rule]]
-# uses. Two of the teachers are rules in one line:
+# the action that brings the car there. Two of the teachers are rules in one line:
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.course.lessons.your_teacher.example_teachers", "timid", "racer")
@@ -139,9 +138,9 @@ predict(
 
 # %% [markdown]
 # **Exercise (12 min, ●●○).** Write a rule that gets out. The check drives it on 24 roads: it
-# has to be ahead of trap 1 at the end of every one, without an accident. It may be as fast or slow,
-# as bold or careful as you like. It must answer the same road the same way each time, and leave
-# `cars` as it is. How would you use `ahead`, `toward`, `cars[EGO, LANE]` and `cars[EGO, Y]`?
+# has to be ahead of trap 1 at the end of every one, without an accident. It must answer the same
+# road the same way each time, and leave `cars` as it is. How would you use `ahead`, `toward`,
+# `cars[EGO, LANE]` and `cars[EGO, Y]`?
 # <!-- claim: len(registry()['my_rule'].worked) +
 #   len([*registry()['my_rule'].cases(np.random.default_rng(0))]) == 24 -->
 
@@ -259,9 +258,9 @@ table(headings, rows, "Three students of the rule that round 2 ended with.")
 
 # %% [markdown]
 # Now ten students of each teacher, and ten agents that learned alone, with the same number of
-# updates. They were trained once, and ship with the course (`bootcourse study students` trains them
-# again). Each is tested on {{ len(taught_agents.ROADS) }} held-out roads. The last row has ten more
-# students of the racer, after {{ taught_agents.LONG | , }} updates: the aids have faded by then.
+# updates. They ship with the course (`bootcourse study students`). Each is tested on {{
+# len(taught_agents.ROADS) }} held-out roads. The last row has ten more students of the racer, after
+# {{ taught_agents.LONG | , }} updates: the aids have faded by then.
 #
 # > **Predict.** {{ taught_agents.UPDATES | , }} updates are a short training: both aids are still
 # > at work at the end. An agent *escapes* if it succeeds on {{ 100 * ESCAPES | .0f }} % of the
