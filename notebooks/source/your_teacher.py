@@ -427,8 +427,8 @@ predict("your_teacher.5", "How many of ten students of the half-random teacher e
 four = ("rule", "random-50", "mirrored", "planner")
 worth = {place: agents for place, agents in shipped.shipped_teachers().items() if place[0] in four}
 title = (
-    "From a half-random teacher all ten bootstrapped agents escape, of DAgger's, PPO's and soft's "
-    "thirty one"
+    "From a half-random teacher all ten bootstrapped agents escape, and one of thirty of DAgger, "
+    "PPO and soft"
 )
 bc.show(figures.learners(worth, title))
 
