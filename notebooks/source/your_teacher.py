@@ -76,27 +76,11 @@ table(["100 roads", "gets out, %", "accidents, %", "return"], rows)
 # <!-- claim: not any(teacher_exam(n).success.any() for n in ('timid', 'reckless')) -->
 # <!-- claim: teacher_exam('racer').returns.mean() < teacher_exam('timid').returns.mean() and
 #   teacher_exam('racer').accident.any() -->
-#
-# > **Predict.** Groups of ten agents learn by the paper's method, one group from each teacher, for
-# > {{ taught_agents.UPDATES | , }} updates each: a short training, in which both aids are still at
-# > work at the end. Another group learns alone. An agent *escapes* if it succeeds on
-# > {{ 100 * ESCAPES | .0f }} % of the test's roads. Which groups escape?
-
-# %%
-predict(
-    "your_teacher.1",
-    "Of ten students of the racer, how many escape?",
-    ["none", "1 to 3", "4 to 7", "8 to 10"],
-)
-
-# %%
-choices = ["less than those alone", "about as much", "more"]
-predict("your_teacher.2", "What do the students of the racer earn?", choices)
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Collect the predictions on the board. Expect most people to rank the students as the teachers are
-# ranked, by what they earn. Keep the ranking visible. The one training of this lesson comes out
-# differently on another processor; the groups of ten ship with the course.
+# Ask for a ranking of the students, on the board. Expect most people to rank them as the teachers
+# are ranked, by what they earn. Keep it visible until Round 3. The one training of this lesson
+# comes out differently on another processor; the groups of ten ship with the course.
 
 # %% [markdown]
 # ## Round 1: what a rule reads
@@ -137,8 +121,7 @@ for lane in (2, 1, 0):
 #
 # Nine coarse actions are hard to drive with (lesson [[the_trap]]). You do not have to use them
 # directly: decide on a **speed** and a **lane**, and `toward(cars, speed, lane, scenario)` finds
-# the action that brings the car there. It is the same tracker that the rule of lesson [[the_rule]]
-# uses. Two of the teachers are rules in one line:
+# the action that brings the car there. Two of the teachers are rules in one line:
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.course.lessons.your_teacher.example_teachers", "timid", "racer")
@@ -155,9 +138,9 @@ predict(
 
 # %% [markdown]
 # **Exercise (12 min, ●●○).** Write a rule that gets out. The check drives it on 24 roads: it
-# has to be ahead of trap 1 at the end of every one, without an accident. It may be as fast or slow,
-# as bold or careful as you like. It must answer the same road the same way each time, and leave
-# `cars` as it is. How would you use `ahead`, `toward`, `cars[EGO, LANE]` and `cars[EGO, Y]`?
+# has to be ahead of trap 1 at the end of every one, without an accident. It must answer the same
+# road the same way each time, and leave `cars` as it is. How would you use `ahead`, `toward`,
+# `cars[EGO, LANE]` and `cars[EGO, Y]`?
 # <!-- claim: len(registry()['my_rule'].worked) +
 #   len([*registry()['my_rule'].cases(np.random.default_rng(0))]) == 24 -->
 
@@ -275,23 +258,42 @@ table(headings, rows, "Three students of the rule that round 2 ended with.")
 
 # %% [markdown]
 # Now ten students of each teacher, and ten agents that learned alone, with the same number of
-# updates. They were trained once, and ship with the course (`bootcourse study students` trains them
-# again). Each is tested on {{ len(taught_agents.ROADS) }} held-out roads. The last row has ten more
-# students of the racer, after {{ taught_agents.LONG | , }} updates: the aids have faded by then.
+# updates. They ship with the course (`bootcourse study students`). Each is tested on {{
+# len(taught_agents.ROADS) }} held-out roads. The last row has ten more students of the racer, after
+# {{ taught_agents.LONG | , }} updates: the aids have faded by then.
+#
+# > **Predict.** {{ taught_agents.UPDATES | , }} updates are a short training: both aids are still
+# > at work at the end. An agent *escapes* if it succeeds on {{ 100 * ESCAPES | .0f }} % of the
+# > test's roads. Which groups escape? Say it for all six, then commit to the racer's.
+
+# %%
+predict(
+    "your_teacher.1",
+    "Of ten students of the racer, how many escape?",
+    ["none", "1 to 3", "4 to 7", "8 to 10"],
+)
+
+# %%
+choices = ["less than those alone", "about as much", "more"]
+predict("your_teacher.2", "What do the students of the racer earn?", choices)
 
 # %%
 groups = taught_agents.reference()
 shown = dict(groups)
-shown[f"racer, {taught_agents.LONG:,}"] = taught_agents.longer()
+shown[f"racer, {taught_agents.LONG:,} updates"] = taught_agents.longer()
 shown["round 2's rule"] = learned
-title = "After 3,500 updates most students of teachers that get out escape; of the others none"
-bc.show(figures.students(shown, title))
+title = (
+    "After 3,500 updates most students of teachers that get out escape; of timid's and reckless's "
+    "none"
+)
+bc.show(figures.students(shown, title, apart=2))
 
 # %% [markdown]
 # **See.** After {{ taught_agents.UPDATES | , }} updates most students of a teacher that gets out
 # escape, and none of those of `timid` and `reckless`. Of the racer's students {{
 # student_escapes('racer') }} of ten escape. With *drawn* actions each of these ten succeeds on {{
-# 100 * students('racer')['drawn'].min() | .0f }} % or more: all have found the way out.
+# 100 * students('racer')['drawn'].min() | .0f }} % or more: all have found the way out. Where the
+# two differ, the way out is in the policy, and its most probable actions miss it.
 # <!-- claim: min(student_escapes(n) for n in ('the rule', 'the rule, 30 m')) == 10 and
 #   student_escapes('careful') > 7 and student_escapes('alone') == 1 -->
 # <!-- claim: student_escapes('timid') == student_escapes('reckless') == 0 < 5 ==
@@ -367,9 +369,8 @@ table(["teacher", f"{at} success", f"{at} return"], rows, below)
 # **Explain.** By what their students do after this short training, our six teachers fall into four
 # kinds.
 #
-# - **A good one** demonstrates the way out and what to do afterwards. Of the teachers that get out,
-#   none has a group that earns more than the teacher itself: we think because the agents still
-#   follow it.
+# - **A good one** demonstrates the way out and what to do afterwards. No group earns more than its
+#   teacher, where the teacher gets out; we think that the agents still follow it.
 # <!-- claim: students('the rule, 30 m')['returns'].mean() < near_rule().returns.mean() and
 #   students('careful')['returns'].mean() < teacher_exam('careful').returns.mean() and
 #   students('the rule')['returns'].mean() < of('rule').scores('returns')[0] and
@@ -400,8 +401,13 @@ table(["teacher", f"{at} success", f"{at} return"], rows, below)
 # The students were all of one kind, and of one short training. In the experiment `teachers` five
 # learners had ten agents each (lessons [[demonstrations]], [[the_second_trap]], [[other_ways]]),
 # each with its own budget. RLPD's is the smallest, 150 episodes, or 6 to 9 thousand decisions; the
-# other SAC learners had about 165 thousand. So RLPD's rows are no verdict on it. We look at four of
-# the teachers:
+# other SAC learners had about 165 thousand. So RLPD's rows are no verdict on it. The agents of both
+# aids and of the soft constraint have the study's settings and seeds but {{
+# worth()['rule', 'soft'].curves['success'].shape[1] | , }} episodes, so their counts differ from
+# the study's: of the soft constraint {{ worth()['rule', 'soft'].escapers('soft') }} of ten escape
+# here, {{ escaped('soft') }} there. (DAgger imitates the teacher in the states that the agent
+# reaches itself. PPO after cloning starts from a clone and learns from the reward alone. RLPD is
+# SAC with half of each batch demonstrations.) We look at four of the teachers:
 #
 # - the rule;
 # - **half random**: the rule with half of its decisions drawn at random;
@@ -420,17 +426,20 @@ predict("your_teacher.5", "How many of ten students of the half-random teacher e
 # %%
 four = ("rule", "random-50", "mirrored", "planner")
 worth = {place: agents for place, agents in shipped.shipped_teachers().items() if place[0] in four}
-title = "From a half-random teacher all ten bootstrapped agents escape, and one of forty others"
+title = (
+    "From a half-random teacher all ten bootstrapped agents escape, and one of thirty of DAgger, "
+    "PPO and soft"
+)
 bc.show(figures.learners(worth, title))
 
 # %% [markdown]
 # **See.**
-# - **Few good drives can be enough.** From a teacher that gets ahead in {{ 100 *
+# - **A teacher that rarely gets out can be enough.** From a teacher that gets ahead in {{ 100 *
 #   teachers_success('random-50') | .0f }} % of its drives all ten bootstrapped agents escape; of
 #   the thirty agents of DAgger, PPO and the soft constraint {{ sum(worth()['random-50',
 #   m].escapers(m) for m in ('dagger', 'ppo_cloned', 'soft')) }} escapes.
 # - **No agent finds a way out that its teacher does not show**: from the mirrored teacher none of
-#   fifty escapes.
+#   forty escapes (nor any of RLPD's ten).
 # - **The best driver is not the best to copy**: the planner's DAgger agents crash in nearly all
 #   drives; {{ worth()['rule', 'dagger'].escapers('dagger') }} of the rule's ten escape. We have not
 #   tested why. The planner's decisions depend on the other cars' next seconds, which the 26 numbers
@@ -452,6 +461,9 @@ bc.show(figures.learners(worth, title))
 #
 # </details>
 # <!-- claim: decisions('rule', 'ppo_cloned') > 15 * decisions('planner', 'ppo_cloned') -->
+# <!-- claim: worth()['rule', 'bootstrapped'].escapers('bootstrapped') < 10 and fisher(10,
+#   worth()['rule', 'bootstrapped'].escapers('bootstrapped')) > 0.05 and teachers_success('rule')
+#   == 1 and worth()['rule', 'soft'].escapers('soft') != escaped('soft') -->
 #
 # **Explain.** We think that what has to be good about a teacher depends on what the learner takes
 # from it. A first policy has to get out by itself, and labels have to lead past the traps often.
@@ -460,7 +472,10 @@ bc.show(figures.learners(worth, title))
 # settings_for('bootstrapped').demonstration_episodes | .0f }} of the {{
 # settings_for('bootstrapped').demonstration_episodes }} get ahead, and these few may show the way.
 # There is a second explanation: random actions lead into states that a good driver never shows, and
-# the rule's next decisions show how to come back (lesson [[demonstrations]]). The same drives
+# the rule's next decisions show how to come back (lesson [[demonstrations]]). It would fit that the
+# rule itself, which always gets out, taught {{
+# worth()['rule', 'bootstrapped'].escapers('bootstrapped') }} of ten (though ten agents each cannot
+# tell that from all ten). The same drives
 # without those few would tell the two apart. We have not trained from them.
 
 # %% [markdown] tags=["instructor"] minutes=5

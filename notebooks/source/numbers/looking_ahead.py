@@ -46,6 +46,11 @@ def better(base: str, form: str) -> int:
     return sum(per_thousand(base, form, model=model) < alone for model in MODELS if model != "exact")
 
 
+def overruled(form: str) -> list[float]:
+    """In how many of 1,000 decisions PPO's agents take another action with each wrong model, in ascending order."""
+    return sorted(1000 * ahead("ppo_cloned", form, model=model).overruled for model in MODELS if model != "exact")
+
+
 def clearly_safer(base: str) -> int:
     """With how many of the wrong models the shield's interval of accidents lies below that of the rollouts."""
     wrong = [model for model in MODELS if model != "exact"]

@@ -32,12 +32,6 @@ def ppo_escapes(kind: str) -> int:
     return int((ppo(kind)["success"] >= ESCAPES).sum())
 
 
-def ppo_health(what: str) -> float:
-    """The median of "kl", "clipped" or "explained" in the second half of training, of the agents with a potential."""
-    readings = ppo("shaped")[what]  # (agents, points)
-    return float(np.median(readings[:, readings.shape[1] // 2 :]))
-
-
 @cache
 def ppo_drive(kind: str = "alone", road: int = ROAD):
     """The first of these agents on one road."""

@@ -6,6 +6,8 @@ import numpy as np
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import loops  # noqa: F401 (for the expressions)
 from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
+from bootcourse.research.elsewhere import settings_of  # noqa: F401
+from bootcourse.research.problems import PROBLEMS  # noqa: F401
 from bootcourse.research.results import experiment
 
 FOUR = ("cloning", "soft", "demonstrations", "both")

@@ -26,7 +26,7 @@ def _accident_axis(axis_of: Axes, axis: str) -> None:
     """Accidents in 1,000 drives: logarithmic, and linear near 0, where a bar may end."""
     getattr(axis_of, f"set_{axis}scale")("symlog", linthresh=LINEAR, linscale=0.6)
     getattr(axis_of, f"set_{axis}ticks")([0, 1, 10, 100, 1000], ["0", "1", "10", "100", "1,000"])
-    getattr(axis_of, f"set_{axis}lim")(-0.04, 1100)
+    getattr(axis_of, f"set_{axis}lim")(-0.15, 1400)
     getattr(axis_of, f"{axis}axis").set_minor_locator(NullLocator())
 
 
@@ -126,8 +126,8 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     legend = f"● rollouts{_drives(scores_of[-0.14])}    □ shield by simulation{_drives(scores_of[0.14])}"
     figure.text(0.012, 0.1 / height, legend, fontsize=SMALL, color=INK)
     title = (
-        f"{display_name(base)} with a wrong model: fewer accidents than alone by the shield with {better['shield']} "
-        f"models, by rollouts with {better['rollouts']}"
+        f"With a wrong model {display_name(base)} has fewer accidents than alone: by the shield with "
+        f"{better['shield']} models, by rollouts with {better['rollouts']}"
     )
     alt = (
         f"For each model, accidents in 1,000 drives and the return. Alone: {1000 * alone.accident_rate.value:.1f} and "

@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator
 
 from bootcourse.methods import display_name, style
 from bootcourse.plots.diagrams import Diagram, label
@@ -14,7 +13,6 @@ from bootcourse.plots.figure import (
     TEXT,
     axes_at,
     finish,
-    label_ends,
     new_figure,
     plain_axes,
 )
@@ -25,8 +23,6 @@ from bootcourse.statistics import Estimate, interval
 
 START, TRAINED, END = 210, 560, 690  # pixels: the training begins and ends, and the trained agent drives
 ROW, TOP, THICK = 52, 62, 18
-LINES = {"--": ", dashed", "-.": ", dash-dot"}
-LEAST = 100  # the return at which the axis of the comparison begins
 TAKES = {  # learner: (what it takes, from, until, whether it fades)
     "ppo_cloned": ("a first policy", START - 34, START, False),
     "bootstrapped": ("a KL, and demonstrations with a bonus", START, TRAINED - 110, True),
@@ -74,63 +70,43 @@ def one_above_the_other(
 
 
 def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -> Figure:
-    """Returns with their 95 % intervals: left against decisions, right after the same seconds of a core.
+    """Returns with their 95 % intervals: a row for each method, a panel for each budget, and one for equal seconds.
 
-    The left panel begins at `LEAST`, and a line below it says who earns less. computed: see
-    `equal_decisions.by_method`; rule: what the rule earns, the green line.
+    computed: see `equal_decisions.by_method`; rule: what the rule earns, the green line.
     """
-    figure, ends, alt_parts, below = new_figure(4.9), [], [], [f"the rule, {rule:.0f}"]
-    left, right = axes_at(figure, 0.45, 1.0, 2.9, 2.9), axes_at(figure, 5.0, 1.0, 1.85, 2.9)
-    for place, (method, results) in enumerate(computed.items()):
-        look, shift = style(method), 1.03 ** (place - 2)
-        scores = {b: equal_decisions.at(results, "returns", b) for b in equal_decisions.BUDGETS}
-        tested = {budget: interval(each) for budget, each in scores.items() if each.size}
-        _draw(left, [budget * shift for budget in tested], list(tested.values()), look)
-        quick = after_seconds(results)
-        _draw(right, [place], [quick], look)
-        last = max(tested)
-        if tested[last].value > LEAST:
-            ends.append((tested[last].value, display_name(method) + LINES.get(look.line, ""), look.colour))
-        else:
-            below.append(f"{display_name(method)}, {_range([one.value for one in tested.values()])}")
-        below += [f"the lower end of {display_name(method)}'s interval at {budget:,}, {one.low:.0f}"
-                  for budget, one in tested.items() if one.low < LEAST < one.value]  # fmt: skip
-        numbers = (f"{b:,} decisions {_words(one)}" for b, one in tested.items())
-        alt_parts.append(f"{display_name(method)}: {'; '.join(numbers)}; equal seconds {_words(quick)}")
-    for ax, words in ((left, "return after training"), (right, f"after {equal_decisions.SECONDS} s of a core")):
-        plain_axes(ax, words)
-    left.set_ylim(LEAST, 140)
-    right.axhline(rule, color=style("rule").colour, linewidth=2, zorder=1.5)
-    right.text(len(computed) - 0.35, rule + 3, "the rule", color=style("rule").colour, fontsize=SMALL, ha="right")
-    right.set_ylim(0, 145)
-    left.set_xscale("log")
-    left.set_xlim(80_000, 1_000_000)
-    left.xaxis.set_minor_locator(NullLocator())
-    left.set_xticks(equal_decisions.BUDGETS, [f"{budget:,}" for budget in equal_decisions.BUDGETS])
-    left.set_xlabel("decisions of an agent (logarithmic)", fontsize=TEXT, color=INK)
-    names = [display_name(method) for method in computed]
-    right.set_xticks(range(len(names)), names, rotation=40, ha="right", rotation_mode="anchor")
-    right.tick_params(axis="x", labelcolor=INK, labelsize=SMALL)
-    right.set_xlim(-0.7, len(computed) - 0.3)
-    label_ends(left, ends, gap=0.03)
-    figure.text(0.012, 0.025, f"Below the left axis: {'; '.join(below)}.", fontsize=SMALL, color=INK)
+    panels = {f"{budget:,} decisions": _after(computed, budget) for budget in equal_decisions.BUDGETS}
+    seconds = {method: after_seconds(results) for method, results in computed.items()}
+    panels[f"{equal_decisions.SECONDS} s of a core\n(in training)"] = seconds
+    figure, names, alt_parts = new_figure(3.7), [display_name(method) for method in computed], []
+    for place, (words, estimates) in enumerate(panels.items()):
+        ax = axes_at(figure, 1.4 + 1.4 * place, 1.05, 1.25, 2.1)
+        plain_axes(ax, words, grid="x")
+        ax.axvline(rule, color=style("rule").colour, linewidth=2, zorder=1.5)
+        for row, method in enumerate(computed):
+            if method in estimates:
+                value, low, high = estimates[method]
+                colour = style(method).colour
+                ax.plot([low, high], [row, row], color=colour, linewidth=1.8, zorder=2)
+                ax.plot(value, row, "o", color=colour, ms=5.5, zorder=3)
+        ax.set(xlim=(0, 140), ylim=(len(names) - 0.5, -0.5), xticks=(0, 50, 100), yticks=range(len(names)))
+        ax.set_yticklabels(names if place == 0 else [], fontsize=TEXT, color=INK)
+        numbers = (f"{display_name(method)} {_words(one)}" for method, one in estimates.items())
+        alt_parts.append(f"{words}: {'; '.join(numbers)}".replace("\n", " "))
+    figure.axes[0].text(rule + 4, 5, "the rule", color=style("rule").colour, fontsize=SMALL, va="center")
+    figure.text(0.6, 0.04, "return", fontsize=TEXT, color=INK, ha="center")
     return finish(figure, title, f"Returns and their 95 % intervals. {'. '.join(alt_parts)}. The rule: {rule:.0f}.")
 
 
-def _range(values: Sequence[float]) -> str:
-    return f"{min(values):.0f} to {max(values):.0f}"
+def _after(computed: Mapping[str, Results], budget: int) -> dict[str, Estimate]:
+    """{method: the return of its tested agents} of those that made so many decisions."""
+    returns = {method: equal_decisions.at(results, "returns", budget) for method, results in computed.items()}
+    return {method: interval(each) for method, each in returns.items() if each.size}
 
 
 def after_seconds(results: Results) -> Estimate:
     """The return in training after `equal_decisions.SECONDS` of a core."""
     each = results.measured[f"seconds_{equal_decisions.BUDGETS[0]}"] / equal_decisions.BUDGETS[0]  # for a decision
     return interval(at_budget(results.curves, equal_decisions.SECONDS / each))
-
-
-def _draw(ax, places: Sequence[float], estimates: Sequence[Estimate], look) -> None:
-    middle, low, high = np.array(estimates).T
-    ax.errorbar(places, middle, [middle - low, high - middle], fmt=look.marker or "o", color=look.colour,
-                linestyle=look.line, ms=5, linewidth=1.8, elinewidth=1.2, zorder=3)  # fmt: skip
 
 
 def _words(one: Estimate) -> str:

@@ -29,11 +29,11 @@ def hinges(clipped_loss: Callable[[Tensor, Tensor, float], Tensor], clip: float,
             slope, height = torch.autograd.grad(loss.sum(), leaf)[0].item(), loss.item()
             words = "stays" if slope == 0 else "gets rarer" if slope > 0 else "gets likelier"
             ax.scatter([ratio], [height], color=colour, s=40, zorder=3)
-            side = {"stays": "center", "gets likelier": "left", "gets rarer": "right"}[words]
-            away = {"center": (0, 9), "left": (9, 3), "right": (-9, 3)}[side]
+            side = {"stays": "center", "gets likelier": "right", "gets rarer": "left"}[words]
+            away = (0, 9 if words == "stays" else -16)
             ax.annotate(words, (ratio, height), away, textcoords="offset points", ha=side, fontsize=SMALL, color=INK)
-            alt_parts.append(f"A = {advantage:g}, r = {ratio:g}: the action {words}")
+            alt_parts.append(f"A = {advantage:g}, ρ = {ratio:g}: the action {words}")
         plain_axes(ax, f"loss of a decision, A = {advantage:g}".replace("-", "−"))
-        ax.set_xlabel("ratio r: how much likelier the action has become", fontsize=TEXT, color=INK)
+        ax.set_xlabel("ratio ρ (above 1: the action is likelier now)", fontsize=TEXT, color=INK)
         ax.margins(y=0.2)
     return finish(figure, title, f"The loss against the ratio. {'; '.join(alt_parts)}.")

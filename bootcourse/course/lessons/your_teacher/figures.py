@@ -20,10 +20,11 @@ HEAD, FOOT = 0.75, 0.55  # inches, above and below the rows of a figure
 WORDS = {"rule": "the rule", "random-50": "half random", "mirrored": "mirrored", "planner": "the planner"}
 
 
-def students(groups: Mapping[str, Mapping[str, np.ndarray]], title: str) -> Figure:
+def students(groups: Mapping[str, Mapping[str, np.ndarray]], title: str, apart: int = 0) -> Figure:
     """Each student's success as a dot, a row for each group; beside it how many escape, return and accidents.
 
-    groups: {teacher, or "alone": what `taught_agents.tested` says of its students, each (agents,)}.
+    groups: {teacher, or "alone": what `taught_agents.tested` says of its students, each (agents,)}; apart: how many
+    of the last rows stand below a thin line.
     """
     row = 0.42
     figure = new_figure(HEAD + row * len(groups) + FOOT)
@@ -41,6 +42,8 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], title: str) -> Figu
     _beside(ax, ("escape", "return", "accidents, %"), -0.75, QUIET)
     _finish_axes(ax, list(groups), f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes")
     ax.set_xlim(-2, 102)
+    if apart:
+        ax.axhline(len(groups) - apart - 0.5, color=QUIET, linewidth=0.8, zorder=1)
     return finish(figure, title, f"A dot for each student. {'; '.join(alt_parts)}.")
 
 
