@@ -92,9 +92,7 @@ def main(edition: str = "student") -> int:
     html = BUILD / ("html" if edition == "student" else edition)
     if changed := changed_notebooks():
         print(f"The book shows these notebooks as you changed them: {', '.join(changed)}.", file=sys.stderr)
-        print(
-            "`git checkout notebooks` brings back the lessons as they came, and drops your changes.", file=sys.stderr
-        )
+        print("`git checkout notebooks` brings back the lessons as they came, and drops your changes.", file=sys.stderr)
     gather(BUILD / "source", edition)
     status = build(BUILD / "source", html)
     if status == 0:
