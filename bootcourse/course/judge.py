@@ -142,7 +142,7 @@ def error_in_words(answer: Callable | str, kind: str, text: str, line: int | Non
 def end_in_words(ended: str | int, seconds: float) -> str:
     """One sentence about a process that ended before the function did."""
     if ended == "time":
-        return f"Your function was stopped after {seconds:g} s: look for a loop that never ends."
+        return f"Your function was stopped after {seconds:.2g} s: look for a loop that never ends."
     if ended == "size":
         return "Your function returns or sends too much to compare: look for a list or an array that is far too large."
     if ended < 0 or ended == 255:  # 255: the process that started it has ended, too

@@ -40,7 +40,7 @@ from bootcourse.errors import BootcourseError
 FORKS = sys.platform == "linux"  # on macOS system libraries may break in a fork, and Windows has none
 MEMORY = 2 * 2**30  # bytes that a function may use
 START = 60  # seconds in which a process has to be ready
-WALL = 8  # seconds after which a check is over, its start included, if that takes under 5 s and the limit is no longer
+WALL = 7  # seconds after which a check is over, its start included, if that takes under 5 s and the limit is no longer
 LEAST = 2  # seconds that a function has in any case
 SLACK = 5  # seconds after which the process ends by itself
 LONGEST_PRINT = 500  # characters of a function's prints that are shown
