@@ -92,7 +92,7 @@ bc.show(diagrams.sac_diagram())
 # > **Predict.** What is the entropy of a policy that is sure of one action? Can it be negative?
 
 # %%
-predict("discrete_sac.1", "The smallest entropy that a policy can have, in nats", unit="nats")
+predict("discrete_sac.1", "What is the smallest entropy that a policy can have?", unit="nats")
 
 # %%
 rows = []
@@ -136,9 +136,7 @@ check.soft_value(soft_value)
 # > is even. At which α have both the same V? (The entropy of the even one is 0.693.)
 
 # %%
-predict(
-    "discrete_sac.2", "The α at which both are worth the same", ["0.5", "0.693", "1", "1.44", "2"]
-)
+predict("discrete_sac.2", "At which α are both worth the same?", ["0.5", "0.693", "1", "1.44", "2"])
 
 # %%
 q, alphas, values = torch.tensor([[1.0, 3.0]]), np.linspace(0, 3, 31), {}
@@ -204,7 +202,7 @@ bc.show(charts.lines(alphas, values, title, "α", "V"))
 # %%
 predict(
     "discrete_sac.3",
-    "y of the pole that fell, and of the one whose time was up",
+    "What is y of the pole that fell, and of the one whose time was up?",
     ["1 and 1", "1 and 50.5", "50.5 and 1", "50.5 and 50.5"],
 )
 
@@ -339,7 +337,7 @@ check.temperature_loss(temperature_loss)
 # %%
 predict(
     "discrete_sac.4",
-    "With η = −1, α",
+    "What does α do with η = −1?",
     ["falls, and stops at H = η", "rises for ever", "falls for ever", "moves up and down"],
 )
 

@@ -18,7 +18,7 @@
 # - explain when one better decision at a time is enough, and when it is not;
 # - measure what the look-ahead is worth if its model of the other drivers is wrong.
 #
-# **Time** 60 minutes; running it takes about two minutes. **It builds on** the rule (lesson
+# **Time** 60 minutes; running it takes about one minute. **It builds on** the rule (lesson
 # [[the_rule]]), the barrier ([[the_barrier]]) and the second trap ([[the_second_trap]]).
 
 # %%

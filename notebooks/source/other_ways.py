@@ -18,7 +18,7 @@
 # - name what has to be equal before a table of methods compares methods;
 # - read such a table by decisions and by seconds, and say what it leaves open.
 #
-# **Time** 55 minutes; running it takes about two minutes. **It builds on** learning from
+# **Time** 55 minutes; running it takes about one minute. **It builds on** learning from
 # demonstrations (lesson [[learning_from_demonstrations]]) and the number of seeds
 # ([[how_many_seeds]]); Round 1 also uses a word of [[offline_learning]].
 
@@ -78,7 +78,7 @@ check.smallest_of(smallest_of)
 # > How long are the first 50 episodes of an agent that trains like this, on average?
 
 # %%
-predict("other_ways.1", "RLPD's first 50 episodes", unit="s")
+predict("other_ways.1", "How long do RLPD's first 50 episodes last, on average?", unit="s")
 
 # %% tags=["nbval-ignore-output"]
 torch.set_num_threads(1)  # small matrices are faster on one thread
@@ -255,7 +255,7 @@ bc.show(figures.one_above_the_other(at, named, title, "training episode", "jsrl"
 
 # %%
 learners = ["PPO after cloning", "bootstrapped SAC", "jump-start RL", "IBRL", "RLPD"]
-predict("other_ways.2", "The lowest return after 100,000 decisions", learners)
+predict("other_ways.2", "Which earns the least after 100,000 decisions?", learners)
 
 # %% [markdown]
 # Three things have to be equal before a table compares methods: how much each learner may use, how
@@ -317,7 +317,9 @@ table(["return in the search", *tried["ppo"]], ppos)
 
 # %%
 choices = ["in none", "in under 2 %", "in 2 to 10 %", "in more than 10 %"]
-predict("other_ways.3", "Accidents of IBRL after 100,000 decisions", choices)
+predict(
+    "other_ways.3", "In how many drives has IBRL an accident, after 100,000 decisions?", choices
+)
 
 # %%
 compared = equal_decisions.by_method(shipped.shipped_experiment("beyond"))

@@ -330,7 +330,7 @@ table(["200 roads", "return", "success", "accidents"], rows)
 
 # %%
 choices = ["150 m", "100 m", "50 m", "30 m", "20 m"]
-predict("the_rule.6", "The shortest sight without an accident", choices)
+predict("the_rule.6", "What is the shortest sight without an accident?", choices)
 
 # %% tags=["hide-input"]
 sights = [20, 30, 50, 70, 100, 150, 200]

@@ -81,7 +81,7 @@ predict("traffic.1", "Why does the jam move backwards?", choices)
 # > behind a car that drives 10 m/s, too. What gap do you want behind one at 8 m/s?
 
 # %%
-predict("traffic.2", "The gap that you want behind the car at 8 m/s?", unit="m")
+predict("traffic.2", "Which gap do you want behind the car at 8 m/s?", unit="m")
 
 # %% [markdown]
 # **Exercise (4 min, ●○○).** Write the gap $s^*$ that a driver wants.
