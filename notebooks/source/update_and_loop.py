@@ -303,10 +303,9 @@ table(["rows, all with terminated = 0", "Q after 4,000 pushes"], rows, "One agen
 # **Explain.** With these rows, in this one agent, the estimate stays low for as long as we trained.
 # Yet this agent, too, uses a network, learns estimates from estimates, and does so on rows of older
 # policies. (Sutton and Barto, chapter 11, call these three the *deadly triad*: together they *can*
-# diverge.) Does it stop at {{ 1 / (1 - 0.99) | .0f }}, where it belongs if nothing ends? We have
-# trained two such agents for longer, once: after 1,000, 2,000, 3,000 and 4,000 updates their Q was
-# 43, 78, 91, 102 and 45, 73, 85, 94. It rises less and less. (Yours will differ.) A target that
-# reads values which no row corrects comes back in lesson [[offline_learning]].
+# diverge.) Train it longer: does it stop at {{ 1 / (1 - 0.99) | .0f }}, where it belongs if nothing
+# ends? A target that reads values which no row corrects comes back in lesson
+# [[offline_learning]].
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Let groups predict the whole order, not only the first place. A belief to name: "the second critic
