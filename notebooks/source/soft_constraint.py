@@ -554,8 +554,9 @@ table(["after training", "agents", "return", "accidents, %"], rows, below=below)
 # of 1 is above it: once the entropy has fallen below 1, α rises, and ξ = 200 α pulls the policy
 # still closer to π̃. So ξ can rise again. (Train one such agent, and look at its ξ.) Three of the
 # study earn {{ with_target(1).min() | .0f }} to {{ with_target(1).max() | .0f }}, about as with a
-# fixed ξ. With a target of 0.3, below that of π̃, three earn {{ with_target(0.3).min() | .0f }} to {{ with_target(0.3).max() | .0f }}, as with η =
-# −1. Whether a small, constant ξ would do, no run here tests.
+# fixed ξ. With a target of 0.3, below that of π̃, three earn {{ with_target(0.3).min() | .0f }} to
+# {{ with_target(0.3).max() | .0f }}, as with η = −1. Whether a small, constant ξ would do, no run
+# here tests.
 # <!-- claim: 0.3 < entropy_of_the_rule() < 1 -->
 # <!-- claim: with_target(1).max() < of('rule').scores('returns').mean() -->
 # <!-- claim: with_target(0.3).min() > 2 * of('rule').scores('returns').mean() -->
