@@ -8,6 +8,7 @@ import ipywidgets as widgets
 from bootcourse.course.predictions import Question, commit, committed, predictions
 from bootcourse.course.verdict import marked
 from bootcourse.markup import Markup, html, joined
+from bootcourse.panels.page_script import in_page
 from bootcourse.panels.panel import Panel
 
 STYLE = """<style>
@@ -17,22 +18,17 @@ STYLE = """<style>
 .bc-panel .widget-radio-box input {flex: none; margin: 2px 0 0}
 </style>"""
 # JupyterLab would use the arrows, which choose among radio buttons, to go from cell to cell, and Enter to edit a cell.
-# Enter in a field commits, once the kernel has what was typed. (How this comes to run: see panels/page_script.py.)
-KEYS = """const image = this; let tries = 0; const waiting = setInterval(() => {
-  const form = image.closest('.bc-panel');
-  if (form) {
-    image.remove();
-    form.addEventListener('keydown', event => {
-      if (!event.ctrlKey && !event.metaKey && !event.shiftKey) event.stopPropagation();
-    });
-    form.addEventListener('keydown', event => {
-      if (event.key === 'Enter' && event.target.type === 'text') {
-        setTimeout(() => form.querySelector('button').click(), 300);
-      }
-    }, true);  // on the way in: the field itself lets no key out
-  }
-  if (form || ++tries > 200) clearInterval(waiting);
-}, 50);"""
+# Enter in a field commits, once the kernel has what was typed.
+KEYS = """
+  panel.addEventListener('keydown', event => {
+    if (!event.ctrlKey && !event.metaKey && !event.shiftKey) event.stopPropagation();
+  });
+  panel.addEventListener('keydown', event => {
+    if (event.key === 'Enter' && event.target.type === 'text') {
+      setTimeout(() => panel.querySelector('button').click(), 300);
+    }
+  }, true);  // on the way in: the field itself lets no key out
+"""
 
 
 class PredictionForm(Panel):
@@ -43,8 +39,8 @@ class PredictionForm(Panel):
         self.field = self._field()
         help = "Keep this answer, with the time. It cannot be changed."
         self.button = self.make_button("Commit", "check", help, self.commit, "primary")
-        keys = html('<img src="data:," alt="" style="display:none" onerror="{}">', KEYS)
-        text = widgets.HTML(Markup(STYLE) + keys)  # the question stands above, in the lesson and in the call
+        # The question stands above, in the lesson and in the call.
+        text = widgets.HTML(Markup(STYLE) + in_page(KEYS, "bcForm"))
         super().__init__(f"Prediction {question.number}", text, self.field, self.button)
         with self.saying_what_is_wrong():
             entry = predictions().get(question.name)

@@ -1,9 +1,7 @@
 """Nine buttons and the arrow keys; one press is one action.
 
-ipywidgets has no key events. A script beside the buttons listens for the arrow keys and clicks the button that
-they stand for. It is the `onerror` handler of an empty image, which the page runs in every view of the panel. A
-`<script>` in a widget would not run, and a JavaScript output would stay in the saved notebook without its panel.
-Where a page forbids the handler, the buttons still work with Tab and Enter.
+ipywidgets has no key events. A script beside the buttons (see page_script.py) listens for the arrow keys and clicks the
+button that they stand for. Where a page forbids it, the buttons still work with Tab and Enter.
 """
 
 from collections.abc import Callable
@@ -11,6 +9,7 @@ from collections.abc import Callable
 import ipywidgets as widgets
 
 from bootcourse.markup import Markup, html
+from bootcourse.panels.page_script import in_page
 from bootcourse.scenario import ACTION_NAMES
 
 SIGNS = ("↙", "↓", "↘", "←", "•", "→", "↖", "↑", "↗")  # in the order of ACTION_NAMES
@@ -19,20 +18,14 @@ TOGETHER, REPEAT = 60, 400  # ms: keys pressed this close together are one actio
 
 # `data-lm-suppress-shortcuts` keeps JupyterLab from using the arrow keys to go from cell to cell.
 SCRIPT = """
-const image = this; let tries = 0;
-const waiting = setInterval(() => {
-  const pad = image.closest('.bc-drive');
-  if (!pad) { if (++tries > 200) clearInterval(waiting); return; }
-  clearInterval(waiting); image.remove();
-  if (pad.dataset.bcKeys) return;
-  pad.dataset.bcKeys = '1'; pad.setAttribute('data-lm-suppress-shortcuts', 'true');
+  panel.setAttribute('data-lm-suppress-shortcuts', 'true');
   const held = new Set(), names = {ArrowUp: 1, ArrowDown: 1, ArrowLeft: 1, ArrowRight: 1};
   let wanted = 4, soon = null, again = null;
   const meant = () => 3 * (1 + held.has('ArrowUp') - held.has('ArrowDown'))
     + 1 + held.has('ArrowRight') - held.has('ArrowLeft');
-  const press = () => { soon = null; const b = pad.querySelector('.bc-pad-' + wanted); if (b) b.click(); };
+  const press = () => { soon = null; const b = panel.querySelector('.bc-pad-' + wanted); if (b) b.click(); };
   const calm = () => { held.clear(); clearInterval(again); again = null; };
-  pad.addEventListener('keydown', event => {
+  panel.addEventListener('keydown', event => {
     const space = event.key === ' ' && event.target.classList.contains('bc-keys');
     if (event.ctrlKey || event.altKey || event.metaKey || !(event.key in names || space)) return;
     event.preventDefault(); event.stopPropagation();
@@ -43,9 +36,8 @@ const waiting = setInterval(() => {
     clearInterval(again);
     again = space ? null : setInterval(() => { wanted = meant(); press(); }, @REPEAT@);
   });
-  pad.addEventListener('keyup', event => { held.delete(event.key); if (!held.size) calm(); });
-  pad.addEventListener('focusout', calm);
-}, 50);
+  panel.addEventListener('keyup', event => { held.delete(event.key); if (!held.size) calm(); });
+  panel.addEventListener('focusout', calm);
 """.replace("@TOGETHER@", str(TOGETHER)).replace("@REPEAT@", str(REPEAT))
 
 STYLE = """<style>
@@ -70,11 +62,8 @@ class Pad(widgets.VBox):
             self.buttons.append(button)
         rows = [widgets.HBox([self.buttons[action] for action in row]) for row in ROWS]
         help = "Click here, then drive with the arrow keys: ↑ accelerates, ↓ brakes, ← → steer, Space keeps straight."
-        page = (
-            '<div class="bc-keys" tabindex="0" role="application" aria-label="{help}">{help}</div>'
-            '<img src="data:," alt="" style="display:none" onerror="{script}">'
-        )
-        keys = Markup(STYLE) + html(page, help=help, script=SCRIPT)
+        page = '<div class="bc-keys" tabindex="0" role="application" aria-label="{help}">{help}</div>'
+        keys = Markup(STYLE) + html(page, help=help) + in_page(SCRIPT, "bcKeys", ".bc-drive")
         super().__init__([*rows, widgets.HTML(keys, layout={"width": "206px"})])
         self.layout.width = "220px"
         self.add_class("bc-drive")

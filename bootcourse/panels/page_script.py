@@ -1,19 +1,24 @@
-"""What ipywidgets leaves out for readers of the screen and for the keyboard, added in the page itself.
+"""Scripts of panels, and what ipywidgets leaves out for readers of the screen and for the keyboard.
 
-Text that is put into a page runs no <script>: SCRIPT is what an empty image does when it cannot be loaded. It runs in
-every view of a panel. Where a page forbids it, the panel works without names.
+Text that is put into a page runs no <script>, and a JavaScript output would stay in the saved notebook without its
+panel. A script here is what an empty image does when it cannot be loaded: it runs in every view of a panel. Where a
+page forbids it, the panel works without.
 """
 
 from bootcourse.markup import Markup, html
 
-SCRIPT = """
+WAIT = """
 const image = this; let tries = 0;
 const waiting = setInterval(() => {
-  const panel = image.closest('.bc-panel');
+  const panel = image.closest('@PLACE@');
   if (!panel) { if (++tries > 200) clearInterval(waiting); return; }
   clearInterval(waiting); image.remove();
-  if (panel.dataset.bcNamed) return;
-  panel.dataset.bcNamed = '1';
+  if (panel.dataset.@MARK@) return;
+  panel.dataset.@MARK@ = '1';
+  @SCRIPT@
+}, 50);
+"""
+NAMES = """
   let last = null;
   const all = selector => [...panel.querySelectorAll(selector)];
   const name = (element, words) => {
@@ -42,10 +47,18 @@ const waiting = setInterval(() => {
   new MutationObserver(mend).observe(
     panel, {subtree: true, childList: true, attributes: true, attributeFilter: ['disabled', 'title']});
   mend();
-}, 50);
 """
+
+
+def in_page(script: str, mark: str, place: str = ".bc-panel") -> Markup:
+    """Run a script once in each view of the element around it that the selector `place` names, there called `panel`.
+
+    mark: the name, of its own, under which the element notes that the script has run.
+    """
+    whole = WAIT.replace("@PLACE@", place).replace("@MARK@", mark).replace("@SCRIPT@", script)
+    return html('<img src="data:," alt="" style="display:none" onerror="{}">', whole)
 
 
 def for_everybody() -> Markup:
     """Controls get names, radio buttons arrow keys; a button that switches itself off hands the focus on."""
-    return html('<img src="data:," alt="" style="display:none" onerror="{}">', SCRIPT)
+    return in_page(NAMES, "bcNamed")
