@@ -364,8 +364,7 @@ check.large_margin_loss(large_margin_loss)
 # in states where the critic gives another action a higher value. The paper's condition for *on* is
 #
 # $$ Q(s,a_E) \ge \max_a Q(s,a). $$
-
-# %% [markdown]
+#
 # **Exercise (3 min, ●○○).** Write the filter as it is printed.
 
 

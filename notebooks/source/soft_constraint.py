@@ -410,12 +410,12 @@ marks = {"a crash": crash}
 bc.show(charts.lines(strengths, worth, title, x_label, y_label, "x", marks=marks))
 
 # %% [markdown]
-# **Explain.** Without the KL in the target following is worth {{ 0.15625 / (1 - 0.8) | .2f }}, more
-# than a crash. With it and ξ = 2 it is worth {{ (0.15625 - 2 * math.log(80)) / (1 - 0.8) | .0f }}:
-# less. A third way is better than both at ξ = 2: to be sure of the rule's action costs 0.21 a
-# second, so falling back as the rule does is worth {{ (by_rule().rewards[3] + 2 *
-# math.log(RULE_P)) / (1 - 0.8) | .1f }}. So the KL does more than pull towards the next action:
-# through the critic it raises the cost of futures in which the rule would have acted differently.
+# **Explain.** Without the KL in the target following is worth {{ 0.15625 / (1 - 0.8) | .2f }}. With
+# it and ξ = 2 it is worth {{ (0.15625 - 2 * math.log(80)) / (1 - 0.8) | .0f }}, less than a crash.
+# A third way is better than both: to be sure of the rule's action costs 0.21 a second, so falling
+# back as the rule does is worth {{ (by_rule().rewards[3] + 2 * math.log(RULE_P)) / (1 - 0.8) | .1f
+# }}. So the KL does more than pull towards the next action: through the critic it raises the cost
+# of futures in which the rule would have acted differently.
 # <!-- claim: round(-2 * math.log(RULE_P), 2) == 0.21 -->
 # <!-- claim: (0.15625 - 2 * math.log(8 / 0.1)) / (1 - 0.8) < DEFAULT.reward.accident < -1 <
 #   (by_rule().rewards[3] + 2 * math.log(RULE_P)) / (1 - 0.8) < 0.15625 -->
@@ -522,11 +522,11 @@ table(["after training", "agents", "return", "accidents, %"], rows, below=below)
 # %% [markdown]
 # **Explain.** With ξ fixed, the ten agents drive much like the rule: they get out on most roads,
 # and earn {{ stays().scores('returns').min() | .0f }} to {{ stays().scores('returns').max() | .0f
-# }}. (In training agents draw their actions from π, here close to π̃, so they earn less there.)
-# With a fading ξ there are two groups. {{ escaped('soft') }} of ten escape and earn more than twice
-# as much as the rule. (With a sight of 30 m instead of our 200 m the rule would earn {{
-# rule_seeing(30.0).returns.mean() | .0f }}: lesson [[the_rule]].) The other two get out on hardly
-# any road: one crashes in nearly all of its drives, one in none.
+# }}. (In training they draw their actions from π, and earn less.) With a fading ξ there are two
+# groups. {{ escaped('soft') }} of ten escape and earn more than twice as much as the rule. (With a
+# sight of 30 m instead of our 200 m the rule would earn {{ rule_seeing(30.0).returns.mean() | .0f
+# }}: lesson [[the_rule]].) The other two get out on hardly any road: one crashes in nearly all of
+# its drives, one in none.
 # <!-- claim: beyond_the_rule() == escaped('soft') == 8 and
 #   sorted(of('soft').scores('success'))[1] < 0.01 < 0.85 < stays().scores('success').min() -->
 # <!-- claim: sorted(of('soft').scores('accident')[of('soft').scores('success') < 0.01])[0] == 0 and
@@ -558,12 +558,12 @@ table(["after training", "agents", "return", "accidents, %"], rows, below=below)
 # 2. The KL from π̃ is what a policy pays for actions that the rule would not take, and for being
 #    surer than π̃.
 # 3. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)): the rule has a head start of ξ log
-#    (8p / (1 − p)) in Q.
+#    (8p / (1 − p)) in Q. This is SAC with the reward r + ξ log π̃ and the temperature α + ξ.
 # 4. The objective, a sum over time, puts the KL in the actor's loss and in the critics' target. In
 #    the target it lowers the value of staying in the trap.
 # 5. With ξ fixed at 2 the study's agents end near the rule's return. With ξ = {{
 #    SETTINGS.xi_multiplier }} α, which fades, {{ beyond_the_rule() }} of ten earn more than twice
-#    as much, and the others do not get out.
+#    as much, and the others get out on hardly any road.
 # <!-- claim: beyond_the_rule() == escaped('soft') -->
 #
 # %%

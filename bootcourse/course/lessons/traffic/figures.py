@@ -18,7 +18,11 @@ from bootcourse.road.formulas import desired_gap, idm_acceleration
 from bootcourse.scenario import DEFAULT, Traffic
 
 LOOKS = (Style("#0072B2"), Style("#444444", "--"), Style("#D55E00", "-."))  # of the lines, first to last
-DRIVERS = {1: "#56B4E9", 4: "#0072B2", 8: "#332288"}  # those of a row that are drawn
+DRIVERS = {  # those of a row that are drawn: colour, and where their words stand at their lowest speed
+    1: ("#56B4E9", "right", (0, -14)),
+    4: ("#0072B2", "center", (-4, -24)),
+    8: ("#332288", "left", (0, -14)),
+}
 SPEEDS = ListedColormap(colormaps["viridis"](np.linspace(0, 0.85, 256)))  # its bright end cannot be seen on white
 FAST = 12.5  # m/s, the bright end of the colours
 SWING = 3.6  # times its start: where a growing error leaves the picture
@@ -63,18 +67,21 @@ def following(v: float, title: str, traffic: Traffic = DEFAULT.traffic) -> Figur
     gaps, alt_parts = np.linspace(8, 120, 300), []
     x_label, y_label = "gap to the car ahead, centre to centre (m)", "acceleration (m/s²)"
     figure, ax = one_axes(3.6, title, x_label, y_label)
-    places = {-2: ("falling back at 2 m/s", (9, 0.42)), 0: ("same speed", (19, -0.55)),
-              2: ("closing in at 2 m/s", (27, -1.5))}  # fmt: skip
-    for look, (dv, (words, place)) in zip(LOOKS, places.items(), strict=True):
+    named = {-2: "falling back at 2 m/s", 0: "same speed", 2: "closing in at 2 m/s"}
+    for look, (dv, words) in zip(LOOKS, named.items(), strict=True):
         s_star = desired_gap(v, dv, traffic.s0, traffic.time_gap, traffic.a_max, traffic.b)
         values = [idm_acceleration(v, traffic.desired_speed, s, s_star, traffic.a_max, traffic.delta) for s in gaps]
-        shown = np.maximum(values, -traffic.braking_limit)
-        ax.plot(gaps, shown, color=look.colour, linestyle=look.line, linewidth=2)
-        ax.text(*place, words, fontsize=TEXT, color=look.colour)
-        zero = f"zero at a gap of {np.interp(0, values, gaps):.0f} m" if min(values) < 0 else "above zero at each gap"
-        alt_parts.append(f"{words}: {zero}")
+        ax.plot(gaps, np.maximum(values, -traffic.braking_limit), color=look.colour, linestyle=look.line, linewidth=2)
+        if min(values) > 0:
+            ax.text(gaps[-1], 0.5, words, fontsize=TEXT, color=look.colour, ha="right")
+            alt_parts.append(f"{words}: above zero at each gap")
+            continue
+        holds = np.interp(0, values, gaps)
+        ax.plot(holds, 0, "o", color=look.colour)
+        ax.text(holds, 0.5, f"{words},\nholds at {holds:.0f} m", fontsize=TEXT, color=look.colour, ha="center")
+        alt_parts.append(f"{words}: zero at a gap of {holds:.0f} m")
     ax.axhline(0, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
-    ax.set(xlim=(gaps[0], gaps[-1]), ylim=(-1.05 * traffic.braking_limit, 0.9))
+    ax.set(xlim=(gaps[0], gaps[-1]), ylim=(-1.05 * traffic.braking_limit, 1.4))
     alt_parts.append(f"no driver brakes harder than {traffic.braking_limit:g} m/s²")
     return finish(figure, title, f"Three curves that rise with the gap. {'; '.join(alt_parts)}.")
 
@@ -85,13 +92,13 @@ def row(leader: np.ndarray, drivers: Sequence[np.ndarray], dt: float, title: str
     figure, ax = one_axes(3.6, title, "time (s)", "speed (m/s)")
     ax.plot(seconds, leader, color="#444444", linestyle="--", linewidth=1.5)
     ax.text(seconds[np.argmin(leader)] - 2, leader.min() + 0.5, "leader", fontsize=TEXT, color="#444444", ha="right")
-    for k, colour in DRIVERS.items():
+    for k, (colour, side, offset) in DRIVERS.items():
         speeds = drivers[k - 1]
         ax.plot(seconds, speeds, color=colour, linewidth=2)
         words, lowest = f"driver {k}: {speeds.min():.1f} m/s", (seconds[np.argmin(speeds)], speeds.min())
-        ax.annotate(words, lowest, (0, -14), textcoords="offset points", ha="center", fontsize=TEXT, color=colour)
+        ax.annotate(words, lowest, offset, textcoords="offset points", ha=side, fontsize=TEXT, color=colour)
         alt_parts.append(words)
-    ax.set(xlim=(seconds[0], seconds[-1]), ylim=(min(v.min() for v in drivers) - 0.9, 11.5))
+    ax.set(xlim=(seconds[0], seconds[-1]), ylim=(min(v.min() for v in drivers) - 1.1, 11.5))
     return finish(figure, title, f"The leader brakes to {leader.min():g} m/s. Lowest speeds: {'; '.join(alt_parts)}.")
 
 
