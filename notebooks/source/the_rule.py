@@ -162,7 +162,7 @@ check.safety_distance(safety_distance)
 
 # %%
 choices = ["true now", "false now, true later", "false as long as you are slower"]
-predict("the_rule.3", "The printed condition is …", choices)
+predict("the_rule.3", "Is the printed condition true, now or later?", choices)
 
 # %%
 v_ego, v_traps, dx_current, dx_new = 8.25, 10.0, 25.0, 12.0
@@ -171,9 +171,9 @@ printed = closing + dx_current - dx_new - dx_current  # d13 − Δx_current
 
 d_s = bc.rule.safety_distance(v_ego, v_traps, v_traps, numbers.t_safe, numbers.floor)
 gap = dx_new - bc.DEFAULT.car.length  # from bumper to bumper
-rows = [["printed", f"d13 − Δx_current = {printed:.2f} m > 0?", "yes" if printed > 0 else "no"]]
-turned = "yes" if dx_new > closing else "no"
-rows.append(["its sign turned", f"Δx_new = {dx_new:g} m > {closing:.2f} m?", turned])
+tests = f"d13 − Δx_current = {printed:.2f} m > 0?", f"Δx_new = {dx_new:g} m > {closing:.2f} m?"
+rows = [["printed", tests[0].replace("-", "−"), "yes" if printed > 0 else "no"]]
+rows.append(["its sign turned", tests[1].replace("-", "−"), "yes" if dx_new > closing else "no"])
 rows.append(["ours", f"gap {gap:.2f} m > d_s = {d_s:.2f} m?", "yes" if gap > d_s else "no"])
 table(["the example", "the test", "change lane?"], rows)
 

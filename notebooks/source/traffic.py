@@ -159,7 +159,7 @@ check.drive_behind(drive_behind)
 # %% [markdown]
 # Here eight of the library's drivers follow each other, {{ SETTLED }} m apart, a distance at which
 # they hold 10 m/s. Their leader, which follows no formula, drives 10 m/s, brakes to 4 m/s within
-# 2 s, and is back at 10 m/s after 20 s.
+# 2 s, stays there for 18 s, and takes 4 s to get back to 10 m/s.
 # <!-- claim: abs(traffic.follow(10.0, 0.0, SETTLED)) < 1e-3 -->
 
 # %% tags=["hide-input"]
@@ -247,9 +247,9 @@ for name, (more, other) in tried.items():
 table(["drivers", "a_max (m/s²)", "b (m/s²)", "last term of s*", "slowest car in the end"], rows)
 
 # %% [markdown]
-# **Explain.** Each of the two prevents it in this ring. So the jam has no single cause: it needs
-# drivers who are slow to come back to speed *and* who react little to the closing speed. It moves
-# backwards, since cars leave it at its front and join it at its back.
+# **Explain.** Each of the two prevents it in this ring. So the jam here needs both: drivers who are
+# slow to come back to speed *and* who react little to the closing speed. It moves backwards, since
+# cars leave it at its front and join it at its back.
 # <!-- claim: slowest(20, 1.0) < 0.1 and slowest(20, 1.0, 1.5, 0.5 / 3) > 6.2 and slowest(20, 1.0,
 #   0.5, 0.5 / 3) > 6.2 and slowest(20, 1.0, 0.5, 1.5) < 0.1 -->
 
@@ -324,7 +324,9 @@ tried["ours, 2 Hz"] = (t.tau_heading, t.tau_lateral, 2)
 rows = []
 for name, numbers in tried.items():
     factor = 1 - 1 / numbers[2] / numbers[0]
-    rows.append([name, f"{factor:.2f}", *(f"{share:.0%}" for share in broken(*numbers))])
+    rows.append(
+        [name, f"{factor:.2f}".replace("-", "−"), *(f"{share:.0%}" for share in broken(*numbers))]
+    )
 headings = ["factor of a step", "roads where a car leaves the road", "where cars crash"]
 table(["time constants", *headings], rows)
 
