@@ -26,7 +26,7 @@ LAST = 10  # decisions whose mean reward goes on for ever after a drive that ran
 WIDTH, HEIGHT = 1052, 416
 WORTH, NEEDED = (44, 92, 990, 150), (44, 300, 990, 76)  # left, top, width and height of a chart, pixels
 STEPS = (0.25, 0.5, 1.0, 2.5, 5.0)  # the axes have room for one of these bonuses, so they stay where they are in a drag
-ROAD = 0  # its seed
+ROAD = 10  # its seed, the road of the lessons' examples
 
 
 @dataclass(frozen=True)
@@ -87,17 +87,17 @@ class BonusPanel(Panel):
         c = self.c.value
         settings = replace(Settings(), bonus=c, gamma=self.gamma.value)
         self.seen = bonus_numbers(self.demonstration, self.trapped, settings)
-        words, own, other = self._sentence(c), style("rule").colour, style("idle").colour
+        (title, added), own, other = self._sentences(c), style("rule").colour, style("idle").colour
         legend = (
             (4, f"the rule's drive, r + c, c = {c:g}", own, 3, ""),
             (260, "the rule's drive, r alone", own, 1.6, 'stroke-dasharray="6 4"'),
             (480, "staying behind, r", other, 2, ""),
         )
-        parts = [text(4, 20, words, size=14, bold=True)]
+        parts = [text(4, 20, title, size=14, bold=True), text(640, 54, added)]
         for x, name, colour, width, dashes in legend:
             parts += [line(x, 50, x + 26, 50, colour, width, dashes), text(x + 32, 54, name)]
         parts += [part for axes in self._charts(own, other) for part in axes.parts]
-        self.svg = self.view.value = drawing(WIDTH, HEIGHT, parts, words)
+        self.svg = self.view.value = drawing(WIDTH, HEIGHT, parts, f"{title} {added}")
 
     def _charts(self, own: str, other: str) -> tuple[SvgAxes, SvgAxes]:
         """The targets of both drives over time, and the bonus that each moment needs."""
@@ -111,19 +111,19 @@ class BonusPanel(Panel):
         worth.line(times, seen.augmented, own, 2)
 
         needed = SvgAxes(*NEEDED, worth.x, span([*seen.crossing, 0.05], 0.1))
-        needed.frame("the bonus c from which the rule's drive is worth more (below 0: without one)", "time (s)", 3)
+        needed.frame("smallest c with which the rule's drive is worth more (negative: none needed)", "time (s)", 3)
         base = max(needed.y[0], 0.0)
         needed.fill([*times, times[-1], times[0]], [*np.maximum(seen.crossing, base), base, base], other, 0.15)
         needed.line(times, seen.crossing, INK, 1.2)
         needed.line([0, times[-1]], [0, 0], QUIET, 0.8)
         return worth, needed
 
-    def _sentence(self, c: float) -> str:
-        """What the numbers say about the whole drive."""
+    def _sentences(self, c: float) -> tuple[str, str]:
+        """What the numbers say about the whole drive, and what the bonus adds to it."""
         highest, added = float(self.seen.crossing.max()), c * self.seen.weight[0]
         leads = f"From c = {highest:.2g} on" if highest > 0 else "Even without a bonus"
-        words = f"{leads} the rule's drive is worth more at every moment."
-        return f"{words} A bonus of {c:g} adds {added:.3g} to it, c / (1 − γ)."
+        title = f"{leads} the rule's drive is worth more in each second."
+        return title, f"A bonus of {c:g} adds {added:.3g} to it, c / (1 − γ)."
 
 
 def bonus_panel() -> BonusPanel:

@@ -100,15 +100,6 @@ print(f"{len(demonstrations):,} transitions of 200 drives of the rule")
 # {{ SETTINGS.beta_start }} and falls in a straight line to 0 over {{ SETTINGS.beta_episodes | , }}
 # episodes.
 # <!-- claim: demonstration_share(1000, 0.6, 1000) == 0 -->
-#
-# > **Predict.** How many of the 64 rows are the rule's after 500 episodes?
-
-# %%
-predict(
-    "learning_from_demonstrations.2",
-    "How many of the 64 rows are the rule's after 500 episodes?",
-    ["10", "19", "32", "38"],
-)
 
 # %%
 rows = []
@@ -118,10 +109,17 @@ for episode in (0, 250, 500, 999, 2000):
 table(["episode", "β", "of 64 rows are the rule's"], rows)
 
 # %% [markdown]
-# **Explain.** The actor's loss does not contain the demonstrated actions. The critic learns from
-# these rows what the rule's actions led to, and an action that it values more becomes likelier: so
-# demonstrations reach the actor through Q. (With a soft constraint the KL pulls the actor in their
-# states, too.)
+# > **Predict.** The actor's loss of lesson [[discrete_sac]] has no term for demonstrated actions,
+# > and the paper adds none. Through what can these rows change the policy?
+
+# %%
+choices = ["nothing: they need a term of their own", "the critics' Q", "the temperature α"]
+predict("learning_from_demonstrations.2", "Through what can the rows change the policy?", choices)
+
+# %% [markdown]
+# **Explain.** Through Q. The critics learn from these rows what the rule's actions led to, and an
+# action that they value more becomes more probable. (With a soft constraint the KL pulls the actor
+# in these states, too.)
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Draw a batch as a row of 64 boxes. Shade the rule's after 0, 500 and 1,000 episodes.
@@ -129,8 +127,8 @@ table(["episode", "β", "of 64 rows are the rule's"], rows)
 # %% [markdown]
 # ## Round 2: how large must the bonus be?
 #
-# If the critic gives the rule's actions a low value, the actor learns to avoid them. So the paper
-# raises their value. Each demonstrated action is paid a bonus (Equation 20):
+# If the critics give the rule's actions a low value, the actor learns to avoid them. So the paper
+# pays each demonstrated action a bonus (Equation 20):
 #
 # $$ r'(s, a_E) = r(s, a_E) + c, \qquad c = {{ SETTINGS.bonus }} $$
 #
@@ -140,7 +138,7 @@ table(["episode", "β", "of 64 rows are the rule's"], rows)
 # the table of demonstrations, with the same chance for each row; the others come from your own
 # replay buffer, `own.sample(n, rng)`. Each demonstration's reward, in the column `REWARD`, is
 # raised by the bonus. Return the rows, and a mark for each: 1 if it is a demonstration, else 0. The
-# same table is used again for the next batch, and for ten thousand batches after that.
+# same table is used again for each later batch.
 
 # %%
 REWARD = -4  # the column of a row that holds the reward
@@ -196,13 +194,12 @@ bc.panels.bonus_panel()
 # %% [markdown]
 # **Explain.** c = {{ SETTINGS.bonus }} is more than thirty times what the rule's own drive needs.
 # If each second from now on is demonstrated, it adds {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f
-# }} to the return: as much as an accident costs, while the rule's own rewards differ by tenths. (In
-# the panel the thick line is the rule's drive with the bonus, the dashed one without it.)
+# }} to the return: as much as an accident costs, while the rule's own rewards differ by tenths.
 #
 # Does this make the demonstrated action the best one for a *critic*? Not necessarily. The learner's
 # own rows pay no bonus: where the same state and action stand in both tables, the critic fits a
 # mean, r plus a part of c. And the other actions' values may rise, too, if they lead to states in
-# which the rule's action is paid. Round 3 measures it.
+# which the rule's action is paid.
 # <!-- claim: SETTINGS.bonus > 30 * 0.06 -->
 # <!-- claim: round(SETTINGS.bonus / (1 - SETTINGS.gamma)) == 10 -->
 # <!-- claim: math.isclose(SETTINGS.bonus / (1 - SETTINGS.gamma), -DEFAULT.reward.accident) -->
@@ -217,10 +214,10 @@ bc.panels.bonus_panel()
 # %% [markdown]
 # ## Round 3: what does c = 2 do to a critic?
 #
-# Four learners with demonstrations, side by side: two with c = {{ SETTINGS.bonus }}, two with c = 0
-# as a control. They learn without the soft constraint, and β stays at {{ SETTINGS.beta_start }}. We
-# ask their critics about the first 20 seconds of the rule's drives, the way out: what is the mean Q
-# of the demonstrated action, and of the eight others? How often is the demonstrated action's the
+# Train four learners with demonstrations: two with c = {{ SETTINGS.bonus }}, two with c = 0 as a
+# control. They learn without the soft constraint, and β stays at {{ SETTINGS.beta_start }}. Ask
+# their critics about the first 20 seconds of the rule's drives, the way out: what is the mean Q of
+# the demonstrated action, and of the eight others? How often is the demonstrated action's the
 # largest?
 # <!-- claim: settings_for('demos').xi_multiplier == 0 and settings_for('demos').xi_fixed is None
 #   -->
@@ -272,7 +269,7 @@ title = (
     f"A bonus of 2 gives the demonstrated action a lead of about {lead[:2, -1].mean():.1f}, not 10"
 )
 named, label = {"c = 2": lead[:2], "c = 0": lead[2:]}, "lead over the mean of the others, in Q"
-marks = {"what c = 2 adds to the return": 10.0}
+marks = {"what c = 2 adds to the return": 10.0, "one bonus": 2.0}
 figure = charts.lines(noted["update"], named, title, "update", label, looks=looks, marks=marks)
 bc.show(figure)
 
@@ -288,15 +285,15 @@ table(headings, rows, below=below)
 
 # %% [markdown]
 # **See.** (Yours will differ.) The bonus gives the demonstrated actions a much higher Q than the
-# control has. But the other actions' Q rises with it. A lead of
+# control has, but the other actions' Q rises with it. A lead of
 # {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} would need that one other action ends all later
 # bonuses; if the drive goes on as the rule's afterwards, it misses one, c = 2. And a high mean is
 # not yet the highest value: in our runs (two agents each) the last column is no higher with c = 2
-# than with c = 0. So there the bonus does *not* decide which action looks best.
+# than with c = 0.
 #
-# **Does the raised value last?** Five `demos` agents of the study ship with their critics. After
-# training, long after β has reached 0, little or nothing of the bonus is left: the mean Q of the
-# rule's actions on the way out lies between {{ demonstrated_q().min() | .1f }} and
+# **Does the raised value last?** In the critics of five shipped `demos` agents of the study, long
+# after β has reached 0, little or nothing of the bonus is left: the mean Q of the rule's actions on
+# the way out lies between {{ demonstrated_q().min() | .1f }} and
 # {{ demonstrated_q().max() | .1f }}, and they have the largest Q in
 # {{ 100 * demonstrated_largest('demos').min() | .0f }} to
 # {{ 100 * demonstrated_largest('demos').max() | .0f }} % of these states.
@@ -310,10 +307,9 @@ table(headings, rows, below=below)
 # %% [markdown]
 # ## Round 4: what does a margin change?
 #
-# A bonus need not put the demonstrated action first. *In place of the bonus* the paper also tries a
-# loss that asks for just that. In each demonstrated state, the Q of the expert's action should be
-# larger than the Q of each other action by a **margin** of at least {{
-# settings_for('margin').margin | .0f }}. (That is much: staying behind is worth 0.78.)
+# *In place of the bonus* the paper also tries a loss that asks for the demonstrated action to come
+# first: in each demonstrated state, the Q of the expert's action should be larger than the Q of
+# each other action by a **margin** of at least {{ settings_for('margin').margin | .0f }}.
 #
 # $$ J_E(Q) = \max_a \big[ Q(s,a) + l(a_E, a) \big] - Q(s,a_E), \qquad
 # l = 0 \text{ for } a_E, \text{ else } 1 $$
@@ -368,8 +364,7 @@ check.large_margin_loss(large_margin_loss)
 # in states where the critic gives another action a higher value. The paper's condition for *on* is
 #
 # $$ Q(s,a_E) \ge \max_a Q(s,a). $$
-
-# %% [markdown]
+#
 # **Exercise (3 min, ●○○).** Write the filter as it is printed.
 
 
@@ -384,15 +379,21 @@ def paper_q_filter(q, expert_action):
 
 check.paper_q_filter(paper_q_filter)
 
+# %% tags=["hide-input"]
+q = [0.2, 1.1, 0.3, 0.6, 0.9, 0.4, 0.5, 1.4, 0.1]
+bc.show(figures.margin_bars(q, bc.ACTION_NAMES.index("brake straight")))
+
 # %% [markdown]
 # An action's Q is at most the largest Q, so ≥ means = here. The printed filter is on only where the
 # expert's action has the largest Q already. All that the loss can do there is raise a lead that is
-# smaller than the margin. (The usual filter, of Nair et al., compares with the Q of the policy's
-# own action; for a policy over a list of actions that is its mean, $\sum_a \pi(a|s) Q(s,a)$.)
+# smaller than the margin.
 # <!-- claim: bootstrap.paper_q_filter(torch.tensor([[1, 2, 3]] * 3), torch.arange(3)).tolist()
 #   == [0, 0, 1] -->
 # <!-- claim: settings_for('margin').paper_q_filter and settings_for('margin_soft').paper_q_filter
 #   -->
+#
+# (The usual filter, of Nair et al., compares with the Q of the policy's own action; for a policy
+# over a list of actions that is its mean, $\sum_a \pi(a|s) Q(s,a)$.)
 #
 # **Exercise (15 min, ●●●).** Put the margin into the critics' loss, as the paper prints it: for
 # each of the two critics the margin loss (margin 1) of the rows that are demonstrations, switched
@@ -409,33 +410,29 @@ def margin_loss(q_pair, action, is_demonstration):
 
 check.margin_loss(margin_loss)
 
-# %% tags=["hide-input"]
-q = [0.2, 1.1, 0.3, 0.6, 0.9, 0.4, 0.5, 1.4, 0.1]
-bc.show(figures.margin_bars(q, bc.ACTION_NAMES.index("brake straight")))
-
 # %% [markdown]
 # How often is the printed filter on? Train two learners with the margin, and two without it as a
 # control. All four have the soft constraint and demonstrations without a bonus. Ask their critics
-# about the way out, before the first update and as they learn.
+# about the way out.
 #
 # > **Predict.** Before the first update the rule's action has the largest of nine random values by
 # > chance, in about a ninth of the states. In which share of these states is the filter on after
-# > 1,000 updates, for the learners with the margin?
+# > 250 updates, for the learners with the margin?
 
 # %%
 predict(
     "learning_from_demonstrations.6",
-    "In how many of these states is the filter on after 1,000 updates?",
+    "In how many of these states is the filter on after 250 updates?",
     ["under 10 %", "about 10 %", "over 20 %"],
 )
 
 # %%
-ASKED, switched_on = (0, 250, 500, 1000, 2000), {}
+switched_on = {}  # {update: % of the states, of each of the four learners}
 
 
 def ask(training):
-    """The share of the way out in which the printed filter is on, for each of the four learners."""
-    if training.updates not in ASKED or training.updates in switched_on:
+    """Every 250 updates: in which share of these states the filter is on, for the four learners."""
+    if training.updates % 250 or training.updates in switched_on:
         return
     values = [torch.from_numpy(training.agent(i).q_values(way)) for i in range(4)]
     on = [100 * bc.bootstrap.paper_q_filter(q, rule_did).mean().item() for q in values]
@@ -445,22 +442,25 @@ def ask(training):
 # %%
 control = bc.with_seeds(bc.settings_for("bootstrapped", bonus=0.0), 2)
 training = bc.Training(bc.with_seeds(bc.settings_for("margin_soft"), 2) + control, episodes=20_000)
-training.run(callback=ask, updates=ASKED[-1] + 1)
-rows = [[f"{update:,}", *(f"{on:.0f}" for on in four)] for update, four in switched_on.items()]
-headings = ["filter on, %, after updates", "with the margin, seed 0", "seed 1"]
-table([*headings, "without it, seed 0", "seed 1"], rows)
+training.run(callback=ask, updates=2001)
+shares = np.array(list(switched_on.values())).T  # (4, times)
+on, control_on = shares[:2, 1].mean(), shares[2:, 1].mean()
+title = "After 250 updates the filter is on in "
+title += f"{on:.0f} % of the states with the margin, in {control_on:.0f} % without"
+named, label = {"margin": shares[:2], "without it": shares[2:]}, "states with the filter on (%)"
+looks = [charts.Style("#CC79A7"), charts.Style("#5F6B77", "--")]
+bc.show(charts.lines(list(switched_on), named, title, "update", label, looks=looks))
 
 # %% [markdown]
 # **Explain.** (Yours will differ.) In our runs the filter, which looked useless on paper, is soon
-# on in almost half of these states. The loss raises leads only where the rule's action is first
-# already; we think that the network carries this over to similar states, where the filter is then
-# on, too. In the control, without the loss, it stays about as rare as at the start for 250 updates.
-# Later the critic's own targets give the rule's action the largest Q in some states, too.
+# on in almost half of these states with the margin loss. The loss raises leads only where the
+# rule's action is first already; we think that the network carries this over to similar states,
+# where the filter is then on, too. Without the loss it stays rare for 500 updates. Later the
+# critics' own targets give the rule's action the largest Q in some states, too.
 #
 # **Does it work?** With the paper's γ and η neither the margin nor the bonus works alone in our
-# study: none of ten agents each escapes. (With γ = 0.9 and the
-# bonus alone all three agents that we trained do.) The paper's method has a second ingredient, the
-# soft constraint of lesson [[soft_constraint]].
+# study: none of ten agents each escapes. (With γ = 0.9 and the bonus alone all three agents that we
+# trained do.) The paper's method adds the soft constraint of lesson [[soft_constraint]].
 # <!-- claim: escaped_with('γ = 0.9', 'demos') == len(varied()['γ = 0.9'].of('demos')) == 3 -->
 # <!-- claim: {len(of(m)) for m in ('margin', 'demos')} == {10} -->
 # <!-- claim: escaped('margin') == 0 and escaped('demos') == 0 -->
@@ -473,7 +473,7 @@ table([*headings, "without it, seed 0", "seed 1"], rows)
 # %% [markdown]
 # ## Round 6: the whole method, in your code
 #
-# You now have all of its parts. (Equations and sections are the paper's.)
+# You now have all of its parts.
 #
 # > **SAC with a rule's help.** Take the algorithm of lesson [[update_and_loop]] and change six
 # > lines:
@@ -493,14 +493,14 @@ table([*headings, "without it, seed 0", "seed 1"], rows)
 #
 # Lines 2 and 3 are your `mixed_batch`, line 4 is `constrained_target`, line 5 `constrained_loss`.
 # `bootcourse/learn/textbook.py` is the box as a program. Do your parts make the same update as
-# ours? One at a time is put into our learner, and losses and gradients on one batch are compared.
+# ours?
 
 # %%
 own_code.compare()
 
 # %% [markdown]
-# If something differs, mend that part in its lesson, and run `own_code.load()` here again. Then
-# train three agents, two with the bonus and one with the margin, each with the KL.
+# If a part differs, mend it in its lesson, and run `own_code.load()` here again. Then train three
+# agents, two with the bonus and one with the margin, each with the KL.
 #
 # > **Predict.** Of plain SAC's ten agents in the study {{ escaped('sac') }} escapes. How many of
 # > these three end ahead of trap 1 on most of 200 roads, after 2,500 updates?
@@ -536,7 +536,7 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 # %% [markdown]
 # **See.** (Yours will differ.) In our run these agents had learned the rule's way after 2,500
 # updates, and earned about as much as the rule or less. The upper replay shows the first of these,
-# the lower one an agent of our study, with many times as many updates.
+# the lower one an agent of our study.
 #
 # Of the study's ten agents with both aids {{ escaped('bootstrapped') }} escape, and earn {{
 # of('bootstrapped').scores('returns')[of('bootstrapped').scores('success') >= ESCAPES].min() | .0f
@@ -546,9 +546,6 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 # DEFAULT.sight.distance | g }} m, and {{ rule_seeing(30.0).returns.mean() | .0f }} with 30 m:
 # lesson [[the_rule]].)
 # <!-- claim: len(of('bootstrapped')) == 10 and escaped('bootstrapped') == 7 -->
-#
-# **Try.** Plant a mistake in one part: copy it into a new cell, change a sign, and call
-# `own_code.use` with it. Which part does the comparison name?
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Put the box on the wall. While the agents train, let somebody name for each of its six lines what
@@ -561,9 +558,8 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 # 2. A bonus of 0.06 makes the rule's way worth more than staying behind at γ = 0.8, on the 20 roads
 #    of Round 2.
 # 3. c = {{ SETTINGS.bonus }} raises a demonstrated drive's discounted return by c / (1 − γ)
-#    = {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In the critics the values of actions that
-#    were not demonstrated rise, too: the lead is much smaller, and in many states another action
-#    still has the largest Q.
+#    = {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In the critics the values of the other
+#    actions rise, too: the lead is smaller, and often another action still has the largest Q.
 # 4. The large-margin loss moves the Q of the expert's action and of its best rival, and is 0 from a
 #    lead of {{ settings_for('margin').margin | .0f }} on.
 # 5. The printed Q-filter is on only where the expert's action has the largest Q already. With it,
@@ -573,11 +569,12 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 #   == [0, 0, 1] -->
 #
 # %%
+filter_on = "under 10 %" if on < 8 else ("about 10 %" if on < 15 else "over 20 %")
 compare_predictions(
     "learning_from_demonstrations",
-    {1: "0.05", 2: "19", 3: "10"}
+    {1: "0.05", 2: "the critics' Q", 3: "10"}
     | {4: f"{lead[0, -1]:.1f} and {lead[1, -1]:.1f}", 5: "4"}
-    | {6: " and ".join(f"{on:.0f} %" for on in switched_on[1000][:2]), 7: str(sum(ahead[:-1]))},
+    | {6: f"{filter_on}: {on:.0f} % on average", 7: str(sum(ahead[:-1]))},
 )
 
 # %% [markdown]
@@ -589,8 +586,7 @@ compare_predictions(
 #
 # **Read on**: Hester et al., *Deep Q-learning from Demonstrations* (arXiv 1704.03732), for margins;
 # Nair et al. (arXiv 1709.10089), for the Q-filter; Reddy et al., *SQIL* (arXiv 1905.11108), for the
-# bonus; Ball et al. (arXiv 2302.02948), for what half a batch of offline data achieves without any
-# of them.
+# bonus; Ball et al. (arXiv 2302.02948), for half a batch of offline data without any of them.
 
 # %% [markdown] tags=["instructor"] minutes=2
 # *Answers to the three questions.* **c for γ = 0.95:** the rule's way has to be worth more than

@@ -43,7 +43,7 @@ from bootcourse.course import (
 #
 # Here are the probabilities of the nine actions in the first second of a drive, behind trap 1:
 # those of an agent that has learned nothing yet, π, and those of the stochastic rule of lesson
-# [[the_rule]], π̃ ("pi tilde"). The rule is nearly sure of one action, the agent of none.
+# [[the_rule]], π̃ ("pi tilde").
 
 # %% tags=["hide-input"]
 ROAD = 10
@@ -53,16 +53,18 @@ does = torch.tensor([int(first_drive.rule_actions[0])])
 rule_tilde = bc.bootstrap.log_stochastic_rule(does, torch.tensor(0.9)).exp()[0].tolist()
 own_pi = newborn.probabilities(first_drive.observations[:1])[0].tolist()
 title = f"The rule would {bc.ACTION_NAMES[does.item()]}; the untrained agent has no preference"
-bc.show(charts.action_bars({"soft, untrained": own_pi, "rule": rule_tilde}, title))
+named = {"the untrained agent, π": own_pi, "the stochastic rule, π̃": rule_tilde}
+SKY, GREEN, GREY = charts.Style("#56B4E9"), charts.Style("#009E73"), charts.Style("#5F6B77")
+bc.show(charts.action_bars(named, title, looks=[SKY, GREEN]))
 
 # %% [markdown]
 # The rule gets out of the trap and is slow afterwards. So the agent should follow it at first, and
 # still be able to find something better. This lesson builds such a **pull** towards the rule, the
-# *soft constraint*: a penalty of ξ for each nat by which the policy differs from π̃.
+# *soft constraint*: a penalty that grows with the difference between π and π̃.
 #
 # The agents of this lesson train with the parts of lessons [[discrete_sac]] and [[update_and_loop]]
-# that you wrote and that passed their checks. The next cell runs the files in the folder `answers`,
-# which hold your own code; no other cell of this lesson does that.
+# that you wrote. The next cell runs the files in the folder `answers`, which hold them; no other
+# cell of this lesson does that.
 # <!-- claim: len(re.findall('\nown_code.load()', code_of('soft_constraint'))) == 1 -->
 
 # %%
@@ -75,9 +77,8 @@ own_code.load()
 # %% [markdown]
 # ## Round 1: what does it cost to ignore the rule?
 #
-# The rule names one action, μ(s). An agent has a probability for each action. So we compare the
-# agent with the stochastic rule, which takes the rule's action with probability $p$ (lesson
-# [[the_rule]]; Equation 16 of the paper):
+# The rule names one action, μ(s). The stochastic rule takes it with probability $p$ (Equation 16 of
+# the paper):
 #
 # $$ \tilde\pi(a|s) = p \text{ if } a = \mu(s), \qquad \tfrac{1-p}{8} \text{ otherwise} $$
 #
@@ -101,8 +102,8 @@ for p in (0.5, 0.9, 0.99, 0.999):
 table(["p", "price of the rule's action (nats)", "of any other (nats)"], rows)
 
 # %% [markdown]
-# **See.** A tenth of the probability costs $\log 10$, about 2.3 nats, more. The rule names the same
-# action in each line: it has not become better, only the price of doing something else has risen.
+# **See.** A tenth of the probability costs $\log 10$, about 2.3 nats, more. A larger p does not
+# make the rule better; it raises the price of doing something else.
 #
 # **Exercise (3 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
 
@@ -162,9 +163,9 @@ table(["the agent is sure of", "its KL (nats)"], rows)
 # π̃, which gives that action a probability of {{ 100 * RULE_P | .0f }} %. So the constraint also
 # charges for being surer than π̃.
 #
-# The order of the two matters. Ours, the *reverse* KL, is large if the agent often does what π̃
-# does seldom. The *forward* KL, $D_\mathrm{KL}(\tilde\pi \| \pi)$, is large if the agent seldom
-# does what π̃ does often.
+# The order matters. $D_\mathrm{KL}(\pi \| \tilde\pi)$, the *reverse* KL, is large if the agent
+# often does what π̃ does seldom. The *forward* KL, $D_\mathrm{KL}(\tilde\pi \| \pi)$, is large if
+# the agent seldom does what π̃ does often.
 #
 # **Exercise (5 min, ●●○).** Write the KL for a batch of states.
 
@@ -186,7 +187,7 @@ check.soft_constraint(soft_constraint)
 # ## Round 3: which compromise is best?
 #
 # In one state, with its estimates $Q(s,a)$, the agent now has three goals: actions with a high
-# value, entropy (weight α), and a small distance from the rule (weight ξ).
+# value, entropy (weight α), and a small distance from the rule (weight ξ, "xi").
 #
 # $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
 # - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
@@ -254,9 +255,10 @@ print(f"largest difference of a probability: {(logits.softmax(-1) - best).abs().
 
 # %% tags=["hide-input"]
 alone = (q / alpha).softmax(-1)[0].tolist()
-title = "Q accelerates, the rule keeps left; the best π does both"
-pi = {"sac, Q alone": alone, "rule": log_rule.exp()[0].tolist(), "soft, best": best[0].tolist()}
-bc.show(charts.action_bars(pi, title))
+pi = {"Q alone (ξ = 0)": alone, "the stochastic rule, π̃": log_rule.exp()[0].tolist()}
+pi["the best compromise"] = best[0].tolist()
+title = "The best compromise shares its probability between the rule's action and the best by Q"
+bc.show(charts.action_bars(pi, title, looks=[GREY, GREEN, SKY]))
 
 # %% [markdown]
 # The KL is $-\mathcal{H} - \sum_a \pi \log\tilde\pi$. So the whole objective is SAC's, with the
@@ -290,20 +292,18 @@ probability = {
 }
 tie = float((q[0, 7] - q[0, rule_says.item()]) / step)
 title = f"Against a lead of 0.6 in Q, the rule takes over at ξ = {tie:.2f}"
-looks = [charts.Style("#009E73"), charts.Style("#5F6B77")]  # the rule's, and a neutral one
-x_label = "ξ (α = 0.01)"
-bc.show(charts.lines(strengths, probability, title, x_label, "probability", "x", looks=looks))
+x_label, y_label = "ξ (α = 0.01)", "probability in the best policy"
+looks = [GREEN, GREY]
+bc.show(charts.lines(strengths, probability, title, x_label, y_label, "x", looks=looks))
 
 # %% [markdown]
 # **Explain.** While ξ is near 2 the best policy is close to π̃, whatever a higher speed earns: the
 # head start of one second is larger than the discounted rewards of the best drive, and the KL of
-# later seconds adds to it. (An accident would outweigh it: {{ DEFAULT.reward.accident }}. The rule
-# itself has none on the held-out roads; π̃, which draws one action in ten elsewhere, has many, so
-# where an error leads to an accident the best policy is surer than π̃.) At ξ = 0.002 the rule
-# decides where the values of two actions are almost equal. In the study ξ falls from 2 to far below
-# 0.002.
+# later seconds adds to it. (An accident, {{ DEFAULT.reward.accident }}, outweighs it: where one of
+# π̃'s errors leads to an accident, the best policy is surer than π̃.) At ξ = 0.002 the rule decides
+# where the values of two actions are almost equal. In the study ξ falls from 2 to far below 0.002.
 # <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident
-#   and accidents('rule') == 0 -->
+#   -->
 # <!-- claim: 0.002 * math.log(8 * 0.9 / 0.1) < 0.01 -->
 # <!-- claim: all(SETTINGS.xi_multiplier * run.curves['alpha'][-1] < 0.0002
 #   for run in shipped_runs('soft')) -->
@@ -395,28 +395,30 @@ predict(
 
 # %%
 idle = bc.record(bc.idle_policy, [ROAD], label="idle")[0]
-by_rule = bc.record(bc.rule_policy(bc.DEFAULT), range(8), label="rule")
-falls_back = by_rule[0].rewards[3]  # a second behind the traps
-agrees = np.mean(idle.rule_actions == idle.actions)
-other, same, gamma, rows = math.log(8 / 0.1), -math.log(0.9), 0.8, []
-for xi in (0.0, 0.02, 0.2, 2.0):
-    seconds = idle.rewards.mean() - xi * other, falls_back - xi * same
-    rows.append([xi, *(f"{each:.2f}" for s in seconds for each in (s, s / (1 - gamma)))])
-headings = ["ξ", "follow: per second", "follow: for ever, γ = 0.8"]
-headings += ["fall back as the rule does: per second", "for ever"]
-below = f"The rule agrees with following in {100 * agrees:.0f} % of its seconds. A crash pays −10."
-table(headings, rows, below)
+by_rule = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
+falls_back = by_rule.rewards[3]  # the reward of a second behind the traps
+other, same, gamma = math.log(8 / 0.1), -math.log(0.9), 0.8  # prices in nats
+strengths, crash = np.geomspace(0.01, 2, 100), bc.DEFAULT.reward.accident
+worth = {
+    "idle: follows trap 1": (idle.rewards.mean() - strengths * other) / (1 - gamma),
+    "rule: falls back": (falls_back - strengths * same) / (1 - gamma),
+}
+crossing = (idle.rewards.mean() - crash * (1 - gamma)) / other
+title = f"From ξ = {crossing:.2f} on, following trap 1 is worth less than a crash"
+x_label, y_label = "ξ", "worth to the critic, if it went on for ever (γ = 0.8)"
+marks = {"a crash": crash}
+bc.show(charts.lines(strengths, worth, title, x_label, y_label, "x", marks=marks))
 
 # %% [markdown]
-# **Explain.** Without the KL in the target following is worth a little, and more than a crash. With
-# it and ξ = 2 it is worth less, since the rule would do something else in each second. But a third
-# way is better than both: to be sure of the rule's action costs 0.21 a second, so falling
-# back as the rule does, for ever, is worth {{ (by_rule(0).rewards[3] + 2 * math.log(RULE_P)) /
-# (1 - 0.8) | .1f }}. So the KL does more than pull towards the next action:
-# through the critic it raises the cost of futures in which the rule would have acted differently.
+# **Explain.** Without the KL in the target following is worth {{ 0.15625 / (1 - 0.8) | .2f }}. With
+# it and ξ = 2 it is worth {{ (0.15625 - 2 * math.log(80)) / (1 - 0.8) | .0f }}, less than a crash.
+# A third way is better than both: to be sure of the rule's action costs 0.21 a second, so falling
+# back as the rule does is worth {{ (by_rule().rewards[3] + 2 * math.log(RULE_P)) / (1 - 0.8) | .1f
+# }}. So the KL does more than pull towards the next action: through the critic it raises the cost
+# of futures in which the rule would have acted differently.
 # <!-- claim: round(-2 * math.log(RULE_P), 2) == 0.21 -->
 # <!-- claim: (0.15625 - 2 * math.log(8 / 0.1)) / (1 - 0.8) < DEFAULT.reward.accident < -1 <
-#   (by_rule(0).rewards[3] + 2 * math.log(RULE_P)) / (1 - 0.8) < 0.15625 -->
+#   (by_rule().rewards[3] + 2 * math.log(RULE_P)) / (1 - 0.8) < 0.15625 -->
 #
 # Do agents need this to get out? With the KL in the actor's loss alone {{ with_kl_in_actor_only()
 # }} of ten agents of the study escape, with it in both places {{ escaped('soft') }}: no difference
@@ -440,25 +442,22 @@ source("bootcourse.learn.textbook", "TextbookSAC.critic_target", "TextbookSAC.ac
 # The paper couples the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. It
 # starts at α = {{ SETTINGS.alpha_init }}, so ξ = {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init
 # }}, and with a target entropy of {{ SETTINGS.target_entropy }} α falls at each update (lesson
-# [[discrete_sac]]). Train four agents with the soft constraint and without demonstrations: two
-# whose ξ fades, two whose ξ stays at 2.
+# [[discrete_sac]]). Train two agents with the soft constraint and without demonstrations, and watch
+# their ξ.
 
 # %%
 UPDATES, EVERY = 5000, 250
-agents = bc.with_seeds(bc.settings_for("soft"), 2)
-agents += bc.with_seeds(bc.settings_for("soft", xi_fixed=2.0), 2)
-noted = {}  # {update: ξ of the two that fade}
+noted = {}  # {update: ξ of both agents}
 
 
 def note(training):
-    """Every 250 updates: the first two agents' ξ."""
+    """Every 250 updates: the agents' ξ."""
     if training.updates % EVERY == 0:
-        noted[training.updates] = 200 * training.learner.log_alpha.detach().exp().numpy()[:2]
+        noted[training.updates] = 200 * training.learner.log_alpha.detach().exp().numpy()
 
 
-training = own_code.training(agents, episodes=5000)
-result = training.run(callback=note, stop=lambda: training.updates > UPDATES)
-print(f"episodes of each agent: {training.curves.finished.tolist()}")
+training = own_code.training(bc.with_seeds(bc.settings_for("soft"), 2), episodes=5000)
+training.run(callback=note, stop=lambda: training.updates > UPDATES)
 
 # %%
 updates, xi = np.array(list(noted)), np.array(list(noted.values())).T
@@ -466,37 +465,24 @@ tenth = updates[np.argmax(xi[0] <= xi[0, 0] / 10)]
 title = f"ξ is a tenth of its start after about {tenth:,} updates"
 bc.show(charts.lines(updates, {"soft": xi}, title, "update", "ξ = 200 α", logarithmic="y"))
 
-# %%
-seen = np.concatenate([drive.observations[:-1] for drive in by_rule])
-answers = np.concatenate([drive.rule_actions for drive in by_rule])
-rows = []
-for agent, name in zip(result.agents, ["fades"] * 2 + ["stays at 2"] * 2, strict=True):
-    alike = np.mean(agent.probabilities(seen).argmax(-1) == answers)
-    rows.append([name, agent.settings.seed, f"{100 * alike:.0f} %"])
-table(["ξ", "seed", "its likeliest action is the rule's"], rows, "In the states of eight drives.")
-
 # %% [markdown]
-# **See.** In the study ξ is a tenth of its start after {{ tenth_of_xi('soft').min() }} to {{
-# tenth_of_xi('soft').max() }} episodes.
-#
-# The table: in our run even with ξ = 2 a third of the likeliest actions was not the rule's. Round 3
-# speaks of the *best* policy, and after 5,000 updates these networks are still learning it. Do your
-# parts make the same update as ours?
-# <!-- claim: tenth_of_xi('soft').max() < SETTINGS.beta_episodes / 2 -->
+# In the study ξ is a tenth of its start after {{ tenth_of_xi('soft').min() }} to {{
+# tenth_of_xi('soft').max() }} episodes. Do your parts make the same update as ours?
 
 # %%
 own_code.compare()
 
 # %% [markdown]
-# The study has trained ten agents of each kind for
-# {{ of('soft').sizes[1] | , }} episodes.
+# What if ξ does not fade? The study has trained ten agents whose ξ fades and ten whose ξ stays at
+# 2, for {{ of('soft').sizes[1] | , }} episodes each.
 #
-# > **Predict.** Which kind earns more on held-out roads, after training? The rule earns
+# > **Predict.** After training each agent drives 1,000 held-out roads and takes the most probable
+# > action in each second. What do the agents whose ξ stays at 2 earn? The rule earns
 # > {{ of('rule').scores('returns').mean() | .0f }}.
 
 # %%
-choices = ["those whose ξ fades", "those whose ξ stays", "about the same"]
-predict("soft_constraint.6", "Which agents earn more after training?", choices)
+choices = ["far less than the rule", "about as much as the rule", "far more than the rule"]
+predict("soft_constraint.6", "What do the agents earn whose ξ stays at 2?", choices)
 
 # %%
 study = shipped.shipped_results()
@@ -509,9 +495,9 @@ earned = [each.reshape(len(each), -1, window).mean(2) for each in earned]
 middle = np.arange(earned[0].shape[1]) * window + window / 2
 drawn = {name: bc.statistics.iqm(each, 0) for name, each in zip(kinds, earned, strict=True)}
 drawn["rule"] = np.full(len(middle), rule_test.returns.value)
-looks = [charts.Style("#56B4E9", "--"), charts.Style("#5F6B77"), charts.Style("#009E73")]
+looks = [charts.Style("#56B4E9", "--"), GREY, GREEN]
 title = "With ξ fixed no agent earns more than the rule; with a fading ξ most earn far more"
-x_label, y_label = "training episode", "return in training (thin: agents)"
+x_label, y_label = "training episode", "return in training, actions drawn from π (thin: agents)"
 figure = charts.lines(middle, drawn, title, x_label, y_label, limits=(-15, 140), looks=looks)
 for each, look in zip(earned, looks, strict=False):
     figure.axes[0].plot(middle, each.T, color=look.colour, linewidth=0.7, alpha=0.5)
@@ -530,33 +516,31 @@ for name, (agents_of, chosen) in groups.items():
         row.append(f"{half:.0f} ({low:.0f} to {high:.0f})")
     rows.append(row)
 rows.append(["rule", "", f"{rule_test.returns.value:.0f}", "0"])
-below = "The median agent (lowest to highest). 1,000 held-out roads each."
+below = "The median agent (lowest to highest), with its most probable actions."
 table(["after training", "agents", "return", "accidents, %"], rows, below=below)
 
 # %% [markdown]
-# **Explain.** A constraint that stays makes a second rule: each of the ten agents earns a little
-# less than the rule, as Round 3 says it should, and gets out on most roads. A constraint that fades
-# makes two groups. {{ escaped('soft') }} of ten escape and earn more than twice as much as the
-# rule. (With a sight of 30 m instead of our 200 m the rule would earn {{
-# rule_seeing(30.0).returns.mean() | .0f }}: lesson [[the_rule]].) The other two get out on hardly
-# any road: one crashes in nearly all of its drives, one in none. (In training agents draw their
-# actions from π, in the test they take the likeliest: those with a fixed ξ earn {{
-# np.median(stays().scores('returns')) | .0f }} in the table and about 30 in the figure.)
+# **Explain.** With ξ fixed, the ten agents drive much like the rule: they get out on most roads,
+# and earn {{ stays().scores('returns').min() | .0f }} to {{ stays().scores('returns').max() | .0f
+# }}. (In training they draw their actions from π, and earn less.) With a fading ξ there are two
+# groups. {{ escaped('soft') }} of ten escape and earn more than twice as much as the rule. (With a
+# sight of 30 m instead of our 200 m the rule would earn {{ rule_seeing(30.0).returns.mean() | .0f
+# }}: lesson [[the_rule]].) The other two get out on hardly any road: one crashes in nearly all of
+# its drives, one in none.
 # <!-- claim: beyond_the_rule() == escaped('soft') == 8 and
 #   sorted(of('soft').scores('success'))[1] < 0.01 < 0.85 < stays().scores('success').min() -->
 # <!-- claim: sorted(of('soft').scores('accident')[of('soft').scores('success') < 0.01])[0] == 0 and
 #   of('soft').scores('accident').max() > 0.99 -->
 # <!-- claim: len(stays()) == len(of('soft')) == 10 and stays().sizes == of('soft').sizes -->
-# <!-- claim: stays().scores('returns').max() < of('rule').scores('returns').mean() -->
+# <!-- claim: 0.75 * of('rule').scores('returns').mean() < stays().scores('returns').min() <
+#   stays().scores('returns').max() < of('rule').scores('returns').mean() -->
 # <!-- claim: 110 < of('soft').scores('returns')[of('soft').scores('success') > 0.9].min() -->
 #
-# And with another η? π̃ itself has an entropy of {{ entropy_of_the_rule() | .2f }} nats. A target
-# of 1 is above it: once the entropy has fallen below 1, α rises, and ξ = 200 α pulls the policy
-# still closer to π̃. So ξ can rise again. (Train one such agent, and look at its ξ.) Three of the
-# study earn {{ with_target(1).min() | .0f }} to {{ with_target(1).max() | .0f }}, about as with a
-# fixed ξ. With a target of 0.3, below that of π̃, three earn {{ with_target(0.3).min() | .0f }} to
-# {{ with_target(0.3).max() | .0f }}, as with η = −1. Whether a small, constant ξ would do, no run
-# here tests.
+# And with another η? π̃ itself has an entropy of {{ entropy_of_the_rule() | .2f }} nats. With η =
+# 1, above that, α rises, and with it ξ, as soon as the entropy is below 1: three agents of the
+# study earn {{ with_target(1).min() | .0f }} to {{ with_target(1).max() | .0f }}. With η = 0.3,
+# below that of π̃, three earn {{ with_target(0.3).min() | .0f }} to {{ with_target(0.3).max() | .0f
+# }}. No run here tests a small, constant ξ.
 # <!-- claim: 0.3 < entropy_of_the_rule() < 1 -->
 # <!-- claim: with_target(1).max() < of('rule').scores('returns').mean() -->
 # <!-- claim: with_target(0.3).min() > 2 * of('rule').scores('returns').mean() -->
@@ -574,12 +558,12 @@ table(["after training", "agents", "return", "accidents, %"], rows, below=below)
 # 2. The KL from π̃ is what a policy pays for actions that the rule would not take, and for being
 #    surer than π̃.
 # 3. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)): the rule has a head start of ξ log
-#    (8p / (1 − p)) in Q. It is SAC with the reward r + ξ log π̃ and the temperature α + ξ.
+#    (8p / (1 − p)) in Q. This is SAC with the reward r + ξ log π̃ and the temperature α + ξ.
 # 4. The objective, a sum over time, puts the KL in the actor's loss and in the critics' target. In
 #    the target it lowers the value of staying in the trap.
 # 5. With ξ fixed at 2 the study's agents end near the rule's return. With ξ = {{
 #    SETTINGS.xi_multiplier }} α, which fades, {{ beyond_the_rule() }} of ten earn more than twice
-#    as much, and the others do not get out.
+#    as much, and the others get out on hardly any road.
 # <!-- claim: beyond_the_rule() == escaped('soft') -->
 #
 # %%
@@ -587,7 +571,7 @@ kl_alone = "less than a crash, but only with the KL"
 compare_predictions(
     "soft_constraint",
     {1: "about 1.5", 2: "the same one, but not 0", 3: "proportional to the root of π̃", 4: "9 times"}
-    | {5: kl_alone, 6: "those whose ξ fades"},
+    | {5: kl_alone, 6: "about as much as the rule"},
 )
 
 # %% [markdown]

@@ -15,10 +15,10 @@
 #
 # **What you will be able to do**
 # - write down how the other cars follow (IDM), and simulate a row of them;
-# - start a traffic jam with one slow driver, and say why it travels backwards;
+# - start a traffic jam with one slow driver, and find out which drivers prevent it;
 # - find out when a simulated car swings off the road.
 #
-# **Time** 35 minutes; running it takes under one minute. An appendix for those who write or choose
+# **Time** 37 minutes; running it takes under one minute. An appendix for those who write or choose
 # a simulator: no other lesson needs it. **It builds on** [lesson [[the_trap]]](the_trap.ipynb).
 
 # %%
@@ -27,7 +27,7 @@ import math
 
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import charts, check, compare_predictions, predict, table
+from bootcourse.course import check, compare_predictions, predict, table
 from bootcourse.course.lessons.traffic import figures as figures_traffic
 from bootcourse.course.lessons.traffic import simulation as traffic
 
@@ -46,16 +46,16 @@ bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 
 # %% [markdown]
 # > **Predict.** At 20 m each car has four car lengths of road, its own included, and yet cars stop.
-# > The band of standing cars moves *backwards*, while the cars drive forwards. Why? (Round 2 comes
+# > The band of standing cars moves *backwards*, while the cars drive forwards. Why? (Round 3 comes
 # > back to it.)
 
 # %%
 choices = [
     "the standing cars are pushed back by those behind them",
-    "the slow driver falls behind the others",
+    "the slow driver falls behind, and takes the band along",
     "cars leave it at its front and join it at its back",
 ]
-predict("traffic.1", "Why does the jam move backwards?", choices)
+predict("traffic.1", "Why does the band move backwards?", choices)
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let them find the band's speed: from 100 to 400 s it goes back by about 380 m, 1.3 m/s. The band
@@ -114,8 +114,8 @@ check.desired_gap(desired_gap)
 # $$ a = a_{\max} \left[ 1 - \left( \frac{v}{v_\text{desired}} \right)^{\delta} - \left(
 # \frac{s^*}{s} \right)^2 \right] $$
 #
-# > **Predict.** A driver is at exactly the desired speed, and the gap is exactly the desired $s^*$.
-# > Does the driver accelerate, hold the speed, or brake?
+# > **Predict.** A driver has exactly the desired speed and exactly the desired gap, $s^*$. Does the
+# > driver accelerate, hold the speed, or brake?
 
 # %%
 predict(
@@ -127,11 +127,11 @@ predict(
 # %%
 t = bc.DEFAULT.traffic
 title = "At 10\u00a0m/s a driver who closes in brakes much earlier"
-bc.show(figures_traffic.following(10.0, closing=(-2, 0, 2), title=title))
+bc.show(figures_traffic.following(10.0, title))
 
 # %% [markdown]
-# **Answer.** The driver brakes at $a_{\max}$: the bracket is 1 − 1 − 1. So the gap at which a
-# driver holds the speed is longer than $s^*$. In the picture it is where a line crosses zero.
+# **Answer.** The driver brakes at $a_{\max}$: the bracket is 1 − 1 − 1. So a driver settles at a
+# gap longer than $s^*$. In the picture it is where a line crosses zero.
 # <!-- claim: formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, 0.5, 4.0) == -0.5 -->
 #
 # A simulation repeats one step. It computes the acceleration a from the present speeds and the
@@ -158,39 +158,32 @@ check.drive_behind(drive_behind)
 
 # %% [markdown]
 # Here eight of the library's drivers follow each other, {{ SETTLED }} m apart, a distance at which
-# they hold 10 m/s. Their leader, which follows no formula, drives 10 m/s, then 4 m/s for 20 s, then
-# 10 m/s again. The picture shows the leader and three of the eight.
+# they hold 10 m/s. Their leader, which follows no formula, drives 10 m/s, brakes to 4 m/s within
+# 2 s, stays there for 18 s, and takes 4 s to get back to 10 m/s.
 # <!-- claim: abs(traffic.follow(10.0, 0.0, SETTLED)) < 1e-3 -->
 
 # %% tags=["hide-input"]
-leader = np.repeat([10.0, 4.0, 10.0], [60, 40, 140])
-rows, ahead = {"leader": leader}, leader
-for k in range(1, 9):
-    ahead = traffic.behind(ahead, v=10.0, gap=32.5)[:-1, 1]
-    if k in (1, 4, 8):
-        rows[f"driver {k}, down to {ahead.min():.1f} m/s"] = ahead
-seconds = 0.5 * np.arange(len(leader))
+drivers = traffic.row(traffic.leader(4.0))
 title = "Each driver brakes to a lower speed than the one ahead"
-bc.show(charts.lines(seconds, rows, title, "time (s)", "speed (m/s)", looks=figures_traffic.ROW))
+bc.show(figures_traffic.row(traffic.leader(4.0), drivers, dt=0.5, title=title))
 
 # %%
 # NBVAL_CHECK_OUTPUT
 for slowest in (4.0, 8.0):
-    ahead, lowest = np.repeat([10.0, slowest, 10.0], [60, 40, 140]), []
-    for _ in range(8):
-        ahead = traffic.behind(ahead, v=10.0, gap=32.5)[:-1, 1]
-        lowest.append(f"{ahead.min():.2f}")
-    print(f"leader down to {slowest:g} m/s, drivers 1 to 8 down to", ", ".join(lowest))
+    lowest = ", ".join(f"{v.min():.2f}" for v in traffic.row(traffic.leader(slowest)))
+    print(f"leader down to {slowest:g} m/s, drivers 1 to 8 down to {lowest}")
 
 # %% [markdown]
-# **See.** The first driver comes too close and has to open the gap again, so for a moment the first
-# car is slower than the leader. From driver to driver the lowest speed falls. A gentler disturbance
-# dies out: where the leader slows down to 8 m/s instead of 4, each driver slows down less than the
-# one ahead.
+# **See.** The first driver comes too close and has to open the gap again, so for a moment it is
+# slower than the leader. From driver to driver the lowest speed falls. A gentler disturbance dies
+# out: behind a leader that slows down to 8 m/s, each driver slows down less than the one ahead.
 # <!-- claim: (np.diff([8.0, *lowest_speeds(8.0)]) > 0).all() -->
-# <!-- claim: (np.diff([4.0, *lowest_speeds()]) < 0).all() -->
+# <!-- claim: (np.diff([4.0, *lowest_speeds(4.0)]) < 0).all() -->
+
+# %% [markdown]
+# ## Round 3: which disturbances grow into a jam?
 #
-# Which gap does a driver settle at, behind a car that drives $v$ all the time?
+# At which gap does a driver settle, behind a car that drives $v$ all the time?
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -209,7 +202,7 @@ table(["speed", "wants s*", "settles at"], rows)
 # <!-- claim: round(traffic.settled_speed(20), 1) == 6.2 and round(traffic.settled_speed(35), 1) ==
 #   10.3 -->
 #
-# Which disturbances grow? Here are the rings again, and one with 30 m, for 800 s:
+# Here are the rings again for 800 s, with one of 30 m, and with larger and smaller disturbances:
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -222,15 +215,6 @@ for words in ("1 m/s", "3 m/s", "0.1 m/s less than the others"):
     rows.append(row)
 table(["one car begins at", "slowest car in the end, 20 m apart", "30 m", "35 m"], rows)
 
-# %%
-# NBVAL_CHECK_OUTPUT
-rows = []
-for a_max in (0.5, 1.0, 1.5):
-    quicker = dataclasses.replace(t, a_max=a_max)
-    slowest = traffic.ring(20, seconds=800, traffic=quicker)[1][-1].min()
-    rows.append([f"{a_max:g} m/s²", f"{slowest:.1f} m/s"])
-table(["a_max", "one car begins at 1 m/s: slowest car in the end, 20 m apart"], rows)
-
 # %% [markdown]
 # **See.** At 20 m a car that is 0.1 m/s too slow is enough for a jam, at 35 m a car at 1 m/s is
 # not. In between it depends: at 30 m a car that begins at 1 m/s starts a jam, one that begins at 3
@@ -238,20 +222,45 @@ table(["a_max", "one car begins at 1 m/s: slowest car in the end, 20 m apart"], 
 # <!-- claim: slowest(20, traffic.settled_speed(20) - 0.1) < 0.1 and slowest(30, 1.0) < 0.1 and
 #   slowest(30, 3.0) > 9.5 and slowest(35, 1.0) > 10.3 -->
 #
-# Where does the jam come from? A driver who has braked comes back to speed slowly, and the driver
-# behind meets a slower car for longer. Quicker drivers damp the wave: with $a_{\max}$ = 1.5 m/s²
-# the ring of 20 m has no jam; with 1 m/s² it still has one. Cars leave the jam at its front and
-# join it at its back, so the *jam* moves backwards.
-# <!-- claim: slowest(20, 1.0, 1.5) > 6.2 and slowest(20, 1.0, 1.0) < 0.1 -->
+# Which drivers prevent the jam at 20 m? Two suspects: drivers come back to speed slowly after they
+# have braked, so those behind them meet a slow car for longer; and they mind the closing speed too
+# little, the last term of $s^*$. Change one thing at a time.
+#
+# > **Predict.** *A:* all drivers accelerate up to three times as strongly, and $b$ is a third, so
+# > that the last term of $s^*$ stays what it is. *B:* $b$ alone is a third, so that this term
+# > becomes 1.7 times as large. Which of the two changes prevents the jam?
 
-# %% [markdown] tags=["instructor"] minutes=3
+# %%
+choices = ["A alone", "B alone", "each of them", "neither"]
+predict("traffic.4", "Which change prevents the jam?", choices)
+
+# %%
+# NBVAL_CHECK_OUTPUT
+tried = {"as it is": (1, 1), "A: stronger acceleration": (3, 1 / 3)}
+tried |= {"B: minds the closing speed more": (1, 1 / 3), "minds it less": (1, 3)}
+rows = []
+for name, (more, other) in tried.items():
+    drivers = dataclasses.replace(t, a_max=more * t.a_max, b=other * t.b)
+    slowest = traffic.ring(20, seconds=800, traffic=drivers)[1][-1].min()
+    term = f"times {1 / math.sqrt(more * other):.1f}"
+    rows.append([name, f"{drivers.a_max:g}", f"{drivers.b:.2f}", term, f"{slowest:.1f} m/s"])
+table(["drivers", "a_max (m/s²)", "b (m/s²)", "last term of s*", "slowest car in the end"], rows)
+
+# %% [markdown]
+# **Explain.** Each of the two prevents it in this ring. So the jam here needs both: drivers who are
+# slow to come back to speed *and* who react little to the closing speed. It moves backwards, since
+# cars leave it at its front and join it at its back.
+# <!-- claim: slowest(20, 1.0) < 0.1 and slowest(20, 1.0, 1.5, 0.5 / 3) > 6.2 and slowest(20, 1.0,
+#   0.5, 0.5 / 3) > 6.2 and slowest(20, 1.0, 0.5, 1.5) < 0.1 -->
+
+# %% [markdown] tags=["instructor"] minutes=5
 # Ask for a ring of 25 m: does the jam stay or dissolve? It depends on how slowly the first car
 # begins: `traffic.ring(25, first=5.0)` and `traffic.ring(25, first=1.0)` end differently. The ring
 # has two stable states there, as at 30 m.
 # <!-- claim: slowest(25, 5.0) > 8 and slowest(25, 1.0) < 0.1 -->
 
 # %% [markdown]
-# ## Round 3: two steps a second
+# ## Round 4: two steps a second
 #
 # To change lane, a traffic car turns towards a heading and back. It turns at a rate that is
 # proportional to the error: (wanted heading − heading) / τ, where τ is a **time constant**. Our
@@ -263,7 +272,7 @@ table(["a_max", "one car begins at 1 m/s: slowest car in the end, 20 m apart"], 
 
 # %%
 choices = ["it settles in one step", "it swings and settles", "it swings and grows"]
-predict("traffic.4", "What happens to the heading error at 2 Hz?", choices)
+predict("traffic.5", "What happens to the heading error at 2 Hz?", choices)
 
 # %% [markdown]
 # **Exercise (6 min, ●●○).** Write the heading error after each step of dt.
@@ -315,16 +324,18 @@ tried["ours, 2 Hz"] = (t.tau_heading, t.tau_lateral, 2)
 rows = []
 for name, numbers in tried.items():
     factor = 1 - 1 / numbers[2] / numbers[0]
-    rows.append([name, f"{factor:.2f}", *(f"{share:.0%}" for share in broken(*numbers))])
+    rows.append(
+        [name, f"{factor:.2f}".replace("-", "−"), *(f"{share:.0%}" for share in broken(*numbers))]
+    )
 headings = ["factor of a step", "roads where a car leaves the road", "where cars crash"]
 table(["time constants", *headings], rows)
 
 # %% [markdown]
 # **See.** With highway-env's time constants at 2 Hz, traffic cars leave the road although you do
 # nothing to disturb them. An agent that trains there learns to drive among cars that swerve off the
-# road, and its table of results does not show that. So we gave our own cars longer time constants,
-# and tested them as above. Before you believe a simulator, look at each of its cars, and not just
-# at the one that you train. (`bootcourse.road.formulas.lane_keeping_steering` is the controller.)
+# road, and its table of results does not show that. So our own cars have longer time constants.
+# Before you believe a simulator, look at all of its cars, and not just at the one that you train.
+# (`bootcourse.road.formulas.lane_keeping_steering` is the controller.)
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask where else a rate meets a time step: gradient descent with a learning rate times a curvature
@@ -338,7 +349,9 @@ table(["time constants", *headings], rows)
 # 2. The closer together cars settle, the slower they drive. If they are close, a small disturbance
 #    grows into a jam that travels backwards; farther apart a large one does, and a small one dies
 #    out; still farther apart both die out in the runs here.
-# 3. A simulated heading swings and grows if dt / τ exceeds 2, even though its differential equation
+# 3. Drivers who come back to speed quickly, or who mind the closing speed more, prevent the jam in
+#    the ring of 20 m.
+# 4. A simulated heading swings and grows if dt / τ exceeds 2, even though its differential equation
 #    is stable. Below 2 it settles on its own; whether the whole car does has to be tested.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
 #
@@ -361,7 +374,8 @@ compare_predictions(
         1: backwards,
         2: bc.formulas.desired_gap(10.0, 2.0, 10.0, 1.5, 0.5, 0.5),
         3: "brake",
-        4: "it swings and grows",
+        4: "each of them",
+        5: "it swings and grows",
     },
 )
 

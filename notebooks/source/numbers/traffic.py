@@ -3,7 +3,6 @@
 import dataclasses
 from functools import cache
 
-import numpy as np
 from bootcourse.course.lessons.traffic import simulation as traffic
 from bootcourse.scenario import DEFAULT
 
@@ -11,17 +10,13 @@ SETTLED = 32.5  # m; at this distance, centre to centre, a driver holds 10 m/s b
 
 
 @cache
-def lowest_speeds(slowest: float = 4.0) -> list[float]:
-    """Of traffic's eight drivers in a row, behind a leader that brakes from 10 m/s to `slowest` (m/s) for 20 s."""
-    ahead, speeds = np.repeat([10.0, slowest, 10.0], [60, 40, 140]), []
-    for _ in range(8):
-        ahead = traffic.behind(ahead, v=10.0, gap=SETTLED)[:-1, 1]
-        speeds.append(ahead.min())
-    return speeds
+def lowest_speeds(slowest: float) -> list[float]:
+    """Of traffic's eight drivers in a row, behind a leader that brakes from 10 m/s to `slowest` (m/s)."""
+    return [speeds.min() for speeds in traffic.row(traffic.leader(slowest))]
 
 
 @cache
-def slowest(spacing: float, first: float, a_max: float = 0.5) -> float:
+def slowest(spacing: float, first: float, a_max: float = 0.5, b: float = 0.5) -> float:
     """The speed (m/s) of the slowest car of a ring after 800 s, one of whose cars begins at `first` (m/s)."""
-    drivers = dataclasses.replace(DEFAULT.traffic, a_max=a_max)
+    drivers = dataclasses.replace(DEFAULT.traffic, a_max=a_max, b=b)
     return traffic.ring(spacing, first, seconds=800, traffic=drivers)[1][-1].min()

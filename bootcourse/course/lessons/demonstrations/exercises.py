@@ -131,7 +131,7 @@ def one_row(label):
 
 dagger = exercise(
     "DAgger, Algorithm 3.1 of arXiv 1011.0686; here the clone drives in each round",
-    minutes=20, difficulty=3, cases=dagger_cases, run=collecting,
+    minutes=12, difficulty=2, cases=dagger_cases, run=collecting,
     worked=[
         ((one_row(4), 0), np.array([4 + 1 / 64])),  # one driver; the numbers stand for what it was trained on
         ((one_row(4), 1), np.array([4 + 1 / 64, 4 + 0 * 2 + 2 * 3 + 4 * 4 + 4 / 64])),  # labels 0, 2, 4 of own drives

@@ -44,12 +44,15 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
     )
 
 
-def clones(measured: dict[str, np.ndarray], title: str) -> Figure:
-    """How clones drive: name -> (seeds, 3) shares of agreement, success and accidents; a dot for each seed."""
+def clones(measured: dict[str, np.ndarray], title: str, agree: str = "agree with their data (%)") -> Figure:
+    """How clones drive: name -> (seeds, 3) shares of agreement, success and accidents; a dot for each seed.
+
+    agree: what the first share is.
+    """
     figure = new_figure(1.1 + 0.55 * len(measured))
     alt_parts = {name: [] for name in measured}
     height = figure.get_figheight()
-    for k, label in enumerate(("agree with their data (%)", "success (%)", "have an accident (%)")):
+    for k, label in enumerate((agree, "success (%)", "have an accident (%)")):
         ax = figure.add_axes((0.27 + 0.245 * k, 0.4 / height, 0.21, 1 - 1.2 / height))
         for row, (name, values) in enumerate(measured.items()):
             shares = 100 * values[:, k]

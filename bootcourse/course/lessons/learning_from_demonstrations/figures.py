@@ -21,7 +21,7 @@ def margin_bars(q: Sequence[float], expert: int, margin: float = 1.0) -> Figure:
     ax.bar(at[others], margin, width=0.7, bottom=q[others], color="none", edgecolor=QUIET, linestyle=(0, (2, 2)))
     for x, value in zip(at, q, strict=True):
         ax.annotate(f"{value:.1f}", (x, value + 0.03), ha="center", va="bottom", fontsize=SMALL, color=INK)
-    for height, words in ((q.max(), "largest Q"), ((q + margin * others).max(), "largest Q + l")):
+    for height, words in ((q.max(), "largest Q"), ((q + margin * others).max(), "largest Q\n+ margin")):
         ax.axhline(height, color=QUIET, linewidth=1, linestyle=(0, (1, 2)), zorder=0)
         end = (len(q) - 0.5, height)
         ax.annotate(words, end, (6, 0), textcoords="offset points", va="center", fontsize=TEXT, color=INK)

@@ -52,7 +52,10 @@ def reasons_over_time(rollout: Rollout, title: str, enlarged: float = 15.0) -> F
     used = [Reason(reason) for reason in dict.fromkeys(reasons.tolist())]  # in the order in which they come
     height = 0.3 * len(used)
     figure = new_figure(height + 1.2)
-    for left, first, last in ((2.45, 0, enlarged), (4.75, enlarged, rollout.times[-1])):
+    for left, first, last, part, step in (
+        (2.45, 0, enlarged, f"the first {enlarged:g} s", 5),
+        (4.75, enlarged, rollout.times[-1], "the rest", 45),
+    ):
         ax = axes_at(figure, left, 0.65, 2.1, height)
         for row, reason in enumerate(used):
             bars = [(k / rate, 1 / rate) for k in np.flatnonzero(reasons == reason)]
@@ -61,7 +64,8 @@ def reasons_over_time(rollout: Rollout, title: str, enlarged: float = 15.0) -> F
         ax.set(xlim=(first, last), ylim=(len(used) - 0.5, -0.5))
         plain_axes(ax, "", grid="x")
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-        ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
+        ax.set_xticks(np.arange(first, last + 1, step))
+        ax.set_xlabel(f"time (s): {part}", fontsize=TEXT, color=INK)
     shares = ", ".join(f"{SENTENCES[r]} {np.mean(reasons == r):.0%}" for r in used)
     return finish(figure, title, f"Share of the decisions: {shares}.")
 

@@ -58,3 +58,17 @@ def behind(leader: np.ndarray, v: float, gap: float, dt: float = 0.5) -> np.ndar
     return drive_behind(
         leader, v, gap, dt, t.desired_speed, t.s0, t.time_gap, t.a_max, t.b, t.delta, t.braking_limit
     )  # fmt: skip
+
+
+def leader(slowest: float) -> np.ndarray:
+    """Speeds (m/s), in steps of 0.5 s, of a car that drives 10 m/s, brakes to `slowest` in 2 s, and recovers."""
+    return np.interp(0.5 * np.arange(240), [30, 32, 50, 54], [10.0, slowest, slowest, 10.0])
+
+
+def row(ahead: np.ndarray, drivers: int = 8) -> list[np.ndarray]:
+    """Speeds (m/s) of drivers of the traffic in a row, 10 m/s and 32.5 m apart at first, behind a car's speeds."""
+    speeds = []
+    for _ in range(drivers):
+        ahead = behind(ahead, v=10.0, gap=32.5)[:-1, 1]
+        speeds.append(ahead)
+    return speeds
