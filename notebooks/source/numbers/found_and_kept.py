@@ -95,19 +95,6 @@ def keepers(results: Results, method: str, measure: str) -> float:
     return float(results.of(method).scores(measure)[results.found_and_kept(method)[1]].mean())
 
 
-def lost_and_kept() -> Counted:
-    """Of the study's agents with the soft constraint that keep the way out: how many had lost it for a while.
-
-    Lost: after the first good window, fewer than half of some `WINDOW` episodes in a row ended ahead.
-    """
-    lost = []
-    for method in ("soft", "bootstrapped"):
-        for success in of(method).curves["success"][of_all().found_and_kept(method)[1]]:
-            ahead = np.lib.stride_tricks.sliding_window_view(success, WINDOW).mean(axis=1)
-            lost.append(ahead[np.argmax(ahead > 0.5) :].min() < 0.5)
-    return Counted(len(lost), sum(lost), len(lost))
-
-
 def elsewhere(method: str) -> Counted:
     """The agents with another γ or target entropy than the paper's, over all such changes: escaped is kept."""
     each = [agents.of(method) for change, agents in varied().items() if "γ" in change or "entropy" in change]
