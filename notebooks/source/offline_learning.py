@@ -18,7 +18,7 @@
 # - tell two methods apart that are both called CQL;
 # - say how far a method is from what is possible, by a planner's bound.
 #
-# **Time** 56 minutes; running it takes about one minute. **It builds on** demonstrations (lesson
+# **Time** 60 minutes; running it takes about one minute. **It builds on** demonstrations (lesson
 # [[demonstrations]]) and imitation ([[imitation]]).
 
 # %%
@@ -221,7 +221,7 @@ title = f"Without CQL's term the critic prefers {likes[0]}; with it, {likes[1]}"
 gamma = learner.settings[0].gamma
 most, weights = paper.earned_at(15, 1) / (1 - gamma), gamma ** np.arange(150)
 earned = np.mean([d.rewards[t:] @ weights[: 150 - t] for d in by_rule for t in range(20)])
-words = {f"possible: {most:.1f}": most, f"the rule earns {earned:.1f}": earned}
+words = {f"no drive is worth more than {most:.1f}": most, f"the rule earns {earned:.1f}": earned}
 label = "mean Q(s,a) on the way out, of the rule's action and of the best other"
 bc.show(charts.lines(asked, named, title, "update", label, marks=words, looks=looks))
 
@@ -427,9 +427,11 @@ bc.show(figures.shares_of_the_bound(study, compared, bound, marks | {"the planne
 # <!-- claim: 0 / bound().mean() == 0 < idle().rewards.sum() -->
 # <!-- claim: 100 * max(shipped_results().scores('returns')) / bound().mean() < 100 -->
 
-# %% [markdown] tags=["instructor"] minutes=5
-# Have them write the one sentence about baselines that they would put into the paper's abstract,
-# given our table, and let their neighbours cross out what ten seeds do not show.
+# %% [markdown] tags=["instructor"] minutes=9
+# Collect the guesses of the share before the table, and let them name what the rule loses on the
+# way to the bound. Then have them write the one sentence about baselines that they would put into
+# the paper's abstract, given our table, and let their neighbours cross out what ten seeds do not
+# show.
 
 # %% [markdown]
 # ## What you now know
