@@ -88,7 +88,7 @@ METHODS = {
         "bootcourse.learn.cql:CQLLearner",
     ),
     "cql_sac": Method(  # CQL's conservative term added to SAC's critics
-        "CQL with an actor", Style("#999933", "--", marker="s"), _BASELINE | {"beta_start": 1.0, "cql_weight": 1.0}
+        "CQL with an actor", Style("#5C5C1F", "--", marker="s"), _BASELINE | {"beta_start": 1.0, "cql_weight": 1.0}
     ),
     "gail": Method(
         "GAIL",

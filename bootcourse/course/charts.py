@@ -133,12 +133,13 @@ def many(
     reference: str,
     limits: tuple[float, float] | None = None,
     x_scale: str = "linear",
+    level: float | None = None,
 ) -> Figure:
     """A panel for each name, {name: (x (points,), values (seeds, points))}: a line for each seed.
 
     reference: the name of one that has no panel of its own and is drawn in grey in every other panel. All panels
-    share their axes; limits cuts the values' axis; x_scale: "linear" or "log". The alt text gives where every line
-    ends.
+    share their axes; limits cuts the values' axis; x_scale: "linear" or "log"; level: a dotted line in each panel. The
+    alt text gives where every line ends.
     """
     own = [name for name in named if name != reference]
     rows, below_title = math.ceil(len(own) / COLUMNS), 0.36 + 0.2 * wrapped(title).count("\n")
@@ -154,6 +155,8 @@ def many(
         ax = figure.add_axes((left / WIDTH, bottom / total, width / WIDTH, HEIGHT / total))
         x, values = named[reference]
         ax.plot(x, values.T, color="#9AA5B1", linewidth=1.0, zorder=2)
+        if level is not None:
+            ax.axhline(level, color=INK, linewidth=1, linestyle=(0, (1, 2)), zorder=1)
         x, values = named[label]
         ax.plot(x, values.T, color=OTHER.colour, linewidth=1.3, zorder=3)
         plain_axes(ax, "")

@@ -1,7 +1,7 @@
 """Drives from above, below each other: one moment as a figure, or a small GIF for a README or a slide.
 
-The camera keeps the ego and trap 1 in view, half-way between them, so that you see the one fall back
-and come again. Between two simulation steps every car moves in a straight line.
+The camera stands half-way between the ego and trap 1, so that you see the one fall back and come again,
+and goes on with the ego where both no longer fit. Between two simulation steps every car moves in a straight line.
 """
 
 import io
@@ -26,6 +26,7 @@ SPEED_UP = 3.0  # the clip is so many times faster than the road
 FRAME = 0.07  # s of clip that a frame is shown
 REST = 2.5  # s of clip that the last frame is shown
 VIEW = 86.0  # m of road in the picture
+ROOM = VIEW / 2 - 14.0  # m from the picture's middle to the ego, at most: it stays in sight if trap 1 cannot
 AFTER = 6.0  # s that the clip goes on after the last overtaking
 COLOURS = 96  # in the palette that all frames share
 
@@ -44,7 +45,7 @@ def frame(rollouts: Sequence[Rollout], time: float) -> Figure:
         top = i * (row + head) + head
         ax = axes_at(figure, side, top, width, row)
         ax.set_axis_off()
-        middle = (cars[EGO, X] + cars[TRAP_1, X]) / 2
+        middle = np.clip((cars[EGO, X] + cars[TRAP_1, X]) / 2, cars[EGO, X] - ROOM, cars[EGO, X] + ROOM)
         draw_moment(ax, rollout, now, -VIEW / 2, VIEW / 2, origin=middle)
         over = rollout.accident and now == rollout.times[-1]
         write = {"y": 1 - (top - 0.1) / total, "va": "baseline"}

@@ -74,9 +74,9 @@ def _name_trap(canvas: Canvas, cars, trap: int, left: float, right: float, origi
     """The trap's name in front of it, or behind it where there is no room; its distance where it is out of sight."""
     x, y, ahead, name = cars[trap, X] - origin, cars[trap, Y], cars[trap, X] - cars[EGO, X], f"trap {trap}"
     gaps = cars[np.abs(cars[:, Y] - y) < 2.5, X] - cars[trap, X]  # to the cars in and close to its lane
-    if x < left + half:
+    if x < left - half:
         canvas.words(left + 1, y, f"◂ {name}, {-ahead:.0f} m behind", INK)
-    elif x > right - half:
+    elif x > right + half:
         canvas.words(right - 1, y, f"{name}, {ahead:.0f} m ahead ▸", INK, "end")
     elif x + half + NAME > right or np.any((gaps > 0) & (gaps < 2 * half + NAME)):
         canvas.words(x - half - 0.8, y, name, INK, "end")

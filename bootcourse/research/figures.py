@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import GRID, QUIET, SMALL, finish, new_figure, plain_axes
+from bootcourse.plots.figure import GRID, INK, SMALL, TEXT, finish, new_figure, plain_axes
 from bootcourse.plots.training_curves import MEASURES, training_curves
 from bootcourse.research.paper import COLUMNS, PRINTED, RATES
 from bootcourse.research.results import Results
@@ -80,9 +80,9 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     title: "" for one that names the methods with the highest scores.
     """
     methods = [method for method in methods if method in results.methods]
-    height = 1.2 + 0.42 * len(methods)
+    height = 1.4 + 0.42 * len(methods)
     figure = new_figure(height)
-    ax = figure.add_axes((0.27, 0.6 / height, 0.68, 0.9 * 0.42 * len(methods) / height))
+    ax = figure.add_axes((0.27, 0.8 / height, 0.68, 0.42 * len(methods) / height))
     scale, words, label = 100 if column in RATES else 1, [], (COLUMNS | {"returns": "return"}).get(column, column)
     middles = {}
     for row, method in enumerate(methods):
@@ -98,8 +98,9 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     plain_axes(ax, "", grid="x")
     ax.set_yticks(range(len(methods)), [display_name(method) for method in methods])
     ax.set_ylim(len(methods) - 0.5, -0.5)
-    words_below = f"{label}; dots: agents; line: the 95 % interval of their interquartile mean; diamond: the paper"
-    ax.set_xlabel(words_below, fontsize=SMALL, color=QUIET)
+    ax.set_xlabel(label, fontsize=TEXT, color=INK)
+    key = "Dots: agents. Lines: the 95 % interval of their interquartile mean. Diamonds: the paper."
+    figure.text(0.012, 0.12 / height, key, fontsize=SMALL, color=INK)
     ax.spines["bottom"].set_color(GRID)
     best = max(middles.values(), key=lambda middle: middle.value)
     ahead = [display_name(m) for m, middle in middles.items() if middle is best or middle.high >= best.low]

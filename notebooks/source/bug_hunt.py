@@ -30,15 +30,14 @@ from bootcourse.course import charts, check, compare_predictions, predict, shipp
 from bootcourse.course.lessons.bug_hunt import bugs
 
 hunt = bugs.Hunt()
-print(f"{len(hunt.names)} agents, 2 seeds each, {bugs.UPDATES} updates of each")
+print(f"{len(hunt.names)} agents, 2 seeds each, {bugs.UPDATES:,} updates of each")
 
 # %% [markdown]
 # ## Look first
 #
 # Seven agents were trained with the paper's method. One is healthy. Each of the others, A to F,
 # has one **silent bug**: a line that is wrong, raises nothing and prints nothing. Training them
-# takes some minutes, so their networks and curves ship with the kit (the line above says how long
-# they trained). The curves are those of the training, and the agents drive here as they learned to.
+# takes some minutes, so their networks and curves ship with the kit.
 # <!-- claim: len(bugs.LEARNERS) == 7 -->
 
 # %% tags=["nbval-ignore-output"]
@@ -77,9 +76,9 @@ predict("bug_hunt.1", "How many of the broken agents still succeed in training?"
 # %% [markdown]
 # ## Round 1: the curves
 #
-# Grey lines are the healthy agent's two seeds, violet lines the two seeds of the agent whose letter
-# stands above the panel. The trainings have the same number of updates. An agent that crashes early
-# has short episodes, so it drives more of them; that is why the axis is logarithmic.
+# Grey lines are the healthy agent's two seeds, violet lines those of the agent whose letter stands
+# above the panel. All trainings have the same number of updates. An agent that crashes early has
+# short episodes, so it drives more of them: hence the logarithmic axis.
 
 # %%
 episode, share = "training episode (logarithmic)", "success in the last 30 episodes (%)"
@@ -89,13 +88,16 @@ bc.show(charts.many(curves, title, episode, share, reference="healthy", x_scale=
 
 # %%
 late, last = hunt.at_the_end("success"), hunt.at_the_end("return")
-rows = [[n, f"{100 * late[n].mean():.0f} %", f"{last[n].mean():.0f}"] for n in hunt.names]
-table(["at the end of training", "success", "return"], rows, "Means of two seeds.")
+rows = [
+    [n, *(" and ".join(f"{x:.0f}" for x in seeds) for seeds in (100 * late[n], last[n]))]
+    for n in hunt.names
+]
+table(["at the end of training, two seeds", "success, %", "return"], rows)
 
 # %% [markdown]
-# **See.** Code can be wrong although its curve looks right. Three of the six broken agents succeed
-# at the end as often as the healthy one, and a fourth in over 80 % of its last episodes. The agent
-# with the highest return has a bug. (F's two seeds differ: {{ seeds_of('F') }} %.)
+# **See.** Code can be wrong although its curve looks right. By the mean of their two seeds, three
+# of the six broken agents succeed at the end as often as the healthy one, and a fourth in over 80 %
+# of its last episodes. The agent with the highest return has a bug.
 # <!-- claim: sum(hunt().at_the_end('success')[n].mean() >=
 #   hunt().at_the_end('success')['healthy'].mean() for n in 'ABCDEF') == 3 -->
 # <!-- claim: sum(hunt().at_the_end('success')[n].mean() > 0.8 for n in 'ABCDEF') == 4 -->
@@ -137,21 +139,23 @@ check.end_error(end_error)
 
 # %% [markdown]
 # During training each agent was asked this about its own accidents, every {{ bugs.EVERY }} updates.
-# The picture shows Q itself; right is {{ DEFAULT.reward.accident }}.
+# The picture shows Q itself.
 # <!-- claim: set(np.diff(hunt().updates)) == {bugs.EVERY} -->
 
 # %% tags=["hide-input"]
 probes = hunt.probes("end")
-title = "A critic should value its own accidents at −10"
+title = "One agent values its own accidents far below −10"
 bc.show(
-    charts.many(probes, title, "updates", "Q where an accident followed (right: −10)", "healthy")
+    charts.many(
+        probes, title, "updates", "Q where an accident followed (dotted: −10)", "healthy", level=-10
+    )
 )
 
 # %% [markdown]
 # **See.** Even the healthy critics stay above {{ DEFAULT.reward.accident }}. We think that a critic
-# averages over decisions that look alike, and that most of those that look like one before an
-# accident did not end in one. So judge a probe against the healthy agent, and not against the
-# ideal: which agent leaves the grey lines, and in which direction?
+# averages over decisions that look alike, most of which did not end in an accident. So judge a
+# probe against the healthy agent, and not against the ideal: which agent leaves the grey lines, and
+# in which direction?
 # <!-- claim: (hunt().probe('healthy', 'end')[:, -1] > DEFAULT.reward.accident + 1).all() -->
 #
 # > **Predict.** The road pays at most about 1 a second, and γ = {{ SETTINGS.gamma }}. The value
@@ -168,7 +172,13 @@ probes = hunt.probes("promise")
 title = "Two agents promise far more than the healthy one"
 bc.show(
     charts.many(
-        probes, title, "updates", "promise Σ π Q, cut off at 20", "healthy", limits=(-2, 20)
+        probes,
+        title,
+        "updates",
+        "promise Σ π Q, cut off at 20 (dotted: 5)",
+        "healthy",
+        limits=(-2, 20),
+        level=1 / (1 - gamma),
     )
 )
 
@@ -189,8 +199,7 @@ bc.show(
 # %% [markdown]
 # ## Round 3: ask the actor about the rule
 #
-# The other probes look at the policy, on seconds that the *rule* drove, the same seconds for each
-# agent.
+# The other probes look at the policy, on seconds that the *rule* drove, the same for each agent.
 #
 # - **entropy** of π, in nats: 0 is sure of one action, log {{ N_ACTIONS }} ≈ {{ math.log(N_ACTIONS)
 #   | .1f }} is the same probability for each action;
@@ -198,30 +207,11 @@ bc.show(
 #   curve, `hunt.probes("alike")`);
 # - **late**: the same with what the rule does *one second later*;
 # - **rarest**: the logarithm of the smallest of the nine probabilities.
-#
-# Two more kinds of curves are in the file, if you need them: `hunt.probes("kl")`, and the
-# temperature, `hunt.curves("alpha")`.
 
 # %% tags=["hide-input"]
 probes = hunt.probes("entropy")
-title = "How undecided are the policies?"
+title = "One agent stays far more undecided than the healthy one"
 bc.show(charts.many(probes, title, "updates", "entropy of π (nats)", reference="healthy"))
-
-# %%
-early, rows = slice(2, 6), []  # after 500 to 1,250 updates
-for name in hunt.names:
-    now, after = (hunt.probe(name, what)[:, early].mean(1) for what in ("alike", "late"))
-    least = hunt.probe(name, "rarest")[:, -1]
-    for seed in range(2):
-        cells = [f"{100 * now[seed]:.0f}", f"{100 * after[seed]:.0f}", f"{least[seed]:.1f}"]
-        rows.append([f"{name}, seed {seed}", *cells])
-headings = ["", "as the rule now, %, early", "as one second later, %, early"]
-table([*headings, "rarest action, log π, at the end"], rows)
-
-# %% tags=["hide-input"]
-probes = hunt.probes("rarest")
-title = "Which agents keep their rarest action likely?"
-bc.show(charts.many(probes, title, "updates", "log of the rarest action's probability", "healthy"))
 
 # %% [markdown]
 # > **Predict.** KL(π‖π̃) charges the policy for going where the rule would not. The flipped one
@@ -232,14 +222,25 @@ bc.show(charts.many(probes, title, "updates", "log of the rarest action's probab
 choices = ["it drops it", "it keeps it a little likely", "it makes it the favourite"]
 predict("bug_hunt.4", "What does the policy do to such an action, with the flipped KL?", choices)
 
+# %%
+early, rows = slice(2, 6), []  # after 500 to 1,250 updates
+for name in hunt.names:
+    shares = [100 * hunt.probe(name, what)[:, early].mean(1) for what in ("alike", "late")]
+    rows.append([name, *(" and ".join(f"{x:.0f}" for x in seeds) for seeds in shares)])
+table(["early, two seeds", "as the rule now, %", "as the rule one second later, %"], rows)
+
+# %% tags=["hide-input"]
+probes = hunt.probes("rarest")
+title = "Two agents keep their rarest action likelier than the healthy one"
+bc.show(charts.many(probes, title, "updates", "log of the rarest action's probability", "healthy"))
+
 # %% [markdown]
-# **Explain.** Read the table and the last picture with that question. The stochastic rule gives one
-# in eighty to each action that the rule does not take. With the right KL the policy may drop such
-# an action: dropping it costs little. The flipped KL grows without bound when the probability of
-# one of the nine goes to zero. So the two policies agree with the rule about as often, and differ
-# in what they do with rare actions. (A little likely is very little: a log π of −16 is a
-# probability of 10⁻⁷, one of −37 is 10⁻¹⁶. In *two* panels it stays likelier than in the healthy
-# agent; Round 4 tells these agents apart.)
+# **Explain.** The stochastic rule gives one in eighty to each action that the rule does not take.
+# With the right KL dropping such an action costs little. The flipped KL grows without bound when
+# the probability of one of the nine goes to zero. So the two policies agree with the rule about as
+# often, and differ in their rare actions. (A little likely is very little: a log π of −16 is a
+# probability of 10⁻⁷, one of −37 is 10⁻¹⁶.) *Two* agents keep theirs likelier than the healthy one;
+# Round 4 tells them apart.
 # <!-- claim: math.isclose((1 - RULE_P) / (N_ACTIONS - 1), 1 / 80) -->
 # <!-- claim: round(-16 / math.log(10)) == -7 and round(-37 / math.log(10)) == -16 -->
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'rarest')[:, -1].min() > -20} == {'A', 'B'}
@@ -252,9 +253,9 @@ predict("bug_hunt.4", "What does the policy do to such an action, with the flipp
 # %% [markdown]
 # ## Round 4: watch them drive
 #
-# In training the agents draw their actions from π. With the most probable action alone they may
-# drive better, or worse. Here the first seed of each agent drives both ways, on 200 roads that it
-# has not seen.
+# In training the agents draw their actions from π. With the most probable action they may drive
+# better, or worse. Here the first seed of each agent drives both ways, on 200 roads that it has not
+# seen.
 
 # %%
 rows = []
@@ -270,9 +271,8 @@ table(headings, rows)
 
 # %% [markdown]
 # **See.** In these 200 drives one agent succeeds nearly always with its most probable action, and
-# in less than half of the drives with drawn ones. It seems to have learned the rule and the rule's
-# noise, and nothing from Q. Which bug would keep Q out of the actor's gradient? (And read success
-# beside accidents: a crash after overtaking counts as both.)
+# in less than half of the drives with drawn ones. Which part of the learner seems to have taught it
+# nothing? (Read success beside accidents: a crash after overtaking counts as both.)
 # <!-- claim: drive_episodes(hunt().agent('B').as_policy(), held_out_seeds(12, 200)).success.mean()
 #   > 0.9 -->
 # <!-- claim: drive_episodes(hunt().agent('B').as_policy(np.random.default_rng(0)),
@@ -296,7 +296,8 @@ check.diagnose(diagnose)
 # - **A**: the last picture of Round 3 *and* Round 4. Two agents keep their rarest action likelier
 #   than the healthy one, A and B. By drawn actions A succeeds about as often as the healthy agent,
 #   so Q reaches its policy: only the KL is left.
-# - **B**: Round 4. It fails as soon as its actions are drawn, and its entropy hardly falls.
+# - **B**: Round 4. It fails as soon as its actions are drawn, and its entropy hardly falls: it has
+#   learned the rule and the rule's noise, and nothing from Q.
 # - **C**: the table of Round 3. Early it agrees with the rule of *now* less often than all but F,
 #   whose critic has left all bounds; and its column of one second later is nearly as large as that
 #   of now. (The rule often does the same for several seconds.)
@@ -330,13 +331,11 @@ check.diagnose(diagnose)
 #
 # Two of the six bugs are in that line: the bonus belongs to demonstrations alone, and after an
 # accident there is no next value. Without the factor (1 − terminated), the target of an accident
-# contains the value that the critic gives to a car that has just crashed. That state looks like the
-# seconds before an accident, so its value is low, and the {{ DEFAULT.reward.accident }} is counted
-# again and again. If the state stayed the same, Q would fall towards {{ DEFAULT.reward.accident /
-# (1 - SETTINGS.gamma) | .0f }}.
-#
-# On this road the bug makes an accident look worse than it is. In a task whose episodes end at a
-# goal, the reward of the goal would be counted again and again.
+# contains the value of a car that has just crashed. That state looks like the seconds before an
+# accident, so its value is low, and the {{ DEFAULT.reward.accident }} is counted again and again.
+# If the state stayed the same, Q would fall towards {{ DEFAULT.reward.accident /
+# (1 - SETTINGS.gamma) | .0f }}. (On this road the bug makes an accident look worse than it is. In a
+# task whose episodes end at a goal, the goal's reward would be counted again and again.)
 # <!-- claim: any((hunt().probe(n, 'end')[:, -1] < DEFAULT.reward.accident).all() for n in
 #   'ABCDEF') -->
 #
@@ -354,23 +353,19 @@ check.diagnose(diagnose)
 #
 # In the critic's target the draw adds noise and leaves the mean as it is. In the actor's loss it is
 # fatal: Q is held fixed, so it drops out of the actor's gradient. The next cell is the test that
-# finds it: the mean gradient has to be that of the expectation. A drawn action *can* be trained,
-# with log π(a) · (Q − V), the bracket held fixed: the third row, called REINFORCE.
+# finds it: the mean gradient has to be that of the expectation.
 
 # %%
 torch.manual_seed(0)
 logits = torch.zeros(1, 9, requires_grad=True)
 q = torch.tensor([[0.0, 0, 0, 0, 0, 0, 0, 5, 0]])
-names = ("the expectation", "one drawn action", "log π(a) · (Q − V)")
-gradients = {name: torch.zeros(9) for name in names}
+gradients = {name: torch.zeros(9) for name in ("the expectation", "one drawn action")}
 for _ in range(1000):
     log_pi = logits.log_softmax(-1)
     action = torch.multinomial(log_pi.exp(), 1)
-    values = q - 0.01 * log_pi
-    expected = bc.sac.soft_value(log_pi, q, torch.tensor(0.01))
-    above = (values.gather(-1, action) - expected[:, None]).detach()
-    each = expected, values.gather(-1, action), log_pi.gather(-1, action) * above
-    for name, value in zip(names, (one.sum() for one in each), strict=True):
+    drawn = (q - 0.01 * log_pi).gather(-1, action).sum()
+    expected = bc.sac.soft_value(log_pi, q, torch.tensor(0.01)).sum()
+    for name, value in zip(gradients, (expected, drawn), strict=True):
         gradients[name] += torch.autograd.grad(value, logits, retain_graph=True)[0][0] / 1000
 rows = [[name, f"{abs(gradient[7]):.2f}"] for name, gradient in gradients.items()]
 table(
@@ -390,9 +385,8 @@ table(
 #
 # One of them lets the actor's loss change the critic, since here one optimiser step serves both: Q
 # rises wherever the policy likes an action. In which panel of Round 2 did the promise leave the
-# axes? (Many programs have an optimiser for each network and compute Q anew for the actor. There
-# the critic's optimiser deletes that gradient before its own step, and the same missing line does
-# not change the critic.)
+# axes? (In a program with an optimiser for each network, the critic's optimiser deletes that
+# gradient before its own step.)
 #
 # The repairs are `q.detach()`, and a KL that is weighed by π: Σ π (log π − log π̃).
 #
@@ -420,24 +414,20 @@ check.unmasks(unmasks)
 # %% [markdown]
 # ### The labels
 #
-# After a drive the rule was asked about its T + 1 states, in order,
-# and the buggy version took `asked[1:]` as the labels of the T decisions: one second late.
+# After a drive the rule was asked about its T + 1 states, in order, and the buggy version took
+# `asked[1:]` as the labels of the T decisions: one second late.
 #
-# Each buggy learner is the right one with one piece exchanged. Here are four of the six:
+# Each buggy learner is the right one with one piece exchanged. Here are three of the six:
 
 # %% tags=["nbval-ignore-output"]
-source(
-    "bootcourse.course.lessons.bug_hunt.bugs", "NoEnd", "BonusForAll", "ShiftedLabels", "FlippedKL"
-)
+source("bootcourse.course.lessons.bug_hunt.bugs", "Sampled", "NoStop", "ShiftedLabels")
 
 # %% [markdown]
 # **Explain.** A teacher hides bugs. Its demonstrations and the soft constraint lead the policy out
 # of the trap even if another part of the learner is wrong; we think that this is why some of the
-# six do little damage here. Compare lesson [[update_and_loop]]: there the factor (1 − terminated)
-# is left out on a pole, without a teacher. And a bug that raises the return is dangerous, since few
-# people search for a mistake in a good result. (With the bonus paid for the agent's own driving,
-# the reward is a different one. It may suit this road, but it is not the method that the paper
-# describes.)
+# six do little damage here. And a bug that raises the return is dangerous, since few people search
+# for a mistake in a good result. (With the bonus paid for the agent's own driving, the reward is a
+# different one: it may suit this road, but it is not the paper's method.)
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let pairs write the test of the labels on paper. Then ask which of the six their own programs

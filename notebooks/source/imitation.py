@@ -39,14 +39,15 @@ from bootcourse.course import (
 from bootcourse.course.lessons.imitation import figures as figures_baselines
 from bootcourse.course.lessons.imitation.reachable_entropy import by_entropy
 from bootcourse.learn.gail import GAILLearner
-from bootcourse.research import paper, planner, report, results, tables
+from bootcourse.research import paper, report, results, tables
 
 # %% [markdown]
 # ## Look first
 #
 # Two agents drive on the same road. Both learned from the same {{ SETTINGS.demonstration_episodes
-# }} drives of the rule, one by behaviour cloning (BC), one by GAIL. Both get ahead of trap 1. Watch
+# }} drives of the rule, one by GAIL, one by behaviour cloning (BC). Both get ahead of trap 1. Watch
 # what happens afterwards. (We chose the GAIL drive, among 100, for what happens.)
+
 # %% [markdown] tags=["instructor"] minutes=4
 # Let people say which of the two copies the rule and which only looks as if. Ask what each was
 # told, and what it had to find out.
@@ -60,11 +61,11 @@ by_gail = [
 leaves = [d for d in by_gail if d.success and d.accident and len(d.actions) > 30]
 gail = min(leaves, key=lambda drive: len(drive.actions))  # the shortest of these
 clone = bc.record(bc.shipped_agents("bc")[0].as_policy(), [gail.seed], label="bc")[0]
-bc.recording([shipped.beginning(drive, 50) for drive in (clone, gail)], height=480)
+bc.recording([shipped.beginning(drive, 50) for drive in (gail, clone)], height=480)
 
 # %% tags=["hide-input"]
 rows = [
-    [bc.display_name(d.label), bc.words.outcome(d), f"{d.rewards.sum():.1f}"] for d in (clone, gail)
+    [bc.display_name(d.label), bc.words.outcome(d), f"{d.rewards.sum():.1f}"] for d in (gail, clone)
 ]
 table(["", "in the end", "return"], rows)
 
@@ -106,38 +107,22 @@ predict(
 #   of('gail').agents[0]['beta_start'] < 1 and 0 < of('bootstrapped').agents[0]['beta_start'] < 1
 #   -->
 #
-# Our **GAIL is off-policy**: its agent is SAC, which learns from a buffer. GAIL's authors used a
-# learner that learns from its newest drives alone (*on-policy*, as PPO in lesson
-# [[the_second_trap]]). The version with a buffer is also called DAC, *discriminator-actor-critic*;
-# DAC rewards the state after an episode's end, too, where ours gives 0.
+# BC and CQL are **offline**: they learn from recorded drives alone. Each of the other learners
+# makes more than 200,000 decisions of its own. SAC and our GAIL, whose agent is SAC, are
+# *off-policy*: they learn from a buffer, also from decisions that an older policy made, or another
+# driver. (GAIL's authors used a learner that learns from its newest drives alone, *on-policy*, as
+# PPO in lesson [[the_second_trap]]. With a buffer it is also called DAC,
+# *discriminator-actor-critic*.)
+# <!-- claim: min(own_decisions(m) for m in ('gail', 'sac', 'bootstrapped')) > 200_000 and
+#   {settings_for(m).beta_start for m in ('bc', 'cql')} == {1} -->
 #
-# BC and CQL are **offline**: they learn from recorded drives alone. The other learners drive. SAC
-# is *off-policy*: it also learns from decisions that an older policy made, or another driver. So
-# demonstrations can stand in its memory.
-#
-# Behaviour cloning has no row in the paper's table; in ours it has one. The price of each method:
+# Now the paper's table, beside ours: ten agents of each method, {{ roads() | , }} held-out roads.
+# The paper prints mean ± standard deviation, and no row for behaviour cloning. Ours are means over
+# agents with their 95 % interval (the rule's: over the roads).
 # <!-- claim: 'bc' not in PRINTED and len(of('bc')) == 10 -->
 
 # %%
-study, demonstrations = bc.shipped_results(), bc.collect(200)
-rows = []
-for method in ("bc", "cql", "gail", "sac", "bootstrapped"):
-    its = study.of(method).agents[0]
-    updates = figures_baselines.updates_made(study.of(method))[:, -1].mean()
-    shown = f"{len(demonstrations):,}" if its["beta_start"] > 0 else "0"
-    decisions = updates * its["envs_per_agent"] / its["updates"]
-    own = "0" if its["beta_start"] == 1 else f"{decisions:,.0f}"
-    rows.append([bc.display_name(method), shown, own, f"{updates:,.0f}"])
-own = f"up to {planner.Search().beam * 9 * 150:,} for each road"
-rows.append([bc.display_name("planner"), "0", own, "0"])
-table(["decisions that it uses", "the rule's", "its own", "updates, about"], rows)
-
-# %% [markdown]
-# Now the paper's table, beside ours: ten agents of each method, {{ roads() | , }} held-out roads.
-# The paper prints mean ± standard deviation. Our returns are interquartile means over agents with
-# their 95 % interval (the rule's: its mean over the roads).
-
-# %%
+study = bc.shipped_results()
 rule = report.rule_results(bc.DEFAULT, study.tested["returns"].shape[1])
 everyone = results.join([results.Results(study.agents, study.stopped, study.tested, {}), rule])
 rows = []
@@ -145,9 +130,7 @@ for method in ("bc", "cql", "gail", "sac", "rule", "bootstrapped"):
     cells, printed = [], paper.PRINTED.get(method)
     for column in ("success", "returns"):
         cells.append(f"{printed[column].mean:g} ± {printed[column].sd:g}" if printed else "")
-        mean = f"{100 * everyone.of(method).episodes(column).mean():.1f}"
-        score = tables.bracketed(tables.score(everyone, method, column))
-        cells.append(score if column == "returns" else mean)
+        cells.append(tables.bracketed(tables.score(everyone, method, column, np.mean)))
     rows.append([bc.display_name(method), *cells])
 headings = ["success, %: paper", "ours", "return: paper", "ours"]
 table(["", *headings], rows)
@@ -180,9 +163,8 @@ table(["", *headings], rows)
 #
 # A clone copies actions, one state at a time. GAIL asks for more: the agent should *visit* the same
 # states as the rule, and do there what the rule does. A driver's **occupancy measure** ρ(s, a) is
-# the share of its decisions in which it is in state s and takes action a. Two drivers with the same
-# ρ do the same in the states that they visit. Here is a coarse picture of ρ: the share of the
-# decisions on a few stretches of the road, whatever the action:
+# the share of its decisions in which it is in state s and takes action a. Here is a coarse picture
+# of it: the share of the decisions on a few stretches of the road, whatever the action:
 
 # %%
 edges = [-40, -25, -15, -5]
@@ -332,9 +314,9 @@ table(headings, rows)
 # %% [markdown]
 # ### Is it the target entropy?
 #
-# The study's GAIL agents have the paper's η = −1 nat, which nine actions cannot reach: α falls at
-# each update (lesson [[discrete_sac]]). So ten more were trained for {{ UPDATES | , }} updates,
-# five with η = −1, and five, with the same seeds, with η = 0.3 log 9:
+# The study's GAIL agents have the paper's η = −1 nat, which nine actions cannot reach (lesson
+# [[discrete_sac]]). So ten more were trained for {{ UPDATES | , }} updates, five with η = −1, and
+# five, with the same seeds, with η = 0.3 log 9:
 
 # %% tags=["hide-input"]
 rows = []
@@ -346,11 +328,10 @@ headings = ["η, nat", "agents that escape", "return, mean", "accidents of the f
 table(headings, rows)
 
 # %% [markdown]
-# **See.** η may matter, but five agents do not show it. With the reachable η all five escape, and
-# four of them have an accident in hardly more than 1 % of their drives, where each of the five with
-# η = −1 has one in 6 % or more. But the fifth leaves the road in almost half of its drives (p of a
-# rank-sum test: {{ accidents_p() | .2f }}). So what this lesson says about GAIL's accidents is
-# about GAIL with η = −1.
+# **See.** η may matter, but five agents do not show it. With the reachable η four of them hardly
+# have accidents, and the fifth leaves the road in almost half of its drives (p of a rank-sum test:
+# {{ accidents_p() | .2f }}). So what this lesson says about GAIL's accidents is about GAIL with
+# η = −1.
 # <!-- claim: escapes(with_entropy(REACHABLE).scores('success')).value == 1 and
 #   np.sort(with_entropy(REACHABLE).scores('accident'))[3] < 0.015 and
 #   with_entropy(REACHABLE).scores('accident').max() > 0.4 and
@@ -365,8 +346,8 @@ table(headings, rows)
 #
 # Now train two agents by GAIL. The loss and the reward are yours if they have passed their checks;
 # the first line that the cell prints says whose they are. 2,500 updates are few, as Round 4 shows.
-# (An *R1 penalty* is added to the loss, on
-# the square of the gradient of x at the rule's pairs. It keeps the discriminator smooth.)
+# (An *R1 penalty* on the square of the gradient of x at the rule's pairs keeps the discriminator
+# smooth.)
 # <!-- claim: settings_for('gail').gradient_penalty > 0 -->
 
 # %%
@@ -407,8 +388,7 @@ table(headings, rows)
 # **See.** (These two were trained on your machine: your numbers will differ from ours.) A
 # discriminator that says D = ½ to everything has a loss of 2 log 2, the dotted line. The second
 # part of its loss, −E log (1 − D), is what the agent is paid on average: less if it is recognised.
-# In our run one of the two brakes to a stop in most of its drives. Which row would you have
-# reported, if you had trained one?
+# Which row of the table would you have reported, if you had trained one agent?
 #
 # > **Predict.** Now pay log D instead, for as many updates, of which there is one for each four
 # > decisions. How many episodes will each agent drive: fewer than these, about as many, or more
@@ -459,19 +439,16 @@ predict("imitation.5", "Who needs fewer updates until half of the drives succeed
 bc.show(figures_baselines.success_in_training(study))
 
 # %% [markdown]
-# **See.** (BC's and CQL's agents drive along so that their success can be counted; they do not
-# learn from these drives.) GAIL needs {{ slower('updates') | .1f }} times the updates of CQL
-# (medians of agents, the dots), and an update of GAIL is more work. Each of the three would look
-# like a failure if its training had been stopped early enough.
+# **See.** GAIL needs {{ slower('updates') | .1f }} times the updates of CQL, and an update of GAIL
+# is more work. Each of the three would look like a failure if its training had been stopped early
+# enough. (BC's and CQL's agents drive along so that their success can be counted; they do not learn
+# from these drives.)
 # <!-- claim: 3 < slower('updates') < 4.5 and settings_for('gail').batch >
 #   settings_for('cql').batch -->
 #
-# Would GAIL gain from more updates? Ten more of its agents were trained with the setting of lesson
-# [[found_and_kept]], round 5: eight times as many updates for each decision, demonstrations by π̃,
-# and {{ shipped_results('paper').curves['success'].shape[1] | , }} episodes. {{ escaped('gail',
-# 'paper') }} of them escape, where {{ escaped('gail') }} did. Ten agents cannot tell these two
-# numbers apart (Fisher's p is {{ fisher(escaped('gail'), escaped('gail', 'paper'))
-# | .2f }}), so no gain shows.
+# Would GAIL gain from more updates? Ten more agents had eight times as many for each decision (the
+# setting of lesson [[found_and_kept]], round 5). {{ escaped('gail', 'paper') }} of them escape,
+# where {{ escaped('gail') }} did: no gain shows.
 # <!-- claim: len(shipped_results('paper').of('gail')) == 10 and escaped('gail', 'paper') <=
 #   escaped('gail') and fisher(escaped('gail'), escaped('gail', 'paper')) > 0.3 -->
 # <!-- claim: settings_for('gail', 'paper').updates / settings_for('gail',
@@ -481,9 +458,9 @@ bc.show(figures_baselines.success_in_training(study))
 # **Explain.** Next to a badly trained baseline a new method looks good. So check a baseline where
 # others have published what can be reached, before you believe a table in which it loses. The
 # command `bootcourse study checks` trains the very classes of this course on CartPole and Acrobot;
-# our last run ships as `assets/checks.md`. The authors of the library *imitation* reach {{
-# checked(3, 'published') }} with GAIL on a CartPole of fixed length, and so do our agents (500 is
-# the most that it can pay). (There γ is 0.99 and η can be reached; the study's GAIL has neither.)
+# our last run ships as `assets/checks.md`. With GAIL on a CartPole of fixed length the authors of
+# the library *imitation* reach {{ checked(3, 'published') }}, the most that it can pay, and so do
+# our agents (there with γ = 0.99 and an η that can be reached).
 # <!-- claim: checked(3, 'learner').startswith('GAIL') and checked(3, 'reached') == 'yes' -->
 
 # %% [markdown] tags=["instructor"] minutes=6

@@ -49,13 +49,3 @@ wrong_lines("""offline_loss
     with half of it detached: squares = with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, 0.0)
         squares + weight * functional.cross_entropy(q.detach(), actions)  # slope in `q` is wrong
 """)
-
-right_lines("""share_of_the_bound
-    of sums: returns.sum(axis=1) / bound.sum()
-    weighted: np.average(returns / bound, axis=1, weights=bound)
-""")
-
-wrong_lines("""share_of_the_bound
-    by road: returns.mean(axis=0) / bound
-    of the middle road: np.median(returns, axis=1) / np.median(bound)
-""")

@@ -9,11 +9,6 @@ from tools.course.known import drive_episodes, held_out_seeds
 hunt = cache(bugs.Hunt)  # the agents of the bug hunt
 
 
-def seeds_of(name: str) -> str:
-    """An agent's success at the end of training, in %: "80 and 0", of its two seeds."""
-    return " and ".join(f"{100 * value:.0f}" for value in hunt().at_the_end("success")[name])
-
-
 def early(name: str, what: str = "alike") -> float:
     """How often an agent does as the rule now ("alike") or a second later ("late"), after 500 to 1,250 updates."""
     return hunt().probe(name, what)[:, 2:6].mean()

@@ -95,19 +95,6 @@ def keepers(results: Results, method: str, measure: str) -> float:
     return float(results.of(method).scores(measure)[results.found_and_kept(method)[1]].mean())
 
 
-def lost_and_kept() -> Counted:
-    """Of the study's agents with the soft constraint that keep the way out: how many had lost it for a while.
-
-    Lost: after the first good window, fewer than half of some `WINDOW` episodes in a row ended ahead.
-    """
-    lost = []
-    for method in ("soft", "bootstrapped"):
-        for success in of(method).curves["success"][of_all().found_and_kept(method)[1]]:
-            ahead = np.lib.stride_tricks.sliding_window_view(success, WINDOW).mean(axis=1)
-            lost.append(ahead[np.argmax(ahead > 0.5) :].min() < 0.5)
-    return Counted(len(lost), sum(lost), len(lost))
-
-
 def elsewhere(method: str) -> Counted:
     """The agents with another γ or target entropy than the paper's, over all such changes: escaped is kept."""
     each = [agents.of(method) for change, agents in varied().items() if "γ" in change or "entropy" in change]
@@ -178,9 +165,20 @@ def holm() -> dict[str, float]:
     return corrected
 
 
-def p_and_holm(name: str) -> str:
-    """This p value and the corrected one, as a table's cells."""
-    return f"{_short(p_values()[name])} | {_short(holm()[name])}"
+def comparison(name: str) -> str:
+    """A row of the lesson's table, without its first cell: who keeps the way out, p, and p after Holm."""
+    open_numbers, paper = ((clocks()["1/4", "μ"], "demos"), (clocks()["2", "π̃"], "demos")), shipped_results("paper")
+    kept = {
+        "keeping": f"{kept_of('demos', True)} against {kept_of('demos', False)} that found it",
+        "keeping, both": f"{kept_of('bootstrapped', True)} against {kept_of('bootstrapped', False)}",
+        "trend": soft_kept(),
+        "updates": f"{of_updates('1/4')} against {of_updates('2')}",
+        "driver": f"{of_driver('μ')} against {of_driver('π̃')}",
+        "choices": kept_against(*open_numbers),
+        "bonus, margin": kept_against((paper, "demos"), (paper, "margin")),
+        "bonus, margin, with ξ": kept_against((paper, "bootstrapped"), (paper, "margin_soft")),
+    }
+    return f"{kept[name]} | {_short(p_values()[name])} | {_short(holm()[name])}"
 
 
 def soft_kept() -> str:

@@ -1,12 +1,8 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-from functools import cache
-
 import numpy as np
-from bootcourse.research.paper import PRINTED
 from bootcourse.research.tables import bracketed  # noqa: F401 (the text names it)
 from bootcourse.statistics import ESCAPES, Estimate, interval, iqm, power, rate
-from scipy import stats
 from tools.course.known import escaped, escapers, fisher, of, shipped_experiment
 
 
@@ -32,25 +28,10 @@ def nearest_to_iqm(method: str) -> float:
     return float(np.abs(returns - iqm(returns)).min())
 
 
-def with_one_agent(method: str) -> float:
-    """Fisher's p of our agents that escape against the paper's row, if one agent stands behind that row."""
-    won, theirs = escaped(method), int(PRINTED[method]["success"].mean >= 50)
-    return float(stats.fisher_exact([[won, len(of(method)) - won], [theirs, 1 - theirs]]).pvalue)
-
-
 def half_interval(method: str) -> float:
     """Half the length of the 95 % interval of a method's mean return."""
     _, low, high = interval(of(method).scores("returns"), np.mean)
     return (high - low) / 2
-
-
-@cache
-def boschloo_power(first: float, second: float, n: int) -> float:
-    """How often Boschloo's exact test finds these true rates different, n agents of each."""
-    counts = np.arange(n + 1)
-    tables = ([[k, n - k], [j, n - j]] for k in counts for j in counts)
-    shown = np.array([stats.boschloo_exact(table).pvalue < 0.05 for table in tables]).reshape(n + 1, n + 1)
-    return float(stats.binom.pmf(counts, n, first) @ shown @ stats.binom.pmf(counts, n, second))
 
 
 def accidents_of(method: str, escape: bool) -> float:

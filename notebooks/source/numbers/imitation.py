@@ -18,6 +18,12 @@ def checked(row: int, column: str) -> str:
     return dict(zip(["ours" if name.startswith("ours") else name for name in names], rows[row], strict=True))[column]
 
 
+def own_decisions(method: str) -> float:
+    """How many decisions of its own an agent of a method learned from, the mean over agents."""
+    agent, updates = of(method).agents[0], updates_made(of(method))[:, -1].mean()
+    return float(updates * agent["envs_per_agent"] / agent["updates"])
+
+
 def slower(axis: str) -> float:
     """How many times CQL's episodes, or updates, GAIL needs until half of its drives succeed: of the medians."""
     medians = []

@@ -1,17 +1,15 @@
-"""Figures of the lesson on finding and keeping: each agent's success, the two clocks, and who found and kept."""
+"""Figures of the lesson on finding and keeping: agents' success, the two clocks, and who found and kept."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from bootcourse.colours import Style
 from bootcourse.course.charts import lines
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure, one_axes, wrapped
 from bootcourse.plots.training_curves import WINDOW
 from bootcourse.research.clocks import UPDATES
 from bootcourse.research.results import WINDOW as IN_A_ROW
@@ -26,7 +24,8 @@ def one_agent(success: np.ndarray, method: str, title: str) -> Figure:
     """Success in training of one agent, (episodes,), its first and last good window marked."""
     means = rolling_means(100 * success[None], IN_A_ROW, len(success))
     at, share = means[0], means[1][0]
-    figure = lines(at, {method: share}, title, "training episode", f"success in the last {IN_A_ROW} episodes (%)")
+    words, look = f"success in the last {IN_A_ROW} episodes (%)", style(method)._replace(line="-")
+    figure = lines(at, {method: share}, title, "training episode", words, looks=[look])
     good = np.flatnonzero(share > 50)
     for place, words in ((good[0], "found"), (good[-1], "lost")):
         figure.axes[0].plot(at[place], share[place], "o", color=INK, ms=6, zorder=5)
@@ -40,33 +39,27 @@ def one_agent(success: np.ndarray, method: str, title: str) -> Figure:
     return figure
 
 
-def seed_by_seed(results: Results, methods: Sequence[str], title: str, mark: int, words: str) -> Figure:
-    """Success in training: a large panel for the first method, small ones below for the others.
+def agent_by_agent(results: Results, method: str, title: str, mark: int, words: str) -> Figure:
+    """Success in training of a method's agents, a thin line for each and a thick one for their mean.
 
-    A thin line for each agent, a thick one for their mean. mark: the episode of a vertical line, and the words at it.
+    mark: the episode of a vertical line, and the words at it.
     """
-    figure, alt_parts = new_figure(5.2), []
-    small = 6.3 / (len(methods) - 1)
-    places = [(0.45, 1.05, 6.3, 1.85)] + [(0.45 + i * small, 3.5, small - 0.35, 1.05) for i in range(len(methods) - 1)]
-    for method, place in zip(methods, places, strict=True):
-        ax = axes_at(figure, *place)
-        at, success = rolling_means(100 * results.of(method).curves["success"], WINDOW)
-        mean, colour = success.mean(axis=0), style(method).colour
-        ax.plot(at, success.T, color=colour, linewidth=0.8, alpha=0.55)
-        ax.plot(at, mean, color=colour, linewidth=2.6)
-        ax.axvline(mark, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
-        if method == methods[0]:
-            ax.annotate(words, (mark, 1.02), xycoords=("data", "axes fraction"), xytext=(5, 0), va="bottom",
-                        textcoords="offset points", fontsize=SMALL, color=QUIET)  # fmt: skip
-        plain_axes(ax, display_name(method))
-        ax.set(xlim=(0, at[-1]), ylim=(-4, 104), yticks=(0, 50, 100))
-        if method != methods[0]:
-            ax.set_xlabel("training episode", fontsize=SMALL, color=QUIET)
-        near = np.searchsorted(at, [mark - 200, mark, at[-1]])
-        alt_parts.append(f"{display_name(method)}: " + ", ".join(f"{mean[i]:.0f} % at episode {at[i]}" for i in near))
-    each = f"Success in the last {WINDOW} episodes (%). Thin: agents. Thick: their mean"
-    figure.text(0.012, 0.1 / 5.2, f"{each}.", fontsize=SMALL, color=QUIET)
-    return finish(figure, title, f"{each}: {'; '.join(alt_parts)}.")
+    each = f"success, {WINDOW} episodes (%); thick: mean"
+    figure, ax = one_axes(4.0, title, "training episode", each)
+    at, success = rolling_means(100 * results.of(method).curves["success"], WINDOW)
+    mean, colour = success.mean(axis=0), style(method).colour
+    ax.plot(at, success.T, color=colour, linewidth=0.8, alpha=0.55)
+    ax.plot(at, mean, color=colour, linewidth=2.6)
+    ax.axvline(mark, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+    ax.annotate(words, (mark, 1.03), xycoords=("data", "axes fraction"), xytext=(5, 0), va="bottom",
+                textcoords="offset points", fontsize=TEXT, color=QUIET)  # fmt: skip
+    ax.set(xlim=(0, at[-1]), ylim=(-4, 104), yticks=(0, 50, 100))
+    near = np.searchsorted(at, [mark - 200, mark, at[-1]])
+    means = ", ".join(f"{mean[i]:.0f} % at episode {at[i]}" for i in near)
+    alt = (
+        f"Success in the last {WINDOW} episodes, a thin line for each agent. {display_name(method)}, the mean: {means}."
+    )
+    return finish(figure, title, alt)
 
 
 def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
@@ -75,7 +68,8 @@ def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
     cells: `clocks.cells`. Dots on ξ: agents with the soft constraint alone; on β: with demonstrations by π̃ alone.
     """
     title = "With more updates less of ξ is left when the way out is found"
-    figure, ax = one_axes(3.8, title, "training episode", "share of its start (ξ: median agent)", width=0.86)
+    words = "share of its start (logarithmic; ξ: median agent)"
+    figure, ax = one_axes(4.0, title, "training episode (logarithmic)", words, width=0.76)
     alt_parts, soft, demos = [], style("soft").colour, style("demos").colour
     for updates in UPDATES:
         agents = cells[updates, "π̃"].of("soft")
@@ -103,8 +97,10 @@ def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
             numbers, (episode, share[episode - 1]), (0, 7), ha="center", textcoords="offset points", fontsize=TEXT,
             color=INK,
         )  # fmt: skip
-    ax.annotate("β", (of["beta_episodes"], 0.02), (5, 0), textcoords="offset points", fontsize=TEXT, color=INK)
-    ax.annotate("ξ", (98, 1e-3), (-16, 0), textcoords="offset points", fontsize=TEXT, color=INK)
+    ax.text(1050, 2e-2, "β, demonstrations\nalone, driven by π̃", va="center", fontsize=TEXT, color=INK)
+    ax.text(46, 0.2, "ξ, soft constraint\nalone", ha="right", va="center", fontsize=TEXT, color=INK)
+    key = "dot: half of the agents\nhave found the way out\n(▼ below the axis);\nits number: updates\nfor a decision"
+    ax.text(20.8, 1e-2, key, va="top", fontsize=TEXT, color=QUIET)
     alt_parts.append(f"On β half of the agents with demonstrations alone have the way out after {found}")
     ax.set(xscale="log", yscale="log", xlim=(20, len(part)), ylim=(LEAST, 1.5))
     for axis, places in ((ax.xaxis, [20, 50, 100, 200, 500, 1000]), (ax.yaxis, [1, 1e-1, 1e-2, 1e-3, 1e-4])):
@@ -121,47 +117,44 @@ def half_found(agents: Results) -> int:
     return int(np.sort(ends)[(len(ends) - 1) // 2])
 
 
-def found_and_kept(cells: Mapping[tuple[str, str], Results]) -> Figure:
-    """How many agents found and kept the way out against the updates for a decision, a panel for each kind of help.
+Rows = Mapping[str, tuple[Results, str]]  # {words: (results, method)}, a row of squares each
 
-    cells: `clocks.cells`. Above: without the soft constraint; below: with it. From left to right: no demonstrations,
-    those driven by μ, those driven by π̃.
+
+def found_and_kept(panels: Mapping[str, Rows], title: str, of_rows: str = "") -> Figure:
+    """A square for each agent, panels side by side with the same rows.
+
+    Filled: it found the way out and kept it; empty: found and did not keep it; a dot: never found it.
+    of_rows: what the rows' words are, written above them.
     """
-    title = (
-        "With more updates, demonstrations alone seem to keep the way out more often; "
-        "the soft constraint alone does not"
-    )
-    figure, alt_parts = new_figure(5.3), []
-    for row, (alone, helped) in enumerate((("sac", "demos"), ("soft", "bootstrapped"))):
-        for column, (method, driver) in enumerate(((alone, "μ"), (helped, "μ"), (helped, "π̃"))):
-            ax = axes_at(figure, 0.5 + 2.25 * column, 1.0 + 2.1 * row, 1.85, 1.35)
-            name = display_name(method) + (f", driver {driver}" if column else "")
-            alt_parts.append(f"{name}: " + _shares(ax, cells, method, driver))
-            plain_axes(ax, name)
-            ax.tick_params(labelleft=column == 0)
-    figure.text(0.012, 0.34 / 5.3, "Updates for a decision, and how many agents.", fontsize=TEXT, color=INK)
-    words = (
-        "Share of the agents (%): ○ found the way out, ● kept it. The number at ● is that of the agents that kept it."
-    )
-    figure.text(0.012, 0.1 / 5.3, words, fontsize=TEXT, color=INK)
-    return finish(figure, title, f"Found and kept, of how many. {'; '.join(alt_parts)}.")
-
-
-def _shares(ax: Axes, cells: Mapping[tuple[str, str], Results], method: str, driver: str) -> str:
-    """Draw one panel; its counts in words."""
-    look: Style = style(method)
-    counts = [cells[updates, driver].found_and_kept(method) for updates in UPDATES]
-    agents = np.array([len(found) for found, _ in counts])
-    found, kept = (np.array([each[i].sum() for each in counts]) for i in (0, 1))
-    at = np.arange(len(UPDATES))
-    ax.plot(at, 100 * found / agents, color=look.colour, linewidth=1, linestyle=(0, (2, 2)))
-    ax.plot(at, 100 * found / agents, "o", color="white", mec=look.colour, mew=1.4, ms=8, zorder=3, clip_on=False)
-    ax.plot(at, 100 * kept / agents, color=look.colour, linewidth=2)
-    ax.plot(at, 100 * kept / agents, "o", color=look.colour, ms=5.5, zorder=4, clip_on=False)
-    for x, (share, number) in enumerate(zip(kept / agents, kept, strict=True)):
-        ax.annotate(str(number), (x, 100 * share), (0, 13 if share < 0.15 else -7), textcoords="offset points",
-                    ha="center", va="bottom" if share < 0.15 else "top", fontsize=TEXT, color=INK)  # fmt: skip
-    names = [SHORT.get(updates, updates) for updates in UPDATES]
-    ax.set_xticks(at, [f"{name}\nof {n}" for name, n in zip(names, agents, strict=True)])
-    ax.set(xlim=(-0.4, len(UPDATES) - 0.6), ylim=(-6, 108), yticks=(0, 50, 100))
-    return ", ".join(f"{f} and {k} of {n} with {u}" for f, k, n, u in zip(found, kept, agents, UPDATES, strict=True))
+    names = list(next(iter(panels.values())))
+    left, top, tall = 0.25 + 0.075 * max(map(len, (*names, *of_rows.splitlines()))), 0.95, 0.34
+    if len(wrapped(title).splitlines()) == 2:
+        top += 0.15
+    if not any(panels):  # no words above the panels
+        top -= 0.2
+    figure, alt_parts = new_figure(top + tall * len(names) + 0.5), []
+    wide = (WIDTH - left - 0.1) / len(panels)
+    for column, (panel, rows) in enumerate(panels.items()):
+        ax = axes_at(figure, left + column * wide, top, min(wide - 0.15, 4.0), tall * len(rows))
+        for y, (words, (results, method)) in enumerate(rows.items()):
+            found, kept = (int(each.sum()) for each in results.found_and_kept(method))
+            n, colour = len(results.of(method)), style(method).colour
+            for x in range(n):
+                if x < found:
+                    ax.plot(x, y, "s", ms=8.5, color=colour if x < kept else "white", mec=colour, mew=1.6)
+                else:
+                    ax.plot(x, y, "o", ms=2.5, color=QUIET)
+            counted = f"{found} of {n} found it, {kept} kept it"
+            alt_parts.append(": ".join(part for part in (panel.replace("\n", " "), words, counted) if part))
+        ax.set(xlim=(-0.6, 9.6), ylim=(len(rows) - 0.5, -0.5), xticks=(), yticks=())
+        for side in ax.spines.values():
+            side.set_visible(False)
+        ax.set_title(panel, loc="left", fontsize=TEXT, color=INK, pad=5)
+        if not column:
+            ax.set_yticks(range(len(rows)), names, fontsize=TEXT, color=INK)
+            ax.tick_params(axis="y", length=0)
+    height = figure.get_figheight()
+    figure.text(0.012, 1 - (top - 0.07) / height, of_rows, va="bottom", fontsize=SMALL, color=QUIET)
+    key = "■ found the way out and kept it   □ found it, did not keep it   · did not find it.   Each mark is an agent."
+    figure.text(0.012, 0.14 / height, key, fontsize=TEXT, color=INK)
+    return finish(figure, title, f"Agents that found and kept the way out. {'; '.join(alt_parts)}.")

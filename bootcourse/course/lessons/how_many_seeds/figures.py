@@ -47,20 +47,21 @@ def powers(rates: Sequence[tuple[float, float]], agents: Sequence[int], marked: 
     """
     found = [[100 * power(*pair, n) for n in agents] for pair in rates]
     first, second = (round(100 * rate) for rate in rates[0])
-    title = f"{marked} agents of each find {first} against {second} % in {found[0][list(agents).index(marked)]:.0f} %"
-    figure, ax = one_axes(3.5, f"{title} of the studies", "agents of each method", "power (%)", width=0.7)
+    share = found[0][list(agents).index(marked)]
+    title = f"With {marked} agents of each, {share:.0f} % of the studies tell {first} from {second} %"
+    figure, ax = one_axes(3.5, title, "agents of each method", "power (%)", width=0.7)
     ends, alt_parts = [], []
     for pair, line, look in zip(rates, found, ("-", "--"), strict=True):
         ax.plot(agents, line, color=INK, linestyle=look, linewidth=2)
         at_mark = line[list(agents).index(marked)]
         ax.plot(marked, at_mark, "o", color=INK, ms=6)
-        ax.annotate(f"{at_mark:.0f} %", (marked, at_mark), (6, -8), textcoords="offset points", va="top",
+        ax.annotate(f"{at_mark:.0f} %", (marked, at_mark), (-4, 6), textcoords="offset points", ha="right",
                     fontsize=TEXT, color=INK)  # fmt: skip
         words = f"{100 * pair[0]:.0f} against {100 * pair[1]:.0f} %"
         ends.append((line[-1], words, INK))
         alt_parts.append(f"{words}: " + ", ".join(f"{p:.0f} % with {n}" for n, p in zip(agents, line, strict=True)))
     ax.axhline(80, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
-    ends.append((80, "80 %", QUIET))
+    ends.append((80, "80 %: the usual aim", QUIET))
     ax.set(xlim=(min(agents), max(agents)), ylim=(0, 100))
     label_ends(ax, ends)
-    return finish(figure, f"{title} of the studies", f"Power against the number of agents. {'; '.join(alt_parts)}.")
+    return finish(figure, title, f"Power against the number of agents. {'; '.join(alt_parts)}.")

@@ -112,7 +112,7 @@ def success_in_training(results: Results, methods: Sequence[str] = ("bc", "cql",
     first, last = (f"{halves[label]:,.0f}" for label in (order[0], order[-1]))
     title = f"Half of the drives succeed after {first} updates of {order[0]}, {last} of {order[-1]}"
     looks = [style(method) for method in methods]
-    words = f"success, {WINDOW} episodes (%)"
+    words = f"success, {WINDOW} episodes (%); dot: half succeed, median agent"
     figure = lines(budgets, named, title, "update (logarithmic)", words, "x", limits=(0, 101), looks=looks)
     for method, label in zip(methods, named, strict=True):
         figure.axes[0].plot(halves[label], 50, "o", color=style(method).colour, mec=INK, ms=7, zorder=5)

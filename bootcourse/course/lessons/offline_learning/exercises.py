@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 import torch
 
 from bootcourse.course.exercise import exercise
@@ -113,46 +112,3 @@ def offline_loss(q, next_q, next_target, actions, rewards, terminated, gamma, we
     target = (rewards + gamma * (1 - terminated) * next_value).detach()
     taken = q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)
     return (taken - target).square().mean() + weight * (q.logsumexp(-1) - taken).mean()
-
-
-def bound_cases(rng):
-    """As good as the bound, better than it, crashed at once, a low bound and a high one; then 40 at random."""
-    yield np.array([[140.0, 141.0]]), np.array([140.0, 141.0])
-    yield np.array([[150.0, 160.0], [70.0, 20.0]]), np.array([140.0, 141.0])
-    yield np.array([[-10.0, -9.5, -9.0], [23.4, 23.4, 23.4]]), np.array([140.0, 141.0, 142.0])
-    yield np.array([[20.0, 40.0], [10.0, 80.0]]), np.array([20.0, 160.0])
-    for _ in range(40):
-        agents, episodes = rng.integers(2, 6), rng.integers(2, 8)
-        bound = rng.uniform(20, 150, episodes)
-        yield bound * rng.uniform(-0.3, 1, (agents, episodes)), bound
-
-
-@exercise(
-    "Σ R / Σ R*, over the same episodes, R* the planner's return", minutes=4, difficulty=1, cases=bound_cases,
-    worked=[
-        ((np.array([[10.0, 30.0], [-5.0, -5.0]]), np.array([20.0, 100.0])), np.array([1 / 3, -1 / 12])),
-        ((np.array([[70.0, 70.0, 70.0]]), np.array([140.0, 140.0, 140.0])), np.array([0.5])),
-    ],
-    hints=(
-        "Divide what was earned on all roads together by what could be earned on all roads together.",
-        "Agents stand in rows: `returns.mean(axis=1)` has one number for each.",
-    ),
-    mistakes={
-        "return (returns / bound).mean(axis=1)":
-            "This is the mean of each road's own share: a road where little can be earned counts as much as any other. "
-            "Return the share of *all* that could be earned.",
-        "return np.clip(returns.mean(axis=1) / bound.mean(), 0, 1)":
-            "You clip at 0. An agent that crashes at once has a negative return, so its share is negative, too.",
-        "return np.minimum(returns.mean(axis=1) / bound.mean(), 1)":
-            "You clip at 1. The planner's return is what a search found, not the most that is possible: an agent may "
-            "beat it.",
-        "axis=1 ->":
-            "You average over the agents, too. Each has a share of its own: return one number for each agent.",
-        "bound.mean() -> bound.max()":
-            "You divide by the bound of the best road. Divide by the mean of all bounds.",
-        "returns.mean -> returns.max":
-            "You take each agent's best drive. A score is the mean over all of its roads.",
-    },
-)  # fmt: skip
-def share_of_the_bound(returns, bound):
-    return returns.mean(axis=1) / bound.mean()
