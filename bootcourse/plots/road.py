@@ -14,7 +14,7 @@ from bootcourse.road.state import EGO, HEADING, TRAP_1, TRAP_2, X, Y
 from bootcourse.scenario import Car, Road, Scenario
 
 DASH, PERIOD = 3.0, 9.0  # m; lane lines are dashes of 3 m, one every 9 m
-NAME = 9.0  # m of road that the name of a trap takes
+NAME, FAR_NAME = 9.0, 22.0  # m of road that the name of a trap takes, without and with its distance
 BEHIND = 0.36  # share of a panel's road that lies behind the ego
 
 
@@ -67,21 +67,32 @@ def draw_cars(
             paint = {EGO: colour, TRAP_1: TRAP, TRAP_2: TRAP}.get(i, TRAFFIC)
             draw_car(canvas, x, cars[i, Y], cars[i, HEADING], paint, scenario.car, kind)
     for trap in (TRAP_1, TRAP_2) if names else ():
-        _name_trap(canvas, cars, trap, left, right, origin, half)
+        _name_trap(canvas, cars, trap, scenario, left, right, origin)
 
 
-def _name_trap(canvas: Canvas, cars, trap: int, left: float, right: float, origin: float, half: float) -> None:
-    """The trap's name in front of it, or behind it where there is no room; its distance where it is out of sight."""
+def _name_trap(
+    canvas: Canvas, cars: np.ndarray, trap: int, scenario: Scenario, left: float, right: float, origin: float
+) -> None:
+    """The trap's name in front of it, else behind it or beside it, where no car is; its distance if it is far away."""
     x, y, ahead, name = cars[trap, X] - origin, cars[trap, Y], cars[trap, X] - cars[EGO, X], f"trap {trap}"
-    gaps = cars[np.abs(cars[:, Y] - y) < 2.5, X] - cars[trap, X]  # to the cars in and close to its lane
+    half, lane, (top, bottom) = scenario.car.length / 2, scenario.road.lane_width, edges_of(scenario.road)
+    lanes = [down for down in (y, y - lane, y + lane) if top < down < bottom]
     if x < left + half:
-        canvas.words(left + 1, y, f"◂ {name}, {-ahead:.0f} m behind", INK)
+        name, long, places = f"◂ {name}, {-ahead:.0f} m behind", FAR_NAME, [(left + 1, down, "start") for down in lanes]
     elif x > right - half:
-        canvas.words(right - 1, y, f"{name}, {ahead:.0f} m ahead ▸", INK, "end")
-    elif x + half + NAME > right or np.any((gaps > 0) & (gaps < 2 * half + NAME)):
-        canvas.words(x - half - 0.8, y, name, INK, "end")
+        name, long, places = f"{name}, {ahead:.0f} m ahead ▸", FAR_NAME, [(right - 1, down, "end") for down in lanes]
     else:
-        canvas.words(x + half + 0.8, y, name, INK)
+        long, places = NAME, [(x + half + 0.8, y, "start"), (x - half - 0.8, y, "end")]
+        places += [(x, down, "middle") for down in lanes[1:]]
+    from_left = {"start": 0.0, "middle": 0.5, "end": 1.0}
+
+    def free(place: tuple[float, float, str]) -> bool:
+        begin = place[0] - from_left[place[2]] * long
+        near = (cars[:, X] - origin > begin - half) & (cars[:, X] - origin < begin + long + half)
+        return begin >= left and begin + long <= right and not np.any(near & (np.abs(cars[:, Y] - place[1]) < 2.5))
+
+    at, down, anchor = next(filter(free, places), places[0])
+    canvas.words(at, down, name, INK, anchor)
 
 
 def road_svg(
