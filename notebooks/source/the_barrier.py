@@ -47,7 +47,7 @@ from bootcourse.research import planner, report
 #
 # How well could anybody drive here? A planner searches: at each second it extends the drives that
 # it has kept by each of the nine actions, and keeps the best 50. It knows what the other cars will
-# do, so its return says what is possible here, and not what an agent can reach.
+# do, so it shows what is possible, and not what an agent can reach.
 # <!-- claim: DEFAULT.clock.decision_rate == 1 and N_ACTIONS == 9 -->
 
 # %%
@@ -75,13 +75,11 @@ bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12], title=title))
 # %% [markdown]
 # ## Round 1: does plain SAC find a way out?
 #
-# Six agents learn by SAC from their own drives. Three have the paper's discount,
-# γ = {{ SETTINGS.gamma }}. Three look further ahead, γ = 0.95. Each gets
-# {{ easier.UPDATES | , }} updates, and then drives 200 roads.
+# Six agents learn by SAC from their own drives, with {{ easier.UPDATES | , }} updates each. Three
+# have the paper's discount, γ = {{ SETTINGS.gamma }}; three look further ahead, γ = 0.95.
 #
-# > **Predict.** Lesson [[the_trap]] showed ten agents with γ = {{ SETTINGS.gamma }} that trained
-# > for longer: {{ escaped('sac') }} of them escapes. How many of the three that look further
-# > ahead escape after {{ easier.UPDATES | , }} updates?
+# > **Predict.** Of lesson [[the_trap]]'s ten agents with γ = {{ SETTINGS.gamma }}, which trained
+# > for longer, {{ escaped('sac') }} escapes. How many of the three with γ = 0.95 do?
 
 # %%
 predict("the_barrier.1", "How many of the three agents with γ = 0.95 escape?", ["0", "1", "2", "3"])
@@ -117,10 +115,9 @@ shown(alone.agents, tests)
 
 # %% [markdown]
 # **See.** An agent of yours near the idle driver's {{ idle().rewards.sum() | .1f }} has learned to
-# stay; one below zero still crashes. Six agents are few. Of twenty trained like yours, ten with
-# each γ, {{ easy('as it is').escapers('sac') }} escapes, and {{ safe('as it is') }} stay, with
-# hardly an accident. Of lesson [[the_trap]]'s ten, with {{ of('sac').curves['success'].shape[1] | ,
-# }} episodes of training each, {{ escaped('sac') }} escapes and {{ stayed() }} stay.
+# stay; one below zero still crashes. Of twenty trained like yours, ten with each γ, {{ easy('as it
+# is').escapers('sac') }} escapes, and {{ safe('as it is') }} stay, with hardly an accident. Of
+# lesson [[the_trap]]'s ten, trained for longer, {{ stayed() }} stay.
 # <!-- claim: escaped('sac') == easy('as it is').escapers('sac') == 1 and len(of('sac')) == 10 and
 #   stayed() / len(of('sac')) > safe('as it is') / 20 and len(easy('as it is')) == 20 -->
 #
@@ -181,12 +178,11 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 
 # %% [markdown]
 # **Explain.** A *quick* way out pays at γ = 0.8: on each of these four roads, at both discounts,
-# the planner's best drive leaves the trap. Agents, which see 26 numbers, can do it, too. The {{
+# the planner's best drive leaves the trap. Agents can do it, too. The {{
 # len(discounted_scores('soft')) }} with the soft constraint (lesson [[soft_constraint]]) that ship
-# with the course escape. On 200 held-out roads their discounted rewards are {{
-# discounted_scores('soft').min() | .2f }} to {{ discounted_scores('soft').max() | .2f }}; doing
-# nothing is worth {{ discounted(idle(), 0.8) | .2f }}, and the best drive in the lane, on the
-# table's roads, {{ best_in_lane().mean() | .2f }}.
+# with the course escape, and on 200 held-out roads their discounted rewards are {{
+# discounted_scores('soft').min() | .2f }} to {{ discounted_scores('soft').max() | .2f }}: more than
+# the best drive in the lane is worth on any of the four roads.
 # <!-- claim: discounted_scores('soft').min() > best_in_lane().max() > discounted(idle(), 0.8) -->
 # <!-- claim: (of('soft').scores('success')[:len(discounted_scores('soft'))] >= ESCAPES).all() -->
 # <!-- claim: all(run.agent.settings.gamma == 0.8 for run in shipped_runs('soft')) -->
@@ -198,7 +194,7 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 # <!-- claim: planned(200, 0.8, keep_lane=True) - planned(50, 0.8, keep_lane=True) < 0.01 -->
 
 # %% [markdown]
-# ## Round 3: is it luck, and what is an attempt worth?
+# ## Round 3: is it luck, or the price of attempts?
 #
 # Let 5,000 drives take each action at random, for 150 s.
 #
@@ -210,8 +206,8 @@ predict("the_barrier.4", "How many of 5,000 random drives end ahead of trap 1?",
 
 # %% [markdown]
 # If the way out were one rare sequence, how often would chance hit it? The plan of lesson
-# [[the_trap]] steers for {{ easier.LATER }} s. Suppose that at each of these decisions `good` of the
-# nine actions are right; for a single sequence `good` is 1.
+# [[the_trap]] steers for {{ easier.LATER }} s. Suppose that at each of these decisions `good` of
+# the nine actions are right; for a single sequence `good` is 1.
 #
 # **Exercise (5 min, ●●○).** Write the chance that at least one of `tries` random attempts gets out.
 
@@ -239,15 +235,15 @@ on_the_road += f"and {100 * np.mean(tried.accident > 0):.1f} % of all end in an 
 table(headings, rows, below=f"In 5,000 attempts. {on_the_road}")
 
 # %% [markdown]
-# **See.** The way out is not one rare sequence: {{ by_chance().success.sum() }} drives get out, as if
-# between four and five of nine actions were right each time. But each of these drives ends in an
-# accident, with a return below zero: not even they show that leaving pays.
+# **See.** The way out is not one rare sequence: {{ by_chance().success.sum() }} drives get out, as
+# if between four and five of nine actions were right each time. But each of these drives crashes
+# and returns less than zero: not even they show that leaving pays.
 # <!-- claim: (4 / 9) ** 8 < by_chance().success.mean() < (5 / 9) ** 8 and easier.LATER == 8 -->
 # <!-- claim: 1 - (1 - (1 / 9) ** 8) ** 5000 < 0.001 -->
 # <!-- claim: (by_chance().accident[by_chance().success] > 0).all() -->
 # <!-- claim: by_chance().returns[by_chance().success].max() < 0 < idle().rewards.sum() -->
 #
-# Random actions throughout are the worst kind of attempt. Here are four kinds:
+# What is an attempt worth? Here are four kinds:
 #
 # - *random for 150 s*: one of the nine actions each second;
 # - *4 random actions, then accelerates*: after 4 s a lane keeper steers, and goes to 15 m/s;
@@ -280,8 +276,8 @@ bc.show(figures.worth(outcomes, title))
 #
 # - *Attempts crash.* The plan's drives without an accident are worth {{ unhurt_plan().mean() | .2f
 #   }}, more than staying, on each of their roads. But {{ 100 * tested(THE_PLAN).accident.mean() |
-#   .0f }} % of its drives crash, and with these the mean is {{ tested(THE_PLAN).values(0.8).mean() |
-#   .2f }}. Of each unskilled kind more than 85 % crash, and an agent begins with unskilled
+#   .0f }} % of its drives crash, and with these the mean is {{ tested(THE_PLAN).values(0.8).mean()
+#   | .2f }}. Of each unskilled kind more than 85 % crash, and an agent begins with unskilled
 #   attempts.
 # <!-- claim: (unhurt_plan() > tested('stays').values(0.8)[~tested(THE_PLAN).accident]).all() -->
 # <!-- claim: all(tested(kind).values(0.95).mean() < 0 and tested(kind).accident.mean() > 0.85 for
@@ -294,7 +290,7 @@ bc.show(figures.worth(outcomes, title))
 # <!-- claim: all(tested(kind).values(0.95).mean() > tested('stays').values(0.95).mean() for kind in
 #   (THE_PLAN, "the rule's way")) -->
 #
-# Does the barrier keep agents in? To find out, take parts of it away.
+# Does the barrier keep agents in? The next round takes parts of it away.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Let them write the worth of each attempt by guesses before the figure is drawn; most expect the
@@ -324,10 +320,9 @@ headings = ["the road", "the drive", "accidents", "worth at γ = 0.8", "at γ = 
 table(headings, rows, below=f"{len(few)} roads each.")
 
 # %% [markdown]
-# **See.** From the later start nothing has to be found: one acceleration, and then nothing, gets out
-# without an accident on each of these roads and is worth more than staying, at both discounts. But
-# an agent's attempts still crash: with either change nine in ten or more of the random drives end
-# in an accident.
+# **See.** From the later start nothing has to be found: one acceleration, and then nothing, gets
+# out unhurt on each of these roads and is worth more than staying, at both discounts. But with
+# either change nine in ten or more of the random drives still crash.
 # <!-- claim: not easier_outcome('a later start', ONCE).accident.any() and
 #   easier_outcome('a later start', ONCE).ahead.all() -->
 # <!-- claim: all(worth_of('a later start', ONCE, g) > worth_of('a later start', 'stays', g)
@@ -342,9 +337,9 @@ choices = ["none", "about 5", "about 10", "nearly all"]
 predict("the_barrier.6", "How many of the twenty agents escape from the later start?", choices)
 
 # %% [markdown]
-# A fourth change, η = 1, concerns the agent: with the paper's target entropy its temperature falls
-# to {{ temperature() | .3f }} or less here (lesson [[discrete_sac]]), so it may be certain too soon.
-# With η = 1 it stays undecided.
+# One more row keeps the later start and changes the agent: with the paper's target entropy its
+# temperature falls to {{ temperature() | .3f }} or less here (lesson [[discrete_sac]]), so it may
+# be certain too soon; with η = 1 it stays undecided.
 # <!-- claim: temperature() < 0.01 -->
 
 # %%
@@ -354,32 +349,30 @@ panels = {
     for gamma in easier.GAMMAS
 }
 most = max(agents.escapers("sac") for agents in roads.values())
-title = f"On none of these roads do more than {most} of twenty agents escape"
+title = f"On none of these roads do more than {most} of 20 agents escape"
 bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most roads"))
 
 # %% [markdown]
-# **Explain.** *The later start* frees none of twenty, although one acceleration is enough: none
-# gets out on any of 200 roads, and {{ safe('a later start') }} stay, with hardly an accident. So
-# neither a rare sequence nor the delay keeps these in. *The lane keeper* frees none, either. Of the
-# twenty with η = 1 {{ easy('a later start, η = 1').escapers('sac') }} escape, too few to tell from
-# none.
+# **Explain.** *The later start* frees none of twenty, on none of 200 roads, although one
+# acceleration is enough; {{ safe('a later start') }} stay, with hardly an accident. So neither a
+# rare sequence nor the delay keeps these in. *The lane keeper* frees none, either. Of the twenty
+# with η = 1 {{ easy('a later start, η = 1').escapers('sac') }} escape, too few to tell from none.
 # <!-- claim: easy('a lane keeper').escapers('sac') == 0 -->
 # <!-- claim: easy('a later start').scores('success').max() == 0 -->
 # <!-- claim: safe('a later start') > 10 and easy('a later start, η = 1').escapers('sac') <= 2 -->
 #
-# *Free accidents* change most. {{ often_ahead('free accidents') }} of twenty agents end ahead of
+# *Free accidents* change most: {{ often_ahead('free accidents') }} of twenty agents end ahead of
 # trap 1 on at least one road in ten, against {{ often_ahead('as it is') }} where an accident costs
-# 10, and none of the twenty stays. So the price keeps agents from trying. But {{
-# ahead_and_crashed('free accidents')[1] | , }} of their {{ ahead_and_crashed('free accidents')[0] |
-# , }} drives that end ahead end there *crashed*, also those of the agent that "escapes": without
-# the price they do not learn to survive.
+# 10, and none stays. So the price keeps some from trying. But {{ ahead_and_crashed('free
+# accidents')[1] | , }} of their {{ ahead_and_crashed('free accidents')[0] | , }} drives that end
+# ahead end there *crashed*, also those of the agent that "escapes": they do not learn to survive.
 # <!-- claim: often_ahead('free accidents') > 2 * often_ahead('as it is') and
 #   safe('free accidents') == 0 and easy('free accidents').scores('accident').min() > 0.99 -->
 # <!-- claim: easy('free accidents').escapers('sac') == 1 and DEFAULT.reward.accident == -10 -->
 #
-# On the road as it is, the study changed γ (0.9 to 0.99), η (0.3, 1) or both. Of {{
-# len(changed_agents('sac')) }} agents of plain SAC none escapes; with the rule as a soft constraint
-# each of {{ len(changed_agents('soft')) }} does.
+# On the road as it is, none of the study's {{ len(changed_agents('sac')) }} agents with another γ,
+# another η or both escapes. With the rule as a soft constraint each of {{
+# len(changed_agents('soft')) }} does.
 # <!-- claim: not changed_agents('sac').any() and changed_agents('soft').all() and
 #   len(changed_agents('sac')) == 18 -->
 #
@@ -387,27 +380,28 @@ bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most 
 #
 # | what could keep agents in | verdict | evidence |
 # |---|---|---|
-# | discount: staying is best at γ = 0.8 | ruled out | quick ways out are worth more |
-# | discount: γ = 0.8 alone | ruled out | with a larger γ none of {{ len(farther()) }} escapes |
-# | luck: one rare sequence | ruled out | the later start needs one acceleration |
-# | price of failed attempts | a part of it | without it more get ahead, and crash |
-# | what else? | open | |
+# | at γ = 0.8 staying is best | ruled out | quick ways out are worth more |
+# | γ is too small | not by itself | with a larger γ none of {{ len(farther()) }} escapes |
+# | missing one rare sequence | ruled out | the later start needs one action, and frees none |
+# | the price of failed attempts | in part | without it more get ahead, but crash |
+# | something else | open | |
 # <!-- claim: len(farther()) > 20 and not farther().any() -->
 #
-# We have *not* found what else keeps agents in. Two suspects are not tested here: after a good action an agent's own next draws may crash, and a gain may be too small for a critic
-# to see ({{ worth_of('a later start', ONCE, 0.8) | .2f }} against {{ worth_of('a later start',
-# 'stays', 0.8) | .2f }} for one acceleration at γ = 0.8).
+# We have *not* found what else keeps agents in. Two suspects are untested: after a good action an
+# agent's own next draws may crash, and the gain of one good action may be too small for a critic to
+# see.
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Ask what an agent is still paid for where accidents are free (for each second before the accident),
+# Ask what an agent is still paid for where accidents are free (each second before the accident),
 # and which run would tell the two suspects apart.
 
 # %% [markdown]
 # ## Round 5: what gets a learner across a barrier of five states?
 #
 # A **chain** of five states keeps the detour and leaves out the rest. You start in the trap, and
-# after 20 decisions the time is up. Each arrow is an action, 0 or 1; those without a number behind
-# a + pay nothing.
+# after 20 decisions the time is up. Each arrow is an action, 0 or 1. Staying pays, in the trap
+# about what a second behind the traps does, on the free road about what 15 m/s does; the other
+# moves pay 0.
 # <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
 #   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
 
@@ -415,15 +409,13 @@ bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most 
 bc.show(diagrams.five_states())
 
 # %% [markdown]
-# Staying pays about what a second behind the traps does, the free road about what 15 m/s does.
-#
 # > **Predict.** Does leaving pay at γ = 0.8? From which γ on?
 
 # %%
 predict("the_barrier.7", "From which γ on does leaving the chain's trap pay?", unit="")
 
 # %% [markdown]
-# <details><summary>The answer, in four lines</summary>
+# <details><summary>The answer</summary>
 #
 # To stay is worth $0.16 + 0.16\,\gamma + \dots = 0.16 / (1 - \gamma)$, at γ = 0.8 {{ 0.16 / 0.2 |
 # .2f }}. To leave pays nothing for four decisions, and then 1 at each: $\gamma^4 / (1 - \gamma)$,
@@ -500,15 +492,15 @@ bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
 # %% [markdown]
 # **Explain.** In A none leaves, although leaving is worth more than twice as much. In state 0
 # staying has paid, so Q(0, 0) rises. In states 1 to 3 going *back* is then worth γ Q(0, 0), and
-# going on still 0, where Q began: the greedy action leads back, and it takes four random decisions
-# in a row to get through, each right with a probability of ε / 2. A longer view does not help (B):
-# none of the thirty has been on the free road, so its value is not known.
+# going on still 0, where Q began. So the greedy action leads back, and to get through takes four
+# random decisions in a row, each right with a probability of ε / 2. A longer view does not help
+# (B): none of the thirty has been on the free road, so its value is not known.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps here (C, D), and one visit is not enough: {{ free_road_seen(0.5, 0.8) }} of
-# C were on the free road and {{ leaving(0.5, 0.8) }} learn to leave, since each passage moves the
-# value one state back. On the road, where a failed attempt costs 10, D is no recipe.
+# More exploration helps here (C, D), but one visit is not enough, since each passage moves the
+# value one state back: {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5,
+# 0.8) }} learn to leave. On the road, where a failed attempt costs 10, D is no recipe.
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 #
 # One demonstration gets all thirty across (E). The target does not depend on who decided, so
@@ -525,9 +517,9 @@ bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
 # %% [markdown]
 # ## What gets agents out on the road?
 #
-# The paper's answer is E: somebody who knows a way, although not the best one. It uses the rule
-# twice, as a **soft constraint** (lesson [[soft_constraint]]) and for **demonstrations** (lesson
-# [[demonstrations]]), which end at episode {{ SETTINGS.beta_episodes | , }}:
+# The paper's answer is E: somebody who knows a way, although not the best one. It uses the rule as
+# a **soft constraint** (lesson [[soft_constraint]]) and for **demonstrations** (lesson
+# [[demonstrations]]):
 
 # %%
 study = bc.shipped_results()
@@ -547,8 +539,8 @@ bc.show(bc.training_curves(curves, title, constants={"rule": level}))
 #    most crash, or their gain comes late.
 # <!-- claim: all(tested(kind).values(0.8).mean() < tested('stays').values(0.8).mean() for kind in
 #   KINDS_OF_ATTEMPTS) and discounted_scores('soft').min() > discounted(idle(), 0.8) -->
-# 3. Neither the discount nor one rare sequence keeps plain SAC in. The price of accidents keeps
-#    agents from trying; what else keeps them in is open.
+# 3. Neither the discount by itself nor one rare sequence keeps plain SAC in. The price of accidents
+#    keeps some agents from trying; what else keeps them in is open.
 # <!-- claim: all(each.escapers('sac') <= 2 and len(each) == 20 for each in
 #   shipped_experiment('easier').values()) and not changed_agents('sac').any() -->
 # 4. Bootstrapping moves a value back one state at a time, from states that were visited. In front
@@ -559,7 +551,7 @@ bc.show(bc.training_curves(curves, title, constants={"rule": level}))
 # **Three questions to think about**
 # - Start the chain's Q at 5 instead of 0 (*optimistic initial values*). Which of A to D leave now,
 #   and why? What would the same optimism cost on the road?
-# - Demonstrations got all thirty across the chain. What could be different on the road?
+# - A demonstration got all thirty across the chain. What could be different on the road?
 # - Which of the three explanations could ten times as much training refute?
 #
 # **Read on**: [the rule](the_rule.ipynb) that helps. Ecoffet et al., *First return, then explore*
