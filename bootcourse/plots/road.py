@@ -15,6 +15,7 @@ from bootcourse.scenario import Car, Road, Scenario
 
 DASH, PERIOD = 3.0, 9.0  # m; lane lines are dashes of 3 m, one every 9 m
 NAME, FAR_NAME = 9.0, 22.0  # m of road that the name of a trap takes, without and with its distance
+NO_TRAIL = np.zeros((0, 2))
 BEHIND = 0.36  # share of a panel's road that lies behind the ego
 
 
@@ -51,12 +52,12 @@ def draw_car(canvas: Canvas, x: float, y: float, heading: float, colour: str, ca
 
 def draw_cars(
     canvas: Canvas, cars: np.ndarray, scenario: Scenario, colour: str, left: float, right: float, origin: float,
-    ghosts: Sequence[tuple[np.ndarray, str]] = (), names: bool = True,
+    ghosts: Sequence[tuple[np.ndarray, str]] = (), names: bool = True, trail: np.ndarray = NO_TRAIL,
 ) -> None:  # fmt: skip
     """All cars between `left` and `right`, the ego last; the traps' names, or how far away they are.
 
     cars: (vehicles, 10), columns of bootcourse.road.state; colour: of the ego; ghosts: (state (10,), colour)
-    of egos of other drives, drawn translucent.
+    of egos of other drives, drawn translucent. trail: places (n, 2) on the road, m, where no name should lie.
     """
     half = scenario.car.length / 2
     for state, look in ghosts:
@@ -67,12 +68,13 @@ def draw_cars(
             paint = {EGO: colour, TRAP_1: TRAP, TRAP_2: TRAP}.get(i, TRAFFIC)
             draw_car(canvas, x, cars[i, Y], cars[i, HEADING], paint, scenario.car, kind)
     for trap in (TRAP_1, TRAP_2) if names else ():
-        _name_trap(canvas, cars, trap, scenario, left, right, origin)
+        _name_trap(canvas, cars, trap, scenario, left, right, origin, trail)
 
 
 def _name_trap(
-    canvas: Canvas, cars: np.ndarray, trap: int, scenario: Scenario, left: float, right: float, origin: float
-) -> None:
+    canvas: Canvas, cars: np.ndarray, trap: int, scenario: Scenario, left: float, right: float, origin: float,
+    trail: np.ndarray,
+) -> None:  # fmt: skip
     """The trap's name in front of it, else behind it or beside it, where no car is; its distance if it is far away."""
     x, y, ahead, name = cars[trap, X] - origin, cars[trap, Y], cars[trap, X] - cars[EGO, X], f"trap {trap}"
     half, lane, (top, bottom) = scenario.car.length / 2, scenario.road.lane_width, edges_of(scenario.road)
@@ -88,8 +90,11 @@ def _name_trap(
 
     def free(place: tuple[float, float, str]) -> bool:
         begin = place[0] - from_left[place[2]] * long
-        near = (cars[:, X] - origin > begin - half) & (cars[:, X] - origin < begin + long + half)
-        return begin >= left and begin + long <= right and not np.any(near & (np.abs(cars[:, Y] - place[1]) < 2.5))
+        for xy, longer, wider in ((cars[:, [X, Y]], half, 2.5), (trail, 0.0, 1.3)):
+            along, across = xy[:, 0] - origin - begin, np.abs(xy[:, 1] - place[1])
+            if np.any((along > -longer) & (along < long + longer) & (across < wider)):
+                return False
+        return left <= begin <= right - long
 
     at, down, anchor = next(filter(free, places), places[0])
     canvas.words(at, down, name, INK, anchor)
