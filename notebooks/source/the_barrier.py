@@ -243,7 +243,7 @@ table(headings, rows, below=f"In 5,000 attempts. {on_the_road}")
 # <!-- claim: (by_chance().accident[by_chance().success] > 0).all() -->
 # <!-- claim: by_chance().returns[by_chance().success].max() < 0 < idle().rewards.sum() -->
 #
-# What is an attempt worth? Here are four kinds:
+# What is an attempt worth? Take four kinds:
 #
 # - *random for 150 s*: one of the nine actions each second;
 # - *4 random actions, then accelerates*: after 4 s a lane keeper steers, and goes to 15 m/s;
@@ -266,8 +266,8 @@ predict("the_barrier.5", "Which attempts are worth more than staying?", choices)
 TESTED, outcomes = bc.held_out_seeds(7, 500), {}
 for name, driver in attempts.kinds(len(TESTED)).items():
     outcomes[name] = attempts.drive(driver, TESTED)
-title = "At γ = 0.8 none of these attempts is worth as much as staying; "
-title += "at γ = 0.95 the skilled ones are"
+title = "At γ = 0.8 no attempt is worth as much as staying; "
+title += "at γ = 0.95 the skilled ones are worth more"
 bc.show(figures.worth(outcomes, title))
 
 # %% [markdown]
@@ -356,7 +356,7 @@ bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most 
 # **Explain.** *The later start* frees none of twenty, on none of 200 roads, although one
 # acceleration is enough; {{ safe('a later start') }} stay, with hardly an accident. So neither a
 # rare sequence nor the delay keeps these in. *The lane keeper* frees none, either. Of the twenty
-# with η = 1 {{ easy('a later start, η = 1').escapers('sac') }} escape, too few to tell from none.
+# with η = 1, {{ easy('a later start, η = 1').escapers('sac') }} escape, too few to tell from none.
 # <!-- claim: easy('a lane keeper').escapers('sac') == 0 -->
 # <!-- claim: easy('a later start').scores('success').max() == 0 -->
 # <!-- claim: safe('a later start') > 10 and easy('a later start, η = 1').escapers('sac') <= 2 -->
@@ -370,8 +370,8 @@ bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most 
 #   safe('free accidents') == 0 and easy('free accidents').scores('accident').min() > 0.99 -->
 # <!-- claim: easy('free accidents').escapers('sac') == 1 and DEFAULT.reward.accident == -10 -->
 #
-# On the road as it is, none of the study's {{ len(changed_agents('sac')) }} agents with another γ,
-# another η or both escapes. With the rule as a soft constraint each of {{
+# On the road as it is, none of the study's {{ len(changed_agents('sac')) }} agents of plain SAC
+# with another γ, another η or both escapes. With the rule as a soft constraint each of {{
 # len(changed_agents('soft')) }} does.
 # <!-- claim: not changed_agents('sac').any() and changed_agents('soft').all() and
 #   len(changed_agents('sac')) == 18 -->
@@ -417,10 +417,10 @@ predict("the_barrier.7", "From which γ on does leaving the chain's trap pay?", 
 # %% [markdown]
 # <details><summary>The answer</summary>
 #
-# To stay is worth $0.16 + 0.16\,\gamma + \dots = 0.16 / (1 - \gamma)$, at γ = 0.8 {{ 0.16 / 0.2 |
-# .2f }}. To leave pays nothing for four decisions, and then 1 at each: $\gamma^4 / (1 - \gamma)$,
-# at γ = 0.8 {{ 0.8**4 / 0.2 | .2f }}. So it pays where $\gamma^4 > 0.16$: from γ = {{ 0.16**0.25 |
-# .2f }} on.
+# To stay is worth $0.16 + 0.16\,\gamma + \dots = 0.16 / (1 - \gamma)$, which is {{ 0.16 / 0.2 |
+# .2f }} at γ = 0.8. To leave pays nothing for four decisions, and then 1 at each: $\gamma^4 / (1 -
+# \gamma)$, which is {{ 0.8**4 / 0.2 | .2f }}. So it pays where $\gamma^4 > 0.16$: from γ = {{
+# 0.16**0.25 | .2f }} on.
 #
 # </details>
 #
