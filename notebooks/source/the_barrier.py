@@ -266,7 +266,7 @@ predict("the_barrier.5", "Which attempts are worth more than staying?", choices)
 TESTED, outcomes = bc.held_out_seeds(7, 500), {}
 for name, driver in attempts.kinds(len(TESTED)).items():
     outcomes[name] = attempts.drive(driver, TESTED)
-title = "At γ = 0.8 no attempt is worth as much as staying; "
+title = "At γ = 0.8 none of these is worth as much as staying; "
 title += "at γ = 0.95 the skilled ones are worth more"
 bc.show(figures.worth(outcomes, title))
 

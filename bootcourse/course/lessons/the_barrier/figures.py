@@ -93,7 +93,7 @@ def squares(
                 _square(ax, column, row, far, cross, 47 * size)
             dark, light = (sum(far == shade for far, _ in learners) for shade in (FAR, SOME))
             ax.text(most - 0.1, row, f"{dark} of {len(learners)}", fontsize=TEXT, color=INK, va="center")
-            if rows is first:
+            if ax is figure.axes[0]:
                 ax.text(-0.9, row, kind, fontsize=TEXT, color=INK, va="center", ha="right")
             listed.append(f"{name} {kind}: {dark} dark, {light} light, {len(learners) - dark - light} empty".strip())
             listed[-1] += f", {sum(cross for _, cross in learners)} crossed out" * bool(crossed)
