@@ -7,16 +7,18 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from bootcourse.course.lessons.the_barrier.figures import FAR, NOT, SOME, squares
 from bootcourse.episodes.rollout import series
 from bootcourse.episodes.words import cars_at, overtaken
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import style
 from bootcourse.plots import animation
-from bootcourse.plots.figure import Picture, png, save, styles
+from bootcourse.plots.figure import Picture, png, save, styles, wrapped
+from bootcourse.plots.road import draw_cars
 from bootcourse.plots.top_view import top_view_over_time
 from bootcourse.plots.traces import traces
 from bootcourse.plots.training_curves import training_curves
-from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
+from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, TRAP_2, X, Y
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.assets import FOLDER
 
@@ -131,12 +133,41 @@ def every_figure(escape, idle, crash):
     yield traces([idle, escape, crash])
     yield training_curves({"sac": curves(), "bootstrapped": curves()}, "A title " * 12)
     yield animation.frame([idle, escape], 5.5)
+    kinds = {"one kind": [(FAR, True), (NOT, False)], "another": [(SOME, False), (NOT, True)]}
+    yield squares({"left": kinds, "right": kinds}, "A title", ("far", "some way", "not far"), "crashed")
 
 
 def test_every_figure_has_alt_text_and_no_text_lies_on_another(escape, idle, crash):
     for figure in every_figure(escape, idle, crash):
         assert len(figure.alt) > 60 and "\n" not in figure.alt
         assert overlaps(figure) == []
+
+
+def test_no_line_of_a_title_ends_inside_a_trap_s_name_or_a_number_and_its_unit():
+    for part in ("trap 1", "44 s", "43 %", "γ = 0.8", "1 / (1 − γ)", "7 of 10"):
+        for before in range(28, 40):
+            assert part in wrapped("x" * before + " " + part + " " + "y" * 36)
+
+
+def test_a_trap_s_name_lies_on_no_car(idle):
+    cars = cars_at(idle, 0).copy()
+    cars[3:, X] += 500
+    named = []
+    for ahead, behind in ((500, 500), (9, 500), (9, -9)):  # of trap 1: nobody near, one in front, one at each end
+        cars[3, [X, Y]], cars[4, [X, Y]] = cars[TRAP_1, [X, Y]] + [ahead, 0], cars[TRAP_1, [X, Y]] + [behind, 0]
+        cars[EGO, X] = cars[TRAP_1, X] - 30
+        cars[TRAP_2, X] = cars[TRAP_1, X] + 400
+        written = []
+
+        class Canvas:
+            def fill(self, *drawn): ...
+
+            def words(self, x, y, words, colour, anchor="start", size=7.5, written=written):
+                written.append((words, round(x - cars[TRAP_1, X]), round(y - cars[TRAP_1, Y])))
+
+        draw_cars(Canvas(), cars, DEFAULT, "black", cars[EGO, X] - 20, cars[EGO, X] + 90, 0.0)
+        named.append(next(place[1:] for place in written if place[0] == "trap 1"))
+    assert named == [(3, 0), (-3, 0), (0, -4)]
 
 
 def test_a_figure_says_what_it_shows_in_a_notebook_and_in_a_file(idle, tmp_path):

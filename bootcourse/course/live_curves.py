@@ -65,11 +65,12 @@ class LiveCurves:
         curves = {measure: np.stack([means[measure] for means in self.means], axis=1) for measure in MEASURES}
         each = by_label(labels, curves)
         if self.drawn.get("measures") == ("return",):
-            now = [f"{np.nanmean(of['return'][:, -1]):.1f} with {display_name(label)}" for label, of in each.items()]
-            title = f"Return after {training.updates:,} updates: {', '.join(now)}".replace("-", "−")
+            now = [f"{np.nanmean(of['return'][:, -1]):.1f}".replace("-", "−") for of in each.values()]
+            verb, word, unit = "earns", "", "an episode"
         else:
-            now = [
-                f"{display_name(label)} in {100 * np.nanmean(of['success'][:, -1]):.0f} %" for label, of in each.items()
-            ]
-            title = f"After {training.updates:,} updates, ahead of trap 1 at the end of an episode: {', '.join(now)}"
+            now = [f"{100 * np.nanmean(of['success'][:, -1]):.0f} %" for of in each.values()]
+            verb, word, unit = "succeeds", "in ", "of its episodes"
+        names = [display_name(label).replace(", ", " with ") for label in each]
+        others = "".join(f", {name} {word}{share}" for name, share in zip(names[1:], now[1:], strict=True))
+        title = f"After {training.updates:,} updates {names[0]} {verb} {word}{now[0]} {unit}{others}"
         return training_curves(each, title, updates=np.array(self.updates), **self.drawn)

@@ -6,6 +6,7 @@ stays in memory. `finish` gives it a title and `figure.alt`: the sentences for t
 
 import base64
 import io
+import re
 import textwrap
 from pathlib import Path
 
@@ -24,6 +25,9 @@ from bootcourse.methods import has_style, style
 DPI = 110
 WIDTH = 7.0  # inches
 TITLE, TEXT, SMALL = 11.5, 8.5, 7.5  # points
+TIES = re.compile(  # the spaces of a title at which no line ends
+    r"(?<=\btrap) (?=\d)|(?<=\d) (?=%|(?:s|m|m/s|nats|of \d+)\b)|(?<=\d of) (?=\d)| (?=[=/−] )|(?<= [=/−]) "
+)
 
 
 def styles(labels: list[str]) -> list[Style]:
@@ -66,10 +70,10 @@ def finish(figure: Figure, title: str, alt: str) -> Figure:
 
 
 def wrapped(title: str, longest: int = 68) -> str:
-    """A title that is too long for one line gets two, of about the same length."""
+    """A title that is too long for one line gets two, of about the same length. "trap 1" and "γ = 0.8" stay whole."""
     if len(title) <= longest or "\n" in title:
         return title
-    spaces = [i for i, letter in enumerate(title) if letter == " "]
+    spaces = {i for i, letter in enumerate(title) if letter == " "} - {tie.start() for tie in TIES.finditer(title)}
     middle = min(spaces, key=lambda i: abs(i - len(title) / 2), default=0)
     return title[:middle] + "\n" + title[middle + 1 :] if middle else title
 

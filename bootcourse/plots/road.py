@@ -14,7 +14,8 @@ from bootcourse.road.state import EGO, HEADING, TRAP_1, TRAP_2, X, Y
 from bootcourse.scenario import Car, Road, Scenario
 
 DASH, PERIOD = 3.0, 9.0  # m; lane lines are dashes of 3 m, one every 9 m
-NAME = 9.0  # m of road that the name of a trap takes
+NAME, FAR_NAME = 9.0, 22.0  # m of road that the name of a trap takes, without and with its distance
+NO_TRAIL = np.zeros((0, 2))
 BEHIND = 0.36  # share of a panel's road that lies behind the ego
 
 
@@ -51,12 +52,12 @@ def draw_car(canvas: Canvas, x: float, y: float, heading: float, colour: str, ca
 
 def draw_cars(
     canvas: Canvas, cars: np.ndarray, scenario: Scenario, colour: str, left: float, right: float, origin: float,
-    ghosts: Sequence[tuple[np.ndarray, str]] = (), names: bool = True,
+    ghosts: Sequence[tuple[np.ndarray, str]] = (), names: bool = True, trail: np.ndarray = NO_TRAIL,
 ) -> None:  # fmt: skip
     """All cars between `left` and `right`, the ego last; the traps' names, or how far away they are.
 
     cars: (vehicles, 10), columns of bootcourse.road.state; colour: of the ego; ghosts: (state (10,), colour)
-    of egos of other drives, drawn translucent.
+    of egos of other drives, drawn translucent. trail: places (n, 2) on the road, m, where no name should lie.
     """
     half = scenario.car.length / 2
     for state, look in ghosts:
@@ -67,21 +68,36 @@ def draw_cars(
             paint = {EGO: colour, TRAP_1: TRAP, TRAP_2: TRAP}.get(i, TRAFFIC)
             draw_car(canvas, x, cars[i, Y], cars[i, HEADING], paint, scenario.car, kind)
     for trap in (TRAP_1, TRAP_2) if names else ():
-        _name_trap(canvas, cars, trap, left, right, origin, half)
+        _name_trap(canvas, cars, trap, scenario, left, right, origin, trail)
 
 
-def _name_trap(canvas: Canvas, cars, trap: int, left: float, right: float, origin: float, half: float) -> None:
-    """The trap's name in front of it, or behind it where there is no room; its distance where it is out of sight."""
+def _name_trap(
+    canvas: Canvas, cars: np.ndarray, trap: int, scenario: Scenario, left: float, right: float, origin: float,
+    trail: np.ndarray,
+) -> None:  # fmt: skip
+    """The trap's name in front of it, else behind it or beside it, where no car is; its distance if it is far away."""
     x, y, ahead, name = cars[trap, X] - origin, cars[trap, Y], cars[trap, X] - cars[EGO, X], f"trap {trap}"
-    gaps = cars[np.abs(cars[:, Y] - y) < 2.5, X] - cars[trap, X]  # to the cars in and close to its lane
+    half, lane, (top, bottom) = scenario.car.length / 2, scenario.road.lane_width, edges_of(scenario.road)
+    lanes = [down for down in (y, y - lane, y + lane) if top < down < bottom]
     if x < left - half:
-        canvas.words(left + 1, y, f"◂ {name}, {-ahead:.0f} m behind", INK)
+        name, long, places = f"◂ {name}, {-ahead:.0f} m behind", FAR_NAME, [(left + 1, down, "start") for down in lanes]
     elif x > right + half:
-        canvas.words(right - 1, y, f"{name}, {ahead:.0f} m ahead ▸", INK, "end")
-    elif x + half + NAME > right or np.any((gaps > 0) & (gaps < 2 * half + NAME)):
-        canvas.words(x - half - 0.8, y, name, INK, "end")
+        name, long, places = f"{name}, {ahead:.0f} m ahead ▸", FAR_NAME, [(right - 1, down, "end") for down in lanes]
     else:
-        canvas.words(x + half + 0.8, y, name, INK)
+        long, places = NAME, [(x + half + 0.8, y, "start"), (x - half - 0.8, y, "end")]
+        places += [(x, down, "middle") for down in lanes[1:]]
+    from_left = {"start": 0.0, "middle": 0.5, "end": 1.0}
+
+    def free(place: tuple[float, float, str]) -> bool:
+        begin = place[0] - from_left[place[2]] * long
+        for xy, longer, wider in ((cars[:, [X, Y]], half, 2.5), (trail, 0.0, 1.3)):
+            along, across = xy[:, 0] - origin - begin, np.abs(xy[:, 1] - place[1])
+            if np.any((along > -longer) & (along < long + longer) & (across < wider)):
+                return False
+        return left <= begin <= right - long
+
+    at, down, anchor = next(filter(free, places), places[0])
+    canvas.words(at, down, name, INK, anchor)
 
 
 def road_svg(

@@ -33,7 +33,7 @@ def draw_moment(ax, rollout: Rollout, time: float, left: float, right: float, or
     ax.set(xlim=(left, right), ylim=(bottom + 0.4, top - 0.4), aspect="equal")
     trail = np.array([cars_at(rollout, t)[EGO, [X, Y]] for t in np.arange(max(0.0, time - TRAIL), time + 1e-9, 0.25)])
     canvas.line(trail[:, 0] - origin, trail[:, 1], colour, 2, opacity=0.35)
-    draw_cars(canvas, cars, scenario, colour, left, right, origin)
+    draw_cars(canvas, cars, scenario, colour, left, right, origin, trail=trail)
     if rollout.accident and time > rollout.times[-1] - 1e-9:
         x, y = cars[EGO, X] - origin, cars[EGO, Y]
         ax.plot(x, y, marker="X", markersize=12, color=ALARM, markeredgecolor="white", zorder=8, gid="accident")

@@ -61,6 +61,8 @@ def traces(
     if not panels:
         raise BootcourseError(f"There is nothing to draw: name one or more of {', '.join(PANELS)}.")
     names, looks = _names(drives), styles([drive.label for drive in drives])
+    if len({look.colour for look in looks}) == len(looks):  # a zigzag is easier to read without gaps
+        looks = [look._replace(line="-") for look in looks]
     title = title or _title(drives, names)
     heights = [PANELS[panel][1] for panel, _ in panels]
     head = HEAD + LINE * len(wrapped(title).splitlines())

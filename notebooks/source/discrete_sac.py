@@ -144,7 +144,7 @@ for words, pi in (("the sure policy", [1e-12, 1.0]), ("the even policy", [0.5, 0
     log_pi = torch.tensor([pi]).log()
     values[words] = [sac.soft_value(log_pi, q, torch.tensor(alpha)).item() for alpha in alphas]
 title = f"Above α = {1 / np.log(2):.2f} the even policy is worth more"
-bc.show(charts.lines(alphas, values, title, "α", "V"))
+bc.show(charts.lines(alphas, values, title, "temperature α", "soft value V"))
 
 # %% [markdown]
 # **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy: both have the same V
@@ -190,7 +190,13 @@ bc.show(charts.lines(alphas, values, title, "α", "V"))
 # computed with the present estimates, is the **target** y, and the loss is the mean squared
 # distance from it. $y - Q(s,a)$ is the **temporal difference**. Learning an estimate from an
 # estimate is called **bootstrapping**. (The paper's title means another thing: to start with a
-# rule's help.) Below, `terminated` is 1 if no further reward can come after this transition, and
+# rule's help.)
+#
+# In numbers: r = 1, γ = 0.9, α = 0.5, and an even policy over two actions with Q = 4 and 6 in s'.
+# Then V(s') = 5 + 0.5 · 0.693 = {{ 5 + 0.5 * math.log(2) | .2f }}, and y = 1 + 0.9 · {{ 5 + 0.5 *
+# math.log(2) | .2f }} = {{ 1 + 0.9 * (5 + 0.5 * math.log(2)) | .2f }}.
+#
+# In the whole target, `terminated` is 1 if no further reward can come after this transition, and
 # otherwise 0.
 #
 # $$ y = r + \gamma\, (1 - \text{terminated})\, V(s'), \qquad

@@ -33,8 +33,8 @@ from bootcourse.course import compare_predictions, predict, shipped
 
 # %% tags=["nbval-ignore-output"]
 escape = bc.shipped_drive("escape")  # by an agent that had help
-plain = [agent.as_policy(with_q=True) for agent in bc.shipped_agents("sac")]  # on the same road:
-alone = [bc.record(driver, [escape.seed], label="sac")[0] for driver in plain]
+plain = [agent.as_policy(with_q=True) for agent in bc.shipped_agents("sac")]  # had no help
+alone = [bc.record(driver, [escape.seed], label="sac")[0] for driver in plain]  # the same road
 trapped = next((drive for drive in alone if not drive.success), alone[0])
 bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], height=480)
 
@@ -45,8 +45,8 @@ bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], he
 #
 # A driver is paid for each second: most at {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
 # little at the traps' {{ DEFAULT.traps.speed }} m/s. An accident costs about what a minute behind
-# the traps earns. Why does a program that
-# learns stay behind slow cars, although the left lane is free? That is the question of this course.
+# the traps earns. Why does a program that learns stay behind slow cars, although the left lane is
+# free? That is the question of this course.
 
 # %% [markdown]
 # ## Drive it yourself

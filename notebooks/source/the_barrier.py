@@ -15,7 +15,7 @@
 #
 # **What you will be able to do**
 # - train plain SAC in the trap, live, and say where it ends;
-# - find out whether leaving the trap pays for it, and what an attempt to leave is worth;
+# - test three explanations of why it stays, and say what they rule out and what they leave open;
 # - write a learner for a barrier of five states, and find out what gets it across.
 #
 # **Time** 65 minutes; running it takes about one minute. **It builds on** the trap of lesson
@@ -32,7 +32,14 @@ from bootcourse.course import (
     shipped,
     table,
 )
-from bootcourse.course.lessons.the_barrier import attempts, chain, easier, figures
+from bootcourse.course.lessons.the_barrier import (
+    attempts,
+    chain,
+    diagrams,
+    easier,
+    exercises,
+    figures,
+)
 from bootcourse.research import planner, report
 
 # %% [markdown]
@@ -40,7 +47,7 @@ from bootcourse.research import planner, report
 #
 # How well could anybody drive here? A planner searches: at each second it extends the drives that
 # it has kept by each of the nine actions, and keeps the best 50. It knows what the other cars will
-# do, so its return says what is possible here, and not what an agent can reach.
+# do, so it shows what is possible, and not what an agent can reach.
 # <!-- claim: DEFAULT.clock.decision_rate == 1 and N_ACTIONS == 9 -->
 
 # %%
@@ -49,8 +56,8 @@ plans = planner.plan_episodes([ROAD], search=planner.Search(beam=50))
 planned = bc.record(planner.follow(plans), [ROAD], label="planner")[0]
 idle = bc.record(bc.idle_policy, [ROAD], label="idle")[0]
 by_rule = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
-returns = [f"{drive.rewards.sum():.1f}" for drive in (planned, by_rule, idle)]
-title = "The planner earns {}, the rule {}, and the driver that stays {}".format(*returns)
+returns = [f"{drive.rewards.sum():.0f}" for drive in (planned, by_rule, idle)]
+title = "The planner earns {} on this road, the rule {}, staying {}".format(*returns)
 bc.show(bc.traces([idle, by_rule, planned], title, what=("speed", "return")))
 
 # %%
@@ -58,8 +65,7 @@ title = "The planner goes through between the two traps"
 bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12], title=title))
 
 # %% [markdown]
-# **See.** The planner's car does not fall back: it accelerates and changes lane between the two
-# traps. The rule takes longer and keeps larger gaps.
+# **See.** The planner's car does not fall back: it accelerates and changes lane between the traps.
 # <!-- claim: planned(50, 1.0) > by_rule().rewards.sum() > idle().rewards.sum() -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -69,13 +75,11 @@ bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12], title=title))
 # %% [markdown]
 # ## Round 1: does plain SAC find a way out?
 #
-# Six agents learn with the SAC of lesson [[discrete_sac]], from their own drives alone. Three have
-# the paper's discount, γ = {{ SETTINGS.gamma }}. Three look further ahead, γ = 0.95. Each gets
-# {{ easier.UPDATES | , }} updates, and then drives 200 roads.
+# Six agents learn by SAC from their own drives, with {{ easier.UPDATES | , }} updates each. Three
+# have the paper's discount, γ = {{ SETTINGS.gamma }}; three look further ahead, γ = 0.95.
 #
-# > **Predict.** Lesson [[the_trap]] showed ten agents with γ = {{ SETTINGS.gamma }} that trained
-# > for longer: {{ escaped('sac') }} of them escapes. How many of the three that look further
-# > ahead escape after {{ easier.UPDATES | , }} updates?
+# > **Predict.** Of lesson [[the_trap]]'s ten agents with γ = {{ SETTINGS.gamma }}, which trained
+# > for longer, {{ escaped('sac') }} escapes. How many of the three with γ = 0.95 do?
 
 # %%
 predict("the_barrier.1", "How many of the three agents with γ = 0.95 escape?", ["0", "1", "2", "3"])
@@ -110,26 +114,24 @@ escaped_alone = np.array([r.success.value >= bc.statistics.ESCAPES for r in test
 shown(alone.agents, tests)
 
 # %% [markdown]
-# **See.** Of twenty agents trained like yours (ten with each γ) {{ easy('as it is').escapers('sac')
-# }} escapes, and {{ safe('as it is') }} stay, with hardly an accident. Of lesson [[the_trap]]'s
-# ten, trained for {{ of('sac').curves['success'].shape[1] | , }} episodes, {{ escaped('sac') }}
-# escapes and {{ stayed() }} stay. An agent of yours near the
-# idle driver's {{ idle().rewards.sum() | .1f }} has learned to stay; one below zero still crashes.
+# **See.** An agent of yours near the idle driver's {{ idle().rewards.sum() | .1f }} has learned to
+# stay; one below zero still crashes. Of twenty trained like yours, ten with each γ, {{ easy('as it
+# is').escapers('sac') }} escapes, and {{ safe('as it is') }} stay, with hardly an accident. Of
+# lesson [[the_trap]]'s ten, trained for longer, {{ stayed() }} stay.
 # <!-- claim: escaped('sac') == easy('as it is').escapers('sac') == 1 and len(of('sac')) == 10 and
 #   stayed() / len(of('sac')) > safe('as it is') / 20 and len(easy('as it is')) == 20 -->
 #
-# **What keeps most agents in?** The next rounds measure three explanations.
+# **What keeps most agents in?** The next rounds test three explanations.
 #
-# - **Luck.** The way out is a rare sequence of actions that an agent does not hit.
 # - **Discount.** At γ = 0.8 a reward in 20 s hardly counts. Perhaps staying is best.
 # <!-- claim: 0.8 ** 20 < 0.02 and SETTINGS.gamma == 0.8 -->
-# - **The price of attempts.** Leaving pays, but an attempt that fails costs 10, and most do.
+# - **Luck.** The way out is a rare sequence of actions that an agent does not hit.
+# - **Price.** Leaving pays, but an attempt that fails costs 10, and most do.
 
 # %% [markdown] tags=["instructor"] minutes=8
 # The training takes 10 seconds on a free machine: have the predictions on the board before it
 # starts, and collect explanations for a flat line while it runs. Somebody will say "train longer".
-# Let a group do that at home (`UPDATES = 30_000`) and bring the curves. The ten agents of the study
-# had {{ of('sac').curves['success'].shape[1] | , }} episodes each.
+# Let a group do that at home (`UPDATES = 30_000`) and bring the curves.
 
 # %% [markdown]
 # ## Round 2: is it the discount?
@@ -145,10 +147,9 @@ predict(
 )
 
 # %% [markdown]
-# **See.** It is {{ 100 * 0.8**5 | .0f }} %, and from 20 s on {{ 100 * 0.8**20 | .0f }} %; with γ =
-# 0.95 it is {{ 100 * 0.95**5 | .0f }} % and {{ 100 * 0.95**20 | .0f }} %. The weights from second n
-# on are $\gamma^n + \gamma^{n+1} + \dots = \gamma^n\,(1 + \gamma + \dots)$, so their share of the
-# whole sum is $\gamma^n$.
+# **See.** The weights from second n on are $\gamma^n\,(1 + \gamma + \dots)$, so their share of the
+# whole sum is $\gamma^n$: {{ 100 * 0.8**5 | .0f }} % from 5 s on, {{ 100 * 0.8**20 | .0f }} % from
+# 20 s on. With γ = 0.95 it is {{ 100 * 0.95**5 | .0f }} % and {{ 100 * 0.95**20 | .0f }} %.
 #
 # On road {{ ROAD }} the *rule's* way out is worth less than staying at γ = {{ SETTINGS.gamma }}
 # (lesson [[the_trap]]). Is every way? Let the planner search for the largest *discounted* sum.
@@ -176,13 +177,13 @@ headings = [
 table(headings, rows, below="Discounted sums from the start, means of four roads.")
 
 # %% [markdown]
-# **Explain.** A *quick* way out can pay at γ = 0.8: on each of these four roads, at both discounts,
-# the planner's best drive leaves the trap. Agents, which see 26 numbers, can do it, too. The {{
+# **Explain.** A *quick* way out pays at γ = 0.8: on each of these four roads, at both discounts,
+# the planner's best drive leaves the trap. Agents can do it, too. The {{
 # len(discounted_scores('soft')) }} with the soft constraint (lesson [[soft_constraint]]) that ship
-# with the course escape. On 200 held-out roads their discounted rewards are {{
-# discounted_scores('soft').min() | .2f }} to {{ discounted_scores('soft').max() | .2f }}, those of
-# doing nothing {{ discounted(idle(), 0.8) | .2f }}.
-# <!-- claim: discounted_scores('soft').min() > discounted(idle(), 0.8) -->
+# with the course escape, and on 200 held-out roads their discounted rewards are {{
+# discounted_scores('soft').min() | .2f }} to {{ discounted_scores('soft').max() | .2f }}: more than
+# the best drive in the lane is worth on any of the four roads.
+# <!-- claim: discounted_scores('soft').min() > best_in_lane().max() > discounted(idle(), 0.8) -->
 # <!-- claim: (of('soft').scores('success')[:len(discounted_scores('soft'))] >= ESCAPES).all() -->
 # <!-- claim: all(run.agent.settings.gamma == 0.8 for run in shipped_runs('soft')) -->
 
@@ -195,7 +196,7 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 # %% [markdown]
 # ## Round 3: is it luck, or the price of attempts?
 #
-# Luck first. Let 5,000 drives take each action at random, for 150 s.
+# Let 5,000 drives take each action at random, for 150 s.
 #
 # > **Predict.** How many of them end ahead of trap 1, crashed or not?
 
@@ -204,8 +205,9 @@ choices = ["none", "about 20", "about 200", "about 1,000"]
 predict("the_barrier.4", "How many of 5,000 random drives end ahead of trap 1?", choices)
 
 # %% [markdown]
-# What would one rare sequence give? Suppose that at each of an attempt's decisions `good` of the
-# nine actions are right; for a single sequence `good` is 1.
+# If the way out were one rare sequence, how often would chance hit it? The plan of lesson
+# [[the_trap]] steers for {{ easier.LATER }} s. Suppose that at each of these decisions `good` of
+# the nine actions are right; for a single sequence `good` is 1.
 #
 # **Exercise (5 min, ●●○).** Write the chance that at least one of `tries` random attempts gets out.
 
@@ -225,24 +227,23 @@ check.luck(luck)
 tried = bc.drive_episodes(bc.random_policy(np.random.default_rng(0)), bc.held_out_seeds(6, 5000))
 rows = []
 for good in range(1, 6):
-    once = (good / 9) ** 8
-    rows.append([good, f"{100 * (1 - (1 - once) ** 5000):.2f} %", f"{5000 * once:.1f}"])
+    chance = exercises.luck(good, easier.LATER, 5000)
+    rows.append([good, f"{100 * chance:.2f} %", f"{5000 * (good / 9) ** easier.LATER:.1f}"])
 headings = ["right actions of 9, at each of 8 decisions", "chance of a way out", "expected number"]
 on_the_road = f"On the road {tried.success.sum()} of 5,000 random drives end ahead of trap 1, "
 on_the_road += f"and {100 * np.mean(tried.accident > 0):.1f} % of all end in an accident."
 table(headings, rows, below=f"In 5,000 attempts. {on_the_road}")
 
 # %% [markdown]
-# **See.** The way out is not one rare sequence, which would hardly be hit in 5,000 attempts: {{
-# by_chance().success.sum() }} get out, as if between four and five of nine actions were right each
-# time. But each of these lucky drives ends in an accident, with a return below zero, so not even
-# they show that leaving pays.
-# <!-- claim: (4 / 9) ** 8 < by_chance().success.mean() < (5 / 9) ** 8 -->
+# **See.** The way out is not one rare sequence: {{ by_chance().success.sum() }} drives get out, as
+# if between four and five of nine actions were right each time. But each of these drives crashes
+# and returns less than zero: not even they show that leaving pays.
+# <!-- claim: (4 / 9) ** 8 < by_chance().success.mean() < (5 / 9) ** 8 and easier.LATER == 8 -->
 # <!-- claim: 1 - (1 - (1 / 9) ** 8) ** 5000 < 0.001 -->
 # <!-- claim: (by_chance().accident[by_chance().success] > 0).all() -->
 # <!-- claim: by_chance().returns[by_chance().success].max() < 0 < idle().rewards.sum() -->
 #
-# That is no fair picture of an attempt. Here are four kinds:
+# What is an attempt worth? Take four kinds:
 #
 # - *random for 150 s*: one of the nine actions each second;
 # - *4 random actions, then accelerates*: after 4 s a lane keeper steers, and goes to 15 m/s;
@@ -265,47 +266,53 @@ predict("the_barrier.5", "Which attempts are worth more than staying?", choices)
 TESTED, outcomes = bc.held_out_seeds(7, 500), {}
 for name, driver in attempts.kinds(len(TESTED)).items():
     outcomes[name] = attempts.drive(driver, TESTED)
-title = "At γ = 0.8 none of these attempts is worth as much as staying; "
-title += "at γ = 0.95 the skilled ones are"
+title = "At γ = 0.8 none of these is worth as much as staying; "
+title += "at γ = 0.95 the skilled ones are worth more"
 bc.show(figures.worth(outcomes, title))
 
 # %% [markdown]
-# **Explain.** Two things make these attempts worth less than staying. Each could be the **barrier**
-# that keeps agents in:
+# **Explain.** Two things make these attempts worth less than staying at γ = 0.8; we call them the
+# **barrier**.
 #
-# - *Attempts crash.* At γ = 0.8 the plan's drives without an accident are worth {{
-#   unhurt_plan().mean() | .2f }}, more than staying, on each of their roads. But {{ 100 *
-#   tested(THE_PLAN).accident.mean() | .0f }} % of its drives crash, and with these the mean is {{
-#   tested(THE_PLAN).values(0.8).mean() | .2f }}; staying is worth {{
-#   tested('stays').values(0.8).mean() | .2f }}. Of each unskilled kind more than 85 % crash, and an
-#   agent begins with unskilled attempts.
+# - *Attempts crash.* The plan's drives without an accident are worth {{ unhurt_plan().mean() | .2f
+#   }}, more than staying, on each of their roads. But {{ 100 * tested(THE_PLAN).accident.mean() |
+#   .0f }} % of its drives crash, and with these the mean is {{ tested(THE_PLAN).values(0.8).mean()
+#   | .2f }}. Of each unskilled kind more than 85 % crash, and an agent begins with unskilled
+#   attempts.
 # <!-- claim: (unhurt_plan() > tested('stays').values(0.8)[~tested(THE_PLAN).accident]).all() -->
 # <!-- claim: all(tested(kind).values(0.95).mean() < 0 and tested(kind).accident.mean() > 0.85 for
 #   kind in UNSKILLED) -->
-# - *The gain comes late.* The rule's way has no accident and is worth less than staying at γ = 0.8:
-#   it falls back first. At γ = 0.95 it pays, and so does the plan, in spite of its crashes.
+# - *The gain comes late.* The rule's way has no accident and is worth less than staying: it falls
+#   back first. At γ = 0.95 it pays, and so does the plan, in spite of its crashes.
 # <!-- claim: all(tested(kind).values(0.8).mean() < tested('stays').values(0.8).mean() for kind in
 #   KINDS_OF_ATTEMPTS) -->
 # <!-- claim: not tested("the rule's way").accident.any() -->
 # <!-- claim: all(tested(kind).values(0.95).mean() > tested('stays').values(0.95).mean() for kind in
 #   (THE_PLAN, "the rule's way")) -->
 #
-# The first turn is not hard to hit: four random actions and then a lane keeper get out unhurt once
-# in about {{ 1 / (tested(FOUR).ahead & ~tested(FOUR).accident).mean() | .0f }} attempts. With
-# random actions throughout none of 5,000 drives was unhurt.
-# <!-- claim: (tested(FOUR).ahead & ~tested(FOUR).accident).mean() > 0.02 -->
-# <!-- claim: (by_chance().accident > 0).all() -->
+# Does the barrier keep agents in? The next round takes parts of it away.
+
+# %% [markdown] tags=["instructor"] minutes=5
+# Let them write the worth of each attempt by guesses before the figure is drawn; most expect the
+# plan to pay at both discounts. Then ask which row an agent resembles at the start of its training,
+# and which one in the end.
+
+# %% [markdown]
+# ## Round 4: do agents get out of an easier trap?
 #
-# Which of the two keeps agents in? Three easier roads help. With *a lane keeper* an action names a
-# lane and a speed, and a controller steers the car there. With *a later start* an episode begins
-# after the plan's {{ easier.LATER }} seconds of steering: on the free lane, behind the traps and as
-# fast as they are. With *free accidents* an accident ends the drive and costs nothing. Here are
-# drives on the first two:
+# Three changes make the road easier:
+#
+# - *a lane keeper*: an action names a lane and a speed, and a controller steers the car there;
+# - *a later start*: an episode begins after the plan's {{ easier.LATER }} seconds of steering, on
+#   the free lane, behind the traps and as fast as they are;
+# - *free accidents*: an accident ends the drive and costs nothing.
+#
+# What are drives worth on the first two?
 
 # %%
 few, rows = bc.held_out_seeds(7, 100), []
 for road in ("a lane keeper", "a later start"):
-    for name, driver in easier.drivers(road, len(few)).items():
+    for name, driver in easier.drivers(road).items():
         outcome = attempts.drive(driver, few, easier.KINDS[road][0])
         worth = [f"{outcome.values(gamma).mean():.2f}" for gamma in (0.8, 0.95)]
         rows.append([road, name, f"{100 * outcome.accident.mean():.0f} %", *worth])
@@ -313,15 +320,14 @@ headings = ["the road", "the drive", "accidents", "worth at γ = 0.8", "at γ = 
 table(headings, rows, below=f"{len(few)} roads each.")
 
 # %% [markdown]
-# **See.** The later start takes the delay away: at both discounts a car that accelerates at once
-# earns much more than one that stays. Neither of the two takes the crashes away: nine in ten or
-# more of the random drives end in an accident, and at γ = 0.8 one random action before the right
-# drive makes it worth less than staying.
-# <!-- claim: all(worth_of('a later start', AT_ONCE, g) > 4 * worth_of('a later start', 'stays', g)
+# **See.** From the later start nothing has to be found: one acceleration, and then nothing, gets
+# out unhurt on each of these roads and is worth more than staying, at both discounts. But with
+# either change nine in ten or more of the random drives still crash.
+# <!-- claim: not easier_outcome('a later start', ONCE).accident.any() and
+#   easier_outcome('a later start', ONCE).ahead.all() -->
+# <!-- claim: all(worth_of('a later start', ONCE, g) > worth_of('a later start', 'stays', g)
 #   for g in (0.8, 0.95)) -->
 # <!-- claim: min(easier_outcome(*each).accident.mean() for each in AT_RANDOM) >= 0.9 -->
-# <!-- claim: worth_of('a later start', ONE_FIRST, 0.8) < 0 -->
-# <!-- claim: worth_of('a later start', 'stays', 0.8) > 0 -->
 #
 # > **Predict.** Twenty agents learn on each of these roads, ten with each γ, with the updates of
 # > Round 1. How many escape from the later start?
@@ -330,130 +336,105 @@ table(headings, rows, below=f"{len(few)} roads each.")
 choices = ["none", "about 5", "about 10", "nearly all"]
 predict("the_barrier.6", "How many of the twenty agents escape from the later start?", choices)
 
+# %% [markdown]
+# One more row keeps the later start and changes the agent: with the paper's target entropy its
+# temperature falls to {{ temperature() | .3f }} or less here (lesson [[discrete_sac]]), so it may
+# be certain too soon; with η = 1 it stays undecided.
+# <!-- claim: temperature() < 0.01 -->
+
 # %%
-rows = []
-for kind, results in shipped.shipped_experiment("easier").items():
-    gammas = np.array([agent["gamma"] for agent in results.agents])
-    for gamma in (0.8, 0.95):
-        names = ("success", "accident", "returns")
-        success, accident, returns = (results.scores(name)[gammas == gamma] for name in names)
-        won = (success >= bc.statistics.ESCAPES).sum()
-        stays, crash = (success < 0.05) & (accident < 0.05), accident > 0.5
-        rows.append([kind, gamma, won, stays.sum(), crash.sum(), f"{returns.max():.1f}"])
-headings = ["ten agents each", "γ", "escape", "stay, hardly an accident", "crash on most"]
-below = "Escape: ahead of trap 1 at the end of 95 % of the drives, crashed or not. "
-below += "Some agents are in no column. η = 1: the target entropy is 1."
-table([*headings, "highest return"], rows, below=below)
+roads = shipped.shipped_experiment("easier")
+panels = {
+    f"γ = {gamma}": {road: figures.ends(agents, gamma) for road, agents in roads.items()}
+    for gamma in easier.GAMMAS
+}
+most = max(agents.escapers("sac") for agents in roads.values())
+title = f"On none of these roads do more than {most} of 20 agents escape"
+bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most roads"))
 
 # %% [markdown]
-# **Explain.** From the later start one acceleration, and then nothing, gets out without an accident
-# on each of these roads and is worth more than staying, at both discounts ({{ worth_of('a later
-# start', ONCE, 0.8) | .2f }} against {{ worth_of('a later start', 'stays', 0.8) | .2f }} at γ =
-# 0.8); yet none of the twenty agents gets out on any of 200 roads, and {{ safe('a later start')
-# }} stay behind with hardly an accident. So neither the delay nor the price of *this* attempt keeps
-# them in, unless such a gain is too small for a critic to see. An agent does not take it alone,
-# though: the actions that it draws afterwards may crash. With a lane keeper {{ safe('a lane
-# keeper') }} stay.
-# <!-- claim: not easier_outcome('a later start', ONCE).accident.any() and
-#   easier_outcome('a later start', ONCE).ahead.all() -->
-# <!-- claim: all(worth_of('a later start', ONCE, g) > worth_of('a later start', 'stays', g)
-#   for g in (0.8, 0.95)) -->
+# **Explain.** *The later start* frees none of twenty, on none of 200 roads, although one
+# acceleration is enough; {{ safe('a later start') }} stay, with hardly an accident. So neither a
+# rare sequence nor the delay keeps these in. *The lane keeper* frees none, either. Of the twenty
+# with η = 1, {{ easy('a later start, η = 1').escapers('sac') }} escape, too few to tell from none.
 # <!-- claim: easy('a lane keeper').escapers('sac') == 0 -->
 # <!-- claim: easy('a later start').scores('success').max() == 0 -->
-# <!-- claim: min(safe('a lane keeper'), safe('a later start')) > 10 -->
+# <!-- claim: safe('a later start') > 10 and easy('a later start, η = 1').escapers('sac') <= 2 -->
 #
-# Where accidents are free, {{ often_ahead('free accidents') }} of twenty agents end ahead of trap 1
-# on at least one road in ten; where an accident costs 10, {{ often_ahead('as it is') }}. None of
-# the twenty stays. So the price keeps agents from trying. It is not the whole answer: {{
-# ahead_and_crashed('free accidents')[1] | , }} of their {{ ahead_and_crashed('free accidents')[0] |
-# , }} drives that end ahead end there *crashed*; so does the agent that "escapes". Without the
-# price they do not learn to survive.
+# *Free accidents* change most: {{ often_ahead('free accidents') }} of twenty agents end ahead of
+# trap 1 on at least one road in ten, against {{ often_ahead('as it is') }} where an accident costs
+# 10, and none stays. So the price keeps some from trying. But {{ ahead_and_crashed('free
+# accidents')[1] | , }} of their {{ ahead_and_crashed('free accidents')[0] | , }} drives that end
+# ahead end there *crashed*, also those of the agent that "escapes": they do not learn to survive.
 # <!-- claim: often_ahead('free accidents') > 2 * often_ahead('as it is') and
 #   safe('free accidents') == 0 and easy('free accidents').scores('accident').min() > 0.99 -->
 # <!-- claim: easy('free accidents').escapers('sac') == 1 and DEFAULT.reward.accident == -10 -->
 #
-# Or is an agent too certain too soon? With the paper's target entropy its temperature falls to {{
-# temperature() | .3f }} or less here (lesson [[discrete_sac]]). With η = 1 it stays undecided, and
-# {{ easy('a later start, η = 1').escapers('sac') }} of twenty escape. Does that help on the road as
-# it is? Three agents for each change:
-# <!-- claim: temperature() < 0.01 -->
-
-# %% tags=["hide-input"]
-rows = []
-for changed, results in shipped.shipped_experiment("sensitivity").items():
-    if "γ" in changed or "entropy" in changed:
-        alone_there, pulled = results.of("sac"), results.of("soft")
-        stays = (np.abs(alone_there.scores("returns") - idle.rewards.sum()) < 3).sum()
-        counts = (alone_there.escapers("sac"), stays, pulled.escapers("soft"))
-        rows.append([changed, *(f"{count} of {len(pulled)}" for count in counts)])
-headings = [
-    "what is changed",
-    "plain SAC escapes",
-    "plain SAC returns what idling does",
-    "soft constraint escapes",
-]
-table(
-    headings, rows, below=f"{results.sizes[1]:,} episodes of training, {results.sizes[0]:,} roads."
-)
-
-# %% [markdown]
-# **So what keeps agents in?** The price keeps many from trying, but without it they crash. Changing
-# only the discount, the target entropy, the steering or the start frees hardly any agent, and
-# neither does changing γ and η together. So we have not found what keeps agents in. Their own draws
-# after a good action are a suspect. With the rule as a soft constraint each of the {{
-# len(changed_agents('soft')) }} agents of this table escapes.
+# On the road as it is, none of the study's {{ len(changed_agents('sac')) }} agents of plain SAC
+# with another γ, another η or both escapes. With the rule as a soft constraint each of {{
+# len(changed_agents('soft')) }} does.
 # <!-- claim: not changed_agents('sac').any() and changed_agents('soft').all() and
 #   len(changed_agents('sac')) == 18 -->
+#
+# **The verdict**
+#
+# | what could keep agents in | verdict | evidence |
+# |---|---|---|
+# | at γ = 0.8 staying is best | ruled out | quick ways out are worth more |
+# | γ is too small | not by itself | with a larger γ none of {{ len(farther()) }} escapes |
+# | missing one rare sequence | ruled out | the later start needs one action, and frees none |
+# | the price of failed attempts | in part | without it more get ahead, but crash |
+# | something else | open | |
+# <!-- claim: len(farther()) > 20 and not farther().any() -->
+#
+# We have *not* found what else keeps agents in. Two suspects are untested: after a good action an
+# agent's own next draws may crash, and the gain of one good action may be too small for a critic to
+# see.
 
-# %% [markdown] tags=["instructor"] minutes=8
-# Let them write the worth of each attempt by guesses before the figure is drawn; most expect the
-# plan to pay at both discounts. Then ask which row an agent resembles at the start of its training,
-# and which one in the end; and what an agent is still paid for where accidents are free. (For each
-# second before the accident.)
+# %% [markdown] tags=["instructor"] minutes=3
+# Ask what an agent is still paid for where accidents are free (each second before the accident),
+# and which run would tell the two suspects apart.
 
 # %% [markdown]
-# ## Round 4: what gets a learner across a barrier of five states?
+# ## Round 5: what gets a learner across a barrier of five states?
 #
-# A **chain** of five states keeps the detour and leaves out the rest. You
-# start in the trap, and after 20 decisions the time is up. What each action does and pays:
-#
-# | | state 0, the trap | states 1, 2, 3 | state 4, the free road |
-# |---|---|---|---|
-# | action 0 | stay: 0.16 | back to 0: 0 | stay: 1 |
-# | action 1 | on: 0 | on: 0 | stay: 1 |
+# A **chain** of five states keeps the detour and leaves out the rest. You start in the trap, and
+# after 20 decisions the time is up. Each arrow is an action, 0 or 1. Staying pays, in the trap
+# about what a second behind the traps does, on the free road about what 15 m/s does; the other
+# moves pay 0.
 # <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
 #   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
-#
-# Staying pays about what a second behind the traps does, the free road about what 15 m/s does.
-#
+
+# %%
+bc.show(diagrams.five_states())
+
+# %% [markdown]
 # > **Predict.** Does leaving pay at γ = 0.8? From which γ on?
 
 # %%
 predict("the_barrier.7", "From which γ on does leaving the chain's trap pay?", unit="")
 
 # %% [markdown]
-# <details><summary>The answer, in four lines</summary>
+# <details><summary>The answer</summary>
 #
-# To stay is worth $0.16 + 0.16\,\gamma + \dots = 0.16 / (1 - \gamma)$, at γ = 0.8 {{ 0.16 / 0.2 |
-# .2f }}. To leave pays nothing for four decisions, and then 1 at each: $\gamma^4 / (1 - \gamma)$,
-# at γ = 0.8 {{ 0.8**4 / 0.2 | .2f }}. So it pays where $\gamma^4 > 0.16$: from γ = {{ 0.16**0.25 |
-# .2f }} on.
+# To stay is worth $0.16 + 0.16\,\gamma + \dots = 0.16 / (1 - \gamma)$, which is {{ 0.16 / 0.2 |
+# .2f }} at γ = 0.8. To leave pays nothing for four decisions, and then 1 at each: $\gamma^4 / (1 -
+# \gamma)$, which is {{ 0.8**4 / 0.2 | .2f }}. So it pays where $\gamma^4 > 0.16$: from γ = {{
+# 0.16**0.25 | .2f }} on.
 #
 # </details>
 #
 # Now let a learner find the way: **Q-learning**, SAC's critic without networks and entropy, and
-# with the best next action in place of the policy's mean. After each decision it moves one number,
-# Q(s, a), a part of the way towards the reward plus γ times the *estimated* value of the next
-# state.
+# with the best next action in place of the policy's mean. After each decision it moves one number:
 #
 # $$ Q(s, a) \leftarrow Q(s, a)
 # + \text{step} \cdot \big(r + \gamma \max_{a'} Q(s', a') - Q(s, a)\big) $$
 #
 # The bracket is the **temporal difference** of lesson [[discrete_sac]]. Its target holds an
-# estimate: the learner **bootstraps**.
+# estimate, the largest Q of the next state: the learner **bootstraps**.
 #
 # **Exercise (20 min, ●●●).** Write this learner. `chain.NEXT[s, a]` and `chain.REWARD[s, a]` hold
-# the table above. The random decisions have been drawn beforehand (`chances`). A demonstrator's
+# the picture above. The random decisions have been drawn beforehand (`chances`). A demonstrator's
 # decisions (`taught`) are replayed after each of your own. After each 20 decisions the walk starts
 # again in state 0, since the time is up: does the target of the last decision change?
 
@@ -483,16 +464,13 @@ def learn_chain(chances, gamma, step, taught):
 check.learn_chain(learn_chain)
 
 # %% [markdown]
-# Of each kind below, thirty learners make 1,000 decisions, 50 episodes. They act greedily, except
-# for a share ε of random decisions. A learner has learned to leave if in the end Q(0, 1) > Q(0, 0).
+# Thirty learners of each kind make 1,000 decisions, 50 episodes. They act greedily, except for a
+# share ε of random decisions. A learner has learned to leave if in the end Q(0, 1) > Q(0, 0).
 #
-# | | ε | γ | demonstration |
-# |---|---|---|---|
-# | A | 0.1 | 0.8 | |
-# | B | 0.1 | 0.95 | |
-# | C | 0.5 | 0.8 | |
-# | D | 1 | 0.8 | |
-# | E | 0.1 | 0.8 | the way out |
+# - *A*: ε = 0.1 and γ = 0.8;
+# - *B*: as A, with γ = 0.95;
+# - *C* and *D*: as A, with ε = 0.5 and with ε = 1;
+# - *E*: as A, with a demonstration of the way out.
 #
 # > **Predict.** In which of the five kinds do more than half of the thirty learn to leave?
 
@@ -500,27 +478,29 @@ check.learn_chain(learn_chain)
 predict("the_barrier.8", "In which kinds do more than half learn to leave? Letters, as in: A, C")
 
 # %%
-# NBVAL_CHECK_OUTPUT
-kinds = {"A": (0.1, 0.8), "B": (0.1, 0.95), "C": (0.5, 0.8), "D": (1.0, 0.8)}
-kinds["E"] = (0.1, 0.8, chain.WAY_OUT)
-rows = [
-    [name, *kind[:2], "yes" if kind[2:] else "", f"{chain.leaving(*kind)} of 30"]
-    for name, kind in kinds.items()
-]
-table(["", "ε", "γ", "demonstration", "learn to leave"], rows)
+kinds = {
+    "A: ε = 0.1, γ = 0.8": (0.1, 0.8),
+    "B: A, but γ = 0.95": (0.1, 0.95),
+    "C: A, but ε = 0.5": (0.5, 0.8),
+    "D: A, but ε = 1": (1.0, 0.8),
+    "E: A, demonstration": (0.1, 0.8, chain.WAY_OUT),
+}
+rows = {kind: figures.learners(chain.learned(*how)) for kind, how in kinds.items()}
+title = "More exploration or one demonstration gets learners out, a longer view does not"
+bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
 
 # %% [markdown]
 # **Explain.** In A none leaves, although leaving is worth more than twice as much. In state 0
 # staying has paid, so Q(0, 0) rises. In states 1 to 3 going *back* is then worth γ Q(0, 0), and
-# going on still 0, where Q began: the greedy action leads back, and it takes four random decisions
-# in a row to get through, each right with a probability of ε / 2. A longer view does not help (B):
-# none of the thirty has been on the free road, so its value is not known.
+# going on still 0, where Q began. So the greedy action leads back, and to get through takes four
+# random decisions in a row, each right with a probability of ε / 2. A longer view does not help
+# (B): none of the thirty has been on the free road, so its value is not known.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps here (C, D), and one visit is not enough: {{ free_road_seen(0.5, 0.8) }} of
-# C were on the free road, {{ leaving(0.5, 0.8) }} learn to leave, for each passage moves the value
-# one state back. But on the road a failed attempt costs 10: D is no recipe there.
+# More exploration helps here (C, D), but one visit is not enough, since each passage moves the
+# value one state back: {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5,
+# 0.8) }} learn to leave. On the road, where a failed attempt costs 10, D is no recipe.
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 #
 # One demonstration gets all thirty across (E). The target does not depend on who decided, so
@@ -537,10 +517,9 @@ table(["", "ε", "γ", "demonstration", "learn to leave"], rows)
 # %% [markdown]
 # ## What gets agents out on the road?
 #
-# The paper's answer is the last row of the chain: somebody who knows a way, although not the best
-# one. It uses the rule twice, as a **soft constraint** (lesson [[soft_constraint]]) and for
-# **demonstrations** (lesson [[demonstrations]]), which end at episode {{ SETTINGS.beta_episodes | ,
-# }} (lesson [[found_and_kept]]). Here are ten agents of each kind:
+# The paper's answer is E: somebody who knows a way, although not the best one. It uses the rule as
+# a **soft constraint** (lesson [[soft_constraint]]) and for **demonstrations** (lesson
+# [[demonstrations]]):
 
 # %%
 study = bc.shipped_results()
@@ -554,28 +533,25 @@ bc.show(bc.training_curves(curves, title, constants={"rule": level}))
 # %% [markdown]
 # ## What you now know
 #
-# 1. Most plain SAC agents stay behind trap 1 or crash: {{ len(of('sac')) - escaped('sac') }} of the
-#    study's {{ len(of('sac')) }} do not escape.
-# 2. At γ = 0.8 staying is worth more, on average, than each of the five kinds of attempts of Round
-#    3; at γ = 0.95 only the skilled ones pay.
+# 1. Most agents of plain SAC stay behind trap 1 or crash: {{ len(of('sac')) - escaped('sac') }} of
+#    the study's {{ len(of('sac')) }} do not escape.
+# 2. At γ = 0.8 leaving can pay, but each of our five kinds of attempts is worth less than staying:
+#    most crash, or their gain comes late.
 # <!-- claim: all(tested(kind).values(0.8).mean() < tested('stays').values(0.8).mean() for kind in
-#   KINDS_OF_ATTEMPTS) and not tested("the rule's way").accident.any() -->
-# 3. Leaving can pay at γ = 0.8: agents with the soft constraint do it.
-# <!-- claim: discounted_scores('soft').min() > discounted(idle(), 0.8) -->
-# 4. With none of our changes (discount, entropy, steering, start, free accidents) do more than two
-#    of twenty agents escape. What keeps plain SAC in is not settled here. In the chain's A and B it
-#    is known: none has been on the free road, so no value has come back.
+#   KINDS_OF_ATTEMPTS) and discounted_scores('soft').min() > discounted(idle(), 0.8) -->
+# 3. Neither the discount by itself nor one rare sequence keeps plain SAC in. The price of accidents
+#    keeps some agents from trying; what else keeps them in is open.
 # <!-- claim: all(each.escapers('sac') <= 2 and len(each) == 20 for each in
 #   shipped_experiment('easier').values()) and not changed_agents('sac').any() -->
-# 5. Bootstrapping moves a value back one state at a time, from states that were visited. In front
-#    of a barrier the greedy actions lead back.
-# 6. With the rule as a constraint and as data, most agents of the study escape.
+# 4. Bootstrapping moves a value back one state at a time, from states that were visited. In front
+#    of the chain's barrier the greedy actions lead back.
+# 5. With the rule as a constraint and as data, most agents of the study escape.
 # <!-- claim: escaped('bootstrapped') > len(of('bootstrapped')) / 2 > escaped('sac') -->
 #
 # **Three questions to think about**
 # - Start the chain's Q at 5 instead of 0 (*optimistic initial values*). Which of A to D leave now,
 #   and why? What would the same optimism cost on the road?
-# - Demonstrations got all thirty across the chain. What could be different on the road?
+# - A demonstration got all thirty across the chain. What could be different on the road?
 # - Which of the three explanations could ten times as much training refute?
 #
 # **Read on**: [the rule](the_rule.ipynb) that helps. Ecoffet et al., *First return, then explore*

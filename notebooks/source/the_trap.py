@@ -96,8 +96,8 @@ def decode(actions):
 check.decode(decode)
 
 # %% [markdown]
-# You can also write a plan: actions in words, each with its number of seconds. When it ends, the
-# car keeps its speed and its direction.
+# A plan is a list of actions, each with its number of seconds. When it ends, the car keeps its
+# speed and its direction.
 
 # %%
 my_plan = [("keep left", 2), ("keep right", 2)]  # change it, and run the cell again
@@ -209,8 +209,8 @@ table(["road", "plans that get out unhurt", "the first of them"], rows)
 # %% [markdown]
 # **Explain.** There are ways out without braking on both roads. But few plans find one, and a plan
 # that works on one road need not work on the next: trap 2 starts {{ DEFAULT.traps.d2[0] }} to {{
-# DEFAULT.traps.d2[1] }} m ahead of you, from centre to centre. Here are three plans of our choice
-# on the same 400 roads; "far" roads are those on which trap 2 starts a car's length ahead or more:
+# DEFAULT.traps.d2[1] }} m ahead of you, from centre to centre. Here are three plans on the same 400
+# roads; on "far" roads trap 2 starts a car's length ahead or more:
 
 # %%
 after = [("accelerate straight", 5)]
@@ -255,10 +255,10 @@ bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", rewa
 # of the four nearest cars within {{ DEFAULT.sight.distance }} m. A missing car is five zeros. Each
 # number is divided by a fixed scale, so that it is of order one.
 #
-# `x` is the ego's place along the road and `y` its place across: y is 0 in the middle of the left
-# lane and grows to the *right*. `v_lon` and `v_lat` are its speeds, `d_e` is how far it is off the
-# middle of its lane. `dx`, `dy`, `dv_lon` and `dv_lat` are places and speeds of another car,
-# measured from the ego; `presence` is 1 for a car that is there.
+# `x` and `y` are the ego's place along and across the road: y is 0 in the middle of the left lane
+# and grows to the *right*. `v_lon` and `v_lat` are its speeds, `d_e` is how far it is off the
+# middle of its lane. `dx`, `dy`, `dv_lon` and `dv_lat` are another car's place and speed, measured
+# from the ego; `presence` is 1 for a car that is there.
 # <!-- claim: sum(not name.startswith('car') for name in observation.names(DEFAULT)) == 6 -->
 # <!-- claim: sum(name.startswith('car 1') for name in observation.names(DEFAULT)) == 5 -->
 # <!-- claim: DEFAULT.sight.neighbours == 4 -->
@@ -285,12 +285,11 @@ table(["number", "observed", "scale", "in m, m/s"], rows, below="(the first 16 o
 # {{ idle().states[0, TRAP_2, Y] - idle().states[0, EGO, Y] }} m: one lane to the left.
 #
 # The road is a *Markov decision process* (MDP): its next **state** and the reward depend on the
-# present state and the action alone, $p(s', r \,|\, s, a)$. The state holds the time, and the
-# motion and the lane decisions of all {{ DEFAULT.vehicles }} cars. The observation o leaves out the
-# cars beyond the four nearest, the lanes that cars want, and the seconds that are left. So to the
-# agent the world is a *partially observed* MDP, and its policy is a $\pi(a \,|\, o)$. The learners
-# of this course, like the paper's, treat o as if it were the state s. The rule reads the true
-# places and speeds.
+# present state and the action alone, $p(s', r \,|\, s, a)$. The observation o leaves out a part of
+# the state: the cars beyond the four nearest, the lanes that cars want, and the seconds that are
+# left. So for the agent it is a *partially observed* MDP, and its policy is a $\pi(a \,|\, o)$. The
+# learners of this course, like the paper's, treat o as if it were the state s. The rule reads the
+# true places and speeds.
 # <!-- claim: DEFAULT.vehicles == 9 -->
 # <!-- claim: DEFAULT.vehicles - 1 > DEFAULT.sight.neighbours == 4 -->
 # <!-- claim: not any('lane' in name or 'time' in name for name in observation.names(DEFAULT)) -->
@@ -425,8 +424,8 @@ for drive, who in ((before, "Untrained"), (after, f"After {training.updates:,} u
 
 # %% [markdown]
 # **See.** Your curves will differ from those that were saved here. Which lines have risen from
-# −9.5, and which agents have success? A return that has risen without success belongs to an agent
-# that survives longer behind the traps.
+# −9.5, and which agents have success? A return that rises without success belongs to an agent whose
+# drives last longer behind the traps.
 #
 # Two agents say little. In our study {{ len(of('sac')) }} agents of each kind learned, each on
 # {{ of('sac').curves['success'].shape[1] | , }} roads, and then each drove {{ roads() | , }}
@@ -463,7 +462,7 @@ table(["", "who gets out", "mean return", "drives that end in an accident"], row
 
 # %% [markdown]
 # **See.** Most agents of plain SAC miss a way out that the rule, which learns nothing, finds on
-# each of these roads. With help more get out. The accidents of the helped agents are a mean of two
+# each of these roads. With help more get out. The helped agents' accidents are a mean of two
 # groups: those that escape crash in at most {{ 100 * of('bootstrapped').scores('accident')[
 # of('bootstrapped').scores('success') >= ESCAPES].max() | .0f }} % of their drives, the others in
 # {{ 100 * of('bootstrapped').scores('accident')[of('bootstrapped').scores('success') <
@@ -472,10 +471,9 @@ table(["", "who gets out", "mean return", "drives that end in an accident"], row
 # only ten.
 #
 # Look at the last row. A plan of 13 actions that looks at nothing for 150 s earns more than plain
-# SAC's mean agent. The mean of our ten helped agents is lower, too, but its interval holds the
-# plan's return: ten agents do not tell which is better. Each helped agent that escapes earns more
-# than the plan, and the plan crashes often. Keep it beside each later table: what does an agent add
-# to it?
+# SAC's mean agent. The mean of our ten helped agents is lower, too, but their interval holds the
+# plan's return, so they do not tell which is better. Each helped agent that escapes earns more than
+# the plan, which crashes often. Keep it beside each later table: what does an agent add to it?
 # <!-- claim: of('bootstrapped').scores('returns')[of('bootstrapped').scores('success') >=
 #   ESCAPES].min() > blind_plan().returns.mean() -->
 # <!-- claim: blind_plan().returns.mean() > of('bootstrapped').scores('returns').mean() >
@@ -508,9 +506,8 @@ behind = np.flatnonzero(lead < 0)[-1] + 1  # the last second in which it has ear
 bc.show(figures.running_lead(lead, int(behind)))
 
 # %% [markdown]
-# **See.** The escape's running total is never behind by more than
-# {{ -(by_rule().rewards - idle().rewards).cumsum().min() | .1f }}, which is little if rewards are
-# added up as they are. (Lesson [[the_rule]] explains the steps of the curve.)
+# **See.** The escape's running total is never behind by more than {{ -(by_rule().rewards -
+# idle().rewards).cumsum().min() | .1f }}. (Lesson [[the_rule]] explains the steps of the curve.)
 #
 # **Exercise (8 min, ●●○).** A driver that stays behind the traps earns the return `stay`. An
 # attempt to escape ends in an accident with probability q, and then returns `crash`; otherwise it
@@ -544,9 +541,9 @@ table(headings, rows, below=f"Discounted sums from the start, road {ROAD}.")
 # %% [markdown]
 # **Explain.** On this road, at the agents' γ = {{ SETTINGS.gamma }}, the rule's escape is worth
 # *less* than staying, even without a crash: it costs now and pays too late. With γ = 1 such an
-# attempt may crash in more than a third of the cases and still pay. So an agent that stays is not
-# stupid. Is there a way out that pays at γ = {{ SETTINGS.gamma }}, and what are an agent's own
-# attempts worth? Lesson [[the_barrier]] measures both, on more roads.
+# attempt may crash in more than a third of the cases and still pay. Is there a way out that pays at
+# γ = {{ SETTINGS.gamma }}, and what are an agent's own attempts worth? Lesson [[the_barrier]]
+# measures both, on more roads.
 # <!-- claim: SETTINGS.gamma == 0.8 and discounted(by_rule(), 0.8) < discounted(idle(), 0.8) -->
 # <!-- claim: 1 / 3 < (by_rule().rewards.sum() - idle().rewards.sum()) / (by_rule().rewards.sum() -
 #   by_rule().rewards[:3].sum() + 10) < 1 / 2 -->

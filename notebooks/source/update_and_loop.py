@@ -214,9 +214,9 @@ bc.show(charts.lines(updates, noted, title, "updates", "H (nats), α", "y", mark
 # %% [markdown]
 # **See.** While the entropy is below its target, α rises, and at first nothing follows: α is still
 # small beside the differences in Q, and the best policy is softmax(Q / α). Once it is large enough,
-# the policy becomes less certain; where the entropy passes the target, α falls again. (In our run
-# the early peaks of H are not its work: α is then still about 0.01, its start.) Has yours
-# settled? With the paper's η = −1, α would fall from the first update to the last.
+# the policy becomes less certain; where the entropy passes the target, α falls again. Peaks of H
+# while α is still near 0.01, its start, are not its work. Has yours settled? With the paper's η =
+# −1, α would fall from the first update to the last.
 #
 # Is the update made of your parts the same as the library's, which trains many agents at once?
 
@@ -263,10 +263,9 @@ headings = ["without", *(f"seed {seed}" for seed in range(SEEDS)), "mean"]
 table(headings, rows, "Pushes, of at most 500.")
 
 # %% [markdown]
-# **Explain.** One row stands out: without (1 − terminated) the agents hardly balance the pole. In
-# the others the seeds of a row differ as much as the rows do. Three agents and 4,000 pushes show
-# neither that the other parts help nor that they are useless: lesson [[how_many_seeds]] works out
-# how many agents would.
+# **Explain.** Without (1 − terminated) the agents hardly balance the pole. Compare the other rows
+# with the spread of their own seeds: three agents and 4,000 pushes show neither that the other
+# parts help nor that they are useless. Lesson [[how_many_seeds]] works out how many agents would.
 #
 # What went wrong? Without (1 − terminated) each row says "1 now, and then the value of the next
 # state"; no row says that a fall ends the rewards. The one constant that fits all rows is
@@ -325,7 +324,8 @@ table(["rows, all with terminated = 0", "Q after 4,000 pushes"], rows, "One agen
 
 # %%
 worst = left_out.KINDS[1 + scores[1:].mean(1).argmin()]
-compare_predictions("update_and_loop", {1: f"{balanced:.0f}", 2: worst})
+closest = choices[np.abs(np.array([20, 100, 250, 500]) - balanced).argmin()]
+compare_predictions("update_and_loop", {1: f"{closest}: {balanced:.0f}", 2: worst})
 
 # %% [markdown]
 # **Three questions to think about**

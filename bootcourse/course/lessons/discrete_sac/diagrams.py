@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from bootcourse.plots.diagrams import Diagram, arrow, box, label, line
+from bootcourse.plots.diagrams import Diagram, arrow, box, label
 
 SAC_PARTS: Mapping[str, tuple] = {  # name -> left, top, lines, tint; each 140 wide and 64 high
     "world": (8, 30, ("world", "road or pole"), "world"),
@@ -22,13 +22,13 @@ def sac_diagram() -> Diagram:
         arrow(150, 76, 228, 76), label(190, 96, "state"),
         arrow(78, 96, 78, 218), label(86, 150, "s, a, r, s′,", "start"), label(86, 168, "terminated", "start"),
         arrow(150, 252, 228, 252), label(190, 272, "batch"),
-        line(190, 252, 190, 170), arrow(190, 170, 250, 97), label(198, 190, "batch", "start"),
-        arrow(300, 218, 300, 97), label(292, 196, "min Q", "end"),
+        arrow(146, 218, 244, 97), label(206, 166, "its states", "start"),
+        arrow(300, 218, 300, 97), label(308, 200, "min Q", "start"),
         arrow(370, 50, 450, 50), label(411, 42, "entropy"),
         arrow(452, 76, 372, 76), label(411, 96, "α"),
         arrow(452, 240, 372, 240), label(411, 232, "target y"),
         arrow(370, 268, 450, 268, dashed=True), label(411, 290, "share τ"),
-        arrow(366, 96, 470, 218), label(426, 150, "π(s′), for V(s′)", "start"),
+        arrow(366, 96, 470, 218), label(426, 150, "π(·|s′), for V(s′)", "start"),
     ]  # fmt: skip
     alt = (
         "A diagram of soft actor-critic. The actor sends actions to the world and sees its states. The world's "

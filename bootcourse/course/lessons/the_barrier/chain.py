@@ -37,7 +37,21 @@ def chances(explore: float, decisions: int, seed: int) -> np.ndarray:
     return np.where(rng.random(decisions) < explore, rng.integers(0, 2, decisions), -1)
 
 
+def learned(explore: float, gamma: float, taught: Sequence[tuple[int, int]] = (), walks: int = 30) -> list[np.ndarray]:
+    """The Q of each of `walks` learners after 1,000 decisions."""
+    return [learn_chain(chances(explore, 1000, seed), gamma, 0.3, taught) for seed in range(walks)]
+
+
+def leaves(q: np.ndarray) -> bool:
+    """Whether leaving is worth more than staying in the trap, as this Q says."""
+    return bool(q[0, 1] > q[0, 0])
+
+
+def has_been_free(q: np.ndarray) -> bool:
+    """Whether this Q has learned from a decision on the free road, each of which pays 1."""
+    return bool(q[4].max() > 0)
+
+
 def leaving(explore: float, gamma: float, taught: Sequence[tuple[int, int]] = (), walks: int = 30) -> int:
-    """In how many walks of 1,000 decisions Q ends with leaving above staying in the trap."""
-    learned = (learn_chain(chances(explore, 1000, seed), gamma, 0.3, taught) for seed in range(walks))
-    return sum(bool(q[0, 1] > q[0, 0]) for q in learned)
+    """How many learners end with leaving above staying in the trap."""
+    return sum(map(leaves, learned(explore, gamma, taught, walks)))

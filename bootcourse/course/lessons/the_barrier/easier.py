@@ -24,7 +24,7 @@ from bootcourse.research.teachers import RULE
 from bootcourse.road import twin
 from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import DEFAULT, N_ACTIONS
+from bootcourse.scenario import DEFAULT
 
 SEEDS, GAMMAS = 10, (0.8, 0.95)
 UPDATES = 2_000  # as the agents of the lesson have
@@ -78,7 +78,7 @@ EXPERIMENT = LessonExperiment(f"{__name__}:train_kind", {kind: {"kind": kind} fo
 WISHES = [3, *[1] * 8, *[5] * 6]  # of the lane keeper: slower for 1 s, to the left for 8 s, faster for 6 s
 
 
-def drivers(kind: str, roads: int, seed: int = 0) -> Mapping[str, Policy]:
+def drivers(kind: str, seed: int = 0) -> Mapping[str, Policy]:
     """Whom the lesson lets drive on the roads of a kind: who stays, who acts at random, who is skilled."""
     rng = np.random.default_rng(seed)
     if kind == "a lane keeper":
@@ -86,9 +86,8 @@ def drivers(kind: str, roads: int, seed: int = 0) -> Mapping[str, Policy]:
     return {
         "stays": idle_policy,
         "at random": random_policy(rng),
-        "1 random action, then accelerates": ThenAccelerate(rng.integers(N_ACTIONS, size=(1, roads))),
         "accelerates once, then nothing": PlanPolicy([7]),
-        "accelerates at once": ThenAccelerate([]),
+        "to 15 m/s, in its lane": ThenAccelerate([]),
     }
 
 

@@ -1,13 +1,17 @@
-"""A figure of the barrier: what attempts to leave are worth."""
+"""Figures of the barrier: what attempts to leave are worth, and how each learner of a kind ends."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from bootcourse.colours import TRAP
+from bootcourse.course.lessons.the_barrier import chain
 from bootcourse.course.lessons.the_barrier.attempts import Outcome
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes, wrapped
+from bootcourse.research.results import Results
+from bootcourse.statistics import ESCAPES
 
 
 def worth(outcomes: Mapping[str, Outcome], title: str) -> Figure:
@@ -42,3 +46,72 @@ def worth(outcomes: Mapping[str, Outcome], title: str) -> Figure:
     words = f"Worth: the discounted sum of the rewards from the start, mean of {len(outcomes['stays'].ahead)} roads."
     figure.text(0.012, 0.06 / figure.get_figheight(), words, fontsize=SMALL, color=QUIET)
     return finish(figure, title, f"{'; '.join(listed)}. Accidents, in this order: {', '.join(shares)}.")
+
+
+FAR, SOME, NOT = 2, 1, 0  # how far a learner got: its square is dark, light or empty
+AGENTS = ("escapes: is ahead of trap 1 on 95 % of the roads or more", "is ahead on 10 % or more", "is ahead on fewer")
+LEARNERS = ("learned to leave", "was on the free road, and did not learn to leave", "was not on the free road")
+SHADES = {FAR: style("sac").colour, SOME: "#A9CFE6", NOT: "white"}
+
+
+def ends(results: Results, gamma: float) -> list[tuple[int, bool]]:
+    """How the agents with this γ drive, for `squares`: how far they get, and whether they crash on most roads."""
+    its = np.array([agent["gamma"] == gamma for agent in results.agents])
+    success, accident = (results.scores(name)[its] for name in ("success", "accident"))
+    far = np.where(success >= ESCAPES, FAR, np.where(success >= 0.1, SOME, NOT))
+    return list(zip(far.tolist(), (accident > 0.5).tolist(), strict=True))
+
+
+def learners(all_q: Sequence[np.ndarray]) -> list[tuple[int, bool]]:
+    """How far the chain's learners got, for `squares`."""
+    return [(FAR if chain.leaves(q) else SOME if chain.has_been_free(q) else NOT, False) for q in all_q]
+
+
+def squares(
+    panels: Mapping[str, Mapping[str, Sequence[tuple[int, bool]]]],
+    title: str,
+    meaning: Sequence[str],
+    crossed: str = "",
+) -> Figure:
+    """A square for each learner, a row for each kind; the panels stand side by side and have the same kinds.
+
+    panels: {name: {kind: (FAR, SOME or NOT, whether it is crossed out) of each learner}}, drawn in this order.
+    meaning: of FAR, SOME and NOT; crossed: of the cross.
+    """
+    first = next(iter(panels.values()))
+    most, keys = max(map(len, first.values())), [*meaning, *([crossed] if crossed else [])]
+    size, height = min(0.19, (4.4 - 0.8 * (len(panels) - 1)) / len(panels) / most), 0.29 * len(first)
+    top = 0.34 + 0.2 * len(wrapped(title).splitlines()) + 0.16 * any(panels)
+    figure, left, listed = new_figure(top + height + 0.2 + 0.19 * len(keys)), 1.75, []
+    for name, rows in panels.items():
+        ax = axes_at(figure, left, top, size * most, height)
+        ax.set(xlim=(-0.5, most - 0.5), ylim=(len(rows) - 0.5, -0.5))
+        ax.axis("off")
+        ax.text(-0.5, -0.75, name, fontsize=TEXT, color=INK, va="bottom")
+        for row, (kind, learners) in enumerate(rows.items()):
+            for column, (far, cross) in enumerate(sorted(learners, key=lambda each: (-each[0], each[1]))):
+                _square(ax, column, row, far, cross, 47 * size)
+            dark, light = (sum(far == shade for far, _ in learners) for shade in (FAR, SOME))
+            ax.text(most - 0.1, row, f"{dark} of {len(learners)}", fontsize=TEXT, color=INK, va="center")
+            if ax is figure.axes[0]:
+                ax.text(-0.9, row, kind, fontsize=TEXT, color=INK, va="center", ha="right")
+            listed.append(f"{name} {kind}: {dark} dark, {light} light, {len(learners) - dark - light} empty".strip())
+            listed[-1] += f", {sum(cross for _, cross in learners)} crossed out" * bool(crossed)
+        left += size * most + 0.75
+    key = axes_at(figure, 1.75, top + height + 0.08, 0.19, 0.19 * len(keys))
+    key.set(xlim=(-0.5, 0.5), ylim=(len(keys) - 0.5, -0.5))
+    key.axis("off")
+    marks = ((FAR, False), (SOME, False), (NOT, False), (NOT, True))
+    for row, (mark, words) in enumerate(zip(marks, keys, strict=False)):
+        _square(key, 0, row, *mark, 6.5)
+        key.text(0.9, row, words, fontsize=SMALL, color=QUIET, va="center")
+    legend = zip(("Dark", "Light", "Empty", "Crossed out"), keys, strict=False)
+    legend = " ".join(f"{look}: {words}." for look, words in legend)
+    return finish(figure, title, f"A square for each learner. {legend} {'; '.join(listed)}.")
+
+
+def _square(ax, x: float, y: float, far: int, crossed: bool, size: float) -> None:
+    ax.plot(x, y, "s", markersize=size, color=SHADES[far], markeredgecolor=QUIET, markeredgewidth=0.7, clip_on=False)
+    if crossed:
+        ink = "white" if far == FAR else TRAP
+        ax.plot(x, y, "x", markersize=0.6 * size, color=ink, markeredgewidth=1.3, clip_on=False)
