@@ -100,8 +100,8 @@ bc.show(figures.one_above_the_other(at, named, title, "training episode", "rlpd"
 # %% [markdown]
 # **See.** (Your 60 episodes only show how short the first ones are. The lines are means over ten
 # agents that ship, and over 20 episodes.) At first these agents attempt to leave and crash. A crash
-# is short, so the first 50 episodes of an agent take {{ short() | .0f }} decisions altogether, about
-# {{ short() / 50 | .0f }} seconds each. Then half of them find the way out, and {{
+# is short, so the first 50 episodes of an agent take {{ short() | .0f }} decisions altogether,
+# about {{ short() / 50 | .0f }} seconds each. Then half of them find the way out, and {{
 # rlpd().escapers('rlpd') }} of ten escape after {{ rlpd().curves['success'].shape[1] }} episodes.
 # <!-- claim: found(rlpd().curves['success'], 20).sum() == 5 and len(rlpd()) == 10 -->
 #
@@ -235,10 +235,11 @@ needed = np.where(np.isfinite(needed), needed, np.nan)
 bc.show(figures.handing_over(at, h, mean, needed, title))
 
 # %% [markdown]
-# **See.** (Yours will differ.) h can fall once {{ settings_for('jsrl').window }} episodes have begun
-# with it. Where the mean is below the dashed line by then, the agent has taken over too early, and
-# h waits until the pair has recovered. Most first episodes bring the agent past trap 1: the rule is
-# ahead after {{ settings_for('jsrl').guide_decisions }} s on about two thirds of the roads.
+# **See.** (Yours will differ.) h can fall once {{ settings_for('jsrl').window }} episodes have
+# begun with it. Where the mean is below the dashed line by then, the agent has taken over too
+# early, and h waits until the pair has recovered. Most first episodes bring the agent past trap 1:
+# the rule is ahead after {{ settings_for('jsrl').guide_decisions }} s on about two thirds of the
+# roads.
 # <!-- claim: 0.6 < np.mean(rules_overtaking() <= settings_for('jsrl').guide_decisions) < 0.73 -->
 #
 # **Explain.** A **curriculum** like this one begins with the easy part, the end of the way. The

@@ -220,8 +220,8 @@ bc.show(figures.decisions(cells, ("mountain-car", "cartpole"), title))
 #   not explain what they gain.
 # - On CartPole they had {{ with_aids('cartpole').min() / np.median(decisions('cartpole', 'SAC',
 #   'good')) | .0f }} to {{ with_aids('cartpole').max() / np.median(decisions('cartpole', 'SAC',
-#   'good')) | .0f }} times as many as the median of plain SAC's. How far they are ahead of plain SAC
-#   mixes the aid with the practice that it brings, and says little about SAC alone (lesson
+#   'good')) | .0f }} times as many as the median of plain SAC's. How far they are ahead of plain
+#   SAC mixes the aid with the practice that it brings, and says little about SAC alone (lesson
 #   [[update_and_loop]]). Compare the three aids of a row with each other: their medians differ by
 #   less than a factor of 1.5.
 # - For Lunar lander the results do not hold the decisions: compare the methods with each other, and
@@ -394,7 +394,8 @@ table(["DoorKey, success in %", *headings], rows, below)
 # percent('doorkey', 'systematic', 'both, c = 0', 'drawn_success') }} % with both aids and c = 0, {{
 # percent('doorkey', 'systematic', 'soft', 'drawn_success') }} % with the soft constraint, plain SAC
 # {{ percent('doorkey', 'random', 'SAC', 'drawn_success') }} %).
-# <!-- claim: decisions_on_doorkey('random', 'both') > 1.5 * decisions_on_doorkey('random', 'SAC') -->
+# <!-- claim: decisions_on_doorkey('random', 'both') > 1.5 * decisions_on_doorkey('random', 'SAC')
+#   -->
 # <!-- claim: all(score('doorkey', t, 'both', s) < 0.005 for t in ('random', 'systematic') for s in
 #   ('success', 'drawn_success')) -->
 # <!-- claim: all(score('doorkey', 'random', m) < score('doorkey', 'random', 'SAC') - 0.1 and

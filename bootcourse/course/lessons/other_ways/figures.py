@@ -71,9 +71,7 @@ def one_above_the_other(
     return finish(figure, title, f"Against the {x_label}. {'; '.join(alt)}.")
 
 
-def handing_over(
-    episodes: Sequence[float], h: np.ndarray, mean: np.ndarray, needed: np.ndarray, title: str
-) -> Figure:
+def handing_over(episodes: Sequence[float], h: np.ndarray, mean: np.ndarray, needed: np.ndarray, title: str) -> Figure:
     """How a teacher hands over: h above, and below it the mean return with the one that it has to reach.
 
     All are of the same episodes; `needed` is NaN while there is no best mean yet.
