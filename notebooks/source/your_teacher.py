@@ -212,8 +212,8 @@ bc.show(bc.top_view_over_time(mine_drive, times=[0, 3, 6, 9, 15, out], title=tit
 # teacher=my_rule)` does all three.
 #
 # First *your* teacher: three agents learn from it with the paper's method, for {{
-# taught_agents.UPDATES | , }} updates. **Yours will differ.** The result depends on your processor:
-# it rounds in its own way, and a training turns a small difference into a large one.
+# taught_agents.UPDATES | , }} updates. **Yours will differ**, because the result depends on your
+# processor.
 
 # %% tags=["nbval-ignore-output"]
 SEEDS = 3
@@ -345,12 +345,9 @@ bc.show(figures.verdicts(shares, p, title))
 # - **A safe one that stays.** All ten students of `timid` do what it does in each second of the
 #   drives that we looked at, and have no accident.
 # <!-- claim: (students('timid')['alike'] == 1).all() -->
-# - **A reckless one** leads into an accident within seconds. Its students' episodes are short, and
-#   β counts episodes: it has fallen to 0 in all ten, and the KL is what is left of the teacher.
-#   Nine of the ten crash in nearly each test drive.
-# <!-- claim: bool((students('reckless')['beta'] == 0).all()) and
-#   (students('reckless')['accident'] > 0.99).sum() == 9 and
-#   students('reckless')['accident'].min() < 0.5 -->
+# - **A reckless one** leads into an accident within seconds. Nine of its ten students crash in
+#   nearly each test drive.
+# <!-- claim: (students('reckless')['accident'] > 0.99).sum() == 9 -->
 #
 # So ask of a teacher: does it lead to a place that the learner does not find alone, and does the
 # learner stop following it afterwards?
