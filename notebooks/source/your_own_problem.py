@@ -224,8 +224,8 @@ bc.show(figures.decisions(cells, ("mountain-car", "cartpole"), title))
 #   SAC mixes the aid with the practice that it brings, and says little about SAC alone (lesson
 #   [[update_and_loop]]). Compare the three aids of a row with each other: their medians differ by
 #   less than a factor of 1.5.
-# - For Lunar lander the results do not hold the decisions: compare the methods with each other, and
-#   with this reservation.
+# - For Lunar lander the results do not hold the decisions, so there nothing tells the aid from the
+#   practice.
 # <!-- claim: with_aids('mountain-car').max() < decisions('mountain-car', 'SAC', 'good').min() and
 #   max(ratio_of_aids(t) for t in TEACHERS) < 1.5 and with_aids('cartpole').min() > 40_000 -->
 #
@@ -462,6 +462,8 @@ table([f"the rule itself earns {driven.returns.mean():.1f}", "what I found"], ro
 # %% [markdown]
 # `bc.compare({"clone": bc.settings_for("bc"), "soft": bc.settings_for("soft", gamma=0.99)},
 # episodes=100, make_env=my_env, teacher=own_rule)` trains five agents of each for some answers.
+# `agent.as_policy()` drives by the most probable actions, and
+# `agent.as_policy(np.random.default_rng(0))` by drawn ones.
 #
 # ## What you now know
 #

@@ -63,7 +63,7 @@ def arrows(rows: Mapping[str, Mapping[str, tuple[float, float]]], colours: Seque
             alone, ahead = rows[name][measure]
             side = 1 if ahead >= alone else -1
             if round(alone) != round(ahead):
-                if abs(ahead - alone) > 0.1 * farthest:  # otherwise the two marks leave no room for an arrow
+                if abs(ahead - alone) > 0.16 * farthest:  # otherwise the two marks leave no room for an arrow
                     how = {"arrowstyle": "-|>", "color": colour, "lw": 1.8, "shrinkA": 4, "shrinkB": 3}
                     ax.annotate("", (ahead, place), (alone, place), arrowprops=how, zorder=2)
                 ax.plot(alone, place, "o", color=colour, mfc="white", ms=5.5, zorder=3, clip_on=False)
