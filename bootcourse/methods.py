@@ -100,7 +100,7 @@ METHODS = {
     "ppo": Method("PPO", Style("#44AA99", ":"), _PPO, "bootcourse.learn.ppo:PPOLearner", **_ON_POLICY),
     "ppo_cloned": Method(
         "PPO after cloning",
-        Style("#44AA99", width=2.0),
+        Style("#1F7A6D", width=2.0),
         _PPO | {"cloning_updates": 400, "stochastic_demonstrations": True},
         "bootcourse.learn.ppo:PPOLearner",
         **_ON_POLICY,
@@ -114,7 +114,7 @@ METHODS = {
     ),
     "jsrl": Method(
         "jump-start RL",
-        Style("#AA4499", marker="v"),
+        Style("#661A66", marker="v"),
         _LATER | {"beta_start": 0.0, "target_entropy": 0.3},  # keeps α up while h shrinks
         "bootcourse.learn.jsrl:JSRLLearner",
         kind="bootcourse.learn.jsrl:JSRLSettings",
@@ -122,7 +122,7 @@ METHODS = {
     ),
     "rlpd": Method(
         "RLPD",
-        Style("#AA4499", "--", marker="D"),
+        Style("#C76BB8", "--", marker="D"),
         _LATER | {"beta_start": 0.5, "beta_episodes": None, "envs_per_agent": 2, "updates": 4},
         "bootcourse.learn.rlpd:RLPDLearner",
         kind="bootcourse.learn.rlpd:RLPDSettings",

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
-from bootcourse.colours import ALARM, GRID, INK, QUIET, TRAP
+from bootcourse.colours import ALARM, GRID, INK, QUIET, TRAP, Style
 from bootcourse.episodes.rollout import Rollout, series
 from bootcourse.episodes.words import ACCIDENTS, outcome, overtaken, sentence
 from bootcourse.errors import BootcourseError, check_known
@@ -60,9 +60,7 @@ def traces(
     panels += [("action", i) for i in range(len(drives)) if "action" in what]
     if not panels:
         raise BootcourseError(f"There is nothing to draw: name one or more of {', '.join(PANELS)}.")
-    names, looks = _names(drives), styles([drive.label for drive in drives])
-    if len({look.colour for look in looks}) == len(looks):  # a zigzag is easier to read without gaps
-        looks = [look._replace(line="-") for look in looks]
+    names, looks = _names(drives), _looks(drives)
     title = title or _title(drives, names)
     heights = [PANELS[panel][1] for panel, _ in panels]
     head = HEAD + LINE * len(wrapped(title).splitlines())
@@ -101,6 +99,13 @@ def _names(drives: list[Rollout]) -> list[str]:
         f"{name}, road {drive.seed}" if names.count(name) > 1 else name
         for name, drive in zip(names, drives, strict=True)
     ]
+
+
+def _looks(drives: list[Rollout]) -> list[Style]:
+    """Solid lines, since a speed that changes each second cannot be read in dashes; of one colour, different lines."""
+    looks = styles([drive.label for drive in drives])
+    colours = [look.colour for look in looks]
+    return [look._replace(line="-") if colours.count(look.colour) == 1 else look for look in looks]
 
 
 def _title(drives: list[Rollout], names: list[str]) -> str:

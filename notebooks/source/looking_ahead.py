@@ -26,7 +26,6 @@ import bootcourse as bc
 import numpy as np
 from bootcourse.course import check, compare_predictions, own_code, predict, source, table
 from bootcourse.course.lessons.looking_ahead import figures, imagined_road
-from bootcourse.course.lessons.looking_ahead.figures import wrong_models
 from bootcourse.course.lessons.looking_ahead.futures_figure import nine_futures
 from bootcourse.course.shipped import beginning, shipped_experiment
 from bootcourse.episodes import models
@@ -101,7 +100,10 @@ bc.show(nine_futures(cars, futures, title, colour=style("bootstrapped").colour))
 
 # %% [markdown]
 # **See.** Red drives end in an accident, blue ones go on. They differ in one decision: after it the
-# same agent drives on all nine roads.
+# same agent drives on all nine roads. Most of the red ones leave the road, this agent's most
+# frequent accident.
+# <!-- claim: nine_ends().count(Accident.ROAD_DEPARTURE) > 0.5 * sum(end > 0 for end in nine_ends())
+#   and 0 < nine_ends().count(0) < 9 -->
 #
 # Such an imagined drive is called a **rollout**, and its return says what the first action is
 # worth:
@@ -112,8 +114,7 @@ bc.show(nine_futures(cars, futures, title, colour=style("bootstrapped").colour))
 # the **horizon**, is the number of decisions in all. An accident ends the sum. Otherwise $W(v)$
 # follows: the return of 150 s on an empty road that start with the speed v. It counts a whole
 # episode whatever time is left, so a drive without an accident is always worth more than one with.
-# (The sum is not discounted, and the agents were trained with γ = {{ SETTINGS.gamma }}: the
-# look-ahead improves the return, which is not quite what they were trained for.)
+# (The sum is not discounted; the agents were trained with γ = {{ SETTINGS.gamma }}.)
 # <!-- claim: DEFAULT.clock.decisions == 150 -->
 #
 # **Exercise (18 min, ●●●).** Write $\hat Q$ for all nine actions and many roads at once. You have
@@ -147,8 +148,7 @@ check.rollout_values(rollout_values)
 
 # %% [markdown]
 # The policy that takes the best of the nine values at each decision is the **look-ahead**. The
-# library does the same with all nine branches of all roads in one array: about 0.2 ms for a
-# decision on our processor.
+# library does the same with all nine branches of all roads in one array:
 
 # %%
 source("bootcourse.episodes.lookahead", "imagine")
@@ -176,15 +176,17 @@ predict(
 values_of = own_code.yours_or_ours("rollout_values", doing="Driving")
 improved = imagined_road.driver(values_of, agent, horizon=10)
 ahead = bc.drive_episodes(improved, roads)
-rows = []
+changed = {}
 for number, (base, found) in enumerate(zip(five, before, strict=True), 1):
     after = ahead if base is agent else bc.drive_episodes(bc.lookahead(base), roads)
-    hurt = " → ".join(str(int((each.accident > 0).sum())) for each in (found, after))
-    share = " → ".join(f"{100 * each.success.mean():.0f}" for each in (found, after))
-    returns = " → ".join(f"{each.returns.mean():.0f}" for each in (found, after))
-    rows.append([f"agent {number}", hurt, share, returns])
-headings = ["", f"accidents in {len(roads)}", "ahead of trap 1, %", "return"]
-table(headings, rows, "Alone → with rollouts.")
+    pair = (found, after)
+    changed[f"agent {number}"] = {
+        f"accidents in {len(roads)}": tuple(int((each.accident > 0).sum()) for each in pair),
+        "ahead of trap 1 (%)": tuple(100 * each.success.mean() for each in pair),
+        "return": tuple(each.returns.mean() for each in pair),
+    }
+title = "With rollouts each of the five agents crashes less and earns more"
+bc.show(figures.arrows(changed, [style("bootstrapped").colour] * len(five), title))
 
 # %% tags=["nbval-ignore-output"]
 again = bc.record(improved, [drive.seed], label="bootstrapped")[0]
@@ -237,24 +239,27 @@ choices = ["the rule", "plain SAC", "demonstrations only", "soft constraint only
 predict("looking_ahead.3", "Which of the four gets out least often with rollouts?", choices)
 
 # %%
-study, rows, gets_out = shipped_experiment("look-ahead"), [], {}
-for name, base in zip(choices, ("rule", "sac", "demos", "soft"), strict=True):
+study, gets_out, changed = shipped_experiment("look-ahead"), {}, {}
+bases = ("rule", "sac", "demos", "soft")
+for name, base in zip(choices, bases, strict=True):
     pair = [score(study, Cell(base, form)) for form in ("alone", "rollouts")]
     gets_out[name] = pair[1].success
-    returns = [f"{each.returns.value:.0f}" for each in pair]
-    accidents = [f"{1000 * each.accident_rate.value:.0f}" for each in pair]
-    out = [f"{100 * each.success:.0f}" for each in pair]
-    drives = f"{pair[0].agents} × {pair[1].roads:,}"
-    rows.append([name, drives, *(" → ".join(pair) for pair in (returns, accidents, out))])
-headings = ["base policy", "agents × roads", "return", "accidents in 1,000 drives"]
-headings += ["ahead of trap 1, %"]
-table(headings, rows, "Alone → with rollouts of ten decisions.")
+    changed[name] = {
+        "ahead of trap 1 (%)": tuple(100 * each.success for each in pair),
+        "accidents in 1,000 drives": tuple(1000 * each.accident_rate.value for each in pair),
+        "return": tuple(each.returns.value for each in pair),
+    }
+out = [f"{100 * gets_out[name]:.0f} %" for name in ("plain SAC", "demonstrations only")]
+title = (
+    f"With rollouts plain SAC gets out in {out[0]} of its drives, demonstrations only in {out[1]}"
+)
+bc.show(figures.arrows(changed, [style(base).colour for base in bases], title))
 
 # %% [markdown]
 # **See.** A weak policy can be a good base: the rule's return nearly doubles, and agents with
 # demonstrations alone get out in {{ 100 * ahead('demos').success | .0f }} % of their drives. Of the
 # three that earn little alone, plain SAC gains least in return, {{ gain('sac') | .0f }}, and gets
-# out in half of its drives. (The soft constraint had little left to gain.) SAC's {{
+# out in half of its drives. SAC's {{
 # ahead('sac').agents }} agents differ: their mean return, {{ ahead('sac').returns.value | .0f }},
 # has a 95 % interval from {{ ahead('sac').returns.low | .0f }} to {{ ahead('sac').returns.high |
 # .0f }}.
@@ -292,22 +297,9 @@ table(["base, with rollouts", "return", f"ahead in {len(few)}", f"accidents in {
 # base matters: here rollouts find only what the base goes on with.
 # <!-- claim: ahead_of_twenty('idle') == 0 and ahead_of_twenty('random') > 5 -->
 #
-# The horizon has to show the gain. A short one sees less, and W flatters: it promises an empty road
-# to a car that drives fast towards another. On 20 roads, with an agent that had the soft
-# constraint:
-
-# %%
-base, rows = bc.shipped_agents("soft")[0].as_policy(), []
-for horizon in (1, 3, 10):
-    drives = bc.drive_episodes(bc.lookahead(base, horizon), few)
-    hurt = int((drives.accident > 0).sum())
-    rows.append([str(horizon), f"{drives.returns.mean():.1f}", str(hurt)])
-table(["horizon, decisions", "return", f"accidents in {len(few)}"], rows)
-
-# %% [markdown]
-# And with the study's ten agents of PPO after cloning. They trained for much longer than those of
-# lesson [[the_second_trap]], and return {{ ahead('ppo_cloned', 'alone').returns.value | .1f }}
-# alone and {{ ahead('ppo_cloned').returns.value | .1f }} with rollouts of ten decisions:
+# **How far ahead?** The horizon has to show the gain. A short one sees less, and W flatters: it
+# promises an empty road to a car that drives fast towards another. Here are the study's ten agents
+# of PPO after cloning, trained for much longer than those of lesson [[the_second_trap]]:
 
 # %% tags=["nbval-ignore-output"]
 title = "Six decisions ahead are enough; three make it worse"
@@ -333,7 +325,7 @@ bc.show(figures.by_horizon(study, "ppo_cloned", title))
 # So far the model was perfect: it contains the true state and the other drivers' own equations. A
 # car on a real road has neither. So change the *imagined* road and leave the real one as it is: the
 # others keep their speed and lane; they keep twice the time gap; the car sees everything one second
-# late; and six more, of which the last imagines three wrong models and counts the worst of them.
+# late; and six more, listed below.
 #
 # The look-ahead can also do less. The **shield** follows the base policy, and overrules it only
 # where the imagined drive of the policy's *own* action ends in an accident.
@@ -363,6 +355,13 @@ for name, found in {"alone": alone, "with rollouts": ahead, "with the shield": g
 table(["the same agent", f"accidents in {len(roads)}", "return"], rows)
 
 # %% [markdown]
+# **See.** The shield acts where it sees an accident ahead, and nowhere else. What the rollouts earn
+# beyond it comes from decisions in which no accident was in sight.
+
+# %% tags=["hide-input"]
+table(["the imagined road", "what is wrong with it"], figures.MEANINGS.items())
+
+# %% [markdown]
 # > **Predict.** Ten agents of PPO after cloning drive with each of the {{ len(MODELS) - 1 }} wrong
 # > models. With how many of them has the shield fewer accidents than the full look-ahead?
 
@@ -371,6 +370,7 @@ choices = ["3 or fewer", "4 to 6", "7 or more"]
 predict("looking_ahead.4", "With how many models has the shield fewer accidents?", choices)
 
 # %%
+base = bc.shipped_agents("soft")[0].as_policy()
 forms = {"rollouts": bc.lookahead, "shield": lookahead_shield}
 rows = []
 for name in (
@@ -395,7 +395,7 @@ table(["the imagined road", *headings], rows, below)
 #   form in ('rollouts', 'shield')) -->
 
 # %% tags=["nbval-ignore-output"]
-bc.show(wrong_models(study))
+bc.show(figures.wrong_models(study))
 
 # %% [markdown]
 # **See.** With PPO's agents the shield is the safer form. It has fewer accidents than the agents
@@ -423,16 +423,12 @@ bc.show(wrong_models(study))
 #
 # A base that crashes often gains from most wrong models: the paper's ten agents have fewer
 # accidents than alone with {{ better('bootstrapped', 'rollouts') }} of the nine, in both forms.
-# Which form is safer depends on the model:
-#
-# | the paper's agents, accidents in 1,000 drives | rollouts | shield |
-# |---|---|---|
-# | alone | {{ per_thousand('bootstrapped', 'alone') | .0f }} | {{ per_thousand('bootstrapped',
-# 'alone') | .0f }} |
-# | others keep speed and lane | {{ per_thousand('bootstrapped', model=KEEPING) | .0f }} | {{
-# per_thousand('bootstrapped', 'shield', model=KEEPING) | .0f }} |
-# | twice the time gap | {{ per_thousand('bootstrapped', model=GAPS) | .0f }} | {{
-# per_thousand('bootstrapped', 'shield', model=GAPS) | .0f }} |
+# Which form is safer depends on the model: in 1,000 drives with others that keep speed and lane the
+# shield has {{ per_thousand('bootstrapped', 'shield', model=KEEPING) | .0f }} accidents and the
+# rollouts {{ per_thousand('bootstrapped', model=KEEPING) | .0f }}, with twice the time gap {{
+# per_thousand('bootstrapped', 'shield', model=GAPS) | .0f }} and {{
+# per_thousand('bootstrapped', model=GAPS) | .0f }} (alone: {{
+# per_thousand('bootstrapped', 'alone') | .0f }}).
 # <!-- claim: better('bootstrapped', 'rollouts') == better('bootstrapped', 'shield') < 9 -->
 # <!-- claim: per_thousand('bootstrapped', 'shield', model=KEEPING) < per_thousand('bootstrapped',
 #   model=KEEPING) < per_thousand('bootstrapped', 'alone') / 5 -->
@@ -475,21 +471,16 @@ table(["the drive ends with", f"of {len(few)} drives"], rows)
 # %% [markdown]
 # ## An open question
 #
-# The look-ahead needs the true state and a simulator. The agent reads 26 numbers, once. Can the
-# agent *learn* what the look-ahead does: imitate it, look ahead from the better agent, imitate
-# again? This is called **expert iteration**; AlphaZero learned Go in this way.
+# The look-ahead needs the true state and a simulator; the agent reads 26 numbers. Can the agent
+# *learn* what the look-ahead does: imitate it, look ahead from the better agent, imitate again?
+# This is called **expert iteration**; AlphaZero learned Go in this way.
 #
-# The experiment `distil` tried four ways, with two PPO agents. In each of
-# {{ distil.ROUNDS }} rounds the student drives {{ distil.DRIVES }} roads, its PPO agent's
-# look-ahead labels every state that it reaches, and it learns from the labels of all rounds
-# (DAgger, lesson [[demonstrations]]). It learns
-# - the best action;
-# - or the shield's action;
-# - or the best action, with extra states: the {{ distil.SECONDS }} decisions that follow each one
-#   in which look-ahead and agent disagree;
-# - or all nine values, in a new and larger network.
-#
-# Then it drives alone:
+# The experiment `distil` tried it with two PPO agents. In each of {{ distil.ROUNDS }} rounds the
+# student drives {{ distil.DRIVES }} roads, its PPO agent's look-ahead labels every state that it
+# reaches, and it learns from the labels of all rounds (DAgger, lesson [[demonstrations]]). There
+# were four kinds of labels: the best action; the shield's action; the best action, with extra
+# states after each disagreement; and all nine values, for a new and larger network. Then the
+# student drives alone:
 
 # %%
 table(*learned_rows(shipped_experiment("distil"), study))
@@ -520,8 +511,8 @@ table(*learned_rows(shipped_experiment("distil"), study))
 #    new decisions only if the base policy takes all but the first.
 # 4. The horizon has to show the gain, and a short one with a flattering estimate does harm.
 # 5. A wrong model costs. With PPO's agents the shield, which overrules few decisions, is safer than
-#    rollouts, which compare nine numbers each time; with the paper's agents it depends on the
-#    model. Neither form works if its ego is a second late.
+#    rollouts; with the paper's agents it depends on the model. Neither form works if its ego is a
+#    second late.
 #
 # **Three questions to think about**
 # - What would rollouts of rollouts do, and what would they cost?
@@ -558,6 +549,5 @@ compare_predictions(
 # Tian and Barber (2017), *Thinking Fast and Slow with Deep Learning and Tree Search* (arXiv
 # 1705.08439).
 #
-# **Try**: `bootcourse evaluate runs/mine --lookahead 10` drives your own agents with rollouts, and
-# `drive_panel(futures=agent)` of `bootcourse.panels.drive` shows you the nine while you drive.
+# **Try**: `bootcourse evaluate runs/mine --lookahead 10` drives your own agents with rollouts.
 # Next: [other ways to use a teacher](other_ways.ipynb).

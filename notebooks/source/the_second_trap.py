@@ -18,14 +18,15 @@
 # - write PPO, its advantages and its loss, train an agent with it, and read its health;
 # - say what two changes of the reward did, and why.
 #
-# **Time** 60 minutes; running it takes about one minute. **It builds on** the reward (lesson
-# [[the_trap]]), the barrier ([[the_barrier]]) and demonstrations ([[demonstrations]]).
+# **Time** 60 minutes, with a break after Round 2; running it takes about one minute. **It builds
+# on** the reward (lesson [[the_trap]]), the barrier ([[the_barrier]]) and demonstrations
+# ([[demonstrations]]).
 
 # %%
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.colours import INK, OTHER, QUIET, Style
+from bootcourse.colours import EDGE, OTHER, QUIET, Style
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
 from bootcourse.course.lessons.the_second_trap import figures, ppo_kinds, second_trap
 from bootcourse.course.shipped import beginning
@@ -42,8 +43,8 @@ from bootcourse.road.state import EGO, SPEED
 # <!-- claim: ppo_agents() == 10 -->
 
 # %%
-ROAD = 10
-drive = bc.record(ppo_kinds.agent_of("alone").as_policy(), [ROAD], label="ppo")[0]
+ROAD, PPO = 10, Style(style("ppo").colour)
+drive = bc.record(ppo_kinds.agent_of("alone").as_policy(), [ROAD], label="PPO alone")[0]
 
 # %% tags=["nbval-ignore-output"]
 bc.recording([beginning(drive, 126)], height=360)
@@ -55,8 +56,7 @@ bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
 # %% [markdown]
 # The agent brakes and falls back, up to {{ -ppo_gap().min() | .0f }} m behind trap 1. Then it
 # accelerates to {{ ppo_speeds().max() | .1f }} m/s, drives on until it is close, brakes to {{
-# ppo_speeds()[40:].min() | .1f }} m/s, and begins again. It is not stuck: it has learned to drive
-# like that. And it is not the only one:
+# ppo_speeds()[40:].min() | .1f }} m/s, and begins again. It is not the only one:
 # <!-- claim: ppo_gap().min() < -40 and ppo_speeds().max() > 13.5 and ppo_speeds()[40:].min() < 7
 #   and not ppo_drive().success -->
 
@@ -101,13 +101,8 @@ choices = ["about half", "the same", "about twice as much", "almost four times a
 predict("the_second_trap.1", "What does changing between 5 and 15 m/s earn?", choices)
 
 # %% tags=["hide-input"]
-v = np.linspace(5, 15, 101)
-pays = np.array([bc.formulas.speed_reward(each) for each in v])
-chord = (v - 5) / 10
-named = {"5 and 15 m/s in turn": chord, "a steady speed": pays}
-title = "Two speeds in turn earn more than a steady one"
-looks, words = (Style(QUIET, "--"), Style(INK)), ("mean speed (m/s)", "speed reward of a second")
-bc.show(charts.lines(v, named, title, *words, looks=looks))
+title = "5 and 15 m/s in turn earn almost four times what a steady 10 m/s earns"
+bc.show(figures.convex(bc.formulas.speed_reward, title))
 
 # %% [markdown]
 # The reward is 0 up to 5 m/s, rises slowly up to 12.5 m/s and steeply from there to 15 m/s: it is
@@ -135,17 +130,17 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 #
 # **Is this reward hacking**, earning a reward in a way that was not meant? Not by the agent's own
 # objective, the discounted sum with γ = {{ settings_for('ppo').gamma | g }} (PPO's γ here; the
-# paper's is {{ SETTINGS.gamma }}). Its drive is worth {{ discounted(ppo_drive(),
-# settings_for('ppo').gamma) | .0f }} at the start, and that of `careful`, a rule of lesson
-# [[your_teacher]] that gets out, {{ discounted(careful_drive(), settings_for('ppo').gamma) | .0f
-# }}. The reward prefers the drive that was meant, by far, and the agent has not found it.
+# paper's is {{ SETTINGS.gamma }}). At the start its drive is worth {{ discounted(ppo_drive(),
+# settings_for('ppo').gamma) | .0f }}, and that of `careful`, a rule of lesson [[your_teacher]] that
+# gets out, {{ discounted(careful_drive(), settings_for('ppo').gamma) | .0f }}. The reward prefers
+# the drive that was meant; the agent has not found it.
 #
 # **Is it a trap?** None of the {{ ppo_agents() }} agents was ahead in any of its last 300 training
-# episodes. Their return still rises at the end, by driving behind trap 1 better: they climb a hill
-# that does not lead past trap 1. The top of such a hill is a **local optimum**, a way to drive that
-# small changes do not improve; we call this hill the second trap. It is shown for {{
-# ppo_kinds.KINDS['alone'].decisions | , }} decisions: after as many, ten others with γ = {{
-# later_ppo().agents[0]['gamma'] }} do not escape either (lesson [[other_ways]]).
+# episodes. Their return still rises at the end: they climb a hill that does not lead past trap 1.
+# The top of such a hill is a **local optimum**, a way to drive that small changes do not improve;
+# we call this hill the second trap. This is shown for {{ ppo_kinds.KINDS['alone'].decisions | , }}
+# decisions: after as many, ten others with γ = {{ later_ppo().agents[0]['gamma'] }} do not escape
+# either (lesson [[other_ways]]).
 # <!-- claim: later_ppo_out() == 0 and len(later_ppo()) == 10 and LAST ==
 #   ppo_kinds.KINDS['alone'].decisions -->
 # <!-- claim: (ppo('alone')['escapes'][:, -1] == 0).all() and (ppo('alone')['curve'][:, -1] >
@@ -191,12 +186,12 @@ logits = [f"gradient, logit {i + 1}" for i in range(3)]
 table(["", "baseline", *logits, "spread"], rows)
 
 # %% [markdown]
-# Both means agree with the exact gradient up to noise, and the baseline makes the spread about
-# twenty times smaller. The noise of a mean falls with the *square root* of the number of draws, so
-# the same precision needs several hundred times fewer of them. PPO is this, with two additions: a
-# baseline V(s) that is learned, and a loss that stops paying for larger changes of the policy.
-# It drives its roads for {{ settings_for('ppo').horizon }} seconds, learns from these decisions,
-# and deletes them.
+# Both means agree with the exact gradient up to noise. The baseline makes the spread about twenty
+# times smaller, so the same precision needs about four hundred times fewer draws: the noise of a
+# mean falls with the *square root* of their number. PPO is this, with two additions: a baseline
+# V(s) that is learned, and a loss that stops paying for larger changes of the policy. It drives its
+# roads for {{ settings_for('ppo').horizon }} seconds, learns from these decisions, and deletes
+# them.
 #
 # **How good was a decision?** It was good if more came than V expected. The surprise of one second
 # is the temporal difference
@@ -309,9 +304,9 @@ print(f"{training.decisions:,} decisions in {training.seconds:.0f} s: {rate:,.0f
 # %% tags=["hide-input"]
 curve = np.full(len(alone["at"][0]), np.nan)
 curve[: len(mine.at)] = mine.returns[: len(curve)]
-named = {"the ten of the course": alone["curve"], "yours": curve}
+named = {"ten agents": alone["curve"], "their mean": alone["curve"].mean(0), "yours": curve}
 title = "PPO alone first learns to earn what keeping straight earns, then to earn more"
-words, looks = {"keeping straight": float(nobody.returns.mean())}, (style("ppo"), OTHER)
+words, looks = {"keeping straight": float(nobody.returns.mean())}, (Style(EDGE), PPO, OTHER)
 axes = ("decisions (thousands)", "return of a training episode")
 bc.show(charts.lines(alone["at"][0] / 1000, named, title, *axes, marks=words, looks=looks))
 
@@ -332,10 +327,9 @@ table(["decisions", "KL, nats", "clipped, %", "explained variance"], rows[::3])
 #   trainings;
 # - the **explained variance** of the returns by V: 1 for a perfect V, 0 for a constant one.
 #
-# Read your table: are its last two rows healthy? In our run KL and clip fraction are small enough,
-# and V explains about two thirds of the returns, which is usable and far from perfect. (We think
-# that V has to guess where in its sprint the car is.) None of the three numbers says what an agent
-# does on the road.
+# Read your table: are its last two rows healthy? (V explains less of these returns than a perfect V
+# would: we think that it has to guess where in its sprint the car is.) None of the three numbers
+# says what an agent does on the road.
 
 # %% tags=["nbval-ignore-output"]
 your_drive = bc.record(mine.agent.as_policy(), [ROAD], label="your agent")[0]
@@ -379,7 +373,7 @@ speeds = {
 }
 title = "Paid by the concave reward, PPO drives steadily, and stays"
 seconds = np.arange(1, 1 + len(speeds["the road's reward"]))
-looks = (style("ppo"), Style(QUIET))
+looks = (PPO, Style(QUIET))
 bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)", looks=looks))
 
 # %% [markdown]
@@ -397,9 +391,9 @@ bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)", looks=lo
 # **A change that leaves what is best.** A *potential* Φ(s) says how promising a state looks, and
 # the *shaping reward* F = γ Φ(s') − Φ(s) pays for its change. Added up over a drive, discounted,
 # the terms in between cancel. So the best policy stays the best if Φ is 0 at the end (Ng, Harada
-# and Russell 1999); when the time is over PPO counts V of the last state, and no Φ is left over.
-# Our potential is {{ second_trap.PER_LANE | g }} for each lane that the car has come to the left,
-# and 0 after an accident.
+# and Russell 1999), as it is after an accident. When the time is over the episode is cut, not
+# ended: PPO adds V of the last state, which has learned to contain −Φ. Our potential is {{
+# second_trap.PER_LANE | g }} for each lane that the car has come to the left.
 
 # %% tags=["hide-input"]
 names = {"alone": "the road's reward", "concave": "concave", "shaped": "the potential, too"}
@@ -428,12 +422,12 @@ table(["PPO, paid", "agents that escape", "the road's return", "accidents, %"], 
 # them compare what each had to know: the rule a sequence of actions, the potential a direction.
 
 # %% [markdown]
-# ## Round 4: two seconds of cloning
+# ## Round 4: a short cloning
 #
 # Now the rule. It drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads, one action
-# in ten at random. The actor learns to predict its actions, {{
-# settings_for('ppo_cloned').cloning_updates }} updates, about two seconds. Then PPO begins, with
-# the road's own reward, and the rule is never asked again: no KL, no demonstrations in a batch.
+# in ten at random, and the actor learns to predict its actions in {{
+# settings_for('ppo_cloned').cloning_updates }} updates. Then PPO begins, with the road's own
+# reward, and the rule is not asked again: no KL, no demonstrations in a batch.
 # <!-- claim: settings_for('ppo_cloned').xi_multiplier == 0 ==
 #   settings_for('ppo_cloned').beta_start -->
 #
@@ -468,7 +462,7 @@ headings = [
 table(["", *headings], rows)
 
 # %%
-kinds = {"ppo": "alone", "ppo_cloned": "cloned"}
+kinds = {"PPO alone": "alone", "ppo_cloned": "cloned"}
 fast = {
     m: bc.record(ppo_kinds.agent_of(k).as_policy(), [ROAD], label=m)[0] for m, k in kinds.items()
 }
@@ -511,8 +505,8 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 #    and PPO's loss stops paying when an action has become likely enough.
 # 4. A changed reward changes what is best; a shaping reward leaves it. Neither says how it is
 #    found.
-# 5. Two seconds of cloning were enough for a fast learner: the rule opened the way, and its advice
-#    was dropped afterwards.
+# 5. A short cloning was enough for a fast learner: the rule opened the way, and was not asked
+# again.
 #
 # **Three questions to think about**
 # - Which number, printed beside the return during training, would have shown the second trap?
@@ -546,7 +540,6 @@ compare_predictions(
 # Ng, Harada and Russell (1999), *Policy Invariance under Reward Transformations*. Wiewiora (2003),
 # *Potential-Based Shaping and Q-Value Initialization are Equivalent*.
 #
-# **Try**: five times as many decisions, `ppo_kinds.train(training, 4_000_000)` with a new training,
-# a minute or more; or other steps, `bc.settings_for("ppo", actor_lr=2e-4, epochs=1)`. What do the
-# three readings say, and does an agent leave? `bc.board("runs/mine")` puts your own agents
-# among the methods of the course. Next: [looking ahead](looking_ahead.ipynb).
+# **Try**: five times as many decisions, `ppo_kinds.train(training, 4_000_000)` with a new training.
+# What do the three readings say, and does an agent leave? Next:
+# [looking ahead](looking_ahead.ipynb).

@@ -5,13 +5,15 @@ from functools import cache
 import numpy as np
 from bootcourse.course import shipped as course
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.episodes.lookahead import HORIZON, lookahead
+from bootcourse.episodes.lookahead import HORIZON, NINE, imagine, lookahead
 from bootcourse.episodes.models import MODELS
+from bootcourse.episodes.record import record
 from bootcourse.policies import idle_policy, random_policy
 from bootcourse.research import distil
 from bootcourse.research.lookahead import MANY, ROADS, Cell, Score, score
 from bootcourse.research.results import Results, experiment
 from bootcourse.road.state import Accident
+from bootcourse.scenario import DEFAULT
 
 NOISE, LATE = "places off by 1 m, speeds by 0.5 m/s", "everything a second late"
 OTHERS_LATE = "the others a second late"
@@ -108,3 +110,14 @@ def ahead_of_twenty(base: str) -> int:
     """How many of 20 drives with rollouts of "idle" or "random" end ahead of trap 1."""
     policy = idle_policy if base == "idle" else random_policy(np.random.default_rng(0))
     return int(drive_episodes(lookahead(policy), held_out_seeds(15, 40)[:20]).success.sum())
+
+
+@cache
+def nine_ends() -> list[int]:
+    """How the nine imagined drives end, six seconds before this agent's first collision: 0 without an accident."""
+    ends = [(each > 0).sum() for each in how_five_end()]
+    agent, roads = course.shipped_agents("bootstrapped")[int(np.argmax(ends))].as_policy(), held_out_seeds(15, 40)
+    first = int((how_five_end()[int(np.argmax(ends))] == Accident.COLLISION).argmax())
+    drive = record(agent, [roads[first]])[0]
+    cars = drive.states[(len(drive.actions) - 6) * DEFAULT.clock.steps]
+    return [int(end) for end in imagine(cars[None], NINE[None], agent, horizon=10).accidents[0]]

@@ -5,13 +5,15 @@ from functools import cache
 import numpy as np
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import loops  # noqa: F401 (for the expressions)
+from bootcourse.course.lessons.your_own_problem.figures import decisions_of
 from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
 from bootcourse.research.elsewhere import settings_of  # noqa: F401
 from bootcourse.research.problems import PROBLEMS  # noqa: F401
 from bootcourse.research.results import experiment
 
+TEACHERS = ("good", "random", "systematic")
 FOUR = ("cloning", "soft", "demonstrations", "both")
-SHOWN = [(p, t) for p in ("mountain-car", "cartpole", "lander") for t in ("good", "random", "systematic")]
+SHOWN = [(p, t) for p in ("mountain-car", "cartpole", "lander") for t in TEACHERS]
 
 
 @cache
@@ -40,15 +42,27 @@ def drowning_bonus(*arguments: float) -> float:
     return registry()["drowning_bonus"](*arguments)
 
 
-def decisions_on_cartpole(teacher: str, method: str) -> np.ndarray:
-    """How many decisions each agent made in training, where each decision pays 1: (agents,)."""
-    return np.nansum(cells().get("cartpole", teacher, method).curves["return"], axis=1)
+def decisions(problem: str, method: str, *teachers: str) -> np.ndarray:
+    """How many decisions each agent made in training with any of these teachers: (agents,). MountainCar, CartPole."""
+    return np.concatenate([decisions_of(cells(), problem, teacher, method) for teacher in teachers])
 
 
-def thousands(teacher: str) -> str:
-    """The fewest and the most of them of the agents with the soft constraint, "55,000 to 93,000"."""
-    each = decisions_on_cartpole(teacher, "soft")
-    return f"{round(each.min(), -3):,.0f} to {round(each.max(), -3):,.0f}"
+def with_aids(problem: str) -> np.ndarray:
+    """The same of all agents with the soft constraint, demonstrations or both, with any teacher."""
+    return np.concatenate([decisions(problem, method, *TEACHERS) for method in FOUR[1:]])
+
+
+def ratio_of_aids(teacher: str) -> float:
+    """On CartPole, the largest of the three aids' median numbers of decisions over the smallest."""
+    medians = [float(np.median(decisions("cartpole", method, teacher))) for method in FOUR[1:]]
+    return max(medians) / min(medians)
+
+
+def decisions_on_doorkey(teacher: str, method: str) -> float:
+    """The median number of decisions in training, in thousands: a success pays 1 − 0.9 t / 100, t decisions."""
+    curves = cells().get("doorkey", teacher, method).curves
+    each = np.where(curves["success"] > 0.5, (1 - curves["return"].astype(float)) / 0.009, 100.0)
+    return float(np.median(each.sum(axis=1))) / 1000
 
 
 def h3(verdict: str) -> int:

@@ -1,24 +1,35 @@
-"""The figures of this lesson: what looking ahead gains at each horizon, and what a wrong model costs.
+"""The figures of this lesson: what looking ahead changes, what it gains by horizon, what a wrong model costs.
 
-Both take the results of the experiment `look-ahead`, {cell: agents}; see bootcourse.research.lookahead for the scores.
+The last two take the results of the experiment `look-ahead`, {cell: agents}; bootcourse.research.lookahead has the
+scores.
 """
 
-from collections.abc import Container, Sequence
+from collections.abc import Container, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullLocator
+from matplotlib.ticker import MaxNLocator, NullLocator
 
 from bootcourse.episodes.lookahead import HORIZON
 from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
+from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.lookahead import CLOSELY, FORM_NAMES, FORMS, HORIZONS, Cell, Score, score
 from bootcourse.research.results import Results
 
-FARTHEST = 20.0  # below the base policy's return, on the axis of returns
+MEANINGS = {  # of the wrong models, for readers
+    "others keep speed and lane": "nobody accelerates, brakes or changes lane",
+    "desired speed 2 m/s too low": "the others want to drive 2 m/s slower than they do",
+    "twice the time gap": "the others keep twice the distance",
+    "other drivers drawn anew": "twenty kinds of drivers, drawn around the true one; each road has one",
+    "only the four visible cars": "the cars that the agent's numbers do not show are missing",
+    "places off by 1 m, speeds by 0.5 m/s": "noise on the others, drawn anew each second",
+    "the others a second late": "the others where they were a second ago, moved on at their speed",
+    "everything a second late": "the whole road as it was a second ago, the ego included",
+    "worst case of three wrong models": "the first three; of each action the worst outcome counts",
+}
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
 
 
@@ -26,7 +37,7 @@ def _accident_axis(axis_of: Axes, axis: str) -> None:
     """Accidents in 1,000 drives: logarithmic, and linear near 0, where a bar may end."""
     getattr(axis_of, f"set_{axis}scale")("symlog", linthresh=LINEAR, linscale=0.6)
     getattr(axis_of, f"set_{axis}ticks")([0, 1, 10, 100, 1000], ["0", "1", "10", "100", "1,000"])
-    getattr(axis_of, f"set_{axis}lim")(-0.15, 1400)
+    getattr(axis_of, f"set_{axis}lim")(-0.35, 2200)
     getattr(axis_of, f"{axis}axis").set_minor_locator(NullLocator())
 
 
@@ -34,6 +45,47 @@ def double_line(ax: Axes, x: Sequence[float], y: Sequence[float], colour: str) -
     """The line of a look-ahead: the base policy's colour, with a white line along its middle."""
     ax.plot(x, y, color=colour, linewidth=4.5, solid_capstyle="butt", zorder=2.5)
     ax.plot(x, y, color="white", linewidth=1.6, solid_capstyle="butt", zorder=2.6)
+
+
+def arrows(rows: Mapping[str, Mapping[str, tuple[float, float]]], colours: Sequence[str], title: str) -> Figure:
+    """From alone (a ring) to with rollouts (a dot): a row for each base policy, a panel for each measure.
+
+    rows: {base policy: {measure, with its unit: (alone, with rollouts)}}; colours: of the rows.
+    """
+    measures, names, alt_parts = list(next(iter(rows.values()))), list(rows), []
+    left, row = 1.45, 0.42
+    width = (WIDTH - left - 0.2) / len(measures)
+    figure = new_figure(0.8 + row * len(names) + 0.45)
+    for column, measure in enumerate(measures):
+        ax = axes_at(figure, left + column * width, 0.8, width - 0.25, row * len(names))
+        farthest = max(max(rows[name][measure]) for name in names)
+        for place, (name, colour) in enumerate(zip(names, colours, strict=True)):
+            alone, ahead = rows[name][measure]
+            side = 1 if ahead >= alone else -1
+            if round(alone) != round(ahead):
+                if abs(ahead - alone) > 0.16 * farthest:  # otherwise the two marks leave no room for an arrow
+                    how = {"arrowstyle": "-|>", "color": colour, "lw": 1.8, "shrinkA": 4, "shrinkB": 3}
+                    ax.annotate("", (ahead, place), (alone, place), arrowprops=how, zorder=2)
+                ax.plot(alone, place, "o", color=colour, mfc="white", ms=5.5, zorder=3, clip_on=False)
+                _beside(ax, alone, place, -side)
+            ax.plot(ahead, place, "o", color=colour, ms=5.5, zorder=3, clip_on=False)
+            _beside(ax, ahead, place, side)
+            alt_parts.append(f"{name}, {measure}: {alone:.0f} to {ahead:.0f}")
+        plain_axes(ax, measure, grid="x")
+        ax.set(xlim=(-0.22 * farthest, 1.25 * farthest), ylim=(len(names) - 0.5, -0.6))
+        ax.set_yticks(range(len(names)), names if column == 0 else [])
+        ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
+        ax.xaxis.set_major_locator(MaxNLocator(3))
+        ax.set_xticks([tick for tick in ax.get_xticks() if 0 <= tick <= 1.05 * farthest])
+    words = "○ alone   ● with rollouts of ten decisions"
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
+    return finish(figure, title, f"From alone to with rollouts. {'; '.join(alt_parts)}.")
+
+
+def _beside(ax: Axes, x: float, place: int, side: int) -> None:
+    """The number x, to the right (1) or left (-1) of its mark."""
+    look = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": SMALL, "color": INK}
+    ax.annotate(f"{x:,.0f}", (x, place), (6 * side, 0), textcoords="offset points", **look)
 
 
 def by_horizon(cells: dict[str, Results], base: str, title: str) -> Figure:
@@ -55,7 +107,8 @@ def by_horizon(cells: dict[str, Results], base: str, title: str) -> Figure:
         ax.set_xticks(list(of), ["alone", *map(str, list(of)[1:])])
         ax.xaxis.set_minor_locator(NullLocator())
         ax.set_xlabel("decisions ahead", fontsize=TEXT, color=INK)
-        ax.set_ylim((0, 1.1 * high.max()) if words.startswith("accidents") else (low.min() - 2, high.max() + 2))
+        most = high.max()
+        ax.set_ylim((-0.04 * most, 1.1 * most) if words.startswith("accidents") else (low.min() - 2, most + 2))
         alt_parts.append(f"{words}: {', '.join(f'{m:.1f} at {h}' for h, m in zip(of, middle, strict=True))}")
     return finish(figure, title, f"{'; '.join(alt_parts)}.")
 
@@ -67,67 +120,45 @@ def _check_computed(there: Container, wanted: Sequence, base: str) -> None:
         )
 
 
-def _name_what_is_off(ax: Axes, scores_of: dict[float, dict[str, Score]], names: list[str], least: float) -> None:
-    """Write the returns below `least` at the left edge. scores_of: {height in its row: {model: score}}."""
-    for shift, scores in scores_of.items():
-        for model, one in scores.items():
-            if one.returns.value < least:
-                place = (least, names.index(model) + shift)
-                ax.annotate(f"◂ {one.returns.value:.1f}", place, va="center", fontsize=SMALL, color=INK)
-
-
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
-    """Accidents and return with each wrong model, as full rollouts and as a shield, and of the base policy alone.
+    """Accidents with each wrong model, as full rollouts and as a shield, and of the base policy alone.
 
     Raises BootcourseError if the base policy alone, or any of the two with the exact model, was not computed.
     """
     alone, names = score(cells, Cell(base, "alone")), list(MODELS)
     _check_computed(cells, [Cell(base, form).name for form in FORMS], base)
-    height, colour = 1.55 + 0.42 * len(names), style(base).colour
-    figure = new_figure(height, 9.0)
-    tall = 0.42 * len(names) / height
-    axes = [figure.add_axes((left, 0.6 / height, 0.34, tall)) for left in (0.255, 0.635)]
-    measures = (
-        ("accidents in 1,000 drives", lambda one: [1000 * value for value in one.accident_rate]),
-        ("return", lambda one: list(one.returns)),
-    )
+    row, colour = 0.4, style(base).colour
+    figure = new_figure(1.0 + row * len(names) + 0.8)
+    ax = axes_at(figure, 2.05, 1.0, 4.7, row * len(names))
     words, better, scores_of = [], {}, {}
     for form, shift, fill in (("rollouts", -0.14, colour), ("shield", 0.14, "white")):
         scores = {name: one for name in names if (one := score(cells, Cell(base, form, model=name)))}
-        scores_of[shift] = scores
+        scores_of[form] = scores
         wrong = [one for name, one in scores.items() if name != "exact"]
         better[form] = f"{sum(one.accident_rate.value < alone.accident_rate.value for one in wrong)} of {len(wrong)}"
-        for ax, (_, of) in zip(axes, measures, strict=True):
-            middle, low, high = np.array([of(one) for one in scores.values()]).T
-            at = [names.index(name) + shift for name in scores]
-            ax.errorbar(middle, at, xerr=[middle - low, high - middle], fmt="o" if form == "rollouts" else "s",
-                        color=colour, mfc=fill, mec=colour, mew=1.5, ms=6, lw=1.3, zorder=3)  # fmt: skip
+        middle, low, high = 1000 * np.array([one.accident_rate for one in scores.values()]).T
+        at = [names.index(name) + shift for name in scores]
+        ax.errorbar(middle, at, xerr=[middle - low, high - middle], fmt="o" if form == "rollouts" else "s",
+                    color=colour, mfc=fill, mec=colour, mew=1.5, ms=6, lw=1.3, zorder=3)  # fmt: skip
         numbers = (
             f"{name} {1000 * one.accident_rate.value:.1f} and {one.returns.value:.1f}" for name, one in scores.items()
         )
         words.append(f"{FORM_NAMES[form]}: {'; '.join(numbers)}.")
-    for ax, (label, of) in zip(axes, measures, strict=True):
-        plain_axes(ax, "", grid="x")
-        value, low, high = of(alone)
-        ax.axvspan(low, high, color=QUIET, alpha=0.15, linewidth=0, zorder=0)
-        ax.axvline(value, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
-        ax.set_ylim(len(names) - 0.5, -0.5)
-        ax.set_xlabel(label, fontsize=TEXT, color=INK)
-        ax.spines["bottom"].set_color(GRID)
-    _accident_axis(axes[0], "x")
-    low, high = axes[1].get_xlim()
-    if low < alone.returns.value - FARTHEST:  # where everything crashes: off the axis, and said in words
-        axes[1].set_xlim(alone.returns.value - FARTHEST, high)
-        _name_what_is_off(axes[1], scores_of, names, alone.returns.value - FARTHEST)
-    axes[0].set_yticks(range(len(names)), [name.replace(", ", ",\n") for name in names], fontsize=TEXT, color=INK)
-    axes[1].set_yticks([])
-    axes[0].text(alone.accident_rate.value * 1000, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
-    axes[1].text(alone.returns.value, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
-    legend = f"● rollouts{_drives(scores_of[-0.14])}    □ shield by simulation{_drives(scores_of[0.14])}"
-    figure.text(0.012, 0.1 / height, legend, fontsize=SMALL, color=INK)
+    plain_axes(ax, "", grid="x")
+    value, low, high = (1000 * each for each in alone.accident_rate)
+    ax.axvspan(low, high, color=QUIET, alpha=0.15, linewidth=0, zorder=0)
+    ax.axvline(value, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
+    ax.set_ylim(len(names) - 0.5, -0.5)
+    ax.set_xlabel("accidents in 1,000 drives (logarithmic above 1)", fontsize=TEXT, color=INK)
+    ax.spines["bottom"].set_color(GRID)
+    _accident_axis(ax, "x")
+    ax.set_yticks(range(len(names)), [name.replace(", ", ",\n") for name in names], fontsize=TEXT, color=INK)
+    ax.text(value, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
+    legend = f"● rollouts{_drives(scores_of['rollouts'])}    □ shield{_drives(scores_of['shield'])}"
+    figure.text(0.012, 0.1 / figure.get_figheight(), legend, fontsize=SMALL, color=INK)
     title = (
-        f"With a wrong model {display_name(base)} has fewer accidents than alone: by the shield with "
-        f"{better['shield']} models, by rollouts with {better['rollouts']}"
+        f"With a wrong model the shield still helps {display_name(base)} in {better['shield']} cases, "
+        f"rollouts in {better['rollouts']}"
     )
     alt = (
         f"For each model, accidents in 1,000 drives and the return. Alone: {1000 * alone.accident_rate.value:.1f} and "

@@ -7,7 +7,7 @@ from bootcourse.colours import ALARM, OTHER, QUIET
 from bootcourse.episodes.lookahead import Imagined
 from bootcourse.errors import BootcourseError
 from bootcourse.plots.canvas import MplAxes
-from bootcourse.plots.figure import INK, SMALL, WIDTH, finish, new_figure
+from bootcourse.plots.figure import INK, SMALL, WIDTH, axes_at, finish, new_figure
 from bootcourse.plots.futures import LEGEND, trails
 from bootcourse.plots.road import draw_cars, draw_road, edges_of
 from bootcourse.road.state import EGO, X
@@ -15,6 +15,7 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
 
 BEHIND, AHEAD, ASIDE = 14.0, 24.0, 1.6  # m behind the ego, beyond the longest imagined drive, beside the road
 THIN, BOLD = 1.2, 3.2  # points
+LOWER = 0.8  # inches, below the road
 
 
 def nine_futures(
@@ -34,10 +35,10 @@ def nine_futures(
     ) * 2.8  # metres across are drawn larger than along
     width = WIDTH - 0.4
     height = tall * width / (right - left)
-    figure = new_figure(height + 1.25)
-    ax = figure.add_axes((0.2 / WIDTH, 0.62 / (height + 1.25), width / WIDTH, height / (height + 1.25)))
+    figure = new_figure(height + LOWER + 0.63)
+    ax = axes_at(figure, 0.2, 0.63, width, height)
     draw_road(MplAxes(ax), scenario, left, right, cars[EGO, X])
-    draw_cars(MplAxes(ax), cars, scenario, colour, left, right, cars[EGO, X], names=False)
+    draw_cars(MplAxes(ax), cars, scenario, colour, left, right, cars[EGO, X])
     for one in trails(imagined, int(values.argmax())):
         x = one.x - cars[EGO, X]
         ax.plot(x, one.y, color=one.colour, linewidth=BOLD if one.chosen else THIN, zorder=7 if one.chosen else 6)
@@ -50,8 +51,10 @@ def nine_futures(
         ax.spines[side].set_visible(False)
     ax.tick_params(labelsize=SMALL, labelcolor=QUIET, length=3)
     ax.set_xlabel("distance from the ego (m)", fontsize=SMALL, color=QUIET)
-    words = f"Bold: {ACTION_NAMES[values.argmax()]}, the best. {LEGEND[0].upper()}{LEGEND[1:]}."
-    figure.text(0.012, 0.08 / (height + 1.25), words, fontsize=SMALL, color=INK)
+    safe = ", ".join(name for name, end in zip(ACTION_NAMES, hurt, strict=True) if not end) or "none"
+    best = ACTION_NAMES[values.argmax()]
+    words = f"{LEGEND[0].upper()}{LEGEND[1:]}.\nWithout an accident: {safe}. Bold, the best: {best}."
+    figure.text(0.012, 0.08 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     described = (
         f"{name} {'ends in an accident' if end else f'is worth {value:.1f}'}"
         for name, value, end in zip(ACTION_NAMES, values, hurt, strict=True)

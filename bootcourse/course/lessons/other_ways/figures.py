@@ -9,10 +9,12 @@ from bootcourse.methods import display_name, style
 from bootcourse.plots.diagrams import Diagram, label
 from bootcourse.plots.figure import (
     INK,
+    QUIET,
     SMALL,
     TEXT,
     axes_at,
     finish,
+    label_ends,
     new_figure,
     plain_axes,
 )
@@ -69,6 +71,32 @@ def one_above_the_other(
     return finish(figure, title, f"Against the {x_label}. {'; '.join(alt)}.")
 
 
+def handing_over(episodes: Sequence[float], h: np.ndarray, mean: np.ndarray, needed: np.ndarray, title: str) -> Figure:
+    """How a teacher hands over: h above, and below it the mean return with the one that it has to reach.
+
+    All are of the same episodes; `needed` is NaN while there is no best mean yet.
+    """
+    figure, look = new_figure(4.0), style("jsrl")
+    upper, lower = (axes_at(figure, 0.6, 0.72 + 1.55 * row, 5.0, 1.15) for row in range(2))
+    upper.plot(episodes, h, color=look.colour, linewidth=2, drawstyle="steps-post")
+    plain_axes(upper, "h: the rule drives first (s)")
+    upper.set_ylim(0, 1.08 * np.max(h))
+    upper.tick_params(labelbottom=False)
+    lower.plot(episodes, mean, color=look.colour, linewidth=2)
+    lower.plot(episodes, needed, color=QUIET, linewidth=1.2, linestyle=(0, (4, 2)), drawstyle="steps-post")
+    plain_axes(lower, "mean return of the last episodes")
+    steps = np.flatnonzero(np.diff(h) < 0) + 1
+    for ax in (upper, lower):
+        for step in steps:
+            ax.axvline(episodes[step], color=QUIET, linewidth=0.6, linestyle=(0, (1, 2)), zorder=1)
+        ax.set_xlim(min(episodes), max(episodes))
+    lower.set_xlabel("training episode", fontsize=TEXT, color=INK)
+    label_ends(lower, [(mean[-1], "the mean", look.colour), (needed[-1], "what it has to reach", QUIET)])
+    falls = ", ".join(f"{h[step]:g} s at {episodes[step]}" for step in steps)
+    ends = f"at the end the mean return is {mean[-1]:.0f} and has to reach {needed[-1]:.0f}"
+    return finish(figure, title, f"Against the training episode. h: {h[0]:g} s at first, {falls}; {ends}.")
+
+
 def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -> Figure:
     """Returns with their 95 % intervals: a row for each method, a panel for each budget, and one for equal seconds.
 
@@ -87,7 +115,9 @@ def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -
                 value, low, high = estimates[method]
                 colour = style(method).colour
                 ax.plot([low, high], [row, row], color=colour, linewidth=1.8, zorder=2)
-                ax.plot(value, row, "o", color=colour, ms=5.5, zorder=3)
+                ax.plot(value, row, style(method).marker or "o", color=colour, ms=5.5, zorder=3)
+            else:
+                ax.text(95, row, "not trained", color=QUIET, fontsize=SMALL, ha="center", va="center")
         ax.set(xlim=(0, 140), ylim=(len(names) - 0.5, -0.5), xticks=(0, 50, 100), yticks=range(len(names)))
         ax.set_yticklabels(names if place == 0 else [], fontsize=TEXT, color=INK)
         numbers = (f"{display_name(method)} {_words(one)}" for method, one in estimates.items())

@@ -1,12 +1,14 @@
-"""How five agents of each method did, what each method closes of the gap on some problems, and a drive of DoorKey."""
+"""How five agents of each method did, how often the study's agents decided, what each method closes of the gap on some
+problems, and a drive of DoorKey.
+"""
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Arc, Rectangle
 
-from bootcourse.colours import Style
+from bootcourse.colours import ALARM, Style
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.elsewhere_claims import TEACHER, Cells
@@ -20,7 +22,7 @@ NAMES = {
 }
 MARKS = {"cloning": "s", "soft": "o", "demonstrations": "^", "both": "D"}
 METHODS = {"cloning": "bc", "soft": "soft", "demonstrations": "demos", "both": "bootstrapped"}
-ROW, HEAD, FOOT = 0.27, 0.95, 0.55  # inches
+ROW, HEAD, FOOT = 0.4, 0.95, 0.55  # inches
 
 
 def look(name: str) -> Style:
@@ -44,6 +46,33 @@ def agents(success: Mapping[str, np.ndarray], title: str) -> Figure:
         f"{NAMES[name]}: {', '.join(f'{100 * v:.0f}' for v in np.sort(each))}" for name, each in success.items()
     )
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
+
+
+def decisions_of(cells: Cells, problem: str, teacher: str, method: str) -> np.ndarray:
+    """How many decisions each agent made in training, (agents,), where each pays 1 or −1: MountainCar and CartPole."""
+    return np.abs(np.nansum(cells.get(problem, teacher, method).curves["return"], axis=1, dtype=float))
+
+
+def decisions(cells: Cells, problems: Sequence[str], title: str) -> Figure:
+    """How many decisions the agents of plain SAC and of the three aids made: a panel for each problem, a dot each."""
+    rows, teachers = ("SAC", *list(NAMES)[1:]), ("good", "random", "systematic")
+    figure, alt_parts = new_figure(2.9), []
+    for place, problem in enumerate(problems):
+        ax = axes_at(figure, 1.4 + 2.85 * place, 0.75, 2.6, 1.55)
+        for row, name in enumerate(rows):
+            look, mark = (style("sac"), "o") if name == "SAC" else (style(METHODS[name]), MARKS[name])
+            groups = [decisions_of(cells, problem, t, name) for t in (teachers[:1] if name == "SAC" else teachers)]
+            each = np.sort(np.concatenate(groups)) / 1000
+            spread = row + np.linspace(-0.3, 0.3, len(each))
+            ax.scatter(each, spread, s=14, color=look.colour, marker=mark, zorder=3, clip_on=False)
+            words = NAMES.get(name, "plain SAC")
+            alt_parts.append(f"{PROBLEMS[problem].name}, {words}: {each[0]:.0f} to {each[-1]:.0f} thousand")
+        plain_axes(ax, PROBLEMS[problem].name, grid="x")
+        ax.set_yticks(range(len(rows)), [NAMES.get(name, "plain SAC") for name in rows] if place == 0 else [])
+        ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
+        ax.set(xlim=(0, 105), ylim=(len(rows) - 0.5, -0.5), xticks=(0, 25, 50, 75, 100))
+        ax.set_xlabel("decisions of an agent in training (thousands)", fontsize=SMALL, color=INK)
+    return finish(figure, title, f"A dot for each agent, with all three teachers. {'; '.join(alt_parts)}.")
 
 
 def gap(cells: Cells, problems: Sequence[str], title: str) -> Figure:
@@ -87,22 +116,31 @@ def gap(cells: Cells, problems: Sequence[str], title: str) -> Figure:
 
 
 def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
-    """DoorKey from above, with the way of a drive: states as `loops.rooms` returns them."""
-    figure = new_figure(3.2)
-    ax = axes_at(figure, 2.2, 0.6, 2.5, 2.5)
+    """DoorKey from above, with the way of a drive that ends in a state which it does not leave.
+
+    states: as `loops.rooms` returns them.
+    """
+    figure, colour = new_figure(3.4), style("idle").colour
+    ax = axes_at(figure, 1.6, 0.6, 4.5, 2.7)
     x, y, _, key, door, _ = states[0]
     for column in range(5):
         for row in range(5):
             inside = 1 <= row <= 3 and column in (1, 3)
             if not inside and (column, row) != (2, door):
-                ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, color="#C9CFD6"))
+                ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, color="#DFE3E8"))
     ax.add_patch(Rectangle((1.5, door - 0.5), 1, 1, fill=False, edgecolor=INK, linewidth=2))
-    way = np.array([state[:2] for state in states])
-    ax.plot(*way.T, color=style("idle").colour, linewidth=4, alpha=0.5)
-    ax.scatter(*way[-1], color=style("idle").colour, s=60, zorder=3)
-    for at, words in (((x, y + 0.3), "start"), ((1, key), "key"), ((2, door), "door"), ((3, 3), "goal")):
+    way, stays = np.array([state[:2] for state in states]), states.count(states[-1])
+    ax.plot(*way.T, color=colour, linewidth=4, alpha=0.5)
+    ax.scatter(*way[0], color=colour, s=40, zorder=3)
+    end_x, end_y = way[-1]
+    ax.add_patch(Arc((end_x, end_y), 0.62, 0.62, theta1=-60, theta2=240, color=ALARM, linewidth=2.2, zorder=4))
+    ax.plot(end_x + 0.155, end_y - 0.268, marker=(3, 0, 75), color=ALARM, markersize=8, zorder=4)
+    words = f"the loop: {stays} decisions\nthat change nothing"
+    ax.text(4.7, end_y, words, ha="left", va="center", fontsize=TEXT, color=ALARM)
+    for at, words in (((0, y), "start"), ((0, key), "key"), ((2, door - 1), "door"), ((4, 3), "goal")):
         ax.text(*at, words, ha="center", va="center", fontsize=TEXT, color=INK)
-    ax.set(xlim=(-0.5, 4.5), ylim=(4.5, -0.5), aspect="equal")
+    ax.set(xlim=(-0.5, 7.8), ylim=(4.5, -0.5), aspect="equal")
     ax.set_axis_off()
-    alt = f"A room of two columns with a door between them. The drive visits {len(set(map(tuple, way.tolist())))} cells"
-    return finish(figure, title, f"{alt} in {len(states)} decisions.")
+    cells = len(set(map(tuple, way.tolist())))
+    alt = f"Two columns with a door between them. The drive visits {cells} cells in {len(states)} decisions"
+    return finish(figure, title, f"{alt}; the last {stays} change nothing.")

@@ -1,6 +1,6 @@
-"""What teachers are worth: each of their students as a dot."""
+"""What teachers are worth: each of their students as a dot, and whether they help."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -45,6 +45,36 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], title: str, apart: 
     if apart:
         ax.axhline(len(groups) - apart - 0.5, color=QUIET, linewidth=0.8, zorder=1)
     return finish(figure, title, f"A dot for each student. {'; '.join(alt_parts)}.")
+
+
+def verdicts(shares: Mapping[str, Sequence[float]], p: Mapping[str, Sequence[float]], title: str) -> Figure:
+    """How often a taught agent beats one that learned alone: a row for each teacher, a panel for each of two scores.
+
+    shares: {teacher: (by success, by return)}, of the pairs of agents, 0 to 1; p: the same for Holm's p values.
+    """
+    row, names, alt_parts = 0.34, list(shares), []
+    figure = new_figure(0.95 + row * len(names) + FOOT)
+    for column, score in enumerate(("success", "return")):
+        ax = axes_at(figure, 1.3 + 2.9 * column, 0.95, 2.6, row * len(names))
+        ax.axvline(50, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+        for place, name in enumerate(names):
+            share, found = 100 * shares[name][column], p[name][column] < 0.05
+            word = ("hurts", "helps")[int(share > 50)] if found else "not shown"
+            colour = style("bootstrapped").colour
+            ax.plot([50, share], [place, place], color=colour, linewidth=1.2, zorder=2)
+            fill = colour if found else "white"
+            ax.plot(share, place, "o", color=colour, mfc=fill, ms=6, zorder=3, clip_on=False)
+            alt_parts.append(f"{name}, {score}: {word}, {share:.0f} %, p = {p[name][column]:.1g}")
+        plain_axes(ax, "", grid="x")
+        ax.set(xlim=(0, 100), ylim=(len(names) - 0.5, -0.5), xticks=(0, 25, 50, 75, 100))
+        ax.set_yticks(range(len(names)), names if column == 0 else [])
+        ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
+        ax.text(50, -1.3, f"by {score}", ha="center", fontsize=TEXT, fontweight="bold", color=INK)
+        ax.text(46, -0.75, "◂ hurts", ha="right", fontsize=SMALL, color=QUIET)
+        ax.text(54, -0.75, "helps ▸", ha="left", fontsize=SMALL, color=QUIET)
+    words = "pairs in which the taught agent is better than the one that learned alone (%); filled: Holm's p below 0.05"
+    figure.text(0.5, 0.1 / figure.get_figheight(), words, ha="center", fontsize=SMALL, color=INK)
+    return finish(figure, title, f"A dot for each teacher. {'; '.join(alt_parts)}.")
 
 
 def learners(computed: Cells, title: str) -> Figure:
