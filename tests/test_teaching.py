@@ -36,6 +36,12 @@ def test_a_plan_has_every_lesson_once_and_its_minutes(heading, cell):
     assert sorted(name for part in parts for name in lessons_in(part[cell])) == sorted(LESSONS)
 
 
+def test_the_readme_gives_each_lesson_its_minutes():
+    readme = (book.ROOT / "README.md").read_text(encoding="utf-8")
+    table = re.findall(r"^\| \d+ \|.*\(notebooks/(\w+)\.ipynb\).* (\d+) \|$", readme, re.M)
+    assert dict(table) == {stem(name): str(minutes(name)) for name in LESSONS}
+
+
 def test_the_evening_and_the_homework_add_up_and_a_meeting_fits_into_90_minutes():
     *parts, total = rows("One evening")
     assert sum(int(part[1]) for part in parts) == int(total[1])
