@@ -433,6 +433,18 @@ source("bootcourse.course.lessons.bug_hunt.bugs", "Sampled", "NoStop", "ShiftedL
 # Let pairs write the test of the labels on paper. Then ask which of the six their own programs
 # test for today.
 
+# %%
+fine = sum(late[name].mean() > 0.8 for name in "ABCDEF")
+compare_predictions(
+    "bug_hunt",
+    {
+        1: f"three or four: {fine} of six, in more than 80 % of the last episodes",
+        2: "no_end",
+        3: round(1 / (1 - gamma), 1),
+        4: "it keeps it a little likely",
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -452,18 +464,6 @@ source("bootcourse.course.lessons.bug_hunt.bugs", "Sampled", "NoStop", "ShiftedL
 # - You may run one probe during your trainings from now on. Which, and at what value does it warn?
 # - Two bugs at once: which pair could hide each other in the pictures above?
 # - A bug raises the return of your method in a paper's table. How would a reader find out?
-
-# %%
-fine = sum(late[name].mean() > 0.8 for name in "ABCDEF")
-compare_predictions(
-    "bug_hunt",
-    {
-        1: f"three or four: {fine} of six, in more than 80 % of the last episodes",
-        2: "no_end",
-        3: round(1 / (1 - gamma), 1),
-        4: "it keeps it a little likely",
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Answers to the three questions. (1) The promise: it costs one pass through the networks, needs

@@ -498,6 +498,25 @@ bc.show(figures.clones(named, title, agree="agree with the rule (%)"))
 # that has learned to return to the path seldom visits the states beside it, and trained on its
 # newest rows alone it could forget what to do there.
 
+# %%
+crashed_of = {name: round(100 * values[:, 2].mean()) for name, values in measured.items()}
+kept, base = 100 * rounds[-1, 2], crashed_of[KINDS[0]]
+fewer = (
+    "about as many" if abs(kept - base) < 5 else f"{'fewer' if kept < base else 'more'} accidents"
+)
+compare_predictions(
+    "demonstrations",
+    {
+        1: "about 12,000",
+        2: round(100 * in_free_lane / 150),
+        3: crashed_of[KINDS[0]],
+        4: choices[int(np.argmax(np.sum([early, middle - early, end - middle], axis=1)))],
+        5: "4",
+        6: min(crashed_of, key=crashed_of.get),
+        7: f"{fewer}: {kept:.0f} % against {base} %",
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -521,25 +540,6 @@ bc.show(figures.clones(named, title, agree="agree with the rule (%)"))
 # **Read on**: Pomerleau, *ALVINN* (1989), an early clone that drove; Ross, Gordon and Bagnell on
 # *DAgger* (arXiv 1011.0686); Laskey et al., *DART* (arXiv 1703.09327), which disturbs the teacher.
 # Next: [the soft constraint](soft_constraint.ipynb).
-
-# %%
-crashed_of = {name: round(100 * values[:, 2].mean()) for name, values in measured.items()}
-kept, base = 100 * rounds[-1, 2], crashed_of[KINDS[0]]
-fewer = (
-    "about as many" if abs(kept - base) < 5 else f"{'fewer' if kept < base else 'more'} accidents"
-)
-compare_predictions(
-    "demonstrations",
-    {
-        1: "about 12,000",
-        2: round(100 * in_free_lane / 150),
-        3: crashed_of[KINDS[0]],
-        4: choices[int(np.argmax(np.sum([early, middle - early, end - middle], axis=1)))],
-        5: "4",
-        6: min(crashed_of, key=crashed_of.get),
-        7: f"{fewer}: {kept:.0f} % against {base} %",
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=4
 # **Model answers.**

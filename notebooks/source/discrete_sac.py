@@ -375,6 +375,9 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # Most say "falls, and stops at η", as a thermostat in a room does. Ask which entropy would have to
 # be reached. It helps to write the range, 0 to log 9, on the board before anybody answers.
 
+# %%
+compare_predictions("discrete_sac", {1: 0.0, 2: "1.44", 3: "1 and 50.5", 4: "falls for ever"})
+
 # %% [markdown]
 # ## What you now know
 #
@@ -385,9 +388,6 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # 3. The actor's loss is minus the soft value, with Q held fixed.
 # 4. The temperature is a thermostat for the entropy, which over a list of actions is 0 or more:
 #    with η = {{ SETTINGS.target_entropy }} α falls at each update.
-
-# %%
-compare_predictions("discrete_sac", {1: 0.0, 2: "1.44", 3: "1 and 50.5", 4: "falls for ever"})
 
 # %% [markdown]
 # **Three questions to think about**

@@ -438,6 +438,21 @@ table(["updates for a decision", "driver", "reads as the paper's, % [95 % over s
 # the class fill them in. What would the authors have to print so that nobody had to guess? (Updates
 # for a decision, agents behind a row, all seeds.)
 
+# %%
+had = int(study.found_and_kept("demos")[0].sum())
+of_100 = 100 * clocks.pattern(cells["2", "π̃"]).value
+pays = [earned[end] for end in ("never", f"{gone:,}")]
+compare_predictions(
+    "found_and_kept",
+    {
+        1: f"4 to 7: {had} of 10",
+        2: "the soft constraint alone",
+        3: f"less: {pays[0]:.0f} instead of {pays[1]:.0f}",
+        4: "demonstrations alone",
+        5: f"in 10 to 60 %: {of_100:.0f} %",
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -463,21 +478,6 @@ table(["updates for a decision", "driver", "reads as the paper's, % [95 % over s
 # **Read on**: [lesson [[your_teacher]]](your_teacher.ipynb) repeats the ablation with a teacher of
 # your own. Christodoulou, *Soft Actor-Critic for Discrete Action Settings* (arXiv 1910.07207);
 # Ecoffet et al., *First return, then explore* (arXiv 2004.12919).
-
-# %%
-had = int(study.found_and_kept("demos")[0].sum())
-of_100 = 100 * clocks.pattern(cells["2", "π̃"]).value
-pays = [earned[end] for end in ("never", f"{gone:,}")]
-compare_predictions(
-    "found_and_kept",
-    {
-        1: f"4 to 7: {had} of 10",
-        2: "the soft constraint alone",
-        3: f"less: {pays[0]:.0f} instead of {pays[1]:.0f}",
-        4: "demonstrations alone",
-        5: f"in 10 to 60 %: {of_100:.0f} %",
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=5
 # **Model answers.**

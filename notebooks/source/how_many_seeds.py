@@ -466,6 +466,22 @@ table(["success, %", "IQM", "the agents, sorted"], rows, below=words)
 # one interval misses 0 is {{ 100 * (1 - 0.95**10) | .0f }} %. Ask what to do about that (say
 # beforehand which comparison counts, or make each interval wider).
 
+# %%
+escapes = bc.statistics.ESCAPES
+both, soft = (study.of(m).scores("returns") for m in ("bootstrapped", "soft"))
+spread = np.ptp(bc.statistics.interval(both, np.mean)[1:]) / 2
+compare_predictions(
+    "how_many_seeds",
+    {
+        1: round(100 * bc.statistics.rate(study.of("soft").scores("success") >= escapes).low),
+        2: round(100 * bc.statistics.power(0.8, 0.3, 10)),
+        3: max(falls, key=falls.get),
+        4: round(2**0.5 * spread, 1),
+        5: round(100 * bc.statistics.improvement(both, soft).value, 1),
+        6: round(effect.value, 1),
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -492,22 +508,6 @@ table(["success, %", "IQM", "the agents, sorted"], rows, below=words)
 # paper's. Agarwal et al., *Deep Reinforcement Learning at the Edge of the Statistical Precipice*
 # (arXiv 2108.13264); Henderson et al., *Deep Reinforcement Learning that Matters* (arXiv
 # 1709.06560).
-
-# %%
-escapes = bc.statistics.ESCAPES
-both, soft = (study.of(m).scores("returns") for m in ("bootstrapped", "soft"))
-spread = np.ptp(bc.statistics.interval(both, np.mean)[1:]) / 2
-compare_predictions(
-    "how_many_seeds",
-    {
-        1: round(100 * bc.statistics.rate(study.of("soft").scores("success") >= escapes).low),
-        2: round(100 * bc.statistics.power(0.8, 0.3, 10)),
-        3: max(falls, key=falls.get),
-        4: round(2**0.5 * spread, 1),
-        5: round(100 * bc.statistics.improvement(both, soft).value, 1),
-        6: round(effect.value, 1),
-    },
-)
 
 # %% [markdown] tags=["instructor"]
 # **Model answers.**

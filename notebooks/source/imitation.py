@@ -468,23 +468,6 @@ bc.show(figures_baselines.success_in_training(study))
 # of updates, of seconds, or until each stops improving? The answer depends on what the table is
 # for, but a paper has to say which it took.
 
-# %% [markdown]
-# ## What you now know
-#
-# 1. BC and CQL learn without driving; GAIL has to drive. BC and GAIL do not use the road's reward.
-# 2. GAIL is paid by its discriminator; the sign of that reward decides whether going on pays.
-# 3. Our GAIL, with η = −1, gets ahead and then leaves the road more often than BC and CQL. A
-#    reachable η may mend that; five agents do not show it.
-# <!-- claim: accidents('gail') > 10 * max(accidents('bc'), accidents('cql')) -->
-# 4. A method whose training was stopped too early looks like a failure in a table.
-# 5. A success rate that counts who is ahead hides the accidents that come later.
-#
-# **Three questions to think about**
-# - Our rule earns about twice what the paper's does, at nearly the same mean speed. Where can a
-#   return get lost on the way? (Look at the reward's curve in lesson [[the_trap]].)
-# - The discriminator sees states and actions. What would GAIL imitate if it saw states only?
-# - What would GAIL learn from 200 drives of a bootstrapped agent, accidents included? And BC?
-
 # %%
 left = study.of("gail").episodes("road_departure") > 0
 ahead = study.of("gail").episodes("success")[left].mean()
@@ -501,6 +484,23 @@ compare_predictions(
         5: "CQL",
     },
 )
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. BC and CQL learn without driving; GAIL has to drive. BC and GAIL do not use the road's reward.
+# 2. GAIL is paid by its discriminator; the sign of that reward decides whether going on pays.
+# 3. Our GAIL, with η = −1, gets ahead and then leaves the road more often than BC and CQL. A
+#    reachable η may mend that; five agents do not show it.
+# <!-- claim: accidents('gail') > 10 * max(accidents('bc'), accidents('cql')) -->
+# 4. A method whose training was stopped too early looks like a failure in a table.
+# 5. A success rate that counts who is ahead hides the accidents that come later.
+#
+# **Three questions to think about**
+# - Our rule earns about twice what the paper's does, at nearly the same mean speed. Where can a
+#   return get lost on the way? (Look at the reward's curve in lesson [[the_trap]].)
+# - The discriminator sees states and actions. What would GAIL imitate if it saw states only?
+# - What would GAIL learn from 200 drives of a bootstrapped agent, accidents included? And BC?
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Answers to the three questions. (1) In the centring and steering terms: a car between two lanes

@@ -551,6 +551,15 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 # Put the box on the wall. While the agents train, let somebody name for each of its six lines what
 # happens if it is left out; some of these are experiments of the study (lesson [[found_and_kept]]).
 
+# %%
+filter_on = "under 10 %" if on < 8 else ("about 10 %" if on < 15 else "over 20 %")
+compare_predictions(
+    "learning_from_demonstrations",
+    {1: "0.05", 2: "the critics' Q", 3: "10"}
+    | {4: f"{lead[0, -1]:.1f} and {lead[1, -1]:.1f}", 5: "4"}
+    | {6: f"{filter_on}: {on:.0f} % on average", 7: str(sum(ahead[:-1]))},
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -568,14 +577,6 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 # <!-- claim: bootstrap.paper_q_filter(torch.tensor([[1, 2, 3]] * 3), torch.arange(3)).tolist()
 #   == [0, 0, 1] -->
 #
-# %%
-filter_on = "under 10 %" if on < 8 else ("about 10 %" if on < 15 else "over 20 %")
-compare_predictions(
-    "learning_from_demonstrations",
-    {1: "0.05", 2: "the critics' Q", 3: "10"}
-    | {4: f"{lead[0, -1]:.1f} and {lead[1, -1]:.1f}", 5: "4"}
-    | {6: f"{filter_on}: {on:.0f} % on average", 7: str(sum(ahead[:-1]))},
-)
 
 # %% [markdown]
 # **Three questions to think about**

@@ -501,6 +501,23 @@ table(*learned_rows(shipped_experiment("distil"), study))
 # ahead('ppo_cloned', 'shield', roads=MANY).accidents }} in {{ ahead('ppo_cloned', 'shield',
 # roads=MANY).drives | , }} drives |
 
+# %%
+safe = int((futures.accidents[0] == 0).sum())
+groups = ("none", "one or two", "one or two", "three to six")
+safer = 0
+for model in (name for name in models.MODELS if name != "exact"):
+    pair = [score(study, Cell("ppo_cloned", form, model=model)) for form in ("shield", "rollouts")]
+    safer += pair[0].accident_rate.value < pair[1].accident_rate.value
+compare_predictions(
+    "looking_ahead",
+    {
+        1: groups[min(safe, 3)] if safe < 7 else "seven or more",
+        2: int((ahead.accident > 0).sum()),
+        3: min(gets_out, key=gets_out.get),
+        4: int(safer),
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -518,23 +535,6 @@ table(*learned_rows(shipped_experiment("distil"), study))
 # - What would rollouts of rollouts do, and what would they cost?
 # - A random base sometimes gets out with rollouts. Which base would be the worst, and why?
 # - Which estimate of the future would be better than an empty road, and where would you get it?
-
-# %%
-safe = int((futures.accidents[0] == 0).sum())
-groups = ("none", "one or two", "one or two", "three to six")
-safer = 0
-for model in (name for name in models.MODELS if name != "exact"):
-    pair = [score(study, Cell("ppo_cloned", form, model=model)) for form in ("shield", "rollouts")]
-    safer += pair[0].accident_rate.value < pair[1].accident_rate.value
-compare_predictions(
-    "looking_ahead",
-    {
-        1: groups[min(safe, 3)] if safe < 7 else "seven or more",
-        2: int((ahead.accident > 0).sum()),
-        3: min(gets_out, key=gets_out.get),
-        4: int(safer),
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Answers to the three questions. (1) A second improvement: each of the 90 imagined decisions needs

@@ -208,7 +208,6 @@ for update in range(UPDATES + 1):
     if update in asked:
         found.append(figures_baselines.believed(figures_baselines.agents_of(learner), way, did))
 
-
 # %%
 mine, rival = np.array(found).transpose(1, 2, 0)
 plain = slice(SEEDS, 2 * SEEDS)
@@ -433,6 +432,28 @@ bc.show(figures.shares_of_the_bound(study, compared, bound, marks | {"the planne
 # the paper's abstract, given our table, and let their neighbours cross out what ten seeds do not
 # show.
 
+# %%
+agree = [
+    figures_baselines.as_the_rule_would(
+        [
+            d
+            for a in bc.shipped_agents(m)
+            for d in bc.record(a.as_policy(), bc.held_out_seeds(11, 24))
+        ]
+    )[1]
+    for m in ("bc", "cql")
+]
+more = "higher" if rival[plain, -1].mean() > mine[plain, -1].mean() else "lower"
+compare_predictions(
+    "offline_learning",
+    {
+        1: f"{more} than the rule's action",
+        2: "the clone" if agree[0] > agree[1] else "CQL",
+        3: "none",
+        4: round(100 * rule.scores("returns")[0] / bound.mean()),
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -456,28 +477,6 @@ bc.show(figures.shares_of_the_bound(study, compared, bound, marks | {"the planne
 #   three things do you ask for?
 # - What would CQL learn from 200 drives of a bootstrapped agent, accidents included?
 # - CQL's bound holds for the value of softmax(Q). Why is a bound on each Q(a) not needed for that?
-
-# %%
-agree = [
-    figures_baselines.as_the_rule_would(
-        [
-            d
-            for a in bc.shipped_agents(m)
-            for d in bc.record(a.as_policy(), bc.held_out_seeds(11, 24))
-        ]
-    )[1]
-    for m in ("bc", "cql")
-]
-more = "higher" if rival[plain, -1].mean() > mine[plain, -1].mean() else "lower"
-compare_predictions(
-    "offline_learning",
-    {
-        1: f"{more} than the rule's action",
-        2: "the clone" if agree[0] > agree[1] else "CQL",
-        3: "none",
-        4: round(100 * rule.scores("returns")[0] / bound.mean()),
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Answers to the three questions. (1) The learner's code or its settings in full (which CQL, which

@@ -427,6 +427,21 @@ table(["", *headings], rows, below)
 # nothing to drive. Then ask which column is missing: what it costs to ask the teacher, how much
 # code it is, what three more tries would change.
 
+# %%
+begin = equal_decisions.BUDGETS[0]
+earns = {m: equal_decisions.at(each, "returns", begin).mean() for m, each in compared.items()}
+lowest = min((m for m in earns if m != "ppo"), key=earns.get)
+crashes = 100 * equal_decisions.at(compared["ibrl"], "accident", begin).mean()
+first = np.nansum(curves["decisions"][:, :50], axis=1).mean() / 50
+compare_predictions(
+    "other_ways",
+    {
+        1: round(float(first), 1),
+        2: bc.display_name(lowest),
+        3: f"in 2 to 10 %: {crashes:.0f} %",
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -445,21 +460,6 @@ table(["", *headings], rows, below)
 #   is wrong about the rule's action?
 # - The search had three tries for each method. Which method could win by a larger search, and how
 #   would you find out without using the test's roads?
-
-# %%
-begin = equal_decisions.BUDGETS[0]
-earns = {m: equal_decisions.at(each, "returns", begin).mean() for m, each in compared.items()}
-lowest = min((m for m in earns if m != "ppo"), key=earns.get)
-crashes = 100 * equal_decisions.at(compared["ibrl"], "accident", begin).mean()
-first = np.nansum(curves["decisions"][:, :50], axis=1).mean() / 50
-compare_predictions(
-    "other_ways",
-    {
-        1: round(float(first), 1),
-        2: bc.display_name(lowest),
-        3: f"in 2 to 10 %: {crashes:.0f} %",
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Answers to the three questions. (1) An hour of driving is 3,600 decisions: enough for half of each

@@ -550,6 +550,14 @@ table(["after training", "agents", "return", "accidents, %"], rows, below=below)
 # such second would cost it (8.8: far more than a second pays).
 # <!-- claim: round(2 * math.log(80), 1) == 8.8 -->
 
+# %%
+kl_alone = "less than a crash, but only with the KL"
+compare_predictions(
+    "soft_constraint",
+    {1: "about 1.5", 2: "the same one, but not 0", 3: "proportional to the root of π̃", 4: "9 times"}
+    | {5: kl_alone, 6: "about as much as the rule"},
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -566,13 +574,6 @@ table(["after training", "agents", "return", "accidents, %"], rows, below=below)
 #    as much, and the others get out on hardly any road.
 # <!-- claim: beyond_the_rule() == escaped('soft') -->
 #
-# %%
-kl_alone = "less than a crash, but only with the KL"
-compare_predictions(
-    "soft_constraint",
-    {1: "about 1.5", 2: "the same one, but not 0", 3: "proportional to the root of π̃", 4: "9 times"}
-    | {5: kl_alone, 6: "about as much as the rule"},
-)
 
 # %% [markdown]
 # **Three questions to think about**

@@ -530,6 +530,21 @@ title = f"With the rule's help {won_helped} of 10 agents escape, alone {won_alon
 level = {"return": report.rule_results(bc.DEFAULT, 200).scores("returns")[0]}
 bc.show(bc.training_curves(curves, title, constants={"rule": level}))
 
+# %%
+compare_predictions(
+    "the_barrier",
+    {
+        1: f"{escaped_alone[SEEDS:].sum()} here",
+        2: round(100 * 0.8**5, 1),
+        3: "on all four",
+        4: f"{tried.success.sum()}: about 20",
+        5: "the plan at γ = 0.95 alone",
+        6: "none",
+        7: round(0.16**0.25, 2),
+        8: "D and E",
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -556,21 +571,6 @@ bc.show(bc.training_curves(curves, title, constants={"rule": level}))
 #
 # **Read on**: [the rule](the_rule.ipynb) that helps. Ecoffet et al., *First return, then explore*
 # (arXiv 2004.12919); Haarnoja et al., *Soft Actor-Critic* (arXiv 1801.01290).
-
-# %%
-compare_predictions(
-    "the_barrier",
-    {
-        1: f"{escaped_alone[SEEDS:].sum()} here",
-        2: round(100 * 0.8**5, 1),
-        3: "on all four",
-        4: f"{tried.success.sum()}: about 20",
-        5: "the plan at γ = 0.95 alone",
-        6: "none",
-        7: round(0.16**0.25, 2),
-        8: "D and E",
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=5
 # **Model answers.**

@@ -418,6 +418,20 @@ table(["p", "without an accident (1,000 roads)"], rows)
 # Ask what a stochastic rule is good for if it drives so badly. (It does not have to drive: it gives
 # each action a probability, so that a policy can be compared with it. Lesson [[soft_constraint]].)
 
+# %%
+compare_predictions(
+    "the_rule",
+    {
+        1: drive.rule_speeds[0],
+        2: "negative",
+        3: "false as long as you are slower",
+        4: round(result.distance.value),
+        5: "a shorter sight",
+        6: f"{min(safe)} m",
+        7: "about 10 %",
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -444,20 +458,6 @@ table(["p", "without an accident (1,000 roads)"], rows)
 # **Read on**: the [next lesson](demonstrations.ipynb) learns from this rule's drives. The
 # idea of a safety distance that grows with speed is old: Gipps, *A behavioural car-following
 # model for computer simulation* (1981).
-
-# %%
-compare_predictions(
-    "the_rule",
-    {
-        1: drive.rule_speeds[0],
-        2: "negative",
-        3: "false as long as you are slower",
-        4: round(result.distance.value),
-        5: "a shorter sight",
-        6: f"{min(safe)} m",
-        7: "about 10 %",
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # *Model answers to the three questions:*

@@ -494,6 +494,18 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # show returns. Then ask for one sentence for an abstract about PPO alone that is true, and does
 # not mislead.
 
+# %%
+alike = groups["cloned"]["alike"].mean()
+compare_predictions(
+    "the_second_trap",
+    {
+        1: "almost four times as much",
+        2: "yes, it makes the action rarer",
+        3: "it drives steadily behind trap 1",
+        4: f"{'in less than half' if alike < 0.5 else 'in more than half'}: {100 * alike:.0f} %",
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -513,18 +525,6 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # - With the concave reward the agents stay in the first trap. Is that better than the second?
 # - Could cloning a *bad* driver have worked as well? Which of the teachers of lesson
 #   [[your_teacher]]?
-
-# %%
-alike = groups["cloned"]["alike"].mean()
-compare_predictions(
-    "the_second_trap",
-    {
-        1: "almost four times as much",
-        2: "yes, it makes the action rarer",
-        3: "it drives steadily behind trap 1",
-        4: f"{'in less than half' if alike < 0.5 else 'in more than half'}: {100 * alike:.0f} %",
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Answers to the three questions. (1) The share of episodes that end ahead of trap 1, or the

@@ -553,6 +553,18 @@ table(headings, rows, below=f"Discounted sums from the start, road {ROAD}.")
 # first answer. Ask what would have to change: better attempts (a teacher), another reward, a larger
 # γ, or an agent that judges an attempt by its best case.
 
+# %%
+compare_predictions(
+    "the_trap",
+    {
+        1: "about 100",
+        2: "trap 2, and dy is negative",
+        3: idle.rewards.sum(),
+        4: study.escapers("sac"),
+        5: f"for {behind} s",
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -580,18 +592,6 @@ table(headings, rows, below=f"Discounted sums from the start, road {ROAD}.")
 # **Read on**: [the next lesson](discrete_sac.ipynb) builds the learner. highway-env, the simulator
 # under this road: Leurent, *An Environment for Autonomous Driving Decision-Making* (2018). MDPs
 # from the beginning: Sutton and Barto, *Reinforcement Learning* (2nd edition, 2018), chapter 3.
-
-# %%
-compare_predictions(
-    "the_trap",
-    {
-        1: "about 100",
-        2: "trap 2, and dy is negative",
-        3: idle.rewards.sum(),
-        4: study.escapers("sac"),
-        5: f"for {behind} s",
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=4
 # *Model answers to the three questions:*

@@ -342,6 +342,19 @@ table(["time constants", *headings], rows)
 # above 2 diverges in the same way, with the same alternating signs. Draw that on the board.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
 
+# %%
+backwards = "cars leave it at its front and join it at its back"
+compare_predictions(
+    "traffic",
+    {
+        1: backwards,
+        2: bc.formulas.desired_gap(10.0, 2.0, 10.0, 1.5, 0.5, 0.5),
+        3: "brake",
+        4: "each of them",
+        5: "it swings and grows",
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -365,19 +378,6 @@ table(["time constants", *headings], rows)
 # and microscopic simulations* (2000), for IDM. The cars also change lane, by a rule called MOBIL
 # (`bootcourse.road.traffic.worth_changing`): Kesting, Treiber and Helbing, *General lane-changing
 # model MOBIL for car-following models* (2007).
-
-# %%
-backwards = "cars leave it at its front and join it at its back"
-compare_predictions(
-    "traffic",
-    {
-        1: backwards,
-        2: bc.formulas.desired_gap(10.0, 2.0, 10.0, 1.5, 0.5, 0.5),
-        3: "brake",
-        4: "each of them",
-        5: "it swings and grows",
-    },
-)
 
 # %% [markdown] tags=["instructor"]
 # *Model answers to the three questions:*

@@ -310,6 +310,11 @@ table(["rows, all with terminated = 0", "Q after 4,000 pushes"], rows, "One agen
 # Let groups predict the whole order, not only the first place. A belief to name: "the second critic
 # is the trick that makes it work". On the pole three seeds do not show that.
 
+# %%
+worst = left_out.KINDS[1 + scores[1:].mean(1).argmin()]
+closest = choices[np.abs(np.array([20, 100, 250, 500]) - balanced).argmin()]
+compare_predictions("update_and_loop", {1: f"{closest}: {balanced:.0f}", 2: worst})
+
 # %% [markdown]
 # ## What you now know
 #
@@ -321,11 +326,6 @@ table(["rows, all with terminated = 0", "Q after 4,000 pushes"], rows, "One agen
 # 4. Without (1 − terminated) the targets read values of fallen states, which no row corrects; the
 #    critic diverges, and no error says so. Look at Q while an agent learns.
 # 5. Three agents, trained so briefly, do not show that a part is useless.
-
-# %%
-worst = left_out.KINDS[1 + scores[1:].mean(1).argmin()]
-closest = choices[np.abs(np.array([20, 100, 250, 500]) - balanced).argmin()]
-compare_predictions("update_and_loop", {1: f"{closest}: {balanced:.0f}", 2: worst})
 
 # %% [markdown]
 # **Three questions to think about**

@@ -459,6 +459,18 @@ driven = bc.drive_episodes(teacher_policy(own_rule, None, actions), range(50), m
 rows = [[question, words or "*to fill in*"] for question, words in answers.items()]
 table([f"the rule itself earns {driven.returns.mean():.1f}", "what I found"], rows)
 
+# %%
+of_mountain_car = {m: cells.mean("mountain-car", "systematic", m, "success") for m in four}
+compare_predictions(
+    "your_own_problem",
+    {
+        1: "not out of the valley",
+        2: "in nearly all episodes",
+        3: figures.NAMES[max(four, key=of_mountain_car.get)],
+        4: "less often than plain SAC",
+    },
+)
+
 # %% [markdown]
 # `bc.compare({"clone": bc.settings_for("bc"), "soft": bc.settings_for("soft", gamma=0.99)},
 # episodes=100, make_env=my_env, teacher=own_rule)` trains five agents of each for some answers.
@@ -478,18 +490,6 @@ table([f"the rule itself earns {driven.returns.mean():.1f}", "what I found"], ro
 # - Where does the rule of the road err systematically, and what did the agents correct?
 # - Is c = 2 above the limit on the road of the course? Which loop would it pay for?
 # - What would you need to know to trust one row of the figure for a problem that is not in it?
-
-# %%
-of_mountain_car = {m: cells.mean("mountain-car", "systematic", m, "success") for m in four}
-compare_predictions(
-    "your_own_problem",
-    {
-        1: "not out of the valley",
-        2: "in nearly all episodes",
-        3: figures.NAMES[max(four, key=of_mountain_car.get)],
-        4: "less often than plain SAC",
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Answers to the three questions. (1) Its sight of 200 m keeps it slow behind the traffic; all good

@@ -470,6 +470,20 @@ def watchful_rule(cars, scenario):
 
 check.watchful_rule(watchful_rule)
 
+# %%
+racers = int((groups["racer"]["success"] >= bc.statistics.ESCAPES).sum())
+earned = {name: group["returns"].mean() for name, group in groups.items()}
+compare_predictions(
+    "your_teacher",
+    {
+        1: f"{racers} of ten",
+        2: f"{earned['racer']:.1f}; alone {earned['alone']:.1f}",
+        3: "two",
+        4: "1 in 20",
+        5: f"{worth['random-50', 'bootstrapped'].escapers('bootstrapped')} of ten",
+    },
+)
+
 # %% [markdown]
 # ## What you now know
 #
@@ -488,20 +502,6 @@ check.watchful_rule(watchful_rule)
 # - An agent could learn *when* to follow its teacher. From which of the things that you printed?
 # - Your teacher reads the true state, its student 26 numbers. What can the one demonstrate that the
 #   other can never copy?
-
-# %%
-racers = int((groups["racer"]["success"] >= bc.statistics.ESCAPES).sum())
-earned = {name: group["returns"].mean() for name, group in groups.items()}
-compare_predictions(
-    "your_teacher",
-    {
-        1: f"{racers} of ten",
-        2: f"{earned['racer']:.1f}; alone {earned['alone']:.1f}",
-        3: "two",
-        4: "1 in 20",
-        5: f"{worth['random-50', 'bootstrapped'].escapers('bootstrapped')} of ten",
-    },
-)
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Answers to the three questions. (1) The racer until it is out of the trap, `timid` from there on:
