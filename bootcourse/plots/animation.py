@@ -53,7 +53,7 @@ def frame(rollouts: Sequence[Rollout], time: float) -> Figure:
         figure.text(side / WIDTH, s=driver, color=style(rollout.label).colour, **bold)
         figure.text(0.37, s=doing(rollout, now), fontsize=9, color=ALARM if over else INK, **write)
         figure.text(0.76, s=f"{cars[EGO, SPEED]:.1f} m/s", fontsize=9, color=QUIET, ha="right", **write)
-        figure.text(1 - side / WIDTH, s=f"{now:.0f} s", color=INK, ha="right", **bold)
+        figure.text(1 - side / WIDTH, s=f"{round(float(now), 1):g} s", color=INK, ha="right", **bold)
     figure.alt = alt(rollouts)
     return figure
 

@@ -32,6 +32,9 @@ def draw_moment(ax, rollout: Rollout, time: float, left: float, right: float, or
     top, bottom = edges_of(scenario.road)
     ax.set(xlim=(left, right), ylim=(bottom + 0.4, top - 0.4), aspect="equal")
     trail = np.array([cars_at(rollout, t)[EGO, [X, Y]] for t in np.arange(max(0.0, time - TRAIL), time + 1e-9, 0.25)])
+    size = (scenario.car.length / 2 + 1, scenario.car.width / 2 + 0.4)  # m, a car and a little more
+    under = np.flatnonzero((np.abs(trail[:, None] - cars[1:, [X, Y]]) < size).all(axis=2).any(axis=1))
+    trail = trail[under[-1] + 1 :] if len(under) else trail  # another car stands there by now
     canvas.line(trail[:, 0] - origin, trail[:, 1], colour, 2, opacity=0.35)
     draw_cars(canvas, cars, scenario, colour, left, right, origin, trail=trail)
     if rollout.accident and time > rollout.times[-1] - 1e-9:

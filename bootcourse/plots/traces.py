@@ -140,9 +140,10 @@ def _draw_panel(ax, panel: str, drives: list[Rollout], looks: list) -> None:
         ax.set_ylim(low, min(max(high, -low / 3), FARTHEST))
         ax.axhline(0, color=QUIET, linewidth=1, zorder=2)
         ax.text(
-            0.006 * ax.get_xlim()[1],
+            0.994 * ax.get_xlim()[1],
             0,
             "overtaken",
+            ha="right",
             fontsize=SMALL,
             color=QUIET,
             va="bottom",

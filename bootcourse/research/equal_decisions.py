@@ -190,7 +190,7 @@ def search_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]
         means = tried(results)
         cells = [f"{words}: {value:.1f}" for words, value in means.items()]
         rows.append([display_name(method), *cells])
-    return ["method", "first try: return", "second", "third"], rows
+    return ["method", "first setting: return", "second", "third"], rows
 
 
 def tried(results: Results) -> dict[str, float]:

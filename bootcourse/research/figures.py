@@ -99,7 +99,7 @@ def final_scores(results: Results, methods: Sequence[str], column: str = "return
     ax.set_yticks(range(len(methods)), [display_name(method) for method in methods])
     ax.set_ylim(len(methods) - 0.5, -0.5)
     ax.set_xlabel(label, fontsize=TEXT, color=INK)
-    key = "Dots: agents. Lines: the 95 % interval of their interquartile mean. Diamonds: the paper."
+    key = "Dots: agents. Lines: their interquartile mean (middle tick) and its 95 % interval. Diamonds: the paper."
     figure.text(0.012, 0.12 / height, key, fontsize=SMALL, color=INK)
     ax.spines["bottom"].set_color(GRID)
     best = max(middles.values(), key=lambda middle: middle.value)

@@ -143,9 +143,9 @@ print(f"In the free lane after {in_free_lane:g} of 150 s ({share}), the median o
 # Each of the nine actions occurs.
 # <!-- claim: len(np.unique(np.concatenate([drive.actions for drive in rule_drives()]))) == 9 -->
 #
-# A learner that goes by the discounted reward would not choose the rule's drive at γ = {{
-# SETTINGS.gamma }} (lesson [[the_barrier]]). Lesson [[learning_from_demonstrations]] pays a bonus
-# for the demonstrated actions. Here we leave the reward out and copy the actions.
+# At γ = {{ SETTINGS.gamma }} the rule's drive is worth less than staying (lesson [[the_barrier]]).
+# Lesson [[learning_from_demonstrations]] pays a bonus for the demonstrated actions. Here we leave
+# the reward out and copy the actions.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what a loss that averages over the decisions does with {{ 100 * way_out()[0] / 150 | .0f }} %
@@ -406,11 +406,12 @@ bc.show(figures.clones(measured, title))
 
 # %% [markdown]
 # **Explain.** (Yours will differ.) In our runs the clones of the stochastic rule had fewer
-# accidents than those of the rule, although they agreed less with their data. Fewer rows, seen more
-# often, are not the reason: with as few rows the rule's clones crashed about as often. We think
-# that the reason is **coverage**: the stochastic rule's drives contain more states, and show how to
-# return to the path. The third kind keeps the coverage and takes the wrong labels out. (How much
-# coverage matters depends on the number of updates: the study's clones of Round 4 learned from
+# accidents than those of the rule, although they agreed less with their data. (Much more agreement
+# is impossible there: one in ten of the stochastic rule's actions is drawn at random.) Fewer rows,
+# seen more often, are not the reason: with as few rows the rule's clones crashed about as often. We
+# think that the reason is **coverage**: the stochastic rule's drives contain more states, and show
+# how to return to the path. The third kind keeps the coverage and takes the wrong labels out. (How
+# much coverage matters depends on the number of updates: the study's clones of Round 4 learned from
 # drives of the rule alone.)
 
 # %% [markdown] tags=["instructor"] minutes=6

@@ -169,7 +169,8 @@ table(["agents that escape, the KL ...", *kinds], rows)
 # %% [markdown]
 # No difference is visible. Does it mean that there is none? That depends on how often ten agents
 # against ten would show one. *Fisher's exact test* compares two such counts. Its **p value** is the
-# probability of a difference at least as large if both groups escape equally often.
+# probability of a split at least as improbable as the observed one, if both groups escape equally
+# often, given how many of all agents escaped.
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
 # > such studies does Fisher's test find the difference (p below 0.05)?
@@ -201,10 +202,9 @@ check.power(power)
 bc.show(figures_seeds.powers(((0.8, 0.3), (0.8, 0.6)), (3, 5, 8, 10, 12, 15, 20, 25, 30)))
 
 # %% [markdown]
-# **See.** Ten against ten find even this large difference in
-# {{ 100 * power(0.8, 0.3, 10) | .0f }} % of the studies; {{ enough(0.8, 0.3) }} agents of each are
-# the fewest with a power of 80 %. A smaller difference, 80 against 60 %, needs far more than the
-# figure's 30.
+# **See.** Ten against ten find even this large difference in {{ 100 * power(0.8, 0.3, 10) | .0f }}
+# % of the studies; {{ enough(0.8, 0.3) }} agents of each are the fewest with a power of 80 %. A
+# smaller difference, 80 against 60 %, needs far more than the figure's 30.
 # <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 30) < 0.4 -->
 #
 # So what does our table say? With the KL in the actor's loss only, nine of ten agents with the soft
@@ -218,10 +218,11 @@ bc.show(figures_seeds.powers(((0.8, 0.3), (0.8, 0.6)), (3, 5, 8, 10, 12, 15, 20,
 # ### Many comparisons
 #
 # The opposite error is to see a difference where there is none. If twelve independent comparisons
-# have no true difference behind them, at least one p is below 0.05 with a chance of {{ 100 * (1 -
-# 0.95**12) | .0f }} %. This is **multiplicity**: one p of 0.03 among a dozen is a hint. Say
-# beforehand which comparison counts; or multiply each p by the number of comparisons (Bonferroni).
-# *Holm's* way finds more:
+# have no true difference behind them, and each test errs in 5 % of the cases, at least one p is
+# below 0.05 with a chance of {{ 100 * (1 - 0.95**12) | .0f }} %. (Fisher's test is careful: of ten
+# against ten it errs in at most {{ 100 * most_false() | .1f }} %.) This is **multiplicity**: one p
+# of 0.03 among a dozen is a hint. Say beforehand which comparison counts; or multiply each p by the
+# number of comparisons (Bonferroni). *Holm's* way finds more:
 #
 # 1. Sort the p values, the smallest first.
 # 2. Multiply the first by their number n, the second by n − 1, and so on.
@@ -244,7 +245,7 @@ table(["p", "times", "after Holm"], rows)
 #
 # > **Predict.** Most of ten agents earn about the same, and two or three crash at once. Which
 # > number changes most if one more agent crashes: the mean, the median, or the mean of the middle
-# > half?
+# > half (IQM)?
 
 # %%
 predict("how_many_seeds.3", "What changes most if one more crashes?", ["mean", "median", "IQM"])
@@ -330,8 +331,8 @@ bc.show(figures.final_scores(study, methods, title=title))
 # **Explain.** The interval says how far our mean may lie from the mean of very many agents: with
 # both aids about {{ half_interval('bootstrapped') | .0f }} to either side. A *repetition* has an
 # error of its own, as large as ours. Two independent errors add up to $\sqrt2$ as much, so two
-# studies of ten agents differ, in 95 of 100 cases, by at most about
-# {{ 2**0.5 * half_interval('bootstrapped') | .0f }}. (The figure draws the same for the IQM.)
+# studies of ten agents differ, in 95 of 100 cases, by at most about {{ 2**0.5 *
+# half_interval('bootstrapped') | .0f }}. (The figure draws the same for the IQM.)
 #
 # Do not trust a short interval from few seeds. If three agents happen to agree, it is short: with
 # the soft constraint it is {{ bracketed(interval(of('soft').scores('returns')[:3], np.mean)) }},

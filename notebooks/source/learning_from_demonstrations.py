@@ -44,7 +44,7 @@ from bootcourse.panels.bonus import bonus_numbers
 # %% [markdown]
 # ## Look first
 #
-# To a learner with γ = {{ SETTINGS.gamma }} the rule's way out looks bad at its start (lesson
+# At γ = {{ SETTINGS.gamma }} the rule's drive is worth less at its start than staying (lesson
 # [[the_barrier]]):
 
 # %% tags=["hide-input"]
@@ -60,19 +60,8 @@ bc.show(charts.lines(np.arange(60), named, title, "second of the drive", label))
 # %% [markdown]
 # (The peaks are the seconds in which the rule speeds up: lesson [[the_rule]].) So pay the learner a
 # **bonus** c for each second that is demonstrated, on top of the reward.
-#
-# > **Predict.** How large must c be for the rule's way to be worth more from the start: about
-# > 0.005, 0.05, 0.5 or 5?
 # <!-- claim: discounted(by_rule(), SETTINGS.gamma) < discounted(idle(), SETTINGS.gamma) -->
-
-# %%
-predict(
-    "learning_from_demonstrations.1",
-    "From about which bonus c on is the way out worth more?",
-    ["0.005", "0.05", "0.5", "5"],
-)
-
-# %% [markdown]
+#
 # The last round trains with the parts that you wrote. The next cell runs the files in the folder
 # `answers`, which hold them; no other cell of this lesson does that.
 # <!-- claim: len(re.findall('\nown_code.load()', code_of('learning_from_demonstrations'))) == 1
@@ -96,9 +85,8 @@ demonstrations = bc.collect(200)
 print(f"{len(demonstrations):,} transitions of 200 drives of the rule")
 
 # %% [markdown]
-# A share β ("beta") of each batch comes from the second table. It starts at
-# {{ SETTINGS.beta_start }} and falls in a straight line to 0 over {{ SETTINGS.beta_episodes | , }}
-# episodes.
+# A share β ("beta") of each batch comes from the second table. It starts at {{ SETTINGS.beta_start
+# }} and falls in a straight line to 0 over {{ SETTINGS.beta_episodes | , }} episodes.
 # <!-- claim: demonstration_share(1000, 0.6, 1000) == 0 -->
 
 # %%
@@ -110,16 +98,16 @@ table(["episode", "β", "of 64 rows are the rule's"], rows)
 
 # %% [markdown]
 # > **Predict.** The actor's loss of lesson [[discrete_sac]] has no term for demonstrated actions,
-# > and the paper adds none. Through what can these rows change the policy?
+# > and the paper adds none. How can the rule's *actions* in these rows change the policy?
 
 # %%
-choices = ["nothing: they need a term of their own", "the critics' Q", "the temperature α"]
-predict("learning_from_demonstrations.2", "Through what can the rows change the policy?", choices)
+choices = ["not at all: a term is missing", "through the critics' Q", "through the temperature α"]
+predict("learning_from_demonstrations.1", "How can the rule's actions change the policy?", choices)
 
 # %% [markdown]
-# **Explain.** Through Q. The critics learn from these rows what the rule's actions led to, and an
-# action that they value more becomes more probable. (With a soft constraint the KL pulls the actor
-# in these states, too.)
+# **Explain.** Through the critics' Q. Of the three losses the critics' loss alone reads a row's
+# action and reward; the other two use its state. An action that the critics value more becomes more
+# probable. (With a soft constraint the KL pulls the actor in these states, too.)
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Draw a batch as a row of 64 boxes. Shade the rule's after 0, 500 and 1,000 episodes.
@@ -152,7 +140,15 @@ def mixed_batch(own, demonstrations, size, beta, bonus, rng):
 check.mixed_batch(mixed_batch)
 
 # %% [markdown]
-# How large must c be? On 20 roads:
+# > **Predict.** How large must c be for the rule's way to be worth more than staying, on each of 20
+# > roads, also from its start: about 0.005, 0.05, 0.5 or 5?
+
+# %%
+predict(
+    "learning_from_demonstrations.2",
+    "From about which bonus c on is the way out worth more?",
+    ["0.005", "0.05", "0.5", "5"],
+)
 
 # %%
 rows = []
@@ -265,8 +261,9 @@ print(f"episodes of each agent: {training.curves.finished.tolist()}")
 expert, others, largest = (np.array(noted[name]).T for name in ("expert", "others", "largest"))
 lead = expert - others
 looks = [charts.Style("#E69F00"), charts.Style("#5F6B77", "--")]
+with_bonus, without = lead[:2, -1].mean(), lead[2:, -1].mean()
 title = (
-    f"A bonus of 2 gives the demonstrated action a lead of about {lead[:2, -1].mean():.1f}, not 10"
+    f"With a bonus of 2 the demonstrated action leads by {with_bonus:.1f}, without by {without:.1f}"
 )
 named, label = {"c = 2": lead[:2], "c = 0": lead[2:]}, "lead over the mean of the others, in Q"
 marks = {"what c = 2 adds to the return": 10.0, "one bonus": 2.0}
@@ -284,8 +281,9 @@ below = "Largest: the states in which the demonstrated action has the largest Q 
 table(headings, rows, below=below)
 
 # %% [markdown]
-# **See.** (Yours will differ.) The bonus gives the demonstrated actions a much higher Q than the
-# control has, but the other actions' Q rises with it. A lead of
+# **See.** (Yours will differ; the leads still grow when we stop.) The bonus gives the demonstrated
+# actions a much higher Q than the control has, but the other actions' Q rises with it: what it adds
+# to the lead is the difference of the two curves, in our run little more than one bonus. A lead of
 # {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} would need that one other action ends all later
 # bonuses; if the drive goes on as the rule's afterwards, it misses one, c = 2. And a high mean is
 # not yet the highest value: in our runs (two agents each) the last column is no higher with c = 2
@@ -293,10 +291,9 @@ table(headings, rows, below=below)
 #
 # **Does the raised value last?** In the critics of five shipped `demos` agents of the study, long
 # after β has reached 0, little or nothing of the bonus is left: the mean Q of the rule's actions on
-# the way out lies between {{ demonstrated_q().min() | .1f }} and
-# {{ demonstrated_q().max() | .1f }}, and they have the largest Q in
-# {{ 100 * demonstrated_largest('demos').min() | .0f }} to
-# {{ 100 * demonstrated_largest('demos').max() | .0f }} % of these states.
+# the way out lies between {{ demonstrated_q().min() | .1f }} and {{ demonstrated_q().max() | .1f
+# }}, and they have the largest Q in {{ 100 * demonstrated_largest('demos').min() | .0f }} to {{ 100
+# * demonstrated_largest('demos').max() | .0f }} % of these states.
 # <!-- claim: len(demonstrated_q()) == 5 and demonstrated_q().max() < 2 and
 #   demonstrated_largest('demos').max() < 0.3 -->
 
@@ -555,7 +552,7 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 filter_on = "under 10 %" if on < 8 else ("about 10 %" if on < 15 else "over 20 %")
 compare_predictions(
     "learning_from_demonstrations",
-    {1: "0.05", 2: "the critics' Q", 3: "10"}
+    {1: "through the critics' Q", 2: "0.05", 3: "10"}
     | {4: f"{lead[0, -1]:.1f} and {lead[1, -1]:.1f}", 5: "4"}
     | {6: f"{filter_on}: {on:.0f} % on average", 7: str(sum(ahead[:-1]))},
 )
@@ -597,8 +594,7 @@ compare_predictions(
 # 0.95, c below 0.5. **The last seconds:** on the free road the rule keeps its moderate speed and is
 # paid c for it, so the critic values the rule's speed above a higher one by up to c / (1 − γ), more
 # than a higher speed can earn there. A bonus for the way out alone (until trap 1 is passed) would
-# not have this effect. **When it is unlearned:**
-# the mean Q of the demonstrated actions on the way out, as in Round 3, against the updates, with a
-# line where β reaches 0; beside it the discounted return that these drives really earn. Where the
-# two meet, it is unlearned.
+# not have this effect. **When it is unlearned:** the mean Q of the demonstrated actions on the way
+# out, as in Round 3, against the updates, with a line where β reaches 0; beside it the discounted
+# return that these drives really earn. Where the two meet, it is unlearned.
 # <!-- claim: 0.5 / (1 - 0.95) <= -DEFAULT.reward.accident + 1e-9 -->

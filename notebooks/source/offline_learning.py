@@ -94,8 +94,8 @@ predict("offline_learning.1", "How does Q-learning value the best untried action
 # $$ \log \sum_a e^{Q(s,a)} - Q(s, a_\text{data}) $$
 #
 # The first part is a soft maximum: at least the highest Q of the nine, and at most log 9 ≈ 2.2
-# above it. Its slope in each Q(s, a) is softmax(Q): it pushes all nine down, the highest most. The
-# second is the Q of the action that the data hold, and is pulled up.
+# above it. Its gradient in each Q(s, a) is softmax(Q): it pushes all nine down, the highest most.
+# The second is the Q of the action that the data hold, and is pulled up.
 #
 # **Exercise (6 min, ●●○).** Write it, in torch.
 
@@ -114,16 +114,15 @@ check.conservative_loss(conservative_loss)
 # %% [markdown]
 # Why is that *conservative*? Take one state. The data hold each action a with a positive share
 # $\hat\pi(a)$, the *policy of the data*, so a mean over the data counts a with that weight. Its
-# target y(a) is given. The loss is the mean of
-# (Q − y)² over the data, plus w times the term. Which Q makes it smallest?
+# target y(a) is given. The loss is the mean of (Q − y)² over the data, plus w times the term. Which
+# Q makes it smallest?
 #
 # <details><summary>The answer</summary>
 #
 # With $\pi = \mathrm{softmax}(Q)$, the derivative of the loss with respect to Q(a) is 0 where
 #
 # $$ 2 \hat\pi(a) \big(Q(a) - y(a)\big) + w \big(\pi(a) - \hat\pi(a)\big) = 0,
-# \qquad\text{so}\qquad
-# Q(a) = y(a) - \frac{w}{2} \Big(\frac{\pi(a)}{\hat\pi(a)} - 1\Big). $$
+# \qquad\text{so}\qquad Q(a) = y(a) - \frac{w}{2} \Big(\frac{\pi(a)}{\hat\pi(a)} - 1\Big). $$
 #
 # An action that π prefers more than the data do is valued below its target, one that π prefers less
 # above it. Weigh the bracket by π: its mean is $\sum_a (\pi - \hat\pi)^2 / \hat\pi$, which

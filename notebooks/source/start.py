@@ -27,9 +27,9 @@ from bootcourse.course import compare_predictions, predict, shipped
 # ## Look first
 #
 # Both drives below start alike on the same road. Two slow cars are dark red: **trap 1** is ahead of
-# the driver, **trap 2** beside it. One program, labelled *plain SAC*, stays behind them; the other,
-# *bootstrapped SAC*, gets out. (Lesson [[the_trap]] says what the names mean.) Press play, and turn
-# the road with the mouse.
+# the driver, **trap 2** a little ahead in the next lane. One program, labelled *plain SAC*, stays
+# behind them; the other, *bootstrapped SAC*, gets out. (Lesson [[the_trap]] says what the names
+# mean.) Press play, and turn the road with the mouse.
 
 # %% tags=["nbval-ignore-output"]
 escape = bc.shipped_drive("escape")  # by an agent that had help

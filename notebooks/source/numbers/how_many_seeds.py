@@ -3,6 +3,7 @@
 import numpy as np
 from bootcourse.research.tables import bracketed  # noqa: F401 (the text names it)
 from bootcourse.statistics import ESCAPES, Estimate, interval, iqm, power, rate
+from scipy import stats
 from tools.course.known import escaped, escapers, fisher, of, shipped_experiment
 
 
@@ -20,6 +21,13 @@ def in_actor_only() -> Estimate:
 def enough(first: float, second: float, wanted: float = 0.8) -> int:
     """The fewest agents of each method with this power, at these true rates."""
     return next(n for n in range(2, 100) if power(first, second, n) >= wanted)
+
+
+def most_false() -> float:
+    """How often Fisher's test of ten against ten errs at most, over all rates that both groups may share."""
+    shown = np.array([[fisher(k, j) < 0.05 for j in range(11)] for k in range(11)])
+    counts = [stats.binom(10, rate).pmf(np.arange(11)) for rate in np.linspace(0, 1, 501)]
+    return float(max(count @ shown @ count for count in counts))
 
 
 def nearest_to_iqm(method: str) -> float:

@@ -93,7 +93,16 @@ def temperature() -> float:
 
 
 ONCE = "accelerates once, then nothing"
-AT_RANDOM = (("a lane keeper", "at random"), ("a later start", "at random"))
+FREE, RAM = "free accidents", "accelerates into trap 1"
+AT_RANDOM = (("a lane keeper", "at random"), ("a later start", "at random"), (FREE, "at random"))
+
+
+def crash_soon(gamma: float | None = None) -> int:
+    """Of the agents with free accidents (and this γ), how many have crashed after 6 s in their median drive."""
+    agents = easy(FREE)
+    chosen = [gamma in (None, agent["gamma"]) for agent in agents.agents]
+    lasted = np.median(agents.tested["distance"] / agents.tested["speed"], axis=1)
+    return int((lasted[chosen] < 6.05).sum())
 
 
 @cache

@@ -196,7 +196,7 @@ temperature_loss = exercise(
         ((torch.tensor(-LOG_2), torch.tensor([0.5, 1.5]), torch.tensor(0.6)), torch.tensor(0.2)),
     ],
     hints=(
-        "If the entropy is above its target, α has to fall: which sign does the slope of the loss need?",
+        "If the entropy is above its target, α has to fall: which sign does the gradient of the loss need?",
         "α times (mean entropy - target). Only log α may receive a gradient.",
     ),
     mistakes={

@@ -24,7 +24,7 @@ from bootcourse.research.teachers import RULE
 from bootcourse.road import twin
 from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import DEFAULT
+from bootcourse.scenario import DEFAULT, Scenario
 
 SEEDS, GAMMAS = 10, (0.8, 0.95)
 UPDATES = 2_000  # as the agents of the lesson have
@@ -61,9 +61,9 @@ class LaterStart(TrapVectorEnv):
             mask = mask & (accidents != 0)
 
 
-def free_accidents(roads: int) -> TrapVectorEnv:
-    """The road as it is, where an accident ends the drive and costs nothing."""
-    return TrapVectorEnv(roads, replace(DEFAULT, reward=replace(DEFAULT.reward, accident=0.0)))
+def free_accidents(roads: int, scenario: Scenario = DEFAULT, *more) -> TrapVectorEnv:
+    """The road as it is, where an accident ends the drive and costs nothing. more: as `TrapVectorEnv` takes it."""
+    return TrapVectorEnv(roads, replace(scenario, reward=replace(scenario.reward, accident=0.0)), *more)
 
 
 KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the settings that differ
@@ -75,20 +75,21 @@ KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the set
 }
 EXPERIMENT = LessonExperiment(f"{__name__}:train_kind", {kind: {"kind": kind} for kind in KINDS})
 
+ACCELERATE = 7  # straight on
 WISHES = [3, *[1] * 8, *[5] * 6]  # of the lane keeper: slower for 1 s, to the left for 8 s, faster for 6 s
 
 
 def drivers(kind: str, seed: int = 0) -> Mapping[str, Policy]:
     """Whom the lesson lets drive on the roads of a kind: who stays, who acts at random, who is skilled."""
-    rng = np.random.default_rng(seed)
-    if kind == "a lane keeper":
-        return {"stays": idle_policy, "at random": random_policy(rng), "one plan": PlanPolicy(WISHES)}
-    return {
-        "stays": idle_policy,
-        "at random": random_policy(rng),
-        "accelerates once, then nothing": PlanPolicy([7]),
-        "to 15 m/s, in its lane": ThenAccelerate([]),
+    skilled = {
+        "a lane keeper": {"one plan": PlanPolicy(WISHES)},
+        "a later start": {
+            "accelerates once, then nothing": PlanPolicy([ACCELERATE]),
+            "to 15 m/s, in its lane": ThenAccelerate([]),
+        },
+        "free accidents": {"accelerates into trap 1": PlanPolicy([ACCELERATE] * DEFAULT.clock.decisions)},
     }
+    return {"stays": idle_policy, "at random": random_policy(np.random.default_rng(seed))} | skilled[kind]
 
 
 def train_kind(kind: str) -> dict[str, np.ndarray]:
