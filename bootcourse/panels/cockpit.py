@@ -102,9 +102,9 @@ def _terms(drive: InteractiveEpisode, top: float) -> list[str]:
 
 
 def _returns(drive: InteractiveEpisode, ghost: Rollout, top: float) -> list[str]:
-    """Both returns over the time."""
-    rate, look = drive.scenario.clock.decision_rate, style(ghost.label)
-    mine, other = (np.concatenate([[0.0], np.cumsum(rewards)]) for rewards in (drive.rewards, ghost.rewards))
+    """Both returns up to now."""
+    rate, look, now = drive.scenario.clock.decision_rate, style(ghost.label), len(drive.rewards)
+    mine, other = (np.concatenate([[0.0], np.cumsum(rewards[:now])]) for rewards in (drive.rewards, ghost.rewards))
     end = drive.scenario.clock.decisions / rate
     axes = SvgAxes(716, top, 270, 66, (0, end), span([*mine, *other, -1, 5], 6))
     axes.frame("return, and the ghost's", "time (s)", rows=2)

@@ -146,15 +146,31 @@ def changed_agents(method: str) -> np.ndarray:
     return np.concatenate(scores) >= ESCAPES
 
 
+@cache
+def replayed(times: int, walks: int = 30) -> int:
+    """How many of the chain's learners with A's ε and γ leave if the way out is replayed before the first decision."""
+    q = np.zeros((chain.STATES, 2))
+    for s, a in chain.WAY_OUT * times:
+        q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
+    return sum(_leaves(q.copy(), 0.1, seed) for seed in range(walks))
+
+
+def crashing(kind: str) -> int:
+    """How many agents of a kind have an accident in more than nine of ten drives."""
+    return int((easy(kind).scores("accident") > 0.9).sum())
+
+
 def optimistic(explore: float, start: float, walks: int = 30) -> int:
     """How many of the chain's learners leave at γ = 0.8 if Q begins at `start` instead of 0."""
-    left = 0
-    for seed in range(walks):
-        q, s = np.full((chain.STATES, 2), float(start)), 0
-        for t, chance in enumerate(chain.chances(explore, 1000, seed)):
-            s = 0 if t % chain.EPISODE == 0 else s
-            a = int(q[s].argmax()) if chance < 0 else chance
-            q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
-            s = chain.NEXT[s, a]
-        left += bool(q[0, 1] > q[0, 0])
-    return left
+    return sum(_leaves(np.full((chain.STATES, 2), float(start)), explore, seed) for seed in range(walks))
+
+
+def _leaves(q: np.ndarray, explore: float, seed: int) -> bool:
+    """Does a learner of the chain that begins with this Q, which it changes, leave at γ = 0.8?"""
+    s = 0
+    for t, chance in enumerate(chain.chances(explore, 1000, seed)):
+        s = 0 if t % chain.EPISODE == 0 else s
+        a = int(q[s].argmax()) if chance < 0 else chance
+        q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
+        s = chain.NEXT[s, a]
+    return chain.leaves(q)
