@@ -4,9 +4,9 @@ import numpy as np
 
 from bootcourse.course.exercise import exercise
 from bootcourse.course.lessons.looking_ahead import imagined_road
-from bootcourse.policies import rule_policy
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.rule import rule
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE
 
 FAST = ACTION_NAMES.index("accelerate straight")
@@ -27,7 +27,9 @@ def by_lane(cars):
     return np.where(cars[:, EGO, LANE] == DEFAULT.road.lanes - 1, 1, IDLE)
 
 
-by_rule = imagined_road.decide_by(rule_policy(DEFAULT))
+def by_rule(cars):
+    """The rule."""
+    return rule(cars, DEFAULT).actions
 
 
 def reached(roads: int, decisions: int, action: int, seed: int) -> np.ndarray:
