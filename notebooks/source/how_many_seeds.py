@@ -51,14 +51,14 @@ for agent in (bc.shipped_agents("sac")[i] for i in (0, 3)):
 # the other nine do not. How many agents do you need before such a sentence is worth printing?
 # <!-- claim: escaped('sac') == 1 -->
 #
-# The question matters most in an **ablation**: you leave out one part of a method at a time, train
+# The question matters most in an **ablation**: leave out one part of a method at a time, train
 # again, and see what gets worse. The paper's method has two parts, the soft constraint and the
-# demonstrations. That makes four methods: neither (plain SAC), each alone, and both. You know our
-# counts from the last lessons. What are they worth?
+# demonstrations, so there are four methods: neither (plain SAC), each alone, and both.
 #
 # > **Predict.** Eight of ten agents with the soft constraint alone escape. Suppose that each agent
-# > escapes with the same probability. How low may it be, if eight or more of ten are still to
-# > happen in one of forty studies?
+# > escapes with the same probability p. How low may p be, if eight or more of ten are still to
+# > happen in one of forty studies? (`scipy.stats.binom.sf(7, 10, p)` is the chance of eight or
+# > more: try some p.)
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 
 # %%
@@ -121,9 +121,8 @@ def exact_interval(k, n):
 check.exact_interval(exact_interval)
 
 # %% [markdown]
-# The paper's rates count test episodes, about {{ EPISODES }} by its printed deviations, and it does
-# not say how many agents drove them. Take each of its rows as *one* agent, and write its interval
-# beside ours.
+# The paper's rates count test episodes, about {{ EPISODES }} by its printed deviations; it does not
+# say of how many agents. Take each of its rows as *one* agent:
 
 # %%
 rows = []
@@ -139,9 +138,9 @@ table(["", "agents that escape (95 %)", drives, "if one agent drove them all"], 
 
 # %% [markdown]
 # **See.** Two rows look opposite: the soft constraint alone, and the demonstrations alone. They
-# need not contradict the paper. Twenty drives of one agent say how that agent drives; they are
-# *one* sample, not twenty, of how often training succeeds. With one agent behind a row its interval
-# is so wide that it overlaps with ours in each row.
+# need not contradict the paper. Twenty drives of one agent are *one* sample, not twenty, of how
+# often training succeeds, and with one agent behind a row its interval overlaps with ours in each
+# row.
 # <!-- claim: escaped('soft') > 5 and escaped('demos') == 0 and rate(np.ones(1)).low <
 #   rate(np.zeros(10)).high and rate(np.zeros(1)).high > rate(np.arange(10) < 8).low -->
 
@@ -153,9 +152,8 @@ table(["", "agents that escape (95 %)", drives, "if one agent drove them all"], 
 # ## Round 2: how many agents does it take?
 #
 # Suppose that the paper's agents and ours do differ. One possible reason is where the KL enters.
-# Our learner subtracts it in the critic's target, too (lesson [[soft_constraint]], round 4); one
-# can also subtract it in the actor's loss alone. Ten more agents of both methods were trained like
-# that, with the study's settings otherwise:
+# Our learner subtracts it in the critic's target, too (lesson [[soft_constraint]], round 4). Ten
+# more agents of both methods had it in the actor's loss alone, with the study's settings otherwise:
 
 # %%
 elsewhere = shipped.shipped_experiment("ablations")["KL in the actor only"]
@@ -167,13 +165,14 @@ rows = [
 table(["agents that escape, the KL ...", *kinds], rows)
 
 # %% [markdown]
-# No difference is visible. Does it mean that there is none? That depends on how often ten agents
-# against ten would show one. *Fisher's exact test* compares two such counts. Its **p value** is the
-# probability of a split at least as improbable as the observed one, if both groups escape equally
-# often, given how many of all agents escaped.
+# No difference is visible. Is there none? That depends on how often ten agents against ten would
+# show one. *Fisher's exact test* compares two such counts. Its **p value** is the probability of a
+# split at least as improbable as the observed one, if both groups escape equally often, given how
+# many of all agents escaped.
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
-# > such studies does Fisher's test find the difference (p below 0.05)?
+# > such studies does Fisher's test find the difference (p below 0.05)? (It tells 8 of ten from 2 of
+# > ten, p = {{ fisher(8, 2) | .2f }}, but not from 3 of ten, p = {{ fisher(8, 3) | .2f }}.)
 # <!-- claim: max(p_changed(m) for m in ('soft', 'bootstrapped')) > 0.5 -->
 
 # %%
@@ -203,15 +202,16 @@ bc.show(figures_seeds.powers(((0.8, 0.3), (0.8, 0.6)), (3, 5, 8, 10, 12, 15, 20,
 
 # %% [markdown]
 # **See.** Ten against ten find even this large difference in {{ 100 * power(0.8, 0.3, 10) | .0f }}
-# % of the studies; {{ enough(0.8, 0.3) }} agents of each are the fewest with a power of 80 %. A
-# smaller difference, 80 against 60 %, needs far more than the figure's 30.
+# % of the studies; {{ enough(0.8, 0.3) }} agents of each are the fewest with a power of 80 %.
+# (Fisher's test is careful: Boschloo's exact test finds it in {{ 100 * power_of_boschloo(0.8, 0.3)
+# | .0f }} %.) A smaller difference, 80 against 60 %, needs far more than the figure's 30.
 # <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 30) < 0.4 -->
 #
 # So what does our table say? With the KL in the actor's loss only, nine of ten agents with the soft
 # constraint escape, and the exact interval begins at {{ 100 * in_actor_only().low | .0f }} %: the
-# KL's place does not bring the rate down to near 0, and ten against ten would have shown such a
-# fall (80 against 5 %: power {{ 100 * power(0.8, 0.05, 10) | .0f }} %). It may well have a moderate
-# effect, such as 80 against 60 %: ten agents would rarely show it.
+# KL's place does not bring the rate down to near 0; ten against ten would have shown that (80
+# against 5 %: power {{ 100 * power(0.8, 0.05, 10) | .0f }} %). A moderate effect, such as 80
+# against 60 %, ten agents would rarely show.
 # <!-- claim: power(0.8, 0.05, 10) > 0.9 and in_actor_only().value == 0.9 and
 #   in_actor_only().low > 0.5 -->
 #
@@ -219,10 +219,10 @@ bc.show(figures_seeds.powers(((0.8, 0.3), (0.8, 0.6)), (3, 5, 8, 10, 12, 15, 20,
 #
 # The opposite error is to see a difference where there is none. If twelve independent comparisons
 # have no true difference behind them, and each test errs in 5 % of the cases, at least one p is
-# below 0.05 with a chance of {{ 100 * (1 - 0.95**12) | .0f }} %. (Fisher's test is careful: of ten
-# against ten it errs in at most {{ 100 * most_false() | .1f }} %.) This is **multiplicity**: one p
-# of 0.03 among a dozen is a hint. Say beforehand which comparison counts; or multiply each p by the
-# number of comparisons (Bonferroni). *Holm's* way finds more:
+# below 0.05 with a chance of {{ 100 * (1 - 0.95**12) | .0f }} %. (Fisher's test of ten against ten
+# errs less, in at most {{ 100 * most_false() | .1f }} %.) This is **multiplicity**. Say beforehand
+# which comparison counts; or multiply each p by the number of comparisons (Bonferroni). *Holm's*
+# way finds more:
 #
 # 1. Sort the p values, the smallest first.
 # 2. Multiply the first by their number n, the second by n − 1, and so on.
@@ -245,10 +245,11 @@ table(["p", "times", "after Holm"], rows)
 #
 # > **Predict.** Most of ten agents earn about the same, and two or three crash at once. Which
 # > number changes most if one more agent crashes: the mean, the median, or the mean of the middle
-# > half (IQM)?
+# > half?
 
 # %%
-predict("how_many_seeds.3", "What changes most if one more crashes?", ["mean", "median", "IQM"])
+choices = ["mean", "median", "mean of the middle half"]
+predict("how_many_seeds.3", "What changes most if one more crashes?", choices)
 
 # %% [markdown]
 # The mean of the middle half is called **interquartile mean** (IQM). It leaves out the highest and
@@ -280,10 +281,9 @@ table(headings, rows, below=below)
 
 # %% [markdown]
 # **See.** The IQM falls most. It leaves out two agents at each end, so the third low agent counts
-# already, and a fourth takes the place of a high one among the six that are left. An IQM resists an
-# outlier or two; it does not resist a second group. And no agent earns what it says: the nearest
-# return is {{ nearest_to_iqm('bootstrapped') | .0f }} away. That is why our tables also count
-# agents.
+# already, and a fourth takes the place of a high one. An IQM resists an outlier or two; it does not
+# resist a second group. And no agent earns what it says: the nearest return is {{
+# nearest_to_iqm('bootstrapped') | .0f }} away. So our tables also count agents.
 # <!-- claim: (lambda r, w: iqm(r) - iqm(w) > r.mean() - w.mean() > np.median(r) - np.median(w))(
 #   np.sort(of('bootstrapped').scores('returns')),
 #   np.sort(of('bootstrapped').scores('returns'))[[0, *range(9)]]) -->
@@ -301,8 +301,8 @@ predict(
 # %% [markdown]
 # The computer imitates a repetition. Draw ten agents out of our ten *uniformly with replacement*:
 # some come twice or more, and others are left out. Take their mean. Do this some thousand times.
-# The middle 95 % of these means are the **bootstrap interval**. (The word has another meaning
-# here: the interval has nothing to do with the paper's method.)
+# The middle 95 % of these means are the **bootstrap interval**. (Bootstrapped SAC
+# has nothing to do with it.)
 #
 # **Exercise (7 min, ●●○).** Write it. The draws are given, so that yours and ours agree.
 
@@ -320,7 +320,8 @@ rows = []
 for method in methods:
     earned = study.of(method).scores("returns")
     some = [bc.statistics.interval(earned[:n], np.mean) for n in (3, 5, len(earned))]
-    rows.append([bc.display_name(method), *(tables.bracketed(part) for part in some)])
+    whole = [f"{each.value:.0f} [{each.low:.0f}, {each.high:.0f}]" for each in some]
+    rows.append([bc.display_name(method), *whole])
 table(["mean of the return", "3 seeds", "5 seeds", f"{agents} seeds"], rows)
 
 # %%
@@ -334,10 +335,11 @@ bc.show(figures.final_scores(study, methods, title=title))
 # studies of ten agents differ, in 95 of 100 cases, by at most about {{ 2**0.5 *
 # half_interval('bootstrapped') | .0f }}. (The figure draws the same for the IQM.)
 #
-# Do not trust a short interval from few seeds. If three agents happen to agree, it is short: with
-# the soft constraint it is {{ bracketed(interval(of('soft').scores('returns')[:3], np.mean)) }},
-# and ten agents have a mean of {{ of('soft').scores('returns').mean() | .0f }}. Resampling draws
-# from the agents that were trained, and from no others.
+# Do not trust a short interval from few seeds: resampling draws from the agents that were trained,
+# and from no others. The first three agents with the soft constraint happen to agree, so their
+# interval is short, and the mean of ten lies far below it. With ten agents out of two groups like
+# ours such an interval holds the true mean in about {{ 100 * covered() | .0f }} of 100 studies, not
+# in 95.
 # <!-- claim: of('soft').scores('returns').mean() < interval(of('soft').scores('returns')[:3],
 #   np.mean).low -->
 #
@@ -365,7 +367,7 @@ table(headings, rows)
 # **See.** Agents with the soft constraint that escape drive faster than the rule, and have an
 # accident in {{ accidents_of('soft', True) | .0f }} to {{ accidents_of('bootstrapped', True) | .0f
 # }} % of their drives, the rule in none. The large rates of these two methods are those of the
-# agents that do *not* escape. (The rule is slow by our choice of its sight: lesson [[the_rule]].)
+# agents that do *not* escape. (The rule is slow by our choice: lesson [[the_rule]].)
 # <!-- claim: all(accidents_of(m, False) > 5 * accidents_of(m, True) for m in ('soft',
 #   'bootstrapped')) and accidents('rule') == 0 -->
 
@@ -391,8 +393,8 @@ table(*tables.improvement_rows(four))
 
 # %% [markdown]
 # **Explain.** One half is what a coin would give. The interval of both aids against the soft
-# constraint alone holds 50 %. That does not say that the two methods are equal; it says that ten
-# seeds do not show a difference. So "the combination is best" is not a result of this study.
+# constraint alone holds 50 %. The two methods need not be equal, but ten seeds show no difference:
+# "the combination is best" is not a result of this study.
 # <!-- claim: 100 * improvement([1.0, 1.0], [1.0, 1.0]).value == 50 -->
 # <!-- claim: (lambda p: p.low <= 0.5 <= p.high)(improvement(of('bootstrapped').scores('returns'),
 #   of('soft').scores('returns'))) -->
@@ -404,8 +406,8 @@ table(*tables.improvement_rows(four))
 # %% [markdown]
 # ## Round 5: an ablation of your own
 #
-# Now ask a question of your own: what does one number of the method do? You train five agents as
-# they are and five with that number changed. For that you need an interval for a *difference*.
+# What does one number of the method do? You train five agents as they are and five with that number
+# changed. For that you need an interval for a *difference*.
 #
 # **Exercise (15 min, ●●●).** Write it: the IQM of one group less the IQM of the other, and the
 # 95 % bootstrap interval of that difference. Each resample draws both groups anew. It can be
@@ -426,8 +428,7 @@ check.difference_interval(difference_interval)
 # %% [markdown]
 # Choose what to change. `bonus=0.0` takes the bonus from the demonstrations; other numbers are
 # `xi_multiplier`, `rule_p`, `beta_start`, `gamma`: `bootcourse.learn.settings.Settings` lists them.
-# The score is an agent's success on 200 roads after 150 episodes, so it asks who
-# learns the way out early.
+# The score is an agent's success on 200 roads after 150 episodes: who learns the way out early?
 #
 # > **Predict.** By how many points of success does your change raise or lower the IQM?
 
@@ -450,16 +451,21 @@ rows = [
     for name, group in (("as it is", as_it_is), ("changed", changed))
 ]
 words = f"Changed less unchanged: {tables.bracketed(effect)} points. The interval "
-words += "holds 0." if effect.low <= 0 <= effect.high else "does not hold 0."
+words += "holds 0. " if effect.low <= 0 <= effect.high else "does not hold 0. "
+half = (effect.high - effect.low) / 2
+needed = np.ceil(5 * (1.43 * half / max(abs(effect.value), 1)) ** 2)  # 1.43 = (1.96 + 0.84) / 1.96
+words += f"If it is the true difference, about {needed:.0f} of each find it in 80 % of studies."
 table(["success, %", "IQM", "the agents, sorted"], rows, below=words)
 
 # %% [markdown]
 # **Explain.** (Yours will differ from ours.) The result covers these settings and 150 episodes: it
-# says which group learned earlier, and how uncertain that difference is. It does not say whether
-# the bonus is needed in a longer training. And be careful with the interval: of five scores the IQM
-# leaves out the highest and the lowest, and with so few agents a bootstrap interval is often too
-# short. Do not add agents because it just misses 0: fix their number beforehand (Round 2 says how)
-# and train a new set.
+# says which group learned earlier, and how uncertain that difference is, not whether the bonus is
+# needed in a longer training. In our run the agents without the bonus were ahead more often, and
+# the interval holds 0. With so few agents it is often too short.
+#
+# How many agents would settle it? The interval shrinks with $1/\sqrt n$, and a power of 80 % needs
+# a true difference of about 1.4 times its half length; the last number above applies this. Do not
+# add agents because an interval just misses 0: fix their number beforehand, and train a new set.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Give each group another number to change, and collect the results on the board: one row for each
@@ -476,7 +482,7 @@ compare_predictions(
     {
         1: round(100 * bc.statistics.rate(study.of("soft").scores("success") >= escapes).low),
         2: round(100 * bc.statistics.power(0.8, 0.3, 10)),
-        3: max(falls, key=falls.get),
+        3: {"IQM": choices[2]}.get(most := max(falls, key=falls.get), most),
         4: round(2**0.5 * spread, 1),
         5: round(100 * bc.statistics.improvement(both, soft).value, 1),
         6: round(effect.value, 1),
@@ -491,7 +497,7 @@ compare_predictions(
 # <!-- claim: all(escapes(of(m).scores('success')).high - escapes(of(m).scores('success')).low > 0.3
 #   for m in ('sac', 'soft', 'demos', 'bootstrapped')) -->
 # 3. Compute the power before you train. By Fisher's test ten against ten find 80 against 30 % in
-#    fewer than half of the studies, so "no difference seen" says little.
+#    fewer than half of the studies; it takes {{ enough(0.8, 0.3) }} of each to find them in 80 %.
 # <!-- claim: power(0.8, 0.3, 10) < 0.5 -->
 # 4. Of many comparisons some look good by luck: say beforehand which one counts, or correct p.
 # 5. An interval over seeds says how far a mean may be off, as far as these seeds show it. Two

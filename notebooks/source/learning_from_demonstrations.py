@@ -58,17 +58,9 @@ label = "discounted return from this second on"
 bc.show(charts.lines(np.arange(60), named, title, "second of the drive", label))
 
 # %% [markdown]
-# (The peaks are the seconds in which the rule speeds up: lesson [[the_rule]].) So pay the learner a
-# **bonus** c for each second that is demonstrated, on top of the reward.
+# (The peaks are the seconds in which the rule speeds up.) So pay the learner a **bonus** c for each
+# second that is demonstrated, on top of the reward.
 # <!-- claim: discounted(by_rule(), SETTINGS.gamma) < discounted(idle(), SETTINGS.gamma) -->
-#
-# The last round trains with the parts that you wrote. The next cell runs the files in the folder
-# `answers`, which hold them; no other cell of this lesson does that.
-# <!-- claim: len(re.findall('\nown_code.load()', code_of('learning_from_demonstrations'))) == 1
-#   -->
-
-# %%
-own_code.load()
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what the two lines of the figure would look like with γ = 1, and why a learner cannot wait for
@@ -77,8 +69,8 @@ own_code.load()
 # %% [markdown]
 # ## Round 1: how do demonstrations get into a batch?
 #
-# For each update a learner draws a batch of {{ SETTINGS.batch }} rows from its replay buffer
-# (lesson [[update_and_loop]]). Now there is a second table, with the rule's drives in it.
+# For each update a learner draws a batch of {{ SETTINGS.batch }} rows from its replay buffer. Now
+# there is a second table, with the rule's drives in it.
 
 # %%
 demonstrations = bc.collect(200)
@@ -107,7 +99,7 @@ predict("learning_from_demonstrations.1", "How can the rule's actions change the
 # %% [markdown]
 # **Explain.** Through the critics' Q. Of the three losses the critics' loss alone reads a row's
 # action and reward; the other two use its state. An action that the critics value more becomes more
-# probable. (With a soft constraint the KL pulls the actor in these states, too.)
+# probable.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Draw a batch as a row of 64 boxes. Shade the rule's after 0, 500 and 1,000 episodes.
@@ -116,17 +108,17 @@ predict("learning_from_demonstrations.1", "How can the rule's actions change the
 # ## Round 2: how large must the bonus be?
 #
 # If the critics give the rule's actions a low value, the actor learns to avoid them. So the paper
-# pays each demonstrated action a bonus (Equation 20):
+# pays a bonus (Equation 20):
 #
 # $$ r'(s, a_E) = r(s, a_E) + c, \qquad c = {{ SETTINGS.bonus }} $$
 #
 # ($a_E$ is the demonstrator's action. The paper calls the demonstrator an *expert*, so E.)
 #
-# **Exercise (20 min, ●●●).** Write the mixed batch. `round(beta * size)` rows are drawn from
-# the table of demonstrations, with the same chance for each row; the others come from your own
-# replay buffer, `own.sample(n, rng)`. Each demonstration's reward, in the column `REWARD`, is
-# raised by the bonus. Return the rows, and a mark for each: 1 if it is a demonstration, else 0. The
-# same table is used again for each later batch.
+# **Exercise (20 min, ●●●).** Write the mixed batch. `round(beta * size)` rows are drawn from the
+# table of demonstrations, with the same chance for each row; the others come from your own replay
+# buffer, `own.sample(n, rng)`. Each demonstration's reward, in the column `REWARD`, is raised by
+# the bonus. Return the rows, and a mark for each: 1 if it is a demonstration, else 0. Later batches
+# use the same table again.
 
 # %%
 REWARD = -4  # the column of a row that holds the reward
@@ -163,6 +155,10 @@ table(headings, rows)
 
 # %% [markdown]
 # **See.** On each of the 20 roads a bonus of 0.06 a second is enough at γ = {{ SETTINGS.gamma }}.
+# You can compute it for the start of road 10. The rule's way is worth {{ discounted(by_rule(), 0.8)
+# | .2f }} there, staying {{ discounted(idle(), 0.8) | .2f }}. A bonus in each second adds c / (1 −
+# γ) = 5 c, so c has to be at least {{ (discounted(idle(), 0.8) - discounted(by_rule(), 0.8)) / 5 |
+# .2f }}.
 # <!-- claim: all(discounted(by_rule(road), 0.8) < discounted(idle(road), 0.8)
 #   for road in range(20)) -->
 #
@@ -189,13 +185,14 @@ bc.panels.bonus_panel()
 
 # %% [markdown]
 # **Explain.** c = {{ SETTINGS.bonus }} is more than thirty times what the rule's own drive needs.
-# If each second from now on is demonstrated, it adds {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f
-# }} to the return: as much as an accident costs, while the rule's own rewards differ by tenths.
+# If each second is demonstrated, it adds {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}, as much
+# as an accident costs.
 #
 # Does this make the demonstrated action the best one for a *critic*? Not necessarily. The learner's
-# own rows pay no bonus: where the same state and action stand in both tables, the critic fits a
-# mean, r plus a part of c. And the other actions' values may rise, too, if they lead to states in
-# which the rule's action is paid.
+# own rows pay no bonus: where a state and action stand in both tables, the critic fits a mean, r
+# plus a part of c. And other actions' values may rise, too, if they lead to states in which the
+# rule's action is paid. (Such a bonus is no *potential-based shaping*, which would leave the best
+# policy as it is.)
 # <!-- claim: SETTINGS.bonus > 30 * 0.06 -->
 # <!-- claim: round(SETTINGS.bonus / (1 - SETTINGS.gamma)) == 10 -->
 # <!-- claim: math.isclose(SETTINGS.bonus / (1 - SETTINGS.gamma), -DEFAULT.reward.accident) -->
@@ -211,15 +208,15 @@ bc.panels.bonus_panel()
 # ## Round 3: what does c = 2 do to a critic?
 #
 # Train four learners with demonstrations: two with c = {{ SETTINGS.bonus }}, two with c = 0 as a
-# control. They learn without the soft constraint, and β stays at {{ SETTINGS.beta_start }}. Ask
-# their critics about the first 20 seconds of the rule's drives, the way out: what is the mean Q of
-# the demonstrated action, and of the eight others? How often is the demonstrated action's the
-# largest?
+# control. There is no soft constraint, and β stays at {{ SETTINGS.beta_start }}. Ask their critics
+# about the first 20 seconds of the rule's drives, the way out: what is the mean Q of
+# the demonstrated action, and of the eight others?
 # <!-- claim: settings_for('demos').xi_multiplier == 0 and settings_for('demos').xi_fixed is None
 #   -->
 #
 # > **Predict.** With c = 2, by how much will the demonstrated action lead the mean of the other
-# > eight: by about 10, by about 3, or by less than 1?
+# > eight? (If another action is taken once and the drive then goes on as the rule's, how many
+# > bonuses does it miss?)
 
 # %%
 predict(
@@ -282,12 +279,11 @@ table(headings, rows, below=below)
 
 # %% [markdown]
 # **See.** (Yours will differ; the leads still grow when we stop.) The bonus gives the demonstrated
-# actions a much higher Q than the control has, but the other actions' Q rises with it: what it adds
-# to the lead is the difference of the two curves, in our run little more than one bonus. A lead of
-# {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} would need that one other action ends all later
-# bonuses; if the drive goes on as the rule's afterwards, it misses one, c = 2. And a high mean is
-# not yet the highest value: in our runs (two agents each) the last column is no higher with c = 2
-# than with c = 0.
+# actions a much higher Q than the control has, but the other actions' Q rises with it. Without a
+# bonus the demonstrated action leads by about 1 in our run, and another action misses one bonus of
+# 2: about 3 together. A lead of {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} would need that
+# one other action ends all later bonuses. And a high mean is not yet the highest value: in our runs
+# the last column is no higher with c = 2 than with c = 0.
 #
 # **Does the raised value last?** In the critics of five shipped `demos` agents of the study, long
 # after β has reached 0, little or nothing of the bonus is left: the mean Q of the rule's actions on
@@ -304,9 +300,9 @@ table(headings, rows, below=below)
 # %% [markdown]
 # ## Round 4: what does a margin change?
 #
-# *In place of the bonus* the paper also tries a loss that asks for the demonstrated action to come
-# first: in each demonstrated state, the Q of the expert's action should be larger than the Q of
-# each other action by a **margin** of at least {{ settings_for('margin').margin | .0f }}.
+# *In place of the bonus* the paper also tries a loss: in each demonstrated state, the Q of the
+# expert's action should be larger than the Q of each other action by a **margin** of at least {{
+# settings_for('margin').margin | .0f }}.
 #
 # $$ J_E(Q) = \max_a \big[ Q(s,a) + l(a_E, a) \big] - Q(s,a_E), \qquad
 # l = 0 \text{ for } a_E, \text{ else } 1 $$
@@ -330,8 +326,8 @@ for expert in (0, 2):
 
 # %% [markdown]
 # **Explain.** The loss is 0 once the expert's action leads by the whole margin. Until then it
-# pushes the Q of the expert's action up and the Q of its *best rival* down, and has no gradient in
-# the others. It fixes how far one action leads the others, not how much a state is worth.
+# pushes the Q of the expert's action up and the Q of its *best rival* down, and leaves the others
+# alone.
 # <!-- claim: bool(bootstrap.large_margin_loss(torch.tensor([[3.0, 2.0, 0.0]]), torch.tensor([0]))
 #   == 0) -->
 #
@@ -357,8 +353,8 @@ check.large_margin_loss(large_margin_loss)
 # %% [markdown]
 # ## Round 5: when is the margin loss off?
 #
-# The rule's action is not the best one in each state. A **Q-filter** switches the margin loss off
-# in states where the critic gives another action a higher value. The paper's condition for *on* is
+# A **Q-filter** switches the margin loss off in states where the critic gives another action a
+# higher value: there the rule may be wrong. The paper's condition for *on* is
 #
 # $$ Q(s,a_E) \ge \max_a Q(s,a). $$
 #
@@ -382,15 +378,15 @@ bc.show(figures.margin_bars(q, bc.ACTION_NAMES.index("brake straight")))
 
 # %% [markdown]
 # An action's Q is at most the largest Q, so ≥ means = here. The printed filter is on only where the
-# expert's action has the largest Q already. All that the loss can do there is raise a lead that is
-# smaller than the margin.
+# expert's action has the largest Q already. There the loss can raise a lead that is smaller than
+# the margin, and nothing else.
 # <!-- claim: bootstrap.paper_q_filter(torch.tensor([[1, 2, 3]] * 3), torch.arange(3)).tolist()
 #   == [0, 0, 1] -->
 # <!-- claim: settings_for('margin').paper_q_filter and settings_for('margin_soft').paper_q_filter
 #   -->
 #
-# (The usual filter, of Nair et al., compares with the Q of the policy's own action; for a policy
-# over a list of actions that is its mean, $\sum_a \pi(a|s) Q(s,a)$.)
+# (The usual filter, of Nair et al., compares with the Q of the policy's own action, here the mean
+# $\sum_a \pi(a|s) Q(s,a)$.)
 #
 # **Exercise (15 min, ●●●).** Put the margin into the critics' loss, as the paper prints it: for
 # each of the two critics the margin loss (margin 1) of the rows that are demonstrations, switched
@@ -408,13 +404,13 @@ def margin_loss(q_pair, action, is_demonstration):
 check.margin_loss(margin_loss)
 
 # %% [markdown]
-# How often is the printed filter on? Train two learners with the margin, and two without it as a
-# control. All four have the soft constraint and demonstrations without a bonus. Ask their critics
-# about the way out.
+# How often is the printed filter on along the way out? Train two learners with the margin, and two
+# without it as a control, all with the soft constraint and demonstrations without a bonus.
 #
-# > **Predict.** Before the first update the rule's action has the largest of nine random values by
-# > chance, in about a ninth of the states. In which share of these states is the filter on after
-# > 250 updates, for the learners with the margin?
+# > **Predict.** Before the first update the rule's action comes first, among nine random values,
+# > in about a ninth of the states. While the critics learn, all values move, and the states in
+# > which it comes first change. What does the margin loss do in a state while it comes first there?
+# > In which share of the states is the filter on after 250 updates, with the margin?
 
 # %%
 predict(
@@ -424,40 +420,49 @@ predict(
 )
 
 # %%
-switched_on = {}  # {update: % of the states, of each of the four learners}
+switched_on = {}  # {update: in which states the filter is on, for each of the four learners}
 
 
 def ask(training):
-    """Every 250 updates: in which share of these states the filter is on, for the four learners."""
-    if training.updates % 250 or training.updates in switched_on:
+    """Every 10 updates: in which of these states the filter is on, (4, states) of 0 or 1."""
+    if training.updates % 10 or training.updates in switched_on:
         return
     values = [torch.from_numpy(training.agent(i).q_values(way)) for i in range(4)]
-    on = [100 * bc.bootstrap.paper_q_filter(q, rule_did).mean().item() for q in values]
-    switched_on[training.updates] = on
+    on = [bc.bootstrap.paper_q_filter(q, rule_did).numpy() for q in values]
+    switched_on[training.updates] = np.array(on)
 
 
 # %%
 control = bc.with_seeds(bc.settings_for("bootstrapped", bonus=0.0), 2)
 training = bc.Training(bc.with_seeds(bc.settings_for("margin_soft"), 2) + control, episodes=20_000)
-training.run(callback=ask, updates=2001)
-shares = np.array(list(switched_on.values())).T  # (4, times)
-on, control_on = shares[:2, 1].mean(), shares[2:, 1].mean()
-title = "After 250 updates the filter is on in "
-title += f"{on:.0f} % of the states with the margin, in {control_on:.0f} % without"
-named, label = {"margin": shares[:2], "without it": shares[2:]}, "states with the filter on (%)"
-looks = [charts.Style("#CC79A7"), charts.Style("#5F6B77", "--")]
+training.run(callback=ask, updates=1001)
+states_on = np.array(list(switched_on.values()))  # (times, 4, states)
+shares = 100 * states_on.mean(2).T  # (4, times)
+on = shares[:2, list(switched_on).index(250)].mean()
+title = "With the margin loss the filter stays on once it is on; without the loss it comes and goes"
+named, label = {"without it": shares[2:], "margin": shares[:2]}, "states with the filter on (%)"
+looks = [charts.Style("#5F6B77"), charts.Style("#CC79A7")]
 bc.show(charts.lines(list(switched_on), named, title, "update", label, looks=looks))
 
+# %%
+rows = []
+for name, pair in (("with the margin", slice(0, 2)), ("without it", slice(2, 4))):
+    before, after = states_on[:-1, pair], states_on[1:, pair]
+    kept, turned = after[before == 1].mean(), after[before == 0].mean()
+    rows.append([name, f"{100 * kept:.0f} %", f"{100 * turned:.0f} %"])
+table(["ten updates later the filter is on", "where it was on", "where it was off"], rows)
+
 # %% [markdown]
-# **Explain.** (Yours will differ.) In our runs the filter, which looked useless on paper, is soon
-# on in almost half of these states with the margin loss. The loss raises leads only where the
-# rule's action is first already; we think that the network carries this over to similar states,
-# where the filter is then on, too. Without the loss it stays rare for 500 updates. Later the
-# critics' own targets give the rule's action the largest Q in some states, too.
+# **Explain.** (Yours will differ.) In our runs the loss does not turn the filter on more often: the
+# critics' targets do that, with and without it. But where the filter is on, the loss raises the
+# lead of the rule's action, and the filter *stays* on. Without the loss another action soon comes
+# first again. (The critics rank the actions much alike in all states at first. The action that
+# stays first is {{ ACTION_NAMES[most_frequent_on_the_way()[1]] }}, which the rule takes in {{ 100 *
+# most_frequent_on_the_way()[0] | .0f }} % of these states.)
 #
-# **Does it work?** With the paper's γ and η neither the margin nor the bonus works alone in our
-# study: none of ten agents each escapes. (With γ = 0.9 and the bonus alone all three agents that we
-# trained do.) The paper's method adds the soft constraint of lesson [[soft_constraint]].
+# **Does it work?** Without the soft constraint neither the margin nor the bonus works in our study:
+# none of ten agents each escapes. (With γ = 0.9 and the bonus alone all three agents that we
+# trained do.)
 # <!-- claim: escaped_with('γ = 0.9', 'demos') == len(varied()['γ = 0.9'].of('demos')) == 3 -->
 # <!-- claim: {len(of(m)) for m in ('margin', 'demos')} == {10} -->
 # <!-- claim: escaped('margin') == 0 and escaped('demos') == 0 -->
@@ -489,23 +494,29 @@ bc.show(charts.lines(list(switched_on), named, title, "update", label, looks=loo
 # > added to the critics' loss (Equations 17 to 19).
 #
 # Lines 2 and 3 are your `mixed_batch`, line 4 is `constrained_target`, line 5 `constrained_loss`.
-# `bootcourse/learn/textbook.py` is the box as a program. Do your parts make the same update as
-# ours?
+# `bootcourse/learn/textbook.py` is the box as a program. The next cell runs the files in the folder
+# `answers`, which hold your parts; no other cell of this lesson does that. Do they make the same
+# update as ours?
+# <!-- claim: len(re.findall('\nown_code.load()', code_of('learning_from_demonstrations'))) == 1
+#   -->
+
+# %%
+own_code.load()
 
 # %%
 own_code.compare()
 
 # %% [markdown]
-# If a part differs, mend it in its lesson, and run `own_code.load()` here again. Then train three
-# agents, two with the bonus and one with the margin, each with the KL.
+# If a part differs, mend it in its lesson, and run these two cells again. Then train three agents
+# with the KL, two with the bonus and one with the margin.
 #
 # > **Predict.** Of plain SAC's ten agents in the study {{ escaped('sac') }} escapes. How many of
-# > these three end ahead of trap 1 on most of 200 roads, after 2,500 updates?
+# > these three escape (success on {{ 100 * ESCAPES | .0f }} % of 200 roads), after 2,500 updates?
 
 # %%
 predict(
     "learning_from_demonstrations.7",
-    "How many of the three end ahead on most of 200 roads?",
+    "How many of the three escape, after 2,500 updates?",
     ["0", "1", "2", "3"],
 )
 
@@ -520,7 +531,7 @@ for words, driver in [*named, ("rule", bc.rule_policy(bc.DEFAULT))]:
     accidents = r.collision.value + r.road_departure.value + r.stoppage.value
     numbers = (100 * r.success.value, r.returns.value, 100 * accidents)
     rows.append([bc.display_name(words), *(f"{number:.1f}" for number in numbers)])
-    ahead.append(r.success.value > 0.5)
+    ahead.append(r.success.value >= bc.statistics.ESCAPES)
 table(["", "success, %", "return", "accidents, %"], rows)
 
 # %%
@@ -531,9 +542,9 @@ ours = bc.record(
 bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=480)
 
 # %% [markdown]
-# **See.** (Yours will differ.) In our run these agents had learned the rule's way after 2,500
-# updates, and earned about as much as the rule or less. The upper replay shows the first of these,
-# the lower one an agent of our study.
+# **See.** (Yours will differ.) In our run these agents had learned the rule's way, and earned about
+# as much as the rule or less. The lower replay shows an agent of our study, trained for {{
+# of('bootstrapped').sizes[1] | , }} episodes.
 #
 # Of the study's ten agents with both aids {{ escaped('bootstrapped') }} escape, and earn {{
 # of('bootstrapped').scores('returns')[of('bootstrapped').scores('success') >= ESCAPES].min() | .0f
@@ -541,8 +552,13 @@ bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=
 # of('bootstrapped').scores('returns')[of('bootstrapped').scores('success') < ESCAPES].max() | .0f
 # }} or less. (The rule earns {{ of('rule').scores('returns').mean() | .0f }} with our sight of {{
 # DEFAULT.sight.distance | g }} m, and {{ rule_seeing(30.0).returns.mean() | .0f }} with 30 m:
-# lesson [[the_rule]].)
+# lesson [[the_rule]].) Why do three of ten not escape, if the way is found so early? (One of
+# them, at 92 %, just misses the line.) All ten had found it in training: between episodes 600
+# and 800 each succeeded in at least {{ 100 * in_training('bootstrapped', 600, 800).min() | .0f }} %
+# of its drives. Then β and ξ fade, and not every agent keeps the way: lesson [[found_and_kept]].
 # <!-- claim: len(of('bootstrapped')) == 10 and escaped('bootstrapped') == 7 -->
+# <!-- claim: (lambda s: s[s < ESCAPES].max().round(2))(of('bootstrapped').scores('success')) ==
+#   0.92 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Put the box on the wall. While the agents train, let somebody name for each of its six lines what
@@ -563,13 +579,13 @@ compare_predictions(
 # 1. β is the demonstrations' share of each batch; it falls in a straight line to 0.
 # 2. A bonus of 0.06 makes the rule's way worth more than staying behind at γ = 0.8, on the 20 roads
 #    of Round 2.
-# 3. c = {{ SETTINGS.bonus }} raises a demonstrated drive's discounted return by c / (1 − γ)
-#    = {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In the critics the values of the other
-#    actions rise, too: the lead is smaller, and often another action still has the largest Q.
+# 3. c = {{ SETTINGS.bonus }} raises a demonstrated drive's discounted return by c / (1 − γ) = {{
+#    SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }}. In the critics the other actions' values rise,
+#    too: the lead is smaller.
 # 4. The large-margin loss moves the Q of the expert's action and of its best rival, and is 0 from a
 #    lead of {{ settings_for('margin').margin | .0f }} on.
-# 5. The printed Q-filter is on only where the expert's action has the largest Q already. With it,
-#    and without the soft constraint, none of the study's ten agents escapes.
+# 5. The printed Q-filter is on only where the expert's action has the largest Q already; there the
+#    loss keeps it first. Without the soft constraint none of the study's ten agents escapes.
 # <!-- claim: escaped('margin') == 0 and len(of('margin')) == 10 -->
 # <!-- claim: bootstrap.paper_q_filter(torch.tensor([[1, 2, 3]] * 3), torch.arange(3)).tolist()
 #   == [0, 0, 1] -->
@@ -582,7 +598,8 @@ compare_predictions(
 #   critic about driving at the rule's speed there?
 # - What would you plot to see when a critic has unlearned the bonus?
 #
-# **Read on**: Hester et al., *Deep Q-learning from Demonstrations* (arXiv 1704.03732), for margins;
+# **Read on**: [the next lesson](how_many_seeds.ipynb) asks what counts of ten agents are worth.
+# Hester et al., *Deep Q-learning from Demonstrations* (arXiv 1704.03732), for margins;
 # Nair et al. (arXiv 1709.10089), for the Q-filter; Reddy et al., *SQIL* (arXiv 1905.11108), for the
 # bonus; Ball et al. (arXiv 2302.02948), for half a batch of offline data without any of them.
 

@@ -14,15 +14,15 @@ from bootcourse.statistics import ESCAPES, power
 
 def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
     """Each agent's success on the held-out roads as a dot, one row for each method; filled if it escapes."""
-    height = 1.15 + 0.5 * len(methods)
+    height = 1.15 + 0.75 * len(methods)
     figure, alt_parts = new_figure(height), []
     ax = figure.add_axes((0.24, 0.5 / height, 0.57, 1 - 1.1 / height))
     ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
     for row, method in enumerate(methods):
         success, colour = np.sort(100 * results.of(method).scores("success")), style(method).colour
-        places = row + np.linspace(-0.3, 0.3, len(success))
+        places = row + np.linspace(-0.38, 0.38, len(success))
         fills = [colour if each >= 100 * ESCAPES else "white" for each in success]
-        ax.scatter(success, places, s=26, c=fills, edgecolors=colour, linewidths=1.2, zorder=3, clip_on=False)
+        ax.scatter(success, places, s=18, c=fills, edgecolors=colour, linewidths=1.2, zorder=3, clip_on=False)
         one = (success >= 100 * ESCAPES).sum() == 1
         words = f"{escaped(results, method)} escape{'s' if one else ''}"
         ax.annotate(words, (1.04, row), xycoords=("axes fraction", "data"), va="center", fontsize=TEXT, color=INK)
