@@ -142,19 +142,19 @@ table(["", *"abc"], [[n, *row] for n, row in zip(names, cells, strict=True)], be
 # conservative Q of c lies far below its target, and the highest Q is that of a, which the data hold
 # most often.
 #
-# <details><summary>Two limits of this</summary>
+# <details><summary>Two limits of the formula</summary>
 #
 # An action that the data do not hold has π̂ = 0, and for it the formula gives no smallest Q: the
 # term pushes it down at each update, ever more weakly, since the push is w π(a). The rule's drives
 # hold one action in a state, so this happens to the eight others. Watch it in the figure below.
 #
 # And the bound is for the policy softmax(Q), against the *targets*, which contain values of Q
-# themselves. Our agent takes the action with the highest Q, which is another policy, and the Q of
-# this action can lie *above* its target: look at action a.
+# themselves. The action with the highest Q can lie *above* its target: look at action a.
 #
 # </details>
 #
-# So whether the critic is careful for the agent that drives has to be measured, and will be.
+# The bound is for softmax(Q), and our agent takes the action with the highest Q, which is another
+# policy. Whether the critic is careful for that agent has to be measured, and will be.
 #
 # **Exercise (20 min, ●●●).** Write the whole loss that trains CQL's critic, from a batch of
 # the data. The target is that of *double* Q-learning: the critic itself chooses the next action,
