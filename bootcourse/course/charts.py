@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, MaxNLocator
+from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 
 from bootcourse.colours import OTHER, Style
 from bootcourse.methods import display_name, style
@@ -164,10 +164,13 @@ def many(
         ax.set(xscale=x_scale, xlim=(0 if x_scale == "linear" else x[0], last_x), ylim=(low, high))
         if x_scale == "linear":
             ax.xaxis.set_major_locator(MaxNLocator(3))
+        else:
+            ax.xaxis.set_minor_locator(NullLocator())
+        ax.xaxis.set_major_formatter("{x:,g}")
         if column:
             ax.tick_params(labelleft=False)
         if k + COLUMNS < len(own):
-            ax.tick_params(labelbottom=False)
+            ax.tick_params(axis="x", labelbottom=False, length=0)
         else:
             ax.set_xlabel(x_label, fontsize=SMALL, color=QUIET)
     words = f"{y_label}, a line for each seed; grey: {reference}"

@@ -70,26 +70,16 @@ print(paper.arithmetic("cql"))
 # exploration. But an offline learner does not explore at all, and it need not: by the paper's own
 # words, each of its demonstrations gets out. All ten of *our* CQL agents escape (lesson
 # [[imitation]]). So **the question** is: why does a critic that never drives take the way out,
-# and *which* kind of CQL does not?
+# and what may have been different in the paper's CQL?
 # <!-- claim: escaped('cql') == len(of('cql')) -->
 
 # %% [markdown]
 # ## Round 1: what is an action worth that nobody tried?
 #
-# Q-learning asks of each next state: what is the best action worth?
-#
-# > **Predict.** Train Q-learning on the 200 drives, offline. How will it value the best of the
-# > actions that nobody tried there?
-
-# %%
-choices = ["lower than the rule's action", "about as high", "higher than the rule's action"]
-predict("offline_learning.1", "How does Q-learning value the best untried action?", choices)
-
-# %% [markdown]
-# You will see the answer below, when six learners are trained. Offline, the action with the highest
-# Q may be one that is missing from the data, so its value is a guess. An agent that drives would
-# try it and see what it pays. An offline agent keeps its guess. CQL adds a term to the critic's
-# loss, the mean over the batch of
+# Q-learning asks of each next state: what is the best action worth? Offline, the action with the
+# highest Q may be one that is missing from the data, so its value is a guess. An agent that drives
+# would try it and see what it pays. An offline agent keeps its guess. CQL adds a term to the
+# critic's loss, the mean over the batch of
 #
 # $$ \log \sum_a e^{Q(s,a)} - Q(s, a_\text{data}) $$
 #
@@ -152,14 +142,19 @@ table(["", *"abc"], [[n, *row] for n, row in zip(names, cells, strict=True)], be
 # conservative Q of c lies far below its target, and the highest Q is that of a, which the data hold
 # most often.
 #
+# <details><summary>Two limits of the formula</summary>
+#
 # An action that the data do not hold has π̂ = 0, and for it the formula gives no smallest Q: the
 # term pushes it down at each update, ever more weakly, since the push is w π(a). The rule's drives
 # hold one action in a state, so this happens to the eight others. Watch it in the figure below.
 #
 # And the bound is for the policy softmax(Q), against the *targets*, which contain values of Q
-# themselves. Our agent takes the action with the highest Q, which is another policy, and the Q of
-# this action can lie *above* its target: look at action a. Whether the critic is careful for the
-# agent that drives has to be measured, and will be.
+# themselves. The action with the highest Q can lie *above* its target: look at action a.
+#
+# </details>
+#
+# The bound is for softmax(Q), and our agent takes the action with the highest Q, which is another
+# policy. Whether the critic is careful for that agent has to be measured, and will be.
 #
 # **Exercise (20 min, ●●●).** Write the whole loss that trains CQL's critic, from a batch of
 # the data. The target is that of *double* Q-learning: the critic itself chooses the next action,
@@ -183,7 +178,14 @@ check.offline_loss(offline_loss)
 # Now train six learners side by side: two with the term, two without, and two with the term whose
 # rewards are set to 0. They learn with your `offline_loss` if it has passed its check. We ask the
 # critics about the first 20 seconds of the rule's drives, the way out. What is the rule's action
-# worth, and what is the best of the other eight worth?
+# worth, and what is the best of the other eight worth, the *best untried action*?
+#
+# > **Predict.** Take the two learners *without* the term, which is Q-learning on the 200 drives,
+# > offline. How will they value the best untried action?
+
+# %%
+choices = ["lower than the rule's action", "about as high", "higher than the rule's action"]
+predict("offline_learning.1", "How does Q-learning value the best untried action?", choices)
 
 # %%
 torch.set_num_threads(1)  # small matrices are faster on one thread
@@ -197,7 +199,7 @@ did = np.concatenate([drive.actions[:20] for drive in by_rule])
 # %%
 training = own_code.training(with_term + without + with_term)
 learner, replay = training.learner, training.replay  # which holds 200 drives of the rule
-paid = torch.tensor([1.0, 1, 1, 1, 0, 0])[:, None]  # the last two agents hear of no rewards
+paid = torch.tensor([1.0] * (2 * SEEDS) + [0] * SEEDS)[:, None]  # the last hear of no rewards
 generators = [np.random.default_rng(s.seed) for s in learner.settings]
 asked, found = range(0, UPDATES + 1, 200), []
 for update in range(UPDATES + 1):
@@ -254,8 +256,8 @@ table(headings, rows)
 # term Q-learning values the best untried action highest, and promises far more than it then earns:
 # each target contains a guess that was chosen because it is high, and the guesses raise each other.
 # (The figure asks about the rule's states, the last table where the agents drive.) With the term
-# both agents promise less than they earn. Data, network and number of updates are the same: one
-# term makes the difference.
+# both agents promise less than they earn. Data, network and number of updates are the same: in
+# these four agents one term makes the difference.
 #
 # **Explain.** What does the term do to the car? Compare it with the cloning loss of lesson
 # [[demonstrations]]:
@@ -305,7 +307,7 @@ table(headings, rows)
 # accelerations (24 drives of each agent). CQL's agents leave out a good part of the braking and do
 # most of the accelerations. Do they learn that from the rewards? Compare the last two rows (yours
 # will differ): if the agents without rewards brake more, that speaks for the rewards as the cause;
-# two seeds cannot show it.
+# two seeds cannot show it. (**Try** `SEEDS = 5` above.)
 #
 # There is also more than one CQL. This one is a critic alone: the agent takes the action with the
 # highest Q. You can also put the same term on the critics of SAC and keep the actor. Both are
@@ -391,14 +393,16 @@ rows, compared = [], ("bc", "cql", "gail", "sac", "bootstrapped")
 for method in compared:
     returns = study.of(method).scores("returns")
     above = returns > rule.scores("returns")[0]
-    typical = tables.bracketed(bc.statistics.interval(returns / bound.mean()), 100)
+    share = bc.statistics.interval(100 * returns / bound.mean(), np.mean)
+    typical = "{:.0f} [{:.0f}, {:.0f}]".format(*share)
     rows.append([bc.display_name(method), typical, f"{above.sum()} of {len(above)}"])
-table(["", "share of the bound, % [95 %]", "agents above the rule"], rows)
+table(["", "share of the bound, mean of ten agents, % [95 %]", "agents above the rule"], rows)
 
 # %%
 marks = {"doing nothing": paper.earned_at(10), "the rule": rule.scores("returns")[0]}
 marks = {words: 100 * earned / bound.mean() for words, earned in marks.items()}
-title = "CQL stays near its teacher; bootstrapped agents come near the bound, or crash"
+near = (study.of("bootstrapped").scores("returns") > 0.8 * bound.mean()).sum()
+title = f"CQL stays near its teacher; {near} of 10 bootstrapped agents come near the bound"
 bc.show(figures.shares_of_the_bound(study, compared, bound, marks | {"the planner": 100.0}, title))
 
 # %% [markdown]
@@ -418,10 +422,15 @@ bc.show(figures.shares_of_the_bound(study, compared, bound, marks | {"the planne
 # <!-- claim: of('cql').scores('returns').min() > of('rule').scores('returns')[0] -->
 # <!-- claim: of('cql').scores('returns').max() < bound().mean() / 2 -->
 #
+# <details><summary>What 0 and 100 % mean</summary>
+#
 # Mind the zero of the scale. A share of 0 is a return of 0, less than doing nothing earns; an agent
 # that crashes at once has a negative share. And 100 % is what the planner found, not the most that
 # is possible. The planner sees the future and an agent does not, so we expect agents to stay below
 # 100 %, and all agents of this study do.
+#
+# </details>
+#
 # <!-- claim: 0 / bound().mean() == 0 < idle().rewards.sum() -->
 # <!-- claim: 100 * max(shipped_results().scores('returns')) / bound().mean() < 100 -->
 

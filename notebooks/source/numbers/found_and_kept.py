@@ -5,12 +5,18 @@ from typing import NamedTuple
 
 import numpy as np
 from bootcourse.course.lessons.found_and_kept.exercises import forgetting
+from bootcourse.course.lessons.found_and_kept.figures import half_found
+from bootcourse.course.shipped import shipped_agents
+from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.research import clocks as study_clocks
 from bootcourse.research.results import WINDOW, Results
 from bootcourse.rule import stochastic_rule
 from bootcourse.statistics import ESCAPES
 from scipy import stats
-from tools.course.known import clocks, escapers, fisher, of, shipped_experiment, shipped_results, varied
+from tools.course.known import clocks, escapers, fisher, in_training, of, shipped_experiment, shipped_results, varied
+
+SHORTER = study_clocks.EXPERIMENT.episodes  # training episodes of the agents of rounds 4 and 5
 
 
 def undecided(method: str, first: int, last: int | None) -> float:
@@ -76,6 +82,35 @@ def over_updates(driver: str) -> Counted:
     """The agents with demonstrations alone of one driver, over all numbers of updates."""
     each = [way(clocks()[updates, driver], "demos") for updates in study_clocks.UPDATES]
     return Counted(*(sum(column) for column in zip(*each, strict=True)))
+
+
+def lost_it(method: str) -> np.ndarray:
+    """Which agents lose the way out as β ends: half or less of 50 episodes in a row from 900 to 1,100, (agents,)."""
+    around = of(method).curves["success"][:, 900:1100]
+    return (np.lib.stride_tricks.sliding_window_view(around, WINDOW, axis=1).mean(-1) <= 0.5).any(axis=1)
+
+
+def found_after(updates: str, method: str) -> int:
+    """The episode by which half of the agents with so many updates for a decision have found the way out."""
+    return half_found(clocks()[updates, "π̃"].of(method))
+
+
+def xi_left(updates: str) -> float:
+    """Which part of ξ is left then with the soft constraint alone, the median over agents."""
+    xi = clocks()[updates, "π̃"].of("soft").curves["xi"]
+    return float(np.median(xi[:, found_after(updates, "soft") - 1] / xi[:, 0]))
+
+
+def other_entropies() -> np.ndarray:
+    """What the agents with both aids earn with a target entropy of 0.3 or 1 nat, (agents,)."""
+    each = [shipped_experiment("sensitivity")[f"target entropy {eta}"] for eta in ("0.3", "1")]
+    return np.concatenate([results.of("bootstrapped").scores("returns") for results in each])
+
+
+def of_the_agent_shown() -> Rollout:
+    """The first drive of the lesson: of an agent with demonstrations alone, after its training."""
+    best = int(in_training("demos", 700, 900).argmax())
+    return record(shipped_agents("demos")[best].as_policy(), [10])[0]
 
 
 def keeping_p(method: str) -> float:
@@ -178,7 +213,7 @@ def comparison(name: str) -> str:
         "bonus, margin": kept_against((paper, "demos"), (paper, "margin")),
         "bonus, margin, with ξ": kept_against((paper, "bootstrapped"), (paper, "margin_soft")),
     }
-    return f"{kept[name]} | {_short(p_values()[name])} | {_short(holm()[name])}"
+    return f"{kept[name]}|{_short(p_values()[name])}|{_short(holm()[name])}"
 
 
 def soft_kept() -> str:

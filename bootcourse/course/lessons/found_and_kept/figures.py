@@ -9,7 +9,19 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from bootcourse.course.charts import lines
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure, one_axes, wrapped
+from bootcourse.plots.figure import (
+    INK,
+    QUIET,
+    SMALL,
+    TEXT,
+    WIDTH,
+    axes_at,
+    finish,
+    new_figure,
+    one_axes,
+    plain_axes,
+    wrapped,
+)
 from bootcourse.plots.training_curves import WINDOW
 from bootcourse.research.clocks import UPDATES
 from bootcourse.research.results import WINDOW as IN_A_ROW
@@ -63,13 +75,14 @@ def agent_by_agent(results: Results, method: str, title: str, mark: int, words: 
 
 
 def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
-    """ξ over training with each number of updates, and β, with dots where half of the agents have found the way out.
+    """ξ over training with each number of updates, and β beside it; dots where half have found the way out.
 
     cells: `clocks.cells`. Dots on ξ: agents with the soft constraint alone; on β: with demonstrations by π̃ alone.
     """
     title = "With more updates less of ξ is left when the way out is found"
-    words = "share of its start (logarithmic; ξ: median agent)"
-    figure, ax = one_axes(4.0, title, "training episode (logarithmic)", words, width=0.76)
+    tall, top, wide, left, right = 2.6, 0.85, 2.98, 0.6, 3.85
+    figure = new_figure(top + tall + 0.8)
+    ax, beside = (axes_at(figure, at, top, wide, tall) for at in (left, right))
     alt_parts, soft, demos = [], style("soft").colour, style("demos").colour
     for updates in UPDATES:
         agents = cells[updates, "π̃"].of("soft")
@@ -80,34 +93,37 @@ def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
         below = part[half - 1] < LEAST
         ax.plot(half, max(part[half - 1], LEAST), "v" if below else "o", color=soft, mec=INK, ms=8, zorder=4,
                 clip_on=False)  # fmt: skip
-        ax.annotate(
-            SHORT.get(updates, updates), (half, max(part[half - 1], LEAST)), (0, 8) if below else (8, 4),
-            ha="center", textcoords="offset points", fontsize=TEXT, color=INK,
-        )  # fmt: skip
+        _number(ax, SHORT.get(updates, updates), half, max(part[half - 1], LEAST), (8, 5))
         words = f"ξ with {updates} updates is a tenth after {tenth} episodes, and half have the way out after {half}"
         alt_parts.append(f"{words}, at {part[half - 1]:.2g} of ξ")
     of = cells["1/4", "π̃"].of("demos").agents[0]
     share = demonstration_share(episodes, of["beta_start"], of["beta_episodes"]) / of["beta_start"]
-    ax.plot(episodes, np.where(share > 0, share, np.nan), color=demos, linewidth=2)
+    beside.plot(episodes, np.where(share > 0, share, np.nan), color=demos, linewidth=2)
     found = [half_found(cells[updates, "π̃"].of("demos")) for updates in UPDATES]
-    ax.plot(found, share[np.array(found) - 1], "o", color=demos, mec=INK, ms=8, zorder=4)
+    beside.plot(found, share[np.array(found) - 1], "o", color=demos, mec=INK, ms=8, zorder=4)
     for episode in sorted({round(at, -1) for at in found}):  # dots that lie on each other have one label
-        numbers = ", ".join(SHORT.get(u, u) for u, at in zip(UPDATES, found, strict=True) if round(at, -1) == episode)
-        ax.annotate(
-            numbers, (episode, share[episode - 1]), (0, 7), ha="center", textcoords="offset points", fontsize=TEXT,
-            color=INK,
-        )  # fmt: skip
-    ax.text(1050, 2e-2, "β, demonstrations\nalone, driven by π̃", va="center", fontsize=TEXT, color=INK)
-    ax.text(46, 0.2, "ξ, soft constraint\nalone", ha="right", va="center", fontsize=TEXT, color=INK)
-    key = "dot: half of the agents\nhave found the way out\n(▼ below the axis);\nits number: updates\nfor a decision"
-    ax.text(20.8, 1e-2, key, va="top", fontsize=TEXT, color=QUIET)
+        numbers = [SHORT.get(u, u) for u, at in zip(UPDATES, found, strict=True) if round(at, -1) == episode]
+        _number(beside, " and ".join(numbers), episode, share[episode - 1], (-3, -14))
+    for each, words in ((ax, "ξ, soft constraint alone"), (beside, "β, demonstrations alone, driven by π̃")):
+        plain_axes(each, "")
+        each.set_title(words, loc="left", fontsize=TEXT, color=INK, pad=8)
+        each.set_xlabel("training episode (logarithmic)", fontsize=TEXT, color=INK)
+        each.set(xscale="log", yscale="log", xlim=(30, len(part)), ylim=(LEAST, 1.5))
+        for axis, places in ((each.xaxis, [50, 100, 200, 500, 1000]), (each.yaxis, [1, 1e-1, 1e-2, 1e-3, 1e-4])):
+            axis.set_major_locator(FixedLocator(places))
+            axis.set_major_formatter("{x:,g}" if axis is each.xaxis else lambda y, _: f"{y:g}")
+            axis.set_minor_locator(NullLocator())
+    beside.tick_params(labelleft=False)
+    height = figure.get_figheight()
+    figure.text(0.012, 1 - 0.55 / height, "share of its start (logarithmic; ξ: median agent)", fontsize=TEXT, color=INK)
+    key = "Dot: half of the agents have found the way out. Its number: updates for a decision. ▼ below the axis."
+    figure.text(0.012, 0.1 / height, key, fontsize=TEXT, color=INK)
     alt_parts.append(f"On β half of the agents with demonstrations alone have the way out after {found}")
-    ax.set(xscale="log", yscale="log", xlim=(20, len(part)), ylim=(LEAST, 1.5))
-    for axis, places in ((ax.xaxis, [20, 50, 100, 200, 500, 1000]), (ax.yaxis, [1, 1e-1, 1e-2, 1e-3, 1e-4])):
-        axis.set_major_locator(FixedLocator(places))
-        axis.set_major_formatter("{x:,g}" if axis is ax.xaxis else lambda y, _: f"{y:.4f}".rstrip("0").rstrip("."))
-        axis.set_minor_locator(NullLocator())
     return finish(figure, title, ". ".join(alt_parts) + ".")
+
+
+def _number(ax, words: str, x: float, y: float, offset: tuple[float, float]) -> None:
+    ax.annotate(words, (x, y), offset, ha="center", textcoords="offset points", fontsize=TEXT, color=INK)
 
 
 def half_found(agents: Results) -> int:
@@ -132,7 +148,8 @@ def found_and_kept(panels: Mapping[str, Rows], title: str, of_rows: str = "") ->
         top += 0.15
     if not any(panels):  # no words above the panels
         top -= 0.2
-    figure, alt_parts = new_figure(top + tall * len(names) + 0.5), []
+    uneven = len({len(results.of(method)) for rows in panels.values() for results, method in rows.values()}) > 1
+    figure, alt_parts = new_figure(top + tall * len(names) + (0.7 if uneven else 0.5)), []
     wide = (WIDTH - left - 0.1) / len(panels)
     for column, (panel, rows) in enumerate(panels.items()):
         ax = axes_at(figure, left + column * wide, top, min(wide - 0.15, 4.0), tall * len(rows))
@@ -156,5 +173,6 @@ def found_and_kept(panels: Mapping[str, Rows], title: str, of_rows: str = "") ->
     height = figure.get_figheight()
     figure.text(0.012, 1 - (top - 0.07) / height, of_rows, va="bottom", fontsize=SMALL, color=QUIET)
     key = "■ found the way out and kept it   □ found it, did not keep it   · did not find it.   Each mark is an agent."
+    key += "\nRows with fewer marks have fewer agents." if uneven else ""
     figure.text(0.012, 0.14 / height, key, fontsize=TEXT, color=INK)
     return finish(figure, title, f"Agents that found and kept the way out. {'; '.join(alt_parts)}.")

@@ -68,7 +68,7 @@ def followers(groups: Mapping[str, Sequence[Agent]], roads: Sequence[int]) -> tu
         drives = [drive for agent in agents for drive in record(agent.as_policy(), roads)]
         shares = [f"{100 * share:.0f} %" for share in as_the_rule_would(drives)]
         rows.append([name, *shares, f"{np.mean([drive.rewards.sum() for drive in drives]):.1f}"])
-    return ["does what the rule would", "overall", "where it brakes", "where it speeds up", "return"], rows
+    return ["agents", "act as the rule would", "where the rule brakes", "where the rule speeds up", "return"], rows
 
 
 def updates_made(results: Results) -> np.ndarray:
