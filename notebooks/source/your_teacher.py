@@ -429,8 +429,8 @@ bc.show(figures.learners(worth, title))
 # from it. Labels alone have to lead past the traps often. Bootstrapped SAC also takes whole drives,
 # and the few that get ahead may show the way. Or the random actions help: they lead into states
 # that a good driver never shows, and the rule's next decisions show how to come back (lesson
-# [[demonstrations]]). Training from the same drives without those few would tell the two
-# explanations apart.
+# [[demonstrations]]). Training from the same drives without the few that get ahead would tell the
+# two explanations apart.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Let each group name one experiment that could change a verdict: more updates (the racer's return),
