@@ -52,7 +52,7 @@ def lines(
     for label, look in zip(named, looks or styles(list(named)), strict=False):
         values = np.atleast_2d(np.asarray(named[label], dtype=float))
         look_of = {"color": look.colour, "linestyle": look.line, "marker": look.marker if len(x) <= 30 else None}
-        ax.plot(x, values.T, **look_of, ms=4, linewidth=2 if len(values) == 1 else 1.1)
+        ax.plot(x, values.T, **look_of, ms=4, linewidth=2 if len(values) == 1 else 0.8)
         last = values[:, np.isfinite(values).any(axis=0)][:, -1].max()
         end = float(last if limits is None else np.clip(last, *limits))
         ends.append((end, display_name(label), look.colour))

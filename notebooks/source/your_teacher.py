@@ -18,9 +18,9 @@
 # - decide from ten seeds whether a teacher helps or hurts, and say when they cannot show it;
 # - say what a teacher has to be good at, for which learner.
 #
-# **Time** 60 minutes; running it takes about one minute. **It builds on** the rule (lesson
-# [[the_rule]]), the soft constraint ([[soft_constraint]]) and learning from demonstrations
-# ([[learning_from_demonstrations]]).
+# **Time** 60 minutes, 25 of them for Round 6, which can wait; running it takes about one minute.
+# **It builds on** the rule (lesson [[the_rule]]), the soft constraint ([[soft_constraint]]) and
+# learning from demonstrations ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc
@@ -128,13 +128,10 @@ source("bootcourse.course.lessons.your_teacher.example_teachers", "timid", "race
 
 # %% [markdown]
 # > **Predict.** `careful`, whose code you have not seen, tells three situations apart: no room on
-# > the left, room, free lane. What is the smallest number that a rule needs to get out unhurt on
-# > each of 100 roads?
+# > the left, room, free lane. With how few does a rule of ours get out unhurt on each of 100 roads?
 
 # %%
-predict(
-    "your_teacher.3", "How many situations must a rule tell apart?", ["one", "two", "three", "four"]
-)
+predict("your_teacher.1", "How many situations are enough?", ["one", "two", "three", "four"])
 
 # %% [markdown]
 # **Exercise (12 min, ●●○).** Write a rule that gets out. The check drives it on 24 roads: it
@@ -238,23 +235,23 @@ table(headings, rows, "Three students of the rule that round 2 ended with.")
 
 # %%
 predict(
-    "your_teacher.1",
+    "your_teacher.2",
     "Of ten students of the racer, how many escape?",
     ["none", "1 to 3", "4 to 7", "8 to 10"],
 )
 
 # %%
 choices = ["less than those alone", "about as much", "more"]
-predict("your_teacher.2", "What do the students of the racer earn?", choices)
+predict("your_teacher.3", "What do the students of the racer earn?", choices)
 
 # %%
 groups = taught_agents.reference()
 shown = dict(groups)
 shown[f"racer, {taught_agents.LONG:,} updates"] = taught_agents.longer()
-shown["round 2's rule"] = learned
+shown[f"{mine.__name__}, {SEEDS} trained here"] = learned
 title = (
-    "After 3,500 updates most students of teachers that get out escape; of timid's and reckless's "
-    "none"
+    "After 3,500 updates most students of teachers that get out escape, none of timid's and "
+    "reckless's"
 )
 bc.show(figures.students(shown, title, apart=2))
 
@@ -263,7 +260,9 @@ bc.show(figures.students(shown, title, apart=2))
 # escape, and none of those of `timid` and `reckless`. Of the racer's students {{
 # student_escapes('racer') }} of ten escape. With *drawn* actions each of these ten succeeds on {{
 # 100 * students('racer')['drawn'].min() | .0f }} % or more: all have found the way out. Where the
-# two differ, the way out is in the policy, and its most probable actions miss it.
+# two differ, the way out is in the policy, and its most probable actions miss it. (Three agents are
+# few: yours may look unlike the row of the same teacher. Then look at *with drawn actions* in your
+# table.)
 # <!-- claim: min(student_escapes(n) for n in ('the rule', 'the rule, 30 m')) == 10 and
 #   student_escapes('careful') > 7 and student_escapes('alone') == 1 -->
 # <!-- claim: student_escapes('timid') == student_escapes('reckless') == 0 < 5 ==
@@ -295,8 +294,8 @@ predict(
 )
 
 # %% [markdown]
-# Each order of the six agents is then as likely as any other, and one of
-# {{ math.comb(6, 3) }} has the taught ones on top.
+# Each order of the six agents is then as likely as any other, and one of {{ math.comb(6, 3) }} has
+# the taught ones on top.
 #
 # Six teachers and two scores are *twelve* verdicts against the same ten agents that learned alone.
 # So the p-values are corrected after Holm, as in lesson [[how_many_seeds]].
@@ -335,7 +334,9 @@ bc.show(figures.verdicts(shares, p, title))
 # kinds.
 #
 # - **A good one** demonstrates the way out and what to do afterwards. No group earns more than its
-#   teacher, where the teacher gets out; we think that the agents still follow it.
+#   teacher, where the teacher gets out; we think that the agents still follow it. (After {{
+#   taught_agents.LONG | , }} updates the racer's earn {{ long()['returns'].mean() | .0f }}, the
+#   racer {{ teacher_exam('racer').returns.mean() | .0f }}.)
 # <!-- claim: students('the rule, 30 m')['returns'].mean() < near_rule().returns.mean() and
 #   students('careful')['returns'].mean() < teacher_exam('careful').returns.mean() and
 #   students('the rule')['returns'].mean() < of('rule').scores('returns')[0] and
@@ -358,28 +359,31 @@ bc.show(figures.verdicts(shares, p, title))
 # %% [markdown]
 # ## Round 5: other learners
 #
-# The students were all of one kind, and of one short training. In the experiment `teachers` five
-# learners had ten agents each, each with its own budget: bootstrapped SAC; SAC with the soft
-# constraint only; **DAgger**, which imitates the teacher in the states that the agent itself
-# reaches (lesson [[demonstrations]]); **PPO after cloning**, which starts from a clone and learns
-# from the reward alone ([[the_second_trap]]); and **RLPD**, SAC with half of each batch
-# demonstrations ([[other_ways]]). RLPD had 150 episodes, 6 to 9 thousand decisions, where the other
-# SAC learners had about 165 thousand: its rows are no verdict on it. (The first two have the
-# study's settings and seeds, but {{ worth()['rule', 'soft'].curves['success'].shape[1] | , }}
-# episodes. So their counts differ from the study's: with the soft constraint {{
-# worth()['rule', 'soft'].escapers('soft') }} of ten escape here, {{ escaped('soft') }} there.)
+# The students were all of one kind, and of one short training. In the experiment `teachers` three
+# learners trained ten agents each, for longer:
+#
+# | learner | takes from the teacher | decisions of an agent (thousands) |
+# |---|---|---|
+# | bootstrapped SAC | whole drives, and labels for the KL | {{ budget('bootstrapped') }} |
+# | soft constraint only | labels for the KL | {{ budget('soft') }} |
+# | **DAgger** (lesson [[demonstrations]]) | drives, and labels where it drives itself | {{
+# budget('dagger') }} |
+#
+# (The first two have the study's settings and seeds, but fewer episodes, so other counts: with the
+# soft constraint {{ worth()['rule', 'soft'].escapers('soft') }} of ten escape here, {{
+# escaped('soft') }} there.)
 #
 # Four of the teachers:
 #
 # - the rule;
 # - **half random**: the rule with half of its decisions drawn at random;
 # - **mirrored**: the rule for a road with left and right exchanged;
-# - **the planner** of lesson [[the_barrier]], the best driver of the course (it taught three of the
-#   five).
+# - **the planner** of lesson [[the_barrier]], the best driver (it taught DAgger only).
 #
 # > **Predict.** The half-random teacher gets ahead in
-# > {{ 100 * teachers_success('random-50') | .0f }} % of its own drives. How many of its ten
-# > bootstrapped students escape?
+# > {{ 100 * teachers_success('random-50') | .0f }} % of its own drives, so in about
+# > {{ demonstrated_ahead('random-50') | .0f }} of the {{ SETTINGS.demonstration_episodes }} that it
+# > demonstrates. How many of its ten bootstrapped students escape?
 
 # %%
 choices = ["none", "1 to 3", "4 to 7", "8 to 10"]
@@ -387,52 +391,46 @@ predict("your_teacher.5", "How many of ten students of the half-random teacher e
 
 # %%
 four = ("rule", "random-50", "mirrored", "planner")
-worth = {place: agents for place, agents in shipped.shipped_teachers().items() if place[0] in four}
-title = (
-    "From a half-random teacher all ten bootstrapped agents escape, and one of thirty of DAgger, "
-    "PPO and soft"
-)
+three = ("dagger", "bootstrapped", "soft")
+worth = {
+    (teacher, learner): agents
+    for (teacher, learner), agents in shipped.shipped_teachers().items()
+    if teacher in four and learner in three
+}
+title = "From a half-random teacher only bootstrapped SAC learns the way out reliably"
 bc.show(figures.learners(worth, title))
 
 # %% [markdown]
 # **See.**
 # - **A teacher that rarely gets out can be enough.** From a teacher that gets ahead in {{ 100 *
 #   teachers_success('random-50') | .0f }} % of its drives all ten bootstrapped agents escape; of
-#   the thirty agents of DAgger, PPO and the soft constraint {{ sum(worth()['random-50',
-#   m].escapers(m) for m in ('dagger', 'ppo_cloned', 'soft')) }} escapes.
-# - **The mirrored teacher does not get out, and none of its students does**: none of forty agents
-#   escapes (nor any of RLPD's ten).
+#   the twenty agents of DAgger and the soft constraint {{ sum(worth()['random-50',
+#   m].escapers(m) for m in ('dagger', 'soft')) }} escapes.
+# - **The mirrored teacher does not get out, and none of its thirty students does.**
 # - **The best driver is not the best to copy**: the planner's DAgger agents crash in nearly all
 #   drives; {{ worth()['rule', 'dagger'].escapers('dagger') }} of the rule's ten escape. We have not
-#   tested why. The planner's decisions depend on the other cars' next seconds, which the 26 numbers
-#   do not hold.
+#   tested why. What the 26 numbers leave out is no likely reason: nine in ten of these drives end
+#   within 5 s, beside the two traps, which hold their speed and are both observed.
+# <!-- claim: 0.85 < (lambda r: np.mean(r.tested['distance'] / r.tested['speed'] <
+#   5.3))(worth()['planner', 'dagger']) < 0.95 -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
-#   sum(worth()['random-50', m].escapers(m) for m in ('dagger', 'ppo_cloned', 'soft', 'rlpd')) == 1
-#   and fisher(10, 1) < 0.005 / 10 -->
+#   sum(worth()['random-50', m].escapers(m) for m in ('dagger', 'soft')) == 1 -->
 # <!-- claim: teachers_success('mirrored') == 0 and all(worth()['mirrored', m].escapers(m) == 0 and
-#   len(worth()['mirrored', m]) == 10 for m in ('dagger', 'ppo_cloned', 'soft', 'rlpd',
-#   'bootstrapped')) -->
+#   len(worth()['mirrored', m]) == 10 for m in ('dagger', 'soft', 'bootstrapped')) -->
 # <!-- claim: worth()['planner', 'dagger'].episodes('accident').mean() > 0.9 and worth()['planner',
 #   'dagger'].escapers('dagger') == 0 and worth()['rule', 'dagger'].escapers('dagger') > 7 -->
 #
-# (PPO made {{ decisions('planner', 'ppo_cloned') | .0f }} thousand decisions after cloning the
-# planner, and {{ decisions('rule', 'ppo_cloned') | .0f }} thousand after cloning the rule: equal
-# episodes, but an agent that crashes early drives little. So its row is no verdict either.)
-# <!-- claim: decisions('rule', 'ppo_cloned') > 15 * decisions('planner', 'ppo_cloned') -->
+# (The report has more teachers and learners.)
 # <!-- claim: worth()['rule', 'bootstrapped'].escapers('bootstrapped') < 10 and fisher(10,
 #   worth()['rule', 'bootstrapped'].escapers('bootstrapped')) > 0.05 and teachers_success('rule')
 #   == 1 and worth()['rule', 'soft'].escapers('soft') != escaped('soft') -->
 #
 # **Explain.** We think that what has to be good about a teacher depends on what the learner takes
-# from it. A first policy has to get out by itself, and labels have to lead past the traps often.
-# Bootstrapped SAC takes whole drives: about {{ teachers_success('random-50') *
-# settings_for('bootstrapped').demonstration_episodes | .0f }} of the {{
-# settings_for('bootstrapped').demonstration_episodes }} get ahead, and these few may show the way.
-# Or the random actions help: they lead into states that a good driver never shows, and the rule's
-# next decisions show how to come back (lesson [[demonstrations]]). It would fit that the rule
-# itself taught {{ worth()['rule', 'bootstrapped'].escapers('bootstrapped') }} of ten (though ten
-# agents each cannot tell that from all ten). Training from the same drives without those few would
-# tell the two explanations apart.
+# from it. Labels alone have to lead past the traps often. Bootstrapped SAC also takes whole drives,
+# and the few that get ahead may show the way. Or the random actions help: they lead into states
+# that a good driver never shows, and the rule's next decisions show how to come back (lesson
+# [[demonstrations]]). Training from the same drives without the few that get ahead would tell the
+# two explanations apart.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Let each group name one experiment that could change a verdict: more updates (the racer's return),
@@ -442,11 +440,10 @@ bc.show(figures.learners(worth, title))
 # %% [markdown]
 # ## Round 6: a road where looking matters
 #
-# (You may do this round later: nothing builds on it.) The rule of two situations does not look to
+# (This round can wait: nothing builds on it.) The rule of two situations does not look to
 # the side, and passes. So the default road does not test whether a driver looks. Here is one that
-# does: ten cars fill the left lane, from about 30 m
-# behind you to about 150 m ahead, at 10.5 to 11.5 m/s. They are faster than the traps, so they pass
-# you.
+# does: ten cars fill the left lane, from about 30 m behind you to about 150 m ahead, at 10.5 to
+# 11.5 m/s. They are faster than the traps, so they pass you.
 # <!-- claim: example_teachers.DENSE.traffic.cars == 10 -->
 
 # %%
@@ -473,12 +470,13 @@ check.watchful_rule(watchful_rule)
 # %%
 racers = int((groups["racer"]["success"] >= bc.statistics.ESCAPES).sum())
 earned = {name: group["returns"].mean() for name, group in groups.items()}
+word = "less than those alone" if earned["racer"] < earned["alone"] else "more"
 compare_predictions(
     "your_teacher",
     {
-        1: f"{racers} of ten",
-        2: f"{earned['racer']:.1f}; alone {earned['alone']:.1f}",
-        3: "two",
+        1: "two",
+        2: f"{racers} of ten",
+        3: f"{word}: {earned['racer']:.1f}, alone {earned['alone']:.1f}",
         4: "1 in 20",
         5: f"{worth['random-50', 'bootstrapped'].escapers('bootstrapped')} of ten",
     },
@@ -492,7 +490,8 @@ compare_predictions(
 # 2. A teacher enters in three places: demonstrations, μ(s) and μ(s'). Swap it in each of them.
 # 3. A teacher's return alone does not decide what its students learn: ask where it leads, too.
 # 4. A teacher can help where it leads through states that the learner rarely reaches alone. Early
-#    help need not last: judge after the whole training.
+#    help need not last: judge after the whole training. It depends on the learner, too: of three,
+#    only bootstrapped SAC learned from a half-random teacher in each of ten trainings.
 # 5. If a teacher makes no difference, three seeds against three still separate completely, in the
 #    direction that you hope for, one time in twenty. Several verdicts need a correction.
 # <!-- claim: math.comb(6, 3) == 20 -->

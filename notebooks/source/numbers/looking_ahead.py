@@ -4,16 +4,19 @@ from functools import cache
 
 import numpy as np
 from bootcourse.course import shipped as course
+from bootcourse.course.lessons.looking_ahead.imagined_road import decide_by
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.lookahead import HORIZON, NINE, imagine, lookahead
 from bootcourse.episodes.models import MODELS
 from bootcourse.episodes.record import record
+from bootcourse.episodes.words import overtaken
 from bootcourse.policies import idle_policy, random_policy
 from bootcourse.research import distil
 from bootcourse.research.lookahead import MANY, ROADS, Cell, Score, score
 from bootcourse.research.results import Results, experiment
 from bootcourse.road.state import Accident
 from bootcourse.scenario import DEFAULT
+from scipy import stats
 
 NOISE, LATE = "places off by 1 m, speeds by 0.5 m/s", "everything a second late"
 OTHERS_LATE = "the others a second late"
@@ -105,11 +108,42 @@ def departures() -> float:
     return float((ends == Accident.ROAD_DEPARTURE).sum() / (ends > 0).sum())
 
 
+def outs(base: str, form: str = "rollouts") -> np.ndarray:
+    """The share of drives that end ahead of trap 1, of each agent of a base policy."""
+    return shipped()[Cell(base, form).name].measured["success"]
+
+
 @cache
-def ahead_of_twenty(base: str) -> int:
+def changed_before_passing() -> np.ndarray:
+    """Of the drives with rollouts of the first plain SAC agent that get out, of 20: decisions that are not its own.
+
+    Counted up to the second in which it passes trap 1.
+    """
+    agent, counts = course.shipped_agents("sac")[0].as_policy(), []
+    for drive in record(lookahead(agent), held_out_seeds(15, 40)[:20]):
+        if drive.success:
+            cars = drive.states[:: DEFAULT.clock.steps][: int(np.ceil(overtaken(drive)))]
+            counts.append(int((decide_by(agent)(cars) != drive.actions[: len(cars)]).sum()))
+    return np.array(counts)
+
+
+def closest() -> tuple[float, float, float]:
+    """Accidents in 1,000 drives of a PPO agent and of the student nearest to it, and Fisher's p of the two."""
+    pairs = [
+        (int(old), int(new), int(roads))
+        for students in learned().values()
+        for old, new, roads in zip(before(), students.measured["accidents"], students.measured["roads"], strict=True)
+    ]
+    old, new, roads = min(pairs, key=lambda pair: (pair[1] - pair[0]) / pair[2])
+    p = stats.fisher_exact([[old, roads - old], [new, roads - new]]).pvalue
+    return 1000 * old / roads, 1000 * new / roads, float(p)
+
+
+@cache
+def ahead_of_twenty(base: str, horizon: int = HORIZON) -> int:
     """How many of 20 drives with rollouts of "idle" or "random" end ahead of trap 1."""
     policy = idle_policy if base == "idle" else random_policy(np.random.default_rng(0))
-    return int(drive_episodes(lookahead(policy), held_out_seeds(15, 40)[:20]).success.sum())
+    return int(drive_episodes(lookahead(policy, horizon), held_out_seeds(15, 40)[:20]).success.sum())
 
 
 @cache

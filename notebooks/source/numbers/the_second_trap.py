@@ -3,18 +3,14 @@
 from functools import cache
 
 import numpy as np
-from bootcourse.course.lessons.the_second_trap import ppo_kinds
+from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.course.lessons.your_teacher.example_teachers import careful
 from bootcourse.episodes.record import record
+from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import teacher_policy
-from bootcourse.research.equal_decisions import BUDGETS, at, by_method
-from bootcourse.research.lookahead import Cell
-from bootcourse.research.results import Results, experiment
 from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD, shipped_experiment
-
-LAST = BUDGETS[-1]
+from tools.course.known import ROAD
 
 
 def ppo(kind: str) -> dict:
@@ -55,17 +51,8 @@ def careful_drive(road: int = ROAD):
     return record(teacher_policy(careful), [road])[0]
 
 
-def later_ppo() -> Results:
-    """PPO's agents of the comparison at equal decisions."""
-    return by_method(shipped_experiment("beyond"))["ppo"]
-
-
-def later_ppo_out() -> int:
-    """How many of them escape after the last budget."""
-    return int((at(later_ppo(), "success", LAST) >= ESCAPES).sum())
-
-
-def long_accidents() -> float:
-    """Accidents in each drive of the agents of PPO after cloning that look ahead in another lesson, alone."""
-    measured = experiment("look-ahead")[Cell("ppo_cloned", "alone").name].measured
-    return float(measured["accidents"].sum() / measured["roads"].sum())
+def paid_concavely(drive) -> float:
+    """What a drive without an accident is worth at its start with the concave reward and PPO's discount."""
+    cars, rewards = drive.states[::2], np.asarray(drive.rewards)
+    paid = second_trap.concave_pay(rewards, cars[:-1], cars[1:], np.zeros(len(rewards), dtype=bool))
+    return float(settings_for("ppo").gamma ** np.arange(len(paid)) @ paid)

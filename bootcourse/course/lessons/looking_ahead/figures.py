@@ -129,7 +129,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     _check_computed(cells, [Cell(base, form).name for form in FORMS], base)
     row, colour = 0.4, style(base).colour
     figure = new_figure(1.0 + row * len(names) + 0.8)
-    ax = axes_at(figure, 2.05, 1.0, 4.7, row * len(names))
+    ax = axes_at(figure, 2.25, 1.0, 4.5, row * len(names))
     words, better, scores_of = [], {}, {}
     for form, shift, fill in (("rollouts", -0.14, colour), ("shield", 0.14, "white")):
         scores = {name: one for name in names if (one := score(cells, Cell(base, form, model=name)))}

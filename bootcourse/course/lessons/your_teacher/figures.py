@@ -28,7 +28,7 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], title: str, apart: 
     """
     row = 0.42
     figure = new_figure(HEAD + row * len(groups) + FOOT)
-    ax = axes_at(figure, 1.45, HEAD, 3.2, row * len(groups))
+    ax = axes_at(figure, 1.6, HEAD, 3.1, row * len(groups))
     ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
     alt_parts = []
     for place, (name, group) in enumerate(groups.items()):
