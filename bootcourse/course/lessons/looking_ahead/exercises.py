@@ -64,7 +64,6 @@ def cases(rng):
 @exercise(
     "Q(s, a): the return of doing a and then following the policy, over the horizon (Tesauro & Galperin 1996)",
     minutes=18, difficulty=3, cases=cases,
-    seconds=10,  # it imagines on a hundred roads and more
     # every action touches the car ahead within the first decision: -10, and nothing follows
     worked=[((blocked(), keep, 3), np.full((1, 9), DEFAULT.reward.accident))],
     mistakes={
