@@ -51,8 +51,8 @@ bc.show(figures_traffic.space_time(rings, dt=0.5, title=title))
 
 # %%
 choices = [
-    "the standing cars are pushed back by those behind them",
-    "the slow driver falls behind, and takes the band along",
+    "the slow driver stays in it and falls back, and the others wait behind",
+    "the same cars stay in it and need more and more room, each behind the one ahead",
     "cars leave it at its front and join it at its back",
 ]
 predict("traffic.1", "Why does the band move backwards?", choices)
@@ -124,16 +124,17 @@ predict(
     ["accelerate", "hold", "brake"],
 )
 
+# %% [markdown]
+# **Answer.** The driver brakes at $a_{\max}$: the bracket is 1 − 1 − 1. So a driver settles at a
+# gap longer than $s^*$: where the dashed line of the next picture crosses zero.
+# <!-- claim: formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, 0.5, 4.0) == -0.5 -->
+
 # %%
 t = bc.DEFAULT.traffic
 title = "At 10\u00a0m/s a driver who closes in brakes much earlier"
 bc.show(figures_traffic.following(10.0, title))
 
 # %% [markdown]
-# **Answer.** The driver brakes at $a_{\max}$: the bracket is 1 − 1 − 1. So a driver settles at a
-# gap longer than $s^*$. In the picture it is where a line crosses zero.
-# <!-- claim: formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, 0.5, 4.0) == -0.5 -->
-#
 # A simulation repeats one step. It computes the acceleration a from the present speeds and the
 # present gap. Here a is at least −{{ DEFAULT.traffic.braking_limit | g }} m/s²: no car brakes
 # harder. For dt seconds both cars move at their present speeds. Then the driver's speed changes by
@@ -197,7 +198,7 @@ table(["speed", "wants s*", "settles at"], rows)
 # %% [markdown]
 # **See.** Cars that settle about 20 m apart drive 6.2 m/s, about 35 m apart 10.3 m/s. That is how
 # fast the two rings are without a disturbance. (Set $a = 0$: the gap is $s^* / \sqrt{1 - (v /
-# v_\text{desired})^\delta}$, which has no limit as $v$ nears the desired speed.)
+# v_\text{desired})^\delta}$, which grows without limit as $v$ nears the desired speed.)
 # <!-- claim: abs(28.0 / math.sqrt(1 - (12 / 12.5) ** DEFAULT.traffic.delta) - 72.1) < 0.1 -->
 # <!-- claim: round(traffic.settled_speed(20), 1) == 6.2 and round(traffic.settled_speed(35), 1) ==
 #   10.3 -->
@@ -222,13 +223,14 @@ table(["one car begins at", "slowest car in the end, 20 m apart", "30 m", "35 m"
 # <!-- claim: slowest(20, traffic.settled_speed(20) - 0.1) < 0.1 and slowest(30, 1.0) < 0.1 and
 #   slowest(30, 3.0) > 9.5 and slowest(35, 1.0) > 10.3 -->
 #
-# Which drivers prevent the jam at 20 m? Two suspects: drivers come back to speed slowly after they
-# have braked, so those behind them meet a slow car for longer; and they mind the closing speed too
-# little, the last term of $s^*$. Change one thing at a time.
+# Which drivers prevent the jam at 20 m? Two suspects: drivers react weakly, since $a_{\max}$ scales
+# all that they do, speeding up after a jam and braking before it; and they mind the closing speed
+# too little, the last term of $s^*$. Change one of the two at a time.
 #
-# > **Predict.** *A:* all drivers accelerate up to three times as strongly, and $b$ is a third, so
-# > that the last term of $s^*$ stays what it is. *B:* $b$ alone is a third, so that this term
-# > becomes 1.7 times as large. Which of the two changes prevents the jam?
+# > **Predict.** *A:* $a_{\max}$ is three times as large, so all drivers speed up and brake three
+# > times as strongly, and $b$ is a third, so that the last term of $s^*$ stays what it is. *B:* $b$
+# > alone is a third, so that this term becomes 1.7 times as large. Which of the two prevents the
+# > jam?
 
 # %%
 choices = ["A alone", "B alone", "each of them", "neither"]
@@ -236,7 +238,7 @@ predict("traffic.4", "Which change prevents the jam?", choices)
 
 # %%
 # NBVAL_CHECK_OUTPUT
-tried = {"as it is": (1, 1), "A: stronger acceleration": (3, 1 / 3)}
+tried = {"as it is": (1, 1), "A: stronger reactions": (3, 1 / 3)}
 tried |= {"B: minds the closing speed more": (1, 1 / 3), "minds it less": (1, 3)}
 rows = []
 for name, (more, other) in tried.items():
@@ -247,11 +249,27 @@ for name, (more, other) in tried.items():
 table(["drivers", "a_max (m/s²)", "b (m/s²)", "last term of s*", "slowest car in the end"], rows)
 
 # %% [markdown]
-# **Explain.** Each of the two prevents it in this ring. So the jam here needs both: drivers who are
-# slow to come back to speed *and* who react little to the closing speed. It moves backwards, since
-# cars leave it at its front and join it at its back.
+# **See.** Each of the two prevents it in this ring. But A changes two reactions at once. Which half
+# of it prevents the jam, speeding up or braking? Here one half is stronger, the other as it was:
 # <!-- claim: slowest(20, 1.0) < 0.1 and slowest(20, 1.0, 1.5, 0.5 / 3) > 6.2 and slowest(20, 1.0,
 #   0.5, 0.5 / 3) > 6.2 and slowest(20, 1.0, 0.5, 1.5) < 0.1 -->
+
+# %%
+# NBVAL_CHECK_OUTPUT
+rows = []
+for factor, words in ((2, "twice as strong"), (3, "three times")):
+    halves = traffic.stronger(speeding_up=factor), traffic.stronger(braking=factor)
+    rings = [traffic.ring(20, seconds=1600, acceleration=half)[1][-1] for half in halves]
+    rows.append([words, *(f"{speeds.min():.1f} m/s" for speeds in rings)])
+table(["slowest car after 1,600 s", "only speeding up is stronger", "only braking"], rows)
+
+# %% [markdown]
+# **Explain.** Three times is enough in either half. So the jam in this ring needs drivers who are
+# weak in both *and* who mind the closing speed little. Twice is enough for speeding up and not for
+# braking: here it matters more how fast cars leave the jam than how hard they brake before it. The
+# band moves backwards, since cars leave it at its front and join it at its back.
+# <!-- claim: in_halves(3, 1) > 6.2 and in_halves(1, 3) > 6.2 and in_halves(2, 1) > 6.2 and
+#   in_halves(1, 2) < 0.1 -->
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask for a ring of 25 m: does the jam stay or dissolve? It depends on how slowly the first car
@@ -291,9 +309,9 @@ bc.show(figures_traffic.swinging(taus=(0.2, 0.3, 0.6), dt=bc.DEFAULT.clock.dt))
 
 # %% [markdown]
 # **Explain.** For the heading alone, each step multiplies the error by $1 - dt/\tau$. With a factor
-# between 0 and 1 the error settles; between −1 and 0 it swings and settles; below −1, that is for
-# **dt / τ above 2**, it swings and grows. The differential equation is stable for every τ, the
-# *simulation* is not.
+# of 0 the error is gone in one step, and between 0 and 1 it settles; between −1 and 0 it swings and
+# settles; at −1 it swings for ever; below −1, that is for **dt / τ above 2**, it swings and grows.
+# The differential equation is stable for every positive τ, the *simulation* is not.
 #
 # A car that keeps its lane corrects its offset from the lane's centre, too, and this outer loop
 # depends on the speed. So dt / τ below 2 is necessary, not sufficient: a heading that settles on
@@ -362,8 +380,8 @@ compare_predictions(
 # 2. The closer together cars settle, the slower they drive. If they are close, a small disturbance
 #    grows into a jam that travels backwards; farther apart a large one does, and a small one dies
 #    out; still farther apart both die out in the runs here.
-# 3. Drivers who come back to speed quickly, or who mind the closing speed more, prevent the jam in
-#    the ring of 20 m.
+# 3. Drivers who react more strongly, or who mind the closing speed more, prevent the jam in the
+#    ring of 20 m. A change of one parameter can change two things: test the halves.
 # 4. A simulated heading swings and grows if dt / τ exceeds 2, even though its differential equation
 #    is stable. Below 2 it settles on its own; whether the whole car does has to be tested.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->

@@ -4,13 +4,15 @@ from functools import cache
 from itertools import combinations
 
 import numpy as np
+from bootcourse.course.lessons.other_ways import figures
 from bootcourse.course.lessons.your_teacher import taught_agents
 from bootcourse.course.lessons.your_teacher.taught_agents import holm, p_value
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
+from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import teacher_policy
-from bootcourse.policies import rule_policy
+from bootcourse.policies import random_policy, rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.beyond import at_budget
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
@@ -20,6 +22,7 @@ from bootcourse.statistics import ESCAPES, Estimate, interval
 from tools.course.known import shipped_experiment, shipped_teachers, varied
 
 FIRST, SECOND, LAST = BUDGETS
+TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
 
 
 @cache
@@ -56,15 +59,14 @@ def middle(method: str, budget: int = FIRST) -> float:
 @cache
 def pairs(budget: int) -> dict[tuple[str, str], float]:
     """{a pair of the methods with a teacher: p of the rank test of their returns, after Holm}."""
-    taught = [method for method in compared() if method != "ppo"]
-    of = list(combinations(taught, 2))
+    of = list(combinations([method for method in compared() if method in TAUGHT], 2))
     p = [p_value(*(at(method, "returns", budget) for method in pair)) for pair in of]
     return {pair: float(each) for pair, each in zip(of, holm(p), strict=True)}
 
 
 def at_edge() -> set[str]:
-    """The methods with a teacher whose best attempt of the search is its first or its last."""
-    places = {method: np.argmax(list(search(method).values())) for method in compared() if method != "ppo"}
+    """The methods with a teacher whose best setting of the search is its first or its last."""
+    places = {method: np.argmax(list(search(method).values())) for method in TAUGHT}
     return {method for method, place in places.items() if place != 1}
 
 
@@ -93,7 +95,7 @@ def plain_sacs_out() -> int:
 
 def lowest() -> str:
     """The method with a teacher that earns the least after the first budget."""
-    return min((method for method in compared() if method != "ppo"), key=lambda method: at(method, "returns").mean())
+    return min(TAUGHT, key=lambda method: at(method, "returns").mean())
 
 
 def in_seconds(method: str) -> Estimate:
@@ -124,6 +126,34 @@ def rlpd() -> Results:
     return shipped_teachers()["rule", "rlpd"]
 
 
-def short() -> float:
-    """How many decisions the first 50 episodes of such an agent take altogether."""
-    return float(rlpd().curves["decisions"][:, :50].sum(axis=1, dtype=float).mean())
+@cache
+def untrained() -> np.ndarray:
+    """The episodes that such an agent ends before its first update, (agents, episodes) of True and False."""
+    return np.cumsum(rlpd().curves["decisions"], axis=1) < settings_for("rlpd").learning_starts
+
+
+def ahead_next() -> float:
+    """The share of the next 50 episodes that end ahead of trap 1."""
+    following = (~untrained()).cumsum(axis=1)  # 1 in the episode of the first update
+    return float(rlpd().curves["success"][(following > 0) & (following <= 50)].mean())
+
+
+@cache
+def random_duration() -> float:
+    """How long a driver that draws each action evenly drives, in seconds, on 200 held-out roads."""
+    policy = random_policy(np.random.default_rng(0))
+    return float(np.mean([len(drive.actions) for drive in record(policy, held_out_seeds(6, 200))]))
+
+
+def drives_before(method: str) -> int:
+    """How many drives of the rule these agents have before they begin: demonstrations, or what a clone learns from."""
+    settings = settings_for(method, **equal_decisions.COMMON[method])
+    return settings.demonstration_episodes if settings.needs_demonstrations else 0
+
+
+def decisions_per_update(method: str) -> float:
+    """After how many decisions of their own these agents make an update, on average."""
+    agent = later(method).agents[0]
+    if "epochs" in agent:
+        return agent["batch"] / agent["epochs"]
+    return agent["envs_per_agent"] / agent["updates"]

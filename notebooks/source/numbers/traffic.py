@@ -20,3 +20,10 @@ def slowest(spacing: float, first: float, a_max: float = 0.5, b: float = 0.5) ->
     """The speed (m/s) of the slowest car of a ring after 800 s, one of whose cars begins at `first` (m/s)."""
     drivers = dataclasses.replace(DEFAULT.traffic, a_max=a_max, b=b)
     return traffic.ring(spacing, first, seconds=800, traffic=drivers)[1][-1].min()
+
+
+@cache
+def in_halves(speeding_up: float, braking: float) -> float:
+    """The same in the ring of 20 m after 1,600 s, if drivers speed up and brake so many times as strongly."""
+    stronger = traffic.stronger(speeding_up, braking)
+    return traffic.ring(20, seconds=1600, acceleration=stronger)[1][-1].min()

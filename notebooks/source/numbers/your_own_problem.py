@@ -70,6 +70,11 @@ def h3(verdict: str) -> int:
     return sum(claim.verdict == verdict for claim in elsewhere_claims.claims_of("H3", cells())[0])
 
 
+def confirmed_of_h3() -> list[elsewhere_claims.Claim]:
+    """The confirmed ones of them."""
+    return [claim for claim in elsewhere_claims.claims_of("H3", cells())[0] if claim.verdict == "confirmed"]
+
+
 def best(problem: str, teacher: str, choose=max) -> str:
     """The one of the four methods with the highest mean return in a row, or with `min` the lowest."""
     return choose(FOUR, key=lambda method: cells().mean(problem, teacher, method))

@@ -38,7 +38,8 @@ def what_is_taken() -> Diagram:
     """A row for each learner: a bar while it uses the teacher, which gets thinner where that fades."""
     height = TOP + ROW * len(TAKES) + 4
     parts = [label(8, 18, "A teacher can help before, during or after training", "start", bold=True)]
-    parts += [label((START + TRAINED) / 2, 40, "training"), label((TRAINED + END) / 2, 40, "driving")]
+    middles = {"before": START - 40, "training": (START + TRAINED) / 2, "driving": (TRAINED + END) / 2}
+    parts += [label(x, 40, words) for words, x in middles.items()]
     for x in (START, TRAINED):
         dash = 'stroke="currentColor" stroke-dasharray="4 4" opacity="0.6"'
         parts.append(f'<line x1="{x}" y1="46" x2="{x}" y2="{height}" {dash}/>')
@@ -48,27 +49,42 @@ def what_is_taken() -> Diagram:
         end = top + (2 if fades else THICK)
         corners = f"{first},{top} {last},{top} {last},{end} {first},{top + THICK}"
         parts += [f'<polygon points="{corners}" fill="{style(method).colour}"/>']
-        parts += [label(START - 44, top + 14, learner, "end", bold=True), label(START + 12, top - 6, words, "start")]
+        parts += [label(START - 44, top + 14, learner, "end", bold=True)]
+        place = (START - 8, top - 6, words, "end") if last == START else (START + 12, top - 6, words, "start")
+        parts += [label(*place)]
         until = {START: "before the training", END: "in training and afterwards"}.get(last, "in training")
         alt_parts.append(f"{learner} takes {words}, {until}{', which fades' * fades}.")
     return Diagram(END + 10, height, parts, " ".join(alt_parts))
 
 
 def one_above_the_other(
-    x: Sequence[float], named: Mapping[str, np.ndarray], title: str, x_label: str, method: str
+    x: Sequence[float],
+    named: Mapping[str, np.ndarray],
+    title: str,
+    x_label: str,
+    method: str,
+    begins: Mapping[str, float],
 ) -> Figure:
-    """A panel for each quantity over the same x, in the colour of a method: {quantity with its unit: values}."""
+    """A panel for each quantity over the same x, in the colour of a method: {quantity with its unit: values}.
+
+    begins: {words: x}, vertical lines with their words in the uppermost panel.
+    """
     figure = new_figure(4.0)
     for row, (words, values) in enumerate(named.items()):
         ax = axes_at(figure, 0.6, 0.72 + 1.55 * row, 6.2, 1.15)
         ax.plot(x, values, color=style(method).colour, linewidth=2)
         plain_axes(ax, words)
         ax.set(xlim=(min(x), max(x)), ylim=(0, 1.08 * np.max(values)))
+        for event, place in begins.items():
+            ax.axvline(place, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+            if row == 0:
+                ax.text(place, 0.8 * np.max(values), f" {event}", color=QUIET, fontsize=SMALL)
         if row + 1 < len(named):
             ax.tick_params(labelbottom=False)
     ax.set_xlabel(x_label, fontsize=TEXT, color=INK)
     alt = (f"{words}: {values[0]:.3g} at {x[0]}, {values[-1]:.3g} at {x[-1]}" for words, values in named.items())
-    return finish(figure, title, f"Against the {x_label}. {'; '.join(alt)}.")
+    events = "".join(f" The {words} is at {place:.0f}." for words, place in begins.items())
+    return finish(figure, title, f"Against the {x_label}. {'; '.join(alt)}.{events}")
 
 
 def handing_over(episodes: Sequence[float], h: np.ndarray, mean: np.ndarray, needed: np.ndarray, title: str) -> Figure:
@@ -105,9 +121,10 @@ def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -
     panels = {f"{budget:,} decisions": _after(computed, budget) for budget in equal_decisions.BUDGETS}
     seconds = {method: after_seconds(results) for method, results in computed.items()}
     panels[f"{equal_decisions.SECONDS} s of a core\n(in training)"] = seconds
-    figure, names, alt_parts = new_figure(3.7), [display_name(method) for method in computed], []
+    names, alt_parts, height = [display_name(method) for method in computed], [], 0.35 * len(computed)
+    figure = new_figure(1.6 + height)
     for place, (words, estimates) in enumerate(panels.items()):
-        ax = axes_at(figure, 1.4 + 1.4 * place, 1.05, 1.25, 2.1)
+        ax = axes_at(figure, 1.4 + 1.4 * place, 1.05, 1.25, height)
         plain_axes(ax, words, grid="x")
         ax.axvline(rule, color=style("rule").colour, linewidth=2, zorder=1.5)
         for row, method in enumerate(computed):
@@ -122,9 +139,13 @@ def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -
         ax.set_yticklabels(names if place == 0 else [], fontsize=TEXT, color=INK)
         numbers = (f"{display_name(method)} {_words(one)}" for method, one in estimates.items())
         alt_parts.append(f"{words}: {'; '.join(numbers)}".replace("\n", " "))
-    figure.axes[0].text(rule + 4, 5, "the rule", color=style("rule").colour, fontsize=SMALL, va="center")
-    figure.text(0.6, 0.04, "return", fontsize=TEXT, color=INK, ha="center")
-    return finish(figure, title, f"Returns and their 95 % intervals. {'. '.join(alt_parts)}. The rule: {rule:.0f}.")
+    first = next(iter(panels.values()))
+    lowest = list(computed).index(min(first, key=lambda method: first[method].value))  # there is room beside its mark
+    figure.axes[0].text(rule + 4, lowest, "the rule", color=style("rule").colour, fontsize=SMALL, va="center")
+    words = "return: interquartile mean of the agents, and its 95 % interval"
+    figure.text(0.6, 0.04, words, fontsize=TEXT, color=INK, ha="center")
+    numbers = f"{'. '.join(alt_parts)}. The rule: {rule:.0f}."
+    return finish(figure, title, f"Interquartile means of returns and their 95 % intervals. {numbers}")
 
 
 def _after(computed: Mapping[str, Results], budget: int) -> dict[str, Estimate]:

@@ -1,4 +1,4 @@
-"""Figures of the lesson on traffic: a jam over time, how IDM follows, when MOBIL changes lane, how steering swings.
+"""Figures of the lesson on traffic: a jam over time, how IDM follows, cars in a row, how steering swings.
 
 Each draws what it is given, or one formula of `bootcourse.road.formulas`.
 """
@@ -17,11 +17,11 @@ from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure,
 from bootcourse.road.formulas import desired_gap, idm_acceleration
 from bootcourse.scenario import DEFAULT, Traffic
 
-LOOKS = (Style("#0072B2"), Style("#444444", "--"), Style("#D55E00", "-."))  # of the lines, first to last
+LOOKS = (Style("#7C8793"), Style("#1F2933", "--"), Style("#7A1F1F", "-."))  # of the lines; no method's colours
 DRIVERS = {  # those of a row that are drawn: colour, and where their words stand at their lowest speed
-    1: ("#56B4E9", "right", (0, -14)),
-    4: ("#0072B2", "center", (-4, -24)),
-    8: ("#332288", "left", (0, -14)),
+    1: ("#7C8793", "right", (0, -14)),
+    4: ("#7A1F1F", "center", (-4, -24)),
+    8: ("#1F2933", "left", (0, -14)),
 }
 SPEEDS = ListedColormap(colormaps["viridis"](np.linspace(0, 0.85, 256)))  # its bright end cannot be seen on white
 FAST = 12.5  # m/s, the bright end of the colours
@@ -77,8 +77,9 @@ def following(v: float, title: str, traffic: Traffic = DEFAULT.traffic) -> Figur
             alt_parts.append(f"{words}: above zero at each gap")
             continue
         holds = np.interp(0, values, gaps)
+        does = "brakes below" if dv else "settles at"  # who closes in does not stay at this gap
         ax.plot(holds, 0, "o", color=look.colour)
-        ax.text(holds, 0.5, f"{words},\nholds at {holds:.0f} m", fontsize=TEXT, color=look.colour, ha="center")
+        ax.text(holds, 0.5, f"{words},\n{does} {holds:.0f} m", fontsize=TEXT, color=look.colour, ha="center")
         alt_parts.append(f"{words}: zero at a gap of {holds:.0f} m")
     ax.axhline(0, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
     ax.set(xlim=(gaps[0], gaps[-1]), ylim=(-1.05 * traffic.braking_limit, 1.4))
@@ -107,7 +108,8 @@ def swinging(taus: Sequence[float], dt: float, seconds: float = 5.0) -> Figure:
     steps, named = np.arange(int(seconds / dt) + 1), {}
     for tau in taus:
         factor = 1 - dt / tau
-        kind = "grows" if abs(factor) > 1 else ("overshoots, then settles" if factor < 0 else "settles")
+        settles = "overshoots, then settles" if factor < 0 else "settles"
+        kind = "grows and leaves the picture" if abs(factor) > 1 else settles
         words = f"τ = {tau:g} s: times {factor:.2f}, {kind}".replace("-", "−")
         named[words] = np.where(np.abs(factor**steps) < 1.2 * SWING, factor**steps, np.nan)
     title = f"At {1 / dt:g} Hz a controller that is too quick throws the car from side to side"

@@ -1,6 +1,7 @@
 """The lesson's traffic without lanes: cars that follow each other by IDM, on a ring or behind one leader."""
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from scipy.optimize import brentq
@@ -16,17 +17,32 @@ def follow(v: float, dv: float, gap: float, traffic: Traffic = DEFAULT.traffic) 
     return max(idm_acceleration(v, t.desired_speed, gap, s_star, t.a_max, t.delta), -t.braking_limit)
 
 
+def stronger(speeding_up: float = 1.0, braking: float = 1.0) -> Callable[..., float]:
+    """`follow` for drivers who speed up, or brake, so many times as strongly; the hardest braking stays."""
+
+    def acceleration(v: float, dv: float, gap: float, traffic: Traffic = DEFAULT.traffic) -> float:
+        a = follow(v, dv, gap, traffic)
+        return speeding_up * a if a > 0 else max(braking * a, -traffic.braking_limit)
+
+    return acceleration
+
+
 def settled_speed(spacing: float) -> float:
     """The speed (m/s) that cars hold which follow each other at this distance (m, more than s0)."""
     return brentq(lambda v: follow(v, 0.0, spacing), 0.0, DEFAULT.traffic.desired_speed)
 
 
 def ring(
-    spacing: float, first: float = 1.0, seconds: float = 400, traffic: Traffic = DEFAULT.traffic
+    spacing: float,
+    first: float = 1.0,
+    seconds: float = 400,
+    traffic: Traffic = DEFAULT.traffic,
+    acceleration: Callable[..., float] = follow,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Places (m) and speeds (m/s) of 30 cars in a circle, both (steps, cars), in steps of 0.5 s.
 
     They start at the speed that they hold at this distance (`spacing`, m), one of them at `first` (m/s).
+    acceleration: of (v, dv, gap, traffic), as `follow`.
     """
     cars, dt = 30, 0.5
     x, v = spacing * np.arange(cars, dtype=float), np.full(cars, settled_speed(spacing))
@@ -34,7 +50,7 @@ def ring(
     places, speeds = [], []
     for _ in range(int(seconds / dt)):
         gaps = (np.roll(x, -1) - x) % (spacing * cars)
-        a = np.array([follow(*car, traffic) for car in zip(v, v - np.roll(v, -1), gaps, strict=True)])
+        a = np.array([acceleration(*car, traffic) for car in zip(v, v - np.roll(v, -1), gaps, strict=True)])
         x, v = x + v * dt, np.maximum(v + a * dt, 0)
         places.append(x % (spacing * cars))
         speeds.append(v)

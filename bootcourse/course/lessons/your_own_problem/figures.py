@@ -1,6 +1,4 @@
-"""How five agents of each method did, how often the study's agents decided, what each method closes of the gap on some
-problems, and a drive of DoorKey.
-"""
+"""How five agents of each method did, what each method closes of the gap on some problems, and a drive of DoorKey."""
 
 from collections.abc import Mapping, Sequence
 
@@ -53,28 +51,6 @@ def decisions_of(cells: Cells, problem: str, teacher: str, method: str) -> np.nd
     return np.abs(np.nansum(cells.get(problem, teacher, method).curves["return"], axis=1, dtype=float))
 
 
-def decisions(cells: Cells, problems: Sequence[str], title: str) -> Figure:
-    """How many decisions the agents of plain SAC and of the three aids made: a panel for each problem, a dot each."""
-    rows, teachers = ("SAC", *list(NAMES)[1:]), ("good", "random", "systematic")
-    figure, alt_parts = new_figure(2.9), []
-    for place, problem in enumerate(problems):
-        ax = axes_at(figure, 1.4 + 2.85 * place, 0.75, 2.6, 1.55)
-        for row, name in enumerate(rows):
-            look, mark = (style("sac"), "o") if name == "SAC" else (style(METHODS[name]), MARKS[name])
-            groups = [decisions_of(cells, problem, t, name) for t in (teachers[:1] if name == "SAC" else teachers)]
-            each = np.sort(np.concatenate(groups)) / 1000
-            spread = row + np.linspace(-0.3, 0.3, len(each))
-            ax.scatter(each, spread, s=14, color=look.colour, marker=mark, zorder=3, clip_on=False)
-            words = NAMES.get(name, "plain SAC")
-            alt_parts.append(f"{PROBLEMS[problem].name}, {words}: {each[0]:.0f} to {each[-1]:.0f} thousand")
-        plain_axes(ax, PROBLEMS[problem].name, grid="x")
-        ax.set_yticks(range(len(rows)), [NAMES.get(name, "plain SAC") for name in rows] if place == 0 else [])
-        ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-        ax.set(xlim=(0, 105), ylim=(len(rows) - 0.5, -0.5), xticks=(0, 25, 50, 75, 100))
-        ax.set_xlabel("decisions of an agent in training (thousands)", fontsize=SMALL, color=INK)
-    return finish(figure, title, f"A dot for each agent, with all three teachers. {'; '.join(alt_parts)}.")
-
-
 def gap(cells: Cells, problems: Sequence[str], title: str) -> Figure:
     """For each problem and teacher, what four methods close of the gap in return from plain SAC to the problem's best.
 
@@ -99,6 +75,8 @@ def gap(cells: Cells, problems: Sequence[str], title: str) -> Figure:
         for shift, (name, share) in zip((-0.27, -0.09, 0.09, 0.27), shares.items(), strict=True):
             at = np.clip(share, -4, 100)
             ax.scatter(at, place + shift, s=20, color=look(name).colour, marker=MARKS[name], zorder=3, clip_on=False)
+        if (full := sum(share > 99.5 for share in shares.values())) > 1:
+            ax.text(97, place, f"{full} at 100 %", fontsize=SMALL, color=QUIET, ha="right", va="center")
         words = ", ".join(f"{NAMES[name]} {share:.0f} %" for name, share in shares.items() if np.isfinite(share))
         alt_parts.append(f"{PROBLEMS[problem].name}, {teacher} teacher ({own:.0f} %): {words}")
     plain_axes(ax, "", grid="x")
@@ -137,7 +115,7 @@ def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
     ax.plot(end_x + 0.155, end_y - 0.268, marker=(3, 0, 75), color=ALARM, markersize=8, zorder=4)
     words = f"the loop: {stays} decisions\nthat change nothing"
     ax.text(4.7, end_y, words, ha="left", va="center", fontsize=TEXT, color=ALARM)
-    for at, words in (((0, y), "start"), ((0, key), "key"), ((2, door - 1), "door"), ((4, 3), "goal")):
+    for at, words in (((0, y), "start"), ((1, key - 0.3), "key"), ((2, door - 1), "door"), ((3, 3), "goal")):
         ax.text(*at, words, ha="center", va="center", fontsize=TEXT, color=INK)
     ax.set(xlim=(-0.5, 7.8), ylim=(4.5, -0.5), aspect="equal")
     ax.set_axis_off()
