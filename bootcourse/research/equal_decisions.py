@@ -45,6 +45,7 @@ COMMON = {
     "rlpd": {"envs_per_agent": 4, "updates": 2},
     "ppo_cloned": {"gamma": GAMMA, "batch": 512},
     "ppo": {"gamma": GAMMA, "batch": 512},
+    "sac": {"gamma": GAMMA, "batch": 128},  # as "ppo", without a teacher: what the teacher adds
 }
 ENTROPIES = [{"target_entropy": entropy} for entropy in (-1.0, 0.1, 0.3)]
 ROUNDS = [{"envs_per_agent": roads} for roads in (32, 64, 128)]  # PPO has no target entropy
@@ -56,6 +57,7 @@ CHOSEN = {  # of the tries, by what `beyond-search` measured
     "rlpd": 0,
     "ppo_cloned": 0,
     "ppo": 1,
+    "sac": 2,
 }
 GROUP = 5  # agents of the test that train side by side, a job each
 LAST = {"ppo_cloned": BUDGETS[-1], "ppo": BUDGETS[-1], "rlpd": BUDGETS[1]}  # of the budgets; others: see `last_of`
