@@ -19,7 +19,7 @@ from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results, found  # noqa: F401
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES, Estimate, interval
-from tools.course.known import shipped_experiment, shipped_teachers, varied
+from tools.course.known import shipped_experiment, shipped_teachers
 
 FIRST, SECOND, LAST = BUDGETS
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
@@ -76,21 +76,6 @@ def near_rule() -> tuple[float, int]:
     policy = teacher_policy(taught_agents.TEACHERS["the rule, 30 m"])
     driven = drive_episodes(policy, held_out_seeds(1, 200))
     return float(driven.returns.mean()), int((driven.accident > 0).sum())
-
-
-def changed_sacs() -> list[Results]:
-    """Plain SAC's agents of the experiment `sensitivity` with another γ or η, a group for each change."""
-    return [results.of("sac") for name, results in varied().items() if name.startswith(("γ", "target"))]
-
-
-def plain_sacs() -> int:
-    """How many they are."""
-    return sum(map(len, changed_sacs()))
-
-
-def plain_sacs_out() -> int:
-    """How many of them escape."""
-    return sum(results.escapers("sac") for results in changed_sacs())
 
 
 def lowest() -> str:
