@@ -59,6 +59,7 @@ CHOSEN = {  # of the tries, by what `beyond-search` measured
     "ppo": 1,
     "sac": 2,
 }
+UNTIMED = ("sac",)  # trained later, on a slower machine: its seconds are not compared
 GROUP = 5  # agents of the test that train side by side, a job each
 LAST = {"ppo_cloned": BUDGETS[-1], "ppo": BUDGETS[-1], "rlpd": BUDGETS[1]}  # of the budgets; others: see `last_of`
 
@@ -162,9 +163,10 @@ def budget_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str]
     rows = []
     for budget, (method, results) in product(BUDGETS, computed.items()):
         if (returns := at(results, "returns", budget)).size:
-            success, accident, seconds = (at(results, name, budget) for name in ("success", "accident", "seconds"))
+            success, accident = (at(results, name, budget) for name in ("success", "accident"))
+            seconds = "–" if method in UNTIMED else f"{at(results, 'seconds', budget).mean():.1f}"
             escape = f"{(success >= ESCAPES).sum()} of {len(success)}"
-            cells = [escape, bracketed(interval(returns)), f"{100 * accident.mean():.1f}", f"{seconds.mean():.1f}"]
+            cells = [escape, bracketed(interval(returns)), f"{100 * accident.mean():.1f}", seconds]
             rows.append([f"{budget:,}", display_name(method), *cells])
     return headings, rows
 
@@ -173,6 +175,8 @@ def seconds_rows(computed: dict[str, Results]) -> tuple[list[str], list[list[str
     """(headings, rows): what each method earns in training after `SECONDS`. computed: see `by_method`."""
     rows = []
     for method, results in computed.items():
+        if method in UNTIMED:
+            continue
         each = results.measured[f"seconds_{BUDGETS[0]}"] / BUDGETS[0]  # for a decision
         returns = bracketed(interval(at_budget(results.curves, SECONDS / each)))
         rows.append([display_name(method), f"{SECONDS / each.mean():,.0f}", returns])

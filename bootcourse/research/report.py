@@ -224,6 +224,7 @@ BUDGET = """Each method has γ = 0.97 and the best of three settings, which were
 table below). Tested with most probable actions on the held-out roads. The teacher's decisions in demonstrations are not
 counted. Seconds are those of one core, shared among the agents that trained side by side. RLPD takes about five times
 as long for a decision as the others with a replay buffer, and stops at the second budget, as half of their agents do.
+Plain SAC trained on a slower machine, so its seconds are not compared.
 """
 EQUAL_SECONDS = """The last 50 training episodes that ended in so much time, with drawn actions; the teacher drives the
 beginning of jump-start RL's.

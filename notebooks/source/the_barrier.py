@@ -481,7 +481,7 @@ kinds = {
     "B: A, but γ = 0.95": (0.1, 0.95),
     "C: A, but ε = 0.5": (0.5, 0.8),
     "D: A, but ε = 1": (1.0, 0.8),
-    "E: A, demonstration replayed": (0.1, 0.8, chain.WAY_OUT),
+    "E: A, with replays": (0.1, 0.8, chain.WAY_OUT),
 }
 rows = {kind: figures.learners(chain.learned(*how)) for kind, how in kinds.items()}
 title = "More exploration or a replayed demonstration gets learners out, a longer view does not"

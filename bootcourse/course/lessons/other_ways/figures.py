@@ -119,7 +119,8 @@ def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -
     computed: see `equal_decisions.by_method`; rule: what the rule earns, the green line.
     """
     panels = {f"{budget:,} decisions": _after(computed, budget) for budget in equal_decisions.BUDGETS}
-    seconds = {method: after_seconds(results) for method, results in computed.items()}
+    timed = {method: results for method, results in computed.items() if method not in equal_decisions.UNTIMED}
+    seconds = {method: after_seconds(results) for method, results in timed.items()}
     panels[f"{equal_decisions.SECONDS} s of a core\n(in training)"] = seconds
     names, alt_parts, height = [display_name(method) for method in computed], [], 0.35 * len(computed)
     figure = new_figure(1.6 + height)
@@ -134,7 +135,8 @@ def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -
                 ax.plot([low, high], [row, row], color=colour, linewidth=1.8, zorder=2)
                 ax.plot(value, row, style(method).marker or "o", color=colour, ms=5.5, zorder=3)
             else:
-                ax.text(95, row, "not trained", color=QUIET, fontsize=SMALL, ha="center", va="center")
+                lacks = "not trained" if place < len(equal_decisions.BUDGETS) else "not timed"
+                ax.text(95, row, lacks, color=QUIET, fontsize=SMALL, ha="center", va="center")
         ax.set(xlim=(0, 140), ylim=(len(names) - 0.5, -0.5), xticks=(0, 50, 100), yticks=range(len(names)))
         ax.set_yticklabels(names if place == 0 else [], fontsize=TEXT, color=INK)
         numbers = (f"{display_name(method)} {_words(one)}" for method, one in estimates.items())
