@@ -202,10 +202,10 @@ bc.show(figures.when_to_change(drive))
 # numbers.
 # <!-- claim: (8.25 - 10) * DEFAULT.rule.t_safe < 0 < 12 -->
 #
-# Look at the numbers once more. The rule falls back by driving slower than both traps, so
-# $(v_e - \min\{\ldots\})\, t_\text{safe}$ is negative, too, and $d_s$ is the floor. On this road
-# the floor decides every lane change of the escape. The printed formula plays no part in it: it
-# would matter for a car that is faster than the ones ahead.
+# Look once more: the rule falls back by driving slower than both traps, so $(v_e -
+# \min\{\ldots\})\, t_\text{safe}$ is negative, too, and $d_s$ is the floor. On this road the floor
+# decides every lane change of the escape; the formula would matter for a car that is faster than
+# the ones ahead.
 # <!-- claim: (by_rule().rule_distances[by_rule().rule_reasons == Reason.CHANGE] ==
 #   DEFAULT.rule.floor).all() -->
 #
