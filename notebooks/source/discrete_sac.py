@@ -45,16 +45,23 @@ from bootcourse.research import checks
 # %%
 drivers = {
     "at random": bc.random_policy(np.random.default_rng(0), 2),  # two actions
-    "rule: push where it falls": bc.teacher_policy(checks.balance, None, 2),
+    "rule: one weighted sum": bc.teacher_policy(checks.balance, None, 2),
 }
 drives = {}
 for label, driver in drivers.items():
     rows, pushes = checks.data(driver, checks.cartpole, 1, seed=0)
     drives[f"{label}: {pushes:.0f} pushes"] = rows[:, :4].numpy()
-title = "One line of code balances the pole; chance does not"
+title = "One weighted sum balances the pole; chance does not"
 bc.show(figures.cartpole_strip(drives, title))
 
 # %% [markdown]
+# The rule pushes to the right where 0.1 · place + 0.3 · speed + 0.1 · angle + 0.3 · angular speed
+# is positive. (Here as on the road, what the learner sees is scaled to order one: the angle is in
+# tenths of a radian. A rule that looks at the angle alone lasts about {{ pushes((0, 0, 1, 0)) | .0f
+# }} pushes.)
+# <!-- claim: checks.CARTPOLE_SCALES == (1.0, 1.0, 0.1, 1.0) -->
+# <!-- claim: pushes((0.1, 0.3, 0.1, 0.3)) == 500 and 30 < pushes((0, 0, 1, 0)) < 50 -->
+#
 # How does a program that starts at random learn to push as well as that rule, from rewards alone?
 
 # %% [markdown]
@@ -89,6 +96,8 @@ bc.show(diagrams.sac_diagram())
 #
 # $$ \mathcal{H}(\pi(\cdot|s)) = -\sum_a \pi(a|s) \log \pi(a|s) $$
 #
+# (with 0 · log 0 = 0: an action that is never taken adds nothing).
+#
 # > **Predict.** What is the entropy of a policy that is sure of one action? Can it be negative?
 
 # %%
@@ -113,7 +122,7 @@ table(["policy", "entropy (nats)", "as undecided as this many equally likely act
 # <!-- claim: 0 == float(sac.entropy(torch.tensor([1.0]).log())) <
 #   float(sac.entropy(torch.full((9,), 1 / 9).log())) < math.log(9) + 1e-6 -->
 #
-# The **soft value** of a state is what the actor can expect there: the mean of Q under its own
+# The **soft value** of a state is what the agent expects from there on: the mean of Q under its own
 # policy, plus α for each nat of entropy. α is the **temperature**.
 #
 # $$ V(s) = \sum_a \pi(a|s)\, Q(s,a) + \alpha\, \mathcal{H}(\pi(\cdot|s)) $$
@@ -143,14 +152,16 @@ q, alphas, values = torch.tensor([[1.0, 3.0]]), np.linspace(0, 3, 31), {}
 for words, pi in (("the sure policy", [1e-12, 1.0]), ("the even policy", [0.5, 0.5])):
     log_pi = torch.tensor([pi]).log()
     values[words] = [sac.soft_value(log_pi, q, torch.tensor(alpha)).item() for alpha in alphas]
-title = f"Above α = {1 / np.log(2):.2f} the even policy is worth more"
+values["the best policy"] = [(a * torch.logsumexp(q / a, -1)).item() if a else 3.0 for a in alphas]
+title = f"Above α = {1 / np.log(2):.2f} the even policy beats the sure one; the best beats both"
 bc.show(charts.lines(alphas, values, title, "temperature α", "soft value V"))
 
 # %% [markdown]
 # **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy: both have the same V
 # at α = 1 / 0.693 = {{ 1 / math.log(2) | .2f }}. The best policy lies between the two: it is a
 # *softmax*, $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$. With a high α this policy is nearly even, with
-# a low α it is nearly sure of one action.
+# a low α it is nearly sure of one action. So with α > 0 the best policy of SAC is not the one that
+# earns most: it gives up some Q for entropy.
 #
 # <details><summary>Why a softmax?</summary>
 #
@@ -173,7 +184,8 @@ bc.show(charts.lines(alphas, values, title, "temperature α", "soft value V"))
 # The critic learns from **transitions**: in state s the learner took action a, got the reward r,
 # and came to s'. What should $Q(s,a)$ have been? The **discount** γ, a number between 0 and 1, says
 # how much later rewards count: one t steps later counts $\gamma^t$ times as much. Q(s, a) is the
-# mean of all that follows the action, where each later state also earns α times its entropy:
+# mean of all that follows the action if the agent goes on with its policy π, where each later state
+# also earns α times its entropy:
 #
 # $$ Q(s_0, a_0) = \mathbb{E}\big[\, r_0 + \gamma\,(r_1 + \alpha \mathcal{H}_1) +
 # \gamma^2 (r_2 + \alpha \mathcal{H}_2) + \dots \big] $$
@@ -192,22 +204,32 @@ bc.show(charts.lines(alphas, values, title, "temperature α", "soft value V"))
 # estimate is called **bootstrapping**. (The paper's title means another thing: to start with a
 # rule's help.)
 #
-# In numbers: r = 1, γ = 0.9, α = 0.5, and an even policy over two actions with Q = 4 and 6 in s'.
-# Then V(s') = 5 + 0.5 · 0.693 = {{ 5 + 0.5 * math.log(2) | .2f }}, and y = 1 + 0.9 · {{ 5 + 0.5 *
-# math.log(2) | .2f }} = {{ 1 + 0.9 * (5 + 0.5 * math.log(2)) | .2f }}.
+# > **Predict.** r = 1, γ = 0.9, α = 0.5, and in s' an even policy over two actions with Q = 4 and
+# > Q = 6. What is the target y = r + γ V(s')?
+
+# %%
+predict("discrete_sac.3", "What is the target y?", unit="")
+
+# %%
+v = sac.soft_value(torch.tensor([[0.5, 0.5]]).log(), torch.tensor([[4.0, 6.0]]), torch.tensor(0.5))
+y = (1 + 0.9 * v).item()
+print(f"V(s') = 5 + 0.5 · {np.log(2):.3f} = {v.item():.2f}, so y = 1 + 0.9 · V(s') = {y:.2f}")
+
+# %% [markdown]
+# ### Where nothing follows
 #
-# In the whole target, `terminated` is 1 if no further reward can come after this transition, and
-# otherwise 0.
+# One factor is missing. `terminated` is 1 if the *world* ends here, so that nothing could be earned
+# from s' on, whatever the agent did; otherwise it is 0. The whole target and the loss:
 #
 # $$ y = r + \gamma\, (1 - \text{terminated})\, V(s'), \qquad
 # L_\text{critic} = \text{mean of } (Q(s,a) - y)^2 $$
 #
 # > **Predict.** In one episode the pole fell. In another it still stood after 500 pushes.
-# > γ = 0.99, r = 1, and the critic's estimate of V(s') is 50. What is y in each?
+# > γ = 0.99, r = 1, and the critic's estimate of V(s') is 50. What is y for each last transition?
 
 # %%
 predict(
-    "discrete_sac.3",
+    "discrete_sac.4",
     "What is y of the pole that fell, and of the one whose time was up?",
     ["1 and 1", "1 and 50.5", "50.5 and 1", "50.5 and 50.5"],
 )
@@ -231,15 +253,18 @@ terminated = torch.tensor([1.0, 0.0])  # it fell; the time was up
 print(sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0.99).tolist())
 
 # %% [markdown]
-# **Explain.** The rewards end when the pole falls. A pole that still stands when the time is up
-# would go on earning: the episode was cut off. So `terminated` is 1 for the first, 0 for the
-# second.
+# **Explain.** A fallen pole earns nothing more. A pole that still stands would go on earning; only
+# our clock stopped it, and the four numbers that the critic sees do not hold the clock. With
+# `terminated` = 1 the same push in the same upright state would have to be worth 50.5 in the middle
+# of an episode and 1 at its end.
 
 # %% [markdown]
 # Two tricks make the estimates steadier. V uses the smaller value of **two critics**, because the
-# actor prefers actions that a critic overestimates. And V is computed with **target networks**,
-# slow copies of the critics that take over a small share τ ("tau") of the new weights at each
-# update, so that a step towards the target hardly moves the target.
+# actor prefers actions that a critic overestimates. (Take nine actions all worth 0, estimated with
+# independent errors of size 1. The largest estimate is {{ largest(1) | .1f }} on average; with the
+# smaller of two estimates for each action it is {{ largest(2) | .1f }}.) And V is computed with
+# **target networks**, slow copies of the critics that take over a small share τ ("tau") of the new
+# weights at each update, so that a step towards the target hardly moves the target.
 #
 # **Exercise (6 min, ●●○).** Write the loss of both critics: for each of them the mean over the
 # batch of $(Q(s,a) - y)^2$, and then the sum of the two. Here a is the action that was taken. The
@@ -262,8 +287,9 @@ check.critic_loss(critic_loss)
 # %% [markdown]
 # ## Round 3: what does the actor minimise?
 #
-# The actor is trained to make the soft value large, as the critics estimate it. Its loss is minus
-# the soft value:
+# The critics say what the present policy is worth (*policy evaluation*). The actor looks for a
+# better policy, given these values (*policy improvement*): it makes the soft value large. SAC makes
+# a small step of each in turn. The actor's loss is minus the soft value:
 #
 # $$ L_\text{actor} = -\,\text{mean over } s \text{ of } \sum_a \pi(a|s)\,
 # \big(Q(s,a) - \alpha \log \pi(a|s)\big) $$
@@ -301,7 +327,8 @@ for words, keeps_q in (("Q held fixed", True), ("Q may move, too", False)):
 table(["after 200 steps", "π(a₁)", "π(a₂)", "Q(a₁)", "Q(a₂)"], rows)
 
 # %% [markdown]
-# **Explain.** With Q held fixed, the actor finds the softmax of Round 1. If Q may move, the loss
+# **Explain.** With Q held fixed, the actor finds the softmax of Round 1 (of Q = 1 and 3 at α = 1:
+# {{ 1 / (1 + math.exp(2)) | .2f }} and {{ 1 / (1 + math.exp(-2)) | .2f }}). If Q may move, the loss
 # also falls when Q rises, although the actions are worth what they were worth before. So Q is
 # **detached** (`q.detach()`): its value counts, and the gradient stops there. (Apart from a number
 # that does not depend on π, this loss is α times the Kullback-Leibler divergence of π from
@@ -319,6 +346,9 @@ table(["after 200 steps", "π(a₁)", "π(a₂)", "Q(a₁)", "Q(a₂)"], rows)
 # falls; while it is below, α rises.
 #
 # $$ L_\alpha = \alpha\, (\mathcal{H}(\pi) - \eta) $$
+#
+# (A gradient step lowers the loss: where $\mathcal{H} > \eta$ by a smaller α, else by a larger
+# one.)
 #
 # **Exercise (4 min, ●●○).** Write it. The parameter is log α, so that α stays positive. (Some
 # programs write log α in place of the first α: then the gradient does not get smaller as α falls.)
@@ -342,7 +372,7 @@ check.temperature_loss(temperature_loss)
 
 # %%
 predict(
-    "discrete_sac.4",
+    "discrete_sac.5",
     "What does α do with η = −1?",
     ["falls, and stops at H = η", "rises for ever", "falls for ever", "moves up and down"],
 )
@@ -376,7 +406,9 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # be reached. It helps to write the range, 0 to log 9, on the board before anybody answers.
 
 # %%
-compare_predictions("discrete_sac", {1: 0.0, 2: "1.44", 3: "1 and 50.5", 4: "falls for ever"})
+compare_predictions(
+    "discrete_sac", {1: 0.0, 2: "1.44", 3: round(y, 2), 4: "1 and 50.5", 5: "falls for ever"}
+)
 
 # %% [markdown]
 # ## What you now know
@@ -385,8 +417,10 @@ compare_predictions("discrete_sac", {1: 0.0, 2: "1.44", 3: "1 and 50.5", 4: "fal
 #    softmax(Q / α).
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed; an episode that ran out of
 #    time is not terminated.
-# 3. The actor's loss is minus the soft value, with Q held fixed.
-# 4. The temperature is a thermostat for the entropy, which over a list of actions is 0 or more:
+# 3. V(s') comes from the smaller of two critics, because an actor picks what is overestimated, and
+#    from their slow copies, so that the target hardly moves with each step.
+# 4. The actor's loss is minus the soft value, with Q held fixed.
+# 5. The temperature is a thermostat for the entropy, which over a list of actions is 0 or more:
 #    with η = {{ SETTINGS.target_entropy }} α falls at each update.
 
 # %% [markdown]

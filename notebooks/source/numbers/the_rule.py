@@ -7,7 +7,9 @@ import numpy as np
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.policies import rule_policy
-from bootcourse.road.state import EGO, LANE, SPEED, X
+from bootcourse.road.state import EGO, LANE, SPEED, X, Y
+from bootcourse.rule import SETTLED as SETTLED
+from bootcourse.rule import Reason, rule
 from bootcourse.scenario import DEFAULT
 
 
@@ -38,3 +40,24 @@ def above_14(n: int, roads: int = 40) -> float:
     driver = rule_policy(dataclasses.replace(DEFAULT, rule=dataclasses.replace(DEFAULT.rule, n=n)))
     speeds = [drive.states[:: DEFAULT.clock.steps, EGO, SPEED] for drive in record(driver, range(roads))]
     return float(np.mean(np.concatenate(speeds) > 14))
+
+
+@cache
+def broken_off() -> tuple[float, float]:
+    """Of the accidents with a sight of 20 m: the share in which a lane change was broken off, and the last one's speed.
+
+    Broken off: on its way to the left the rule sees nobody ahead in the right lane and stays there. The speed (m/s) is
+    the lowest at which the last lane change before the accident began.
+    """
+    near = dataclasses.replace(DEFAULT, sight=dataclasses.replace(DEFAULT.sight, distance=20.0))
+    crashed = np.flatnonzero(sighted(20.0).accident)
+    seeds, right = held_out_seeds(1, 200), DEFAULT.road.lanes - 1
+    drives = record(rule_policy(near), [seeds[i] for i in crashed])
+    broken, speeds = [], []
+    for drive in drives:
+        cars = drive.states[:: DEFAULT.clock.steps][: len(drive.actions)]
+        reasons, ego = rule(cars, near).reasons, cars[:, EGO]
+        turned = np.abs(ego[:, Y] - right * DEFAULT.road.lane_width) > 0.05
+        broken.append(np.any((reasons == Reason.FREE) & (ego[:, LANE] == right) & turned))
+        speeds.append(ego[np.flatnonzero(reasons == Reason.CHANGE)[-1], SPEED])
+    return float(np.mean(broken)), float(np.min(speeds))

@@ -29,12 +29,13 @@ def sac_diagram() -> Diagram:
         arrow(452, 240, 372, 240), label(411, 232, "target y"),
         arrow(370, 268, 450, 268, dashed=True), label(411, 290, "share τ"),
         arrow(366, 96, 470, 218), label(426, 150, "π(·|s′), for V(s′)", "start"),
+        arrow(566, 96, 566, 218), label(574, 150, "α", "start"),
     ]  # fmt: skip
     alt = (
         "A diagram of soft actor-critic. The actor sends actions to the world and sees its states. The world's "
         "transitions go into the replay buffer. Batches from the buffer train two critics and the actor, which makes "
         "the smaller of the critics' values large. Slow copies of the critics, the target critics, give the critics "
-        "their target, together with the actor's policy in the next state. The temperature α follows the actor's "
-        "entropy."
+        "their target, together with the actor's policy in the next state and the temperature α. The temperature "
+        "follows the actor's entropy."
     )
     return Diagram(600, 296, parts, alt)
