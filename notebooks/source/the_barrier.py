@@ -65,7 +65,7 @@ title = "The planner goes through between the two traps"
 bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12], title=title))
 
 # %% [markdown]
-# **See.** The planner's car does not fall back: it accelerates and changes lane between the traps.
+# **See.** The planner does not fall back: it accelerates.
 # <!-- claim: planned(50, 1.0) > by_rule().rewards.sum() > idle().rewards.sum() -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -268,8 +268,7 @@ bc.show(figures.worth(outcomes, title))
 # - *Attempts crash.* The plan's drives without an accident are worth {{ unhurt_plan().mean() | .2f
 #   }}, more than staying, on each of their roads. But {{ 100 * tested(THE_PLAN).accident.mean() |
 #   .0f }} % of its drives crash, and with these the mean is {{ tested(THE_PLAN).values(0.8).mean()
-#   | .2f }}. Of each unskilled kind more than 85 % crash, and an agent begins with unskilled
-#   attempts.
+#   | .2f }}. Of each unskilled kind more than 85 % crash.
 # <!-- claim: (unhurt_plan() > tested('stays').values(0.8)[~tested(THE_PLAN).accident]).all() -->
 # <!-- claim: all(tested(kind).values(0.95).mean() < 0 and tested(kind).accident.mean() > 0.85 for
 #   kind in UNSKILLED) -->
@@ -280,8 +279,6 @@ bc.show(figures.worth(outcomes, title))
 # <!-- claim: not tested("the rule's way").accident.any() -->
 # <!-- claim: all(tested(kind).values(0.95).mean() > tested('stays').values(0.95).mean() for kind in
 #   (THE_PLAN, "the rule's way")) -->
-#
-# Does it keep agents in? The next round takes parts of it away.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Let them write the worth of each attempt by guesses before the figure is drawn; most expect the
@@ -332,9 +329,8 @@ choices = ["none", "about 5", "about 10", "nearly all"]
 predict("the_barrier.5", "How many of the twenty agents escape from the later start?", choices)
 
 # %% [markdown]
-# One more row keeps the later start and changes the agent: with the paper's target entropy its
-# temperature falls to {{ temperature() | .3f }} or less here (lesson [[discrete_sac]]), so it may
-# be certain too soon; with η = 1 it stays undecided.
+# One more row keeps the later start and changes η: with the paper's, α falls to {{ temperature() |
+# .3f }} or less here, so an agent may be certain too soon; with η = 1 it stays undecided.
 # <!-- claim: temperature() < 0.01 -->
 
 # %%
@@ -360,15 +356,14 @@ bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most 
 # of trap 1 on at least one road in ten, against {{ often_ahead('as it is') }} where an accident
 # costs 10. But {{ ahead_and_crashed(FREE)[1] | , }} of their {{ ahead_and_crashed(FREE)[0] | , }}
 # drives that end ahead end there *crashed*, and the median drive of {{ crash_soon() }} agents has
-# crashed after 6 s, also at γ = 0.95, where staying is worth more than a crash. So without the
-# price agents stop staying; that they would get out does not follow.
+# crashed after 6 s. So without the price agents stop staying; that they would get out does not
+# follow.
 # <!-- claim: often_ahead(FREE) > 2 * often_ahead('as it is') and safe(FREE) == 0 and
 #   easy(FREE).scores('accident').min() > 0.99 and crash_soon(0.95) > 3 -->
 # <!-- claim: easy('free accidents').escapers('sac') == 1 and DEFAULT.reward.accident == -10 -->
 #
-# On the road as it is, none of the study's {{ len(changed_agents('sac')) }} agents of plain SAC
-# with another γ, another η or both escapes. With the rule as a soft constraint each of {{
-# len(changed_agents('soft')) }} does.
+# On the road as it is, none of the study's {{ len(changed_agents('sac')) }} agents with another γ
+# or η escapes; with the rule as a soft constraint each of {{ len(changed_agents('soft')) }} does.
 # <!-- claim: not changed_agents('sac').any() and changed_agents('soft').all() and
 #   len(changed_agents('sac')) == 18 -->
 #
@@ -503,8 +498,8 @@ bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
 #
 # One demonstration gets all thirty across (E), because it is *replayed*: each time its values move
 # one state back. Replayed once, before the first decision, it gets {{ replayed(1) }} of thirty
-# across, five times {{ replayed(5) }}. The target does not depend on who decided, so Q-learning
-# learns from it as from its own decisions: it is **off-policy**, and so is SAC.
+# across, five times {{ replayed(5) }}. Q-learning learns from it as from its own decisions: it is
+# **off-policy**, and so is SAC.
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 and replayed(1) < replayed(5) -->
 
 # %% [markdown] tags=["instructor"] minutes=8

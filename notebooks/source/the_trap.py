@@ -198,7 +198,7 @@ title = "This plan gets out on road 7 without braking"
 bc.show(bc.top_view_over_time(drive, times=[0, 2, 4, 6, 8, bc.overtaken(drive)], title=title))
 
 # %% [markdown]
-# Your computer is fast enough to drive all {{ 3 ** 8 | , }} plans:
+# Now drive all {{ 3 ** 8 | , }} plans:
 
 # %%
 all_plans = np.array(list(itertools.product((3, 4, 5), repeat=8)))
@@ -212,10 +212,9 @@ table(["road", "plans that get out unhurt", "the first of them"], rows)
 # %% [markdown]
 # **Explain.** There are ways out without braking on both roads, but few plans find one. On road 7
 # each plan that does not steer left as often as right ends in an accident, and so do most of the
-# others: they meet trap 2, or the edge of the road. A plan that works on one road need not work on
-# the next: trap 2 starts {{ DEFAULT.traps.d2[0] }} to {{ DEFAULT.traps.d2[1] }} m ahead of you,
-# from centre to centre. Here are three plans on the same 400 roads; on "far" roads trap 2 starts a
-# car's length ahead or more:
+# others. A plan that works on one road need not work on the next: trap 2 starts {{
+# DEFAULT.traps.d2[0] }} to {{ DEFAULT.traps.d2[1] }} m ahead of you. Here are three plans on the
+# same 400 roads; on "far" roads trap 2 starts a car's length ahead or more:
 # <!-- claim: plans_of(7).accident[~balanced()].all() and
 #   (plans_of(7).accident > 0)[balanced()].mean() > 0.6 -->
 
@@ -434,7 +433,7 @@ for drive, who in ((before, "Untrained"), (after, f"After {training.updates:,} u
     bc.show(bc.top_view_over_time(drive, times=times, title=f"{who}, it {ending}"))
 
 # %% [markdown]
-# **See.** Your curves will differ from those that were saved here. Which lines have risen from
+# **See.** Your curves will differ from those saved here. Which lines have risen from
 # −9.5, and which agents have success?
 #
 # Two agents say little. In our study {{ len(of('sac')) }} agents of each kind learned, each on
@@ -477,8 +476,7 @@ table(["", "who gets out", "mean return", "drives that end in an accident"], row
 # of('bootstrapped').scores('success') >= ESCAPES].max() | .0f }} % of their drives, the others in
 # {{ 100 * of('bootstrapped').scores('accident')[of('bootstrapped').scores('success') <
 # ESCAPES].min() | .0f }} % or more. In brackets is the 95 % *interval*: the mean over very many
-# agents of this kind probably lies in it. It is wide because the agents differ so much, and we have
-# only ten.
+# such agents probably lies in it. It is wide because we have only ten.
 #
 # Look at the last row. A plan of 13 actions that looks at nothing for 150 s earns more than plain
 # SAC's mean agent. (The interval of the ten helped agents holds the plan's return, so they do not
@@ -521,7 +519,7 @@ bc.show(figures.running_lead(lead, int(behind)))
 # %% [markdown]
 # **See.** Below 10 m/s the escape loses a little in each second, {{ -(by_rule().rewards -
 # idle().rewards).cumsum().min() | .1f }} in all. As soon as it is fast, a second or two make up for
-# that. (Lesson [[the_rule]] explains the later steps of the curve.)
+# that.
 #
 # **Exercise (8 min, ●●○).** A driver that stays behind the traps earns the return `stay`. An
 # attempt to escape ends in an accident with probability q, and then returns `crash`; otherwise it
@@ -555,9 +553,8 @@ table(headings, rows, below=f"Discounted sums from the start, road {ROAD}.")
 # %% [markdown]
 # **Explain.** On this road, at the agents' γ = {{ SETTINGS.gamma }}, the rule's escape is worth
 # *less* than staying, even without a crash: it costs now and pays too late. With γ = 1 such an
-# attempt may crash in more than a third of the cases and still pay. Is there a way out that pays at
-# γ = {{ SETTINGS.gamma }}, and what are an agent's own attempts worth? Lesson [[the_barrier]]
-# measures both, on more roads.
+# attempt may crash in more than a third of the cases and still pay. Lesson [[the_barrier]] measures
+# other ways out, and an agent's own attempts.
 # <!-- claim: SETTINGS.gamma == 0.8 and discounted(by_rule(), 0.8) < discounted(idle(), 0.8) -->
 # <!-- claim: 1 / 3 < (by_rule().rewards.sum() - idle().rewards.sum()) / (by_rule().rewards.sum() -
 #   by_rule().rewards[:3].sum() + 10) < 1 / 2 -->
