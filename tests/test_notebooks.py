@@ -55,3 +55,9 @@ def test_a_picture_says_what_a_reader_should_see(notebook):
     pictures = [tag for each in data for tag in re.findall(r"<img [^>]*>", each.get("text/html", ""))]
     assert [tag[:80] for tag in pictures if not re.search(r'alt="[^"]{40,}"', tag)] == []
     assert not any(re.search(r"!\[\s*\]\(", cell.source) for cell in notebook.cells if cell.cell_type == "markdown")
+
+
+def test_each_row_of_a_table_is_one_line(notebook):
+    text = "\n\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
+    assert re.findall(r"^\|.*\n(?!\||\n).+", text, re.M) == []
+    assert [line for line in text.splitlines() if line.startswith("|") and not line.rstrip().endswith("|")] == []

@@ -300,10 +300,10 @@ check.diagnose(diagnose)
 # - **A**: the last picture of Round 3 *and* Round 4. Two agents keep their rarest action likelier
 #   than the healthy one, A and B. By drawn actions A succeeds about as often as the healthy agent,
 #   so Q reaches its policy: only the KL is left.
-# - **B**: Round 4. It fails as soon as its actions are drawn, and its entropy hardly falls: it has
-#   learned the rule and the rule's noise, and nothing from Q. (The stochastic rule itself is ahead
-#   in {{ 100 * noisy_rule() | .0f }} % of these drives, B in
-#   {{ 100 * drawn_success('B') | .0f }} %.)
+# - **B**: Round 4. It fails as soon as its actions are drawn, and its entropy stays far above the
+#   healthy one's: it has learned the rule and more than the rule's noise, and next to nothing from
+#   Q. (The stochastic rule itself is ahead in {{ 100 * noisy_rule() | .0f }} % of these drives, B
+#   in {{ 100 * drawn_success('B') | .0f }} %.)
 # - **C**: the table of Round 3. Early it agrees with the rule of *now* less often than all but F,
 #   whose critic has left all bounds; and the difference to one second later is small. (The rule
 #   often does the same for several seconds, so both shares are large.)

@@ -366,8 +366,8 @@ table(headings, rows)
 # %% [markdown]
 # **See.** Agents with the soft constraint that escape drive faster than the rule, and have an
 # accident in {{ accidents_of('soft', True) | .0f }} to {{ accidents_of('bootstrapped', True) | .0f
-# }} % of their drives, the rule in none. The large rates of these two methods are those of the
-# agents that do *not* escape. (The rule is slow by our choice: lesson [[the_rule]].)
+# }} % of their drives, the rule in none. The large rates in the table are those of the agents that
+# do *not* escape. (The rule is slow by our choice: lesson [[the_rule]].)
 # <!-- claim: all(accidents_of(m, False) > 5 * accidents_of(m, True) for m in ('soft',
 #   'bootstrapped')) and accidents('rule') == 0 -->
 

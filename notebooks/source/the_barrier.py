@@ -46,8 +46,8 @@ from bootcourse.research import planner, report
 # ## Look first
 #
 # How well could anybody drive here? A planner searches: at each second it extends the drives that
-# it has kept by each of the nine actions, and keeps the best 50. It knows what the other cars will
-# do, so it shows what is possible, and not what an agent can reach.
+# it has kept by each of the nine actions, and keeps the best 50. It knows the future, so it shows
+# what is possible, not what an agent can reach.
 # <!-- claim: DEFAULT.clock.decision_rate == 1 and N_ACTIONS == 9 -->
 
 # %%
@@ -241,8 +241,7 @@ table(headings, rows, below=f"In 5,000 attempts. {on_the_road}")
 # - *random lanes and speeds*: random wishes, each second another; a lane keeper steers;
 # - *one plan, then accelerates*: right for 1 s, left for 4 s, right for 3 s, then faster.
 #
-# > **Predict.** Which of these attempts are worth more, on average, than staying? An accident costs
-# > 10.
+# > **Predict.** Which of these attempts are worth more, on average, than staying?
 
 # %%
 choices = [
@@ -329,8 +328,10 @@ choices = ["none", "about 5", "about 10", "nearly all"]
 predict("the_barrier.5", "How many of the twenty agents escape from the later start?", choices)
 
 # %% [markdown]
-# One more row keeps the later start and changes η: with the paper's, α falls to {{ temperature() |
-# .3f }} or less here, so an agent may be certain too soon; with η = 1 it stays undecided.
+# One more row keeps the later start and changes the **target entropy** η, at which α stops falling.
+# With the paper's −1, which no policy reaches (lesson [[discrete_sac]]), α falls to {{
+# temperature() | .3f }} or less here, and an agent may be certain too soon; with η = 1 it stays
+# undecided.
 # <!-- claim: temperature() < 0.01 -->
 
 # %%
@@ -372,7 +373,7 @@ bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most 
 # | what could keep agents in | verdict | evidence |
 # |---|---|---|
 # | at γ = 0.8 staying is best | ruled out | quick ways out are worth more |
-# | γ is too small | not by itself | with a larger γ none of {{ len(farther()) }} escapes |
+# | γ is too small | not by itself | none of {{ len(farther()) }} with a larger one escapes on this road |
 # | missing one rare sequence | not by itself | the later start needs one action, and frees none |
 # | the price of failed attempts | not settled | without it agents crash instead of staying |
 # | something else | open | |

@@ -128,12 +128,11 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # **Explain.** The agent is slower on average than the car that keeps straight, and its speed pays
 # more than twice as much: that is Jensen's gap.
 #
-# **Is this reward hacking**, earning a reward in a way that was not meant? Not by the agent's own
-# objective, the sum discounted with γ = {{ settings_for('ppo').gamma | g }} (the paper's is {{
-# SETTINGS.gamma }}). At the start its drive is worth {{ discounted(ppo_drive(),
-# settings_for('ppo').gamma) | .0f }}, and that of `careful`, a rule of lesson [[your_teacher]] that
-# gets out, {{ discounted(careful_drive(), settings_for('ppo').gamma) | .0f }}: the agent has not
-# found it.
+# **Is this reward hacking**, earning a reward in a way that was not meant? No: counted as the agent
+# counts, with γ = {{ settings_for('ppo').gamma | g }} (the paper's is {{ SETTINGS.gamma }}), its
+# drive is worth {{ discounted(ppo_drive(), settings_for('ppo').gamma) | .0f }} at the start, and
+# that of `careful`, a rule of lesson [[your_teacher]] that gets out, {{ discounted(careful_drive(),
+# settings_for('ppo').gamma) | .0f }}. The agent would gain by leaving, and has not found the way.
 #
 # **Is it a trap?** None of the {{ ppo_agents() }} agents was ahead in any of its last 300 training
 # episodes. Their return still rises at the end: they climb a hill that has not led past trap 1. If

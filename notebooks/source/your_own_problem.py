@@ -234,7 +234,7 @@ bc.show(figures.gap(cells, shown, "No way to use a teacher is best on all three 
 
 # %% [markdown]
 # **See.** No method earns most in all nine rows; cloning and both aids are each first of the four
-# in one row and last in another. (These are means; the report has their intervals.) The returns of
+# in some rows and last in others. (These are means; the report has their intervals.) The returns of
 # the two flawed teachers:
 # <!-- claim: not any(all(cells().mean(*row, m) >= max(cells().mean(*row, o) for o in FOUR) for row
 #   in SHOWN) for m in FOUR) -->
@@ -391,9 +391,9 @@ table(["DoorKey, success in %", *headings], rows, below)
 
 # %% [markdown]
 # **See.** With c = 2 and a flawed teacher the agents hardly ever reach the goal. Practice is not
-# what they lack: half of those with both aids and the random teacher had more than {{
-# decisions_on_doorkey('random', 'both') | .0f }} thousand decisions, of plain SAC's {{
-# decisions_on_doorkey('random', 'SAC') | .0f }} thousand. While demonstrations are in the batch,
+# what they lack: the median agent with both aids and the random teacher made {{
+# decisions_on_doorkey('random', 'both') | .0f }} thousand decisions, the median agent of plain SAC
+# {{ decisions_on_doorkey('random', 'SAC') | .0f }} thousand. While demonstrations are in the batch,
 # a shown loop looks better than the goal. From episode {{
 # settings_of(PROBLEMS['doorkey'], 'both').beta_episodes }} of {{ PROBLEMS['doorkey'].episodes }} on
 # β is 0 and no loop pays anything, but the agents stay in it. We think that by then, with η = −1,
@@ -416,12 +416,13 @@ table(["DoorKey, success in %", *headings], rows, below)
 # <!-- claim: all(score('doorkey', 'systematic', m, s) < score('doorkey', 'random', 'SAC', s) for m
 #   in ('demonstrations', 'both', 'both, c = 0', 'soft') for s in ('success', 'drawn_success')) -->
 #
-# **Explain.** If the whole way is shown, the limit is c = (1 − γ) · goal / γ − reward. Here that is
-# {{ drowning_bonus(0, 1, 1, 1, 0.97) | .3f }}, and the bonus is 2. Even the good teacher's
-# demonstrations alone fail: we think that the agent steps back and walks the shown way again, each
-# of whose decisions earns 2 more in the demonstrations. On MountainCar the limit is 1, and the
-# bonus is above it, too. We think that it does less harm there because its drives hardly return to
-# the same state.
+# **Explain.** If the whole way is shown, the limit is c = (1 − γ) · goal / γ − reward. On DoorKey γ
+# is {{ PROBLEMS['doorkey'].gamma }}, a decision on the way pays 0 and the goal at most 1, so it is
+# at most {{ drowning_bonus(0, 1, 1, 1, PROBLEMS['doorkey'].gamma) | .3f }}, and the bonus is 2.
+# Even the good teacher's demonstrations alone fail: we think that the agent steps back and walks
+# the shown way again, each of whose decisions earns 2 more in the demonstrations. On MountainCar
+# the limit is 1, and the bonus is above it, too. We think that it does less harm there because its
+# drives hardly return to the same state.
 # <!-- claim: score('doorkey', 'good', 'demonstrations') < 0.1 -->
 
 # %% [markdown] tags=["instructor"] minutes=6

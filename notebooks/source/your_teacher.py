@@ -248,7 +248,7 @@ predict("your_teacher.3", "What do the students of the racer earn?", choices)
 groups = taught_agents.reference()
 shown = dict(groups)
 shown[f"racer, {taught_agents.LONG:,} updates"] = taught_agents.longer()
-shown[f"{mine.__name__}, {SEEDS} trained here"] = learned
+shown[f"round 2's rule, {SEEDS} trained here"] = learned
 title = (
     "After 3,500 updates most students of teachers that get out escape, none of timid's and "
     "reckless's"

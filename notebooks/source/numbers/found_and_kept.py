@@ -53,6 +53,11 @@ def way(results: Results, method: str) -> Counted:
     return Counted(int(found.sum()), int(kept.sum()), len(found))
 
 
+def keeps(method: str) -> np.ndarray:
+    """Which of the study's agents of a method keep the way out, (agents,)."""
+    return of_all().found_and_kept(method)[1]
+
+
 def failed_soft() -> np.ndarray:
     """Of the study's agents with the soft constraint alone that fail the test: their success in the last 200 training
     episodes, with drawn actions, (agents,)."""

@@ -131,11 +131,11 @@ def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail")
             looks.append(style(method)._replace(marker=None))
         named[label] = going.mean(axis=0)
         looks.append(style(method)._replace(marker=None))
-        ended[label] = 100 - going[:, -1].mean()
+        ended[label] = 100 * np.mean(results.of(method).episodes("accident") > 0)
     title = f"An accident ends {ended.pop(SHORT[single]):.1f} % of {SHORT[single]}'s drives"
     if ended:  # the other methods
         whose = " and ".join(f"{label}'s" for label in ended)
-        title += f", at most {max(ended.values()):.1f} % of {whose}"
+        title += f", under {np.floor(max(ended.values())) + 1:.0f} % of {whose}"
     words = "test drives that still go on (%); thin: GAIL's agents"
     figure = lines(seconds, named, title, "second of the drive", words, limits=(0, 101), looks=looks)
     for line in figure.axes[0].lines[len(methods) - 1 : -1]:
