@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from bootcourse.course.lessons.the_barrier.easier import LATER, LaneKeeper, LaterStart, free_accidents
-from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X
+from bootcourse.course.lessons.the_barrier.easier import LATER, LaneKeeper, LaterStart, MidLaneStart, free_accidents
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 
 SEEDS = list(range(20))
@@ -32,6 +32,16 @@ def test_a_later_start_is_on_the_free_lane_behind_the_traps_as_fast_as_they_are(
     ego, trap = env.cars[:, EGO], env.cars[:, TRAP_1]
     assert (ego[:, LANE] == 0).all() and (ego[:, X] < trap[:, X]).all() and np.allclose(ego[:, SPEED], 10)
     assert (env.decisions == LATER).all() and np.array_equal(observations, env.observe())
+
+
+def test_the_plan_leaves_the_car_at_the_road_s_edge_and_mid_lane_is_the_same_start_in_the_middle():
+    edge, middle = LaterStart(len(SEEDS)), MidLaneStart(len(SEEDS))
+    for env in (edge, middle):
+        env.reset(seed=SEEDS)
+    assert (edge.cars[:, EGO, Y] < -1.9).all() and (middle.cars[:, EGO, Y] == 0).all()
+    assert np.array_equal(edge.cars[:, EGO, X], middle.cars[:, EGO, X])
+    steer_left = np.full(len(SEEDS), 3)
+    assert edge.step(steer_left)[2].all() and not middle.step(steer_left)[2].any()
 
 
 def test_an_episode_that_is_over_starts_later_again_and_the_others_go_on():

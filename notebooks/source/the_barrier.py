@@ -287,11 +287,15 @@ bc.show(figures.worth(outcomes, title))
 # %% [markdown]
 # ## Round 4: do agents get out of an easier trap?
 #
-# Three changes make the road easier:
+# Four changes make the road easier:
 #
 # - *a lane keeper*: an action names a lane and a speed, and a controller steers the car there;
 # - *a later start*: an episode begins after the plan's {{ easier.LATER }} seconds of steering, on
-#   the free lane, behind the traps and as fast as they are;
+#   the free lane, behind the traps and as fast as they are, but so close to the road's edge that
+#   each action that steers left ends the drive;
+# - *mid-lane*: the same start, in the middle of that lane;
+# <!-- claim: all(ends_the_drive('a later start', a) == 1 for a in (0, 3, 6)) and
+#   max(ends_the_drive(MIDDLE, a) for a in (0, 3, 6)) < 1 -->
 # - *free accidents*: an accident ends the drive and costs nothing.
 #
 # What are drives worth there?
@@ -321,11 +325,11 @@ table(headings, rows, below=f"{len(few)} roads each.")
 # <!-- claim: min(easier_outcome(*each).accident.mean() for each in AT_RANDOM) >= 0.9 -->
 #
 # > **Predict.** Twenty agents learn on each of these roads, ten with each γ, with the updates of
-# > Round 1. How many escape from the later start?
+# > Round 1. How many escape from *mid-lane*, where one acceleration is enough, too?
 
 # %%
 choices = ["none", "about 5", "about 10", "nearly all"]
-predict("the_barrier.5", "How many of the twenty agents escape from the later start?", choices)
+predict("the_barrier.5", "How many of the twenty agents escape from mid-lane?", choices)
 
 # %% [markdown]
 # One more row keeps the later start and changes the **target entropy** η, at which α stops falling.
@@ -345,10 +349,14 @@ title = f"On none of these roads do more than {most} of 20 agents escape"
 bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most roads"))
 
 # %% [markdown]
-# **Explain.** *The later start* frees none of twenty, on none of 200 roads, although one
-# acceleration is enough; {{ safe('a later start') }} stay, with hardly an accident. So neither a
-# rare sequence nor the delay keeps these in. *The lane keeper* frees none, either. Of the twenty
-# with η = 1, {{ easy('a later start, η = 1').escapers('sac') }} escape, too few to tell from none.
+# **Explain.** *The later start* frees none of twenty, *mid-lane* {{ easy(MIDDLE).escapers('sac') }}
+# (p = {{ middle_p() | .1g }}, Fisher's test of lesson [[how_many_seeds]]). So it matters what the
+# next random actions cost. But from mid-lane, too, most do not escape, although one acceleration is
+# enough: it is not a rare sequence or the delay alone that keeps agents in. *The lane keeper* frees
+# none. Of the twenty with η = 1, {{ easy('a later start, η = 1').escapers('sac') }} escape, too few
+# to tell from none.
+# <!-- claim: not easier_outcome(MIDDLE, ONCE).accident.any() and
+#   easier_outcome(MIDDLE, ONCE).ahead.all() and 2 < easy(MIDDLE).escapers('sac') < 9 -->
 # <!-- claim: easy('a lane keeper').escapers('sac') == 0 -->
 # <!-- claim: easy('a later start').scores('success').max() == 0 -->
 # <!-- claim: safe('a later start') > 10 and easy('a later start, η = 1').escapers('sac') <= 2 -->
@@ -373,15 +381,15 @@ bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most 
 # | what could keep agents in | verdict | evidence |
 # |---|---|---|
 # | at γ = 0.8 staying is best | ruled out | quick ways out are worth more |
-# | γ is too small | not by itself | none of {{ len(farther()) }} with a larger one escapes on this road |
-# | missing one rare sequence | not by itself | the later start needs one action, and frees none |
+# | γ is too small | not by itself | on the road as it is none of {{ len(farther()) }} escapes |
+# | missing one rare sequence | not by itself | mid-lane needs one action, and frees few |
 # | the price of failed attempts | not settled | without it agents crash instead of staying |
 # | something else | open | |
 # <!-- claim: len(farther()) > 20 and not farther().any() -->
 #
-# We have *not* found what else keeps agents in. Two suspects are untested: after a good action an
-# agent's own next draws may crash, and the gain of one good action may be too small for a critic to
-# see.
+# We have *not* found what else keeps agents in. One suspect has some evidence: after a good action
+# an agent's own next draws may crash. Another is untested: the gain of one good action may be too
+# small for a critic to see.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what an agent is still paid for where accidents are free (each second before the accident, and
@@ -534,7 +542,7 @@ compare_predictions(
         2: "on all four",
         3: f"{tried.success.sum()}: about 20",
         4: "the plan at γ = 0.95 alone",
-        5: "none",
+        5: f"about 5: {roads[easier.MIDDLE].escapers('sac')}",
         6: round(0.16**0.25, 2),
         7: "D and E",
     },
@@ -551,8 +559,8 @@ compare_predictions(
 #   KINDS_OF_ATTEMPTS) and discounted_scores('soft').min() > discounted(idle(), 0.8) -->
 # 3. Neither the discount nor one rare sequence keeps plain SAC in by itself. Without the price of
 #    accidents agents crash instead of staying. What keeps them in is open.
-# <!-- claim: all(each.escapers('sac') <= 2 and len(each) == 20 for each in
-#   shipped_experiment('easier').values()) and not changed_agents('sac').any() -->
+# <!-- claim: all(each.escapers('sac') <= 2 and len(each) == 20 for kind, each in
+#   shipped_experiment('easier').items() if kind != MIDDLE) and not changed_agents('sac').any() -->
 # 4. Bootstrapping moves a value back one state at a time, from states that were visited. In front
 #    of the chain's barrier the greedy actions lead back.
 # 5. With the rule as a constraint and as data, most agents of the study escape.

@@ -5,11 +5,12 @@ from functools import cache
 import numpy as np
 from bootcourse.course.lessons.the_barrier import attempts, chain, easier
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.policies import random_policy
+from bootcourse.policies import PlanPolicy, random_policy
 from bootcourse.research.planner import Search, discounted_values, plan_episodes
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
+from scipy import stats
 from tools.course.known import ROAD, idle, of, shipped_experiment, shipped_runs
 
 
@@ -95,6 +96,20 @@ def temperature() -> float:
 ONCE = "accelerates once, then nothing"
 FREE, RAM = "free accidents", "accelerates into trap 1"
 AT_RANDOM = (("a lane keeper", "at random"), ("a later start", "at random"), (FREE, "at random"))
+
+
+MIDDLE = easier.MIDDLE
+
+
+def ends_the_drive(kind: str, action: int) -> float:
+    """On which share of the lesson's 100 roads of a kind this action, followed by nothing, ends in an accident."""
+    return float(attempts.drive(PlanPolicy([action]), held_out_seeds(7, 100), easier.KINDS[kind][0]).accident.mean())
+
+
+def middle_p() -> float:
+    """Fisher's p of the agents that escape from the two later starts, of twenty each."""
+    won = [easy(kind).escapers("sac") for kind in ("a later start", MIDDLE)]
+    return float(stats.fisher_exact([[each, 20 - each] for each in won]).pvalue)
 
 
 def crash_soon(gamma: float | None = None) -> int:

@@ -4,9 +4,11 @@
 
 `LaneKeeper`: the nine actions are wishes that a lane keeper carries out, so attempts to leave are better driven.
 `LaterStart`: an episode begins after the 8 s in which the lesson's plan steers, on the free lane, behind the traps and
-as fast as they are. (One second later a car passes them even if it does nothing.) In its second kind the temperature
-does not fall to 0, either. `free_accidents`: an accident ends the drive and costs nothing. Each kind has ten agents
-with the paper's γ and ten that look further ahead; they learn by themselves, as those of the lesson's first round do.
+as fast as they are. (One second later a car passes them even if it does nothing.) The plan leaves the car 1.9 m left of
+the lane's middle, so each action that steers left ends the drive; `MidLaneStart` puts it in the middle. In a third kind
+the temperature does not fall to 0, either. `free_accidents`: an accident ends the drive and costs nothing. Each kind
+has ten agents with the paper's γ and ten that look further ahead; they learn by themselves, as those of the lesson's
+first round do.
 """
 
 from collections.abc import Callable, Mapping
@@ -22,7 +24,7 @@ from bootcourse.research.jobs import Interrupted, orphaned, tested_arrays
 from bootcourse.research.plan import LessonExperiment
 from bootcourse.research.teachers import RULE
 from bootcourse.road import twin
-from bootcourse.road.state import EGO, LANE, SPEED
+from bootcourse.road.state import EGO, LANE, SPEED, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
 
@@ -61,21 +63,35 @@ class LaterStart(TrapVectorEnv):
             mask = mask & (accidents != 0)
 
 
+class MidLaneStart(LaterStart):
+    """The same, with the ego put in the middle of the free lane."""
+
+    def _start(self, mask: np.ndarray) -> None:
+        super()._start(mask)
+        self.cars[mask, EGO, Y] = 0.0
+
+
 def free_accidents(roads: int, scenario: Scenario = DEFAULT, *more) -> TrapVectorEnv:
     """The road as it is, where an accident ends the drive and costs nothing. more: as `TrapVectorEnv` takes it."""
     return TrapVectorEnv(roads, replace(scenario, reward=replace(scenario.reward, accident=0.0)), *more)
 
 
+MIDDLE = "a later start, mid-lane"
 KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the settings that differ
     "as it is": (TrapVectorEnv, {}),
     "a lane keeper": (LaneKeeper, {}),
     "a later start": (LaterStart, {}),
+    MIDDLE: (MidLaneStart, {}),
     "a later start, η = 1": (LaterStart, {"target_entropy": 1.0}),
     "free accidents": (free_accidents, {}),
 }
 EXPERIMENT = LessonExperiment(f"{__name__}:train_kind", {kind: {"kind": kind} for kind in KINDS})
 
 ACCELERATE = 7  # straight on
+LATER_DRIVES = {
+    "accelerates once, then nothing": PlanPolicy([ACCELERATE]),
+    "to 15 m/s, in its lane": ThenAccelerate([]),
+}
 WISHES = [3, *[1] * 8, *[5] * 6]  # of the lane keeper: slower for 1 s, to the left for 8 s, faster for 6 s
 
 
@@ -83,10 +99,8 @@ def drivers(kind: str, seed: int = 0) -> Mapping[str, Policy]:
     """Whom the lesson lets drive on the roads of a kind: who stays, who acts at random, who is skilled."""
     skilled = {
         "a lane keeper": {"one plan": PlanPolicy(WISHES)},
-        "a later start": {
-            "accelerates once, then nothing": PlanPolicy([ACCELERATE]),
-            "to 15 m/s, in its lane": ThenAccelerate([]),
-        },
+        "a later start": LATER_DRIVES,
+        MIDDLE: LATER_DRIVES,
         "free accidents": {"accelerates into trap 1": PlanPolicy([ACCELERATE] * DEFAULT.clock.decisions)},
     }
     return {"stays": idle_policy, "at random": random_policy(np.random.default_rng(seed))} | skilled[kind]
