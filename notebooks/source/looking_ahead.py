@@ -466,13 +466,12 @@ table(["the drive ends with", f"of {len(few)} drives"], rows, below)
 #
 # The look-ahead needs the true state and a simulator; the agent reads 26 numbers. Can the agent
 # *learn* what the look-ahead does: imitate it, look ahead from the better agent, imitate again?
-# This is called **expert iteration**; AlphaZero learned Go in this way.
+# This is called **expert iteration**.
 #
-# The experiment `distil` tried the first half with two PPO agents: to imitate. In each of
-# {{ distil.ROUNDS }} rounds the student drives {{ distil.DRIVES }} roads, the look-ahead of its PPO
-# agent, which stays as it is, labels the states that the student reaches, and it learns from all
-# labels (DAgger, lesson [[demonstrations]]). Four kinds of labels were tried. Then the student
-# drives alone:
+# The experiment `distil` tried the first half with two PPO agents. In each of {{ distil.ROUNDS }}
+# rounds the student drives {{ distil.DRIVES }} roads, the look-ahead of its PPO agent, which stays
+# as it is, labels the states that the student reaches, and it learns from all labels (DAgger,
+# lesson [[demonstrations]]). Four kinds of labels were tried. Then it drives alone:
 
 # %%
 table(*learned_rows(shipped_experiment("distil"), study))
@@ -481,8 +480,8 @@ table(*learned_rows(shipped_experiment("distil"), study))
 # **See.** Each of these students has more accidents than its PPO agent, although the smallest
 # difference, {{ closest()[1] | .0f }} against {{ closest()[0] | .0f }} in 1,000 drives, is within
 # luck (Fisher's p = {{ closest()[2] | .2f }}). We think that the look-ahead knows more than the 26
-# numbers say: where they are equal, the best action may differ. No student was better than its PPO
-# agent, so the second half was not tried.
+# numbers say: where they are equal, the best action may differ. No student was better, so the
+# second half was not tried.
 # <!-- claim: all((students.measured['accidents'] > before()).all() for students in
 #   learned().values()) and len(learned()) == 4 -->
 #
