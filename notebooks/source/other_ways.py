@@ -175,8 +175,8 @@ table(["", "takes the rule's action, %"], rows)
 # %% [markdown]
 # **See.** (Yours will differ.) If the first of your two shares is much larger, the agent has kept
 # the rule's way out, and drives on by itself. If both are small, its critic overrules the rule
-# nearly everywhere. If the second is the larger, it has found a way out of its own, and does as the
-# rule does on the free road more often.
+# nearly everywhere. If the second is the larger, it drives less like the rule on the way out than
+# on the free road: it may have found a way out of its own.
 #
 # **Explain.** A strong KL or bonus that stays keeps pulling the agent towards the teacher, also
 # where the teacher is wrong. This choice need not fade: as soon as the critic values another action

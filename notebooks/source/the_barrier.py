@@ -310,10 +310,11 @@ headings = ["the road", "the drive", "accidents", "worth at γ = 0.8", "at γ = 
 table(headings, rows, below=f"{len(few)} roads each.")
 
 # %% [markdown]
-# **See.** From the later start nothing has to be found: one acceleration, and then nothing, gets
-# out unhurt on each of these roads and is worth more than staying, at both discounts. But with each
-# change nine in ten or more of the random drives still crash. Where accidents are free, a crash can
-# even pay: at γ = {{ SETTINGS.gamma }} to accelerate into trap 1 is worth more than staying.
+# **See.** From the later start no long sequence has to be found: one acceleration, and then
+# nothing, gets out unhurt on each of these roads and is worth more than staying, at both discounts.
+# But with each change nine in ten or more of the random drives still crash. Where accidents are
+# free, a crash can even pay: at γ = {{ SETTINGS.gamma }} to accelerate into trap 1 is worth more
+# than staying.
 # <!-- claim: worth_of(FREE, RAM, 0.8) > worth_of(FREE, 'stays', 0.8) and
 #   worth_of(FREE, RAM, 0.95) < worth_of(FREE, 'stays', 0.95) and
 #   easier_outcome(FREE, RAM).accident.all() -->
@@ -349,11 +350,11 @@ bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most 
 
 # %% [markdown]
 # **Explain.** *The later start* frees none of twenty, *mid-lane* {{ easy(MIDDLE).escapers('sac') }}
-# (p = {{ middle_p() | .1g }}, Fisher's test of lesson [[how_many_seeds]]). So it matters what the
-# next random actions cost. But from mid-lane, too, most do not escape, although one acceleration is
-# enough: it is not a rare sequence or the delay alone that keeps agents in. *The lane keeper* frees
-# none. Of the twenty with η = 1, {{ easy('a later start, η = 1').escapers('sac') }} escape, too few
-# to tell from none.
+# (p = {{ middle_p() | .1g }}, Fisher's test of lesson [[how_many_seeds]]). So it seems to matter
+# what the next random actions cost. But from mid-lane, too, most do not escape, although one
+# acceleration is enough: it is not a rare sequence or the delay alone that keeps agents in. *The
+# lane keeper* frees none. Of the twenty with η = 1, {{ easy('a later start, η = 1').escapers('sac')
+# }} escape, too few to tell from none.
 # <!-- claim: not easier_outcome(MIDDLE, ONCE).accident.any() and
 #   easier_outcome(MIDDLE, ONCE).ahead.all() and 2 < easy(MIDDLE).escapers('sac') < 9 -->
 # <!-- claim: easy('a lane keeper').escapers('sac') == 0 -->

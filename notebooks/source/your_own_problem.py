@@ -442,7 +442,9 @@ table(["DoorKey, success in %", *headings], rows, below)
 #    The clone ends near the rule without its errors; if that rule is good, stop, and if it is weak,
 #    go on. Systematic: a clone keeps it. Compare the soft constraint and both aids, and ask first
 #    whether the teacher comes near the reward.
-# 3. **Is c larger than the reward can bear?** Compute the limit. Above it, take c = 0.
+# 3. **Is c larger than the reward can bear?** If an episode ends at a goal, compute the limit.
+#    Above it c can do harm (DoorKey) and need not (MountainCar): compare it with c = 0. If going on
+#    is what the reward pays for, as on CartPole, the formula does not apply: write that.
 # 4. **What does the clone earn?** Put it into every table.
 # 5. **Do states come back?** Then test drawn actions, too: the order of methods can change.
 #
