@@ -77,6 +77,3 @@ wrong_lines("""difference_interval
     medians of both: each = np.median(x[draws_x], axis=1) - np.median(y[draws_y], axis=1)
         np.array([np.median(x) - np.median(y), *np.percentile(each, [2.5, 97.5])])
 """)
-
-
-equivalent("power", "np.outer(k, j)[shown]  ->  np.outer(j, k)[shown]", "a pair and its mirror image are both shown")

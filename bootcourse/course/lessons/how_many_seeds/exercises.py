@@ -53,6 +53,7 @@ def power_cases(rng):
     yield 1.0, 0.0, significant(4)
     yield 0.8, 0.3, significant(10)
     yield 0.8, 0.3, np.array([[False, True], [True, False]])
+    yield 0.8, 0.3, np.tri(5, k=-2, dtype=bool)  # a one-sided test: k is the first group's
     for _ in range(30):
         n = rng.integers(3, 9)
         counts = np.arange(n + 1)

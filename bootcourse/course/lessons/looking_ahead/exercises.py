@@ -54,6 +54,7 @@ def cases(rng):
     yield reached(2, 0, IDLE, 3), keep, 1
     yield reached(2, 4, FAST, 5), keep, 4
     yield reached(2, 3, FAST, 7), accelerate, 6
+    yield reached(3, 3, FAST, 7), by_rule, 4
     yield reached(3, 2, IDLE, 9), by_lane, 5
     yield reached(2, 0, IDLE, 11), by_rule, 10
     for seed in range(16):

@@ -199,7 +199,8 @@ def does_not_get_out(cases, answers):
         "return plans[out.argmax()] -> return plans[0]":
             "Your planner returns a plan that does not get out: return one for which `gets_out` said True.",
         "return plans[out.argmax()] -> return plans[out.argmin()]":
-            "Your planner returns the first plan that does *not* get out: `argmax` finds the first True.",
+            "Your planner returns a plan for which `gets_out` said False, or that it has not asked about: return one "
+            "for which it said True.",
         "if out.any(): return plans[out.argmax()] -> return plans[out.argmax()]":
             "Your planner gives up after one draw: where none of the plans gets out, draw again.",
     },

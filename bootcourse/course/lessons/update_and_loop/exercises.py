@@ -125,10 +125,10 @@ def of_the_loop(cases, answers):
         if not late:
             return "Your loop updates too early: let the buffer fill for 256 pushes first."
         if often != 1:
-            return (f"In {pushes} pushes your loop makes {-often:.0f} updates: after the first 256, make one after "
+            return (f"In {pushes} pushes your loop makes {abs(often):.0f} updates: after the first 256, make one after "
                     "each fourth push.")  # fmt: skip
         if not good:
-            return "Hand `update` the agent and `by_hand.batch_of` of 64 rows that your buffer drew."
+            return "Hand `update` the agent and `by_hand.batch_of` of 64 rows, drawn anew from your buffer with `rng`."
     return "Your loop differs from ours."
 
 
@@ -161,7 +161,7 @@ def of_the_loop(cases, answers):
         "(state, action, reward -> (next_state, action, reward":
             "Your row begins with the state that came after the push. It begins with the one in which you decided.",
         "64 -> 1":
-            "Hand `update` the agent and `by_hand.batch_of` of 64 rows that your buffer drew.",
+            "Hand `update` the agent and `by_hand.batch_of` of 64 rows, drawn anew from your buffer with `rng`.",
     },
 )  # fmt: skip
 def train(agent, env, buffer, update, pushes, rng):
