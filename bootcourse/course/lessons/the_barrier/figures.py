@@ -56,8 +56,8 @@ SHADES = {FAR: style("sac").colour, SOME: "#A9CFE6", NOT: "white"}
 
 def ends(results: Results, gamma: float) -> list[tuple[int, bool]]:
     """How the agents with this γ drive, for `squares`: how far they get, and whether they crash on most roads."""
-    its = np.array([agent["gamma"] == gamma for agent in results.agents])
-    success, accident = (results.scores(name)[its] for name in ("success", "accident"))
+    chosen = np.array([agent["gamma"] == gamma for agent in results.agents])
+    success, accident = (results.scores(name)[chosen] for name in ("success", "accident"))
     far = np.where(success >= ESCAPES, FAR, np.where(success >= 0.1, SOME, NOT))
     return list(zip(far.tolist(), (accident > 0.5).tolist(), strict=True))
 
