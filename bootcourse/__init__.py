@@ -83,6 +83,7 @@ NAMES = {  # name -> where it is defined
     "shipped_drive": "bootcourse.course.shipped",
     "board": "bootcourse.course.board",
     # to look at it
+    "world": "bootcourse.web.widget",
     "show": "bootcourse.plots.figure",
     "top_view_over_time": "bootcourse.plots.top_view",
     "traces": "bootcourse.plots.traces",

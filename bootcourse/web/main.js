@@ -29,6 +29,7 @@ class Game {
     });
     this.controls.pad.forEach((button, action) => button.setAttribute("aria-label", data.actions[action]));
     makeSliders(this.find, this.settings, name => this.tuned(name));
+    if (options.page) this.find("shell").tabIndex = -1; // the keys are the world's wherever the focus is
     this.wire();
     const system = () => this.theme(options.theme ?? (dark.matches ? "dark" : "light"));
     dark.addEventListener("change", system, { signal: this.stop.signal });
@@ -115,6 +116,7 @@ class Game {
     this.setPace(Number(pace));
     this.find("futures").checked = Number(futures) === 1;
     this.begin({ number: road, ghost, driver });
+    if (given.run) this.run(true);
     return this.look(view === "3d");
   }
 
@@ -160,6 +162,7 @@ class Game {
     if (solved || this.seat && Number(number) !== this.number) this.attempts = 0;
     this.number = valid ? Number(number) : this.number ?? FIRST_ROAD;
     [this.ghostName, this.driverName] = [ghost, driver];
+    this.begun = (this.begun ?? 0) + 1; // drives, so that two of one road can be told apart
     this.find("number").value = this.number;
     this.list();
     const seat = driver => new Seat(this.road, this.number, driver);
@@ -173,7 +176,7 @@ class Game {
     this.run(false);
     this.think();
     const invitation = this.mine ? `Press Start and watch ${this.mine.label} drive.`
-      : "Press ↑ ↓ ← → or the pad: your first decision starts the clock.";
+      : `${this.options.keys ? "Press" : "Click here, then press"} ↑ ↓ ← → or the pad: your first decision starts the clock.`;
     this.say(valid ? invitation : noRoad(number));
     this.tell(`Road ${this.number}. ${stateInWords(this.drive.cars)}`);
     this.event("shown");
