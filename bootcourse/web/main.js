@@ -278,6 +278,7 @@ class Game {
 
   // Once for each picture: let the clock run, and draw.
   frame(now) {
+    if (this.stop.signal.aborted) return;
     const waited = this.waited;
     this.waited = this.waiting;
     if (waited && !this.waited) this.think();
@@ -285,7 +286,7 @@ class Game {
     this.last = now;
     if (this.running) this.advance(passed * (this.pace || STEP_PACE));
     if (this.running || this.dirty) this.draw();
-    if (!this.stop.signal.aborted) requestAnimationFrame(next => this.frame(next));
+    requestAnimationFrame(next => this.frame(next));
   }
 
   // Whether a driver elsewhere has not answered yet: the clock waits.
@@ -324,7 +325,7 @@ class Game {
     this.run(false);
     this.event("ended", drive);
     for (const ghost of ghosts) await ghost.finish();
-    if (seat !== this.seat) return; // another drive has begun meanwhile
+    if (seat !== this.seat || this.stop.signal.aborted) return; // another drive has begun meanwhile
     const idle = new Drive(this.road, this.number).finish({ decide: () => ({ action: IDLE }) });
     const drives = [...ghosts.map(ghost => ({ drive: ghost.drive, ...ghost.driver, width: 1.8 })), { drive, label, colour, width: 3 }];
     let sentence = verdict(drive, idle, label);

@@ -11,7 +11,6 @@ drives them again on the compiled road. It works where anywidget does: JupyterLa
 
 import base64
 import hashlib
-import re
 from collections.abc import Callable, Mapping, Sequence
 
 import anywidget
@@ -139,11 +138,12 @@ class World(anywidget.AnyWidget):
         """The widget and, for readers without a kernel, a picture; `tools/book.py` puts the page in its place."""
         data, metadata = super()._repr_mimebundle_(**kwargs)
         picture = base64.b64encode(bundle.content()["picture"].encode()).decode()
-        page = "".join(f"&{name}={self.opens[name]}" for name in ("ghost", "driver", "futures", "view"))
+        ghosts = ",".join(name for name in self.opens["ghost"].split(",") if name not in self.guests or name in KNOWN)
+        driver = self.opens["driver"] if self.opens["driver"] in KNOWN else "you"
+        page = f"road={self.opens['road']}&ghost={ghosts or 'none'}&driver={driver}&view={self.opens['view']}"
         alt = f"Road {self.opens['road']} from above. Where a kernel runs, you drive here."
-        img = '<img src="data:image/svg+xml;base64,{}" alt="{}" data-world="road={}{}" style="max-width:100%">'
-        image = html(img, picture, alt, self.opens["road"], re.sub(r"guest\w+,?|,guest\w+", "", page))
-        return data | {"text/html": str(image), "text/plain": alt}, metadata
+        img = '<img src="data:image/svg+xml;base64,{}" alt="{}" data-world="{}" style="max-width:100%">'
+        return data | {"text/html": str(html(img, picture, alt, page)), "text/plain": alt}, metadata
 
 
 _library: list[Library] = []

@@ -106,7 +106,7 @@ table(["200 episodes of", "transitions", "end in an accident"], rows)
 # give about {{ round(200 * 0.9 * 150 / math.log(10), -2) | ,.0f }} transitions.
 #
 # The third way is to drive yourself. The next cell takes your drives that get out, also those that
-# you break off when you are out. If there is none, it takes the rule's actions on this road instead.
+# you break off when you are out. If there is none, it takes the rule's actions on this road.
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
