@@ -5,7 +5,6 @@ folder one after the other. It asks for nothing else, so it also opens from a me
 """
 
 import argparse
-import base64
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -28,17 +27,15 @@ from bootcourse.replay3d import road as stage
 from bootcourse.replay3d.car import DARK, LAMPS, LIGHT, car_parts
 from bootcourse.road import state
 from bootcourse.road.branching import future_worth
-from bootcourse.road.constants import constants
-from bootcourse.road.twin import uniforms_needed
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import SENTENCES
-from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS, RULE_P, Scenario
+from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS, RULE_P
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import load_run
 from bootcourse.web import bundle
 from bootcourse.web.bundle import HERE, module, script, text_of
-from bootcourse.web.networks import EXACT, SHORT, packed, packed_network
-from bootcourse.web.wasm import FREE, road_module
+from bootcourse.web.packing import EXACT, SHORT, packed, packed_network, scenario_data
+from bootcourse.web.wasm import road_module
 
 # The agents in the page; of plain SAC also the critics, which the compromise between Q and the rule needs.
 AGENTS = {
@@ -52,24 +49,6 @@ ROADS = 100  # the first of them, on which each driver is measured
 ESCAPING, SAFE, CRASHING, STAYING = 90, 10, 50, 10
 FIRST_ROAD = 10  # of the page
 PARTS = ("paint", "dark", "light", "lamps")  # of a car, in the order that shaders.js knows
-
-
-def scenario_data(scenario: Scenario) -> dict:
-    """What the page needs of a scenario: the record that the compiled code reads, and what the picture shows."""
-    return {
-        "record": base64.b64encode(constants(scenario).tobytes()).decode(),
-        "vehicles": scenario.vehicles,
-        "uniforms": uniforms_needed(scenario.vehicles),
-        "observation": scenario.observation_size,
-        "lanes": scenario.road.lanes,
-        "laneWidth": scenario.road.lane_width,
-        "steps": scenario.clock.steps,
-        "dt": scenario.clock.dt,
-        "decisions": scenario.clock.decisions,
-        "length": scenario.car.length,
-        "width": scenario.car.width,
-        "free": FREE,
-    }
 
 
 def names() -> str:

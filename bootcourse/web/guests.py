@@ -11,7 +11,7 @@ from typing import NamedTuple
 from bootcourse.colours import STRANGERS
 from bootcourse.errors import BootcourseError, check_known, whole
 from bootcourse.methods import display_name, has_style, style
-from bootcourse.scenario import N_ACTIONS
+from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
 # Drivers of the page, as drivers.js calls them, and the labels of their drives.
 KNOWN = {"you": "you", "rule": "rule", "sac": "sac", "escaping": "bootstrapped", "crashing": "bootstrapped",
@@ -26,7 +26,7 @@ class Guest(NamedTuple):
     decide: Callable | None = None  # for one that stays in Python: a policy
 
 
-def guest(who, number: int, name: str = "") -> Guest:
+def guest(who, number: int, name: str = "", scenario: Scenario = DEFAULT) -> Guest:
     """Make a driver of a world out of anything that drives.
 
     number: of this guest, for its id. name: in lists and pictures; by default its own.
@@ -36,9 +36,9 @@ def guest(who, number: int, name: str = "") -> Guest:
         return _by_name(who or "you", number)
     if hasattr(who, "as_policy"):
         label = name or f"{who.settings.method}, seed {who.settings.seed}"
-        if not _alone(who):
+        if not alone(who):
             return Guest(label, _told(label, number), who.as_policy())
-        from bootcourse.web.networks import EXACT, packed_network
+        from bootcourse.web.packing import EXACT, packed_network
 
         return Guest(label, _told(label, number) | {"network": packed_network(who.actor, 0, EXACT)})
     actions = getattr(who, "actions", who)  # of a Rollout or a PlanPolicy
@@ -46,7 +46,7 @@ def guest(who, number: int, name: str = "") -> Guest:
         label = name or getattr(who, "label", "plan")
         return Guest(label, _told(label, number) | {"plan": _plan(actions)})
     label = name or _called(who)
-    return Guest(label, _told(label, number), _policy(who))
+    return Guest(label, _told(label, number), _policy(who, scenario))
 
 
 def _by_name(name: str, number: int) -> Guest:
@@ -62,7 +62,7 @@ def _told(label: str, number: int) -> dict:
     return {"id": f"guest{number}", "name": name, "label": name, "colour": colour, "words": ""}
 
 
-def _alone(agent) -> bool:
+def alone(agent) -> bool:
     """Whether the actor alone says what an agent does: the page has no critics or teachers of others."""
     from bootcourse.learn.protocol import Learner
 
@@ -87,7 +87,7 @@ def _called(function) -> str:
     return {"idle_policy": "idle", "<lambda>": "policy", "drive": "policy"}.get(own, own)
 
 
-def _policy(function):
+def _policy(function, scenario: Scenario):
     """A policy as it is, a rule of (cars, scenario) as a policy."""
     try:
         is_rule = next(iter(inspect.signature(function).parameters), "") == "cars"
@@ -96,4 +96,4 @@ def _policy(function):
     from bootcourse.learn.teachers import teacher_policy
     from bootcourse.policies import check_policy
 
-    return teacher_policy(function) if is_rule else check_policy(function)
+    return teacher_policy(function, scenario) if is_rule else check_policy(function)

@@ -17,7 +17,7 @@ class Game {
     this.settings = { p: data.p, xi: 0, c: 0 };
     this.failures = this.attempts = 0;
     this.pace = calm.matches ? 0 : 1;
-    this.road = new Road(compiled, data.scenario);
+    this.road = new Road(compiled, options.scenario ?? data.scenario);
     this.drivers = makeDrivers(data, networks, this.settings);
     for (const driver of options.drivers) this.drivers[driver.id] = driver;
     this.view = new View(this.find("road"), this.road.scenario);
@@ -80,7 +80,9 @@ class Game {
     this.seen = new ResizeObserver(() => this.fit());
     this.seen.observe(this.find("road"));
     this.seen.observe(this.host);
-    document.addEventListener("visibilitychange", () => { if (document.hidden) this.run(false); }, { signal });
+    document.addEventListener("visibilitychange", () => {
+      if (document.hidden || this.options.watch) this.run(!document.hidden);
+    }, { signal });
   }
 
   get paces() { return this.root.querySelectorAll("[data-pace]"); }
@@ -150,7 +152,7 @@ class Game {
   fit() {
     const wide = this.host.clientWidth, plain = !this.options.details;
     const size = wide < NARROW ? "small" : wide < WIDE && !plain ? "middle" : "";
-    this.find("shell").className = `world ${size} ${plain ? "plain" : ""}`;
+    this.find("shell").className = `world ${this.options.watch ? "watch" : `${size} ${plain ? "plain" : ""}`}`;
     this.view.fit();
     if (this.inDepth) this.scene?.fit();
     this.dirty = true;
@@ -324,6 +326,7 @@ class Game {
     this.finished = true;
     this.run(false);
     this.event("ended", drive);
+    if (this.options.watch) return setTimeout(() => this.open({ road: this.number + 1, run: true }), 1500);
     for (const ghost of ghosts) await ghost.finish();
     if (seat !== this.seat || this.stop.signal.aborted) return; // another drive has begun meanwhile
     const idle = new Drive(this.road, this.number).finish({ decide: () => ({ action: IDLE }) });

@@ -20,7 +20,7 @@ import traitlets
 from bootcourse import one_per_cell
 from bootcourse.errors import BootcourseError, described, whole
 from bootcourse.markup import html
-from bootcourse.scenario import N_ACTIONS
+from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 from bootcourse.web import bundle
 from bootcourse.web.guests import KNOWN, Guest, guest
 
@@ -44,8 +44,12 @@ class World(anywidget.AnyWidget):
     drivers = traitlets.List().tag(sync=True)  # see `guest` in drivers.js
     closed = False
 
-    def __init__(self, guests: Mapping[str, Guest], opens: dict):
-        self.guests = dict(guests)  # id: who it is
+    def __init__(self, guests: Mapping[str, Guest], opens: dict, scenario: Scenario = DEFAULT):
+        self.guests, self.scenario = dict(guests), scenario  # guests: {id: who it is}
+        if scenario != DEFAULT:
+            from bootcourse.web.packing import scenario_data
+
+            opens = opens | {"scenario": scenario_data(scenario)}
         self._drives, self._ends, self._eye = {}, [], None
         super().__init__(library=library(), opens=opens, drivers=self._told())
         self.on_msg(self._heard)
@@ -102,7 +106,7 @@ class World(anywidget.AnyWidget):
 
         from bootcourse.road.vector_env import TrapVectorEnv
 
-        self._eye = self._eye or TrapVectorEnv(1, autoreset_mode=AutoresetMode.DISABLED)
+        self._eye = self._eye or TrapVectorEnv(1, self.scenario, AutoresetMode.DISABLED)
         policy = self.guests[asked["driver"]].decide
         cars = np.array(asked["cars"]).reshape(self._eye.cars.shape)
         try:
@@ -126,7 +130,7 @@ class World(anywidget.AnyWidget):
         name, driver = told["drive"], told["driver"]
         if name not in self._drives:
             label = self.guests[driver].label if driver in self.guests else KNOWN[driver]
-            self._drives[name] = InteractiveEpisode(told["road"], label=label)
+            self._drives[name] = InteractiveEpisode(told["road"], self.scenario, label)
         drive = self._drives[name]
         for action in told["actions"][len(drive.actions) :]:
             drive.decide(action)
@@ -137,13 +141,19 @@ class World(anywidget.AnyWidget):
     def _repr_mimebundle_(self, **kwargs) -> tuple[dict, dict]:
         """The widget and, for readers without a kernel, a picture; `tools/book.py` puts the page in its place."""
         data, metadata = super()._repr_mimebundle_(**kwargs)
-        picture = base64.b64encode(bundle.content()["picture"].encode()).decode()
         ghosts = ",".join(name for name in self.opens["ghost"].split(",") if name not in self.guests or name in KNOWN)
         driver = self.opens["driver"] if self.opens["driver"] in KNOWN else "you"
         page = f"road={self.opens['road']}&ghost={ghosts or 'none'}&driver={driver}&view={self.opens['view']}"
         alt = f"Road {self.opens['road']} from above. Where a kernel runs, you drive here."
-        img = '<img src="data:image/svg+xml;base64,{}" alt="{}" data-world="{}" style="max-width:100%">'
-        return data | {"text/html": str(html(img, picture, alt, page)), "text/plain": alt}, metadata
+        return data | self.picture(bundle.content()["picture"].encode(), alt, page), metadata
+
+    @staticmethod
+    def picture(svg: bytes, alt: str, page: str = "") -> dict[str, str]:
+        """An SVG for readers without a kernel. page: the address of the page that shows the same."""
+        source = "data:image/svg+xml;base64," + base64.b64encode(svg).decode()
+        live = html(' data-world="{}"', page) if page else ""
+        img = html('<img src="{}" alt="{}"{} style="max-width:100%">', source, alt, live)
+        return {"text/html": str(img), "text/plain": alt}
 
 
 _library: list[Library] = []
@@ -165,27 +175,35 @@ def world(
     view: str = "above",
     details: bool = False,
     height: int = 600,
+    scenario: Scenario = DEFAULT,
 ) -> World:
     """A road to drive: ↑ ↓ ← → while it has the focus, or somebody else at the wheel.
 
     driver: None for you; or "rule", "sac", "escaping", "crashing", "ppo", "lookahead", "soft", "idle"; or an agent, a
     policy of (observations, cars), a rule of (cars, scenario), a plan (actions, or words as in `plan_policy`), or a
     recorded drive. ghosts: one of these, a list, or {name: who}; [] for none. futures: show where each action leads.
-    view: "above" or "3d". details: show also what a driver thinks: π, π̃, the KL. height: pixels.
+    view: "above" or "3d". details: show also what a driver thinks: π, π̃, the KL. height: pixels. scenario: one in
+    which drivers see as many cars as in the default.
     Raises BootcourseError for a road that is not a whole number from 0 to 999,999,999, and for who cannot drive.
     """
     road = whole(road, "road", LAST_ROAD)
+    if scenario.observation_size != DEFAULT.observation_size:
+        raise BootcourseError(
+            f"A driver of this scenario observes {scenario.observation_size} numbers: the world's "
+            f"agents observe {DEFAULT.observation_size}, so leave sight.neighbours as it is."
+        )
     if view not in VIEWS:
         raise BootcourseError(f"view = {view!r:.80}: choose 'above' or '3d'.")
     beside = ghosts if isinstance(ghosts, Mapping) else _several(ghosts)
-    wheel = guest(driver, 0)
+    wheel = guest(driver, 0, scenario=scenario)
     guests = {"guest0" if wheel.told else driver or "you": wheel}
     for number, (name, who) in enumerate(beside.items(), start=1):
-        each = guest(who, number, name if isinstance(name, str) else "")
+        each = guest(who, number, name if isinstance(name, str) else "", scenario)
         guests[f"guest{number}" if each.told else who] = each
     names = list(guests)
     opens = {"road": road, "driver": names[0], "ghost": ",".join(names[1:]) or "none", "futures": int(futures)}
-    return World(guests, opens | {"view": view, "details": details, "height": whole(height, "height", 4000, 300)})
+    opens |= {"view": view, "details": details, "height": whole(height, "height", 4000, 300)}
+    return World(guests, opens, scenario)
 
 
 def _several(ghosts) -> dict:

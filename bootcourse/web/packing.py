@@ -1,10 +1,15 @@
-"""Numbers and networks as text for the scripts: `unpack` and `unpackNetwork` in minds.js read them."""
+"""Numbers, networks and scenarios as text for the scripts: minds.js and road.js read them."""
 
 import base64
 import gzip
 
 import numpy as np
 import torch
+
+from bootcourse.road.constants import constants
+from bootcourse.road.twin import uniforms_needed
+from bootcourse.scenario import Scenario
+from bootcourse.web.wasm import FREE
 
 EXACT, SHORT = 4, 3  # bytes of a float32 that are kept: all for actors; without the last for critics (error 2^-16)
 
@@ -23,3 +28,21 @@ def packed_network(parameters: list[torch.Tensor], member: int, precision: int) 
     weights = np.concatenate([array.ravel() for array in arrays]).astype("<f4")
     planes = weights.view(np.uint8).reshape(-1, 4)[:, 4 - precision :].T
     return {"sizes": [len(arrays[0]), *(array.shape[1] for array in arrays[::2])], "weights": packed(planes.tobytes())}
+
+
+def scenario_data(scenario: Scenario) -> dict:
+    """What the page needs of a scenario: the record that the compiled code reads, and what the picture shows."""
+    return {
+        "record": base64.b64encode(constants(scenario).tobytes()).decode(),
+        "vehicles": scenario.vehicles,
+        "uniforms": uniforms_needed(scenario.vehicles),
+        "observation": scenario.observation_size,
+        "lanes": scenario.road.lanes,
+        "laneWidth": scenario.road.lane_width,
+        "steps": scenario.clock.steps,
+        "dt": scenario.clock.dt,
+        "decisions": scenario.clock.decisions,
+        "length": scenario.car.length,
+        "width": scenario.car.width,
+        "free": FREE,
+    }
