@@ -14,7 +14,7 @@ import time
 import warnings
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import torch
@@ -23,7 +23,7 @@ from torch import Tensor
 
 from bootcourse.episodes.driving import TRAP, copies_of, environment_id, reached_cars, reached_observations
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError, whole
+from bootcourse.errors import BootcourseError, check_known, whole
 from bootcourse.learn.agent import Agent, sample_actions
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.curves import Curves
@@ -39,6 +39,7 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario, check_p
 
 SNAPSHOT_EVERY = 200  # updates between snapshots; an agent with a non-finite loss is frozen at its last finite one
+CHANGEABLE = ("rule_p", "xi_multiplier", "bonus", "beta_start")  # while a training runs: see `Training.change`
 MOST_EPISODES = 100_000  # of each agent, whose curves take 8 MB then
 FIRST_SEED = 2**33  # seed of the first training road; demonstrations start at 2**34, held-out roads are below 2**32
 
@@ -162,6 +163,21 @@ class Training:
         if not self.asks:
             return np.zeros(self.env.num_envs, dtype=np.int64)
         return self._teach(self.env.cars if self.on_the_trap else self.states)
+
+    def change(self, **values) -> None:
+        """Change settings of all agents from the next update on: rule_p, xi_multiplier, bonus or beta_start.
+
+        A share of demonstrations that is set here no longer fades. Raises BootcourseError for another setting, for a
+        value out of range, and for a setting that the method does not use.
+        """
+        for name in values:
+            check_known("While it trains, the setting", name, CHANGEABLE)
+        changed = [replace(settings, **values) for settings in self.settings]
+        self.learner.change(changed, [name for name in values if name != "beta_start"])
+        self.settings = changed
+        if "beta_start" in values:
+            self.beta_start = np.array([s.beta_start for s in changed])
+            self.beta_episodes = np.full(self.n_agents, np.inf)
 
     def step(self) -> None:
         """One decision in every environment, and the updates that follow it."""

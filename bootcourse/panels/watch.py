@@ -44,11 +44,10 @@ class Watch(World):
         opens = {"road": FIRST_ROAD, "driver": "now", "ghost": "before", "pace": 2, "futures": 0, "view": "above"}
         opens |= {"details": False, "height": SIZE[1] + 40, "watch": True, "run": True}
         super().__init__(self._pair(), opens, training.scenario)
-        self.svg = training_chart(training, self.marks)
-        self.chart = str(self.svg)
+        self._draw()
 
     def look(self, training: Training) -> None:
-        """Called after each decision: now and then, keep the agent, send the curves, and let the present agent drive."""
+        """Called after each decision: now and then, send the curves, and let the present agent drive."""
         now = time.monotonic()
         if training.updates >= (self.kept[-1][0] + KEEP if self.kept else 0):
             self._keep(training)
@@ -60,9 +59,9 @@ class Watch(World):
 
     def show_now(self, words: str) -> None:
         """Send what there is now."""
-        self.svg = training_chart(self.training, self.marks)
         with self.hold_sync():
-            self.chart, self.words = str(self.svg), words
+            self._draw()
+            self.words = words
             if self._chosen is None:
                 self.offer(**self._pair())
 
@@ -72,9 +71,16 @@ class Watch(World):
         self.running = False
         self.show_now(f"{'Stopped' if result.interrupted else 'Done'} after {self.training.updates:,} updates")
 
-    def mark(self, words: str) -> None:
-        """A setting was changed: say so in the curves."""
-        self.marks.append((finished(self.training.curves.values), words))
+    def change(self, symbol: str, setting: str, value: float) -> None:
+        """Let the agents go on with another value, and mark the moment in the curves."""
+        self.training.change(**{setting: value})
+        self.marks.append((finished(self.training.curves.values), f"{symbol} {value:g}"))
+
+    def _draw(self) -> None:
+        training = self.training
+        method, curves = training.settings[0].method, training.curves.values
+        self.svg = training_chart(method, curves, training.episodes, self.marks)
+        self.chart = str(self.svg)
 
     def _keep(self, training: Training) -> None:
         self.kept.append((training.updates, int(training.curves.finished[0]), replace(training.agent(0), critics=[])))
@@ -113,9 +119,11 @@ class Watch(World):
         return data | self.picture(printed(self.svg), self.svg.alt), metadata
 
 
-def training_chart(training: Training, marks: Marks = ()) -> Drawing:
-    """Four small charts of a training, always of the same size: thin lines are agents, the thick one their mean."""
-    method, curves, episodes = training.settings[0].method, training.curves.values, training.episodes
+def training_chart(method: str, curves: dict[str, np.ndarray], episodes: int, marks: Marks = ()) -> Drawing:
+    """Four small charts of a training, always of the same size: thin lines are agents, the thick one their mean.
+
+    curves: as `Result.curves`, each (agents, episodes), NaN where still to come; empty before the training.
+    """
     name, done, window = display_name(method), finished(curves), window_of([curves])
     words = f"{name}: means of {window} episodes. Thin: an agent. Thick: the agents' interquartile mean."
     parts = [text(12, 18, words if done else f"{name}: no episode has ended yet.", fill=QUIET)]
