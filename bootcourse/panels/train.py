@@ -122,7 +122,7 @@ class TrainPanel(Panel):
         begun.set()
         try:
             training = Training(agents, episodes, self.scenario, demonstrations=drives)
-            before, self.watch = self.watch, Watch(training)
+            before, self.watch = self.watch, Watch(training, button=False)
             self.stage.children = [self.watch]
             if before is not None:
                 before.close()

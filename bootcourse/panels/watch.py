@@ -31,18 +31,21 @@ Marks = list[tuple[int, str]]  # (episode, what was changed)
 
 
 class Watch(World):
-    """What a training shows of itself; `look` is its callback, `stopping` whether the reader wants to stop it."""
+    """What a training shows of itself; `look` is its callback, `stopping` whether the reader wants to stop it.
+
+    button: whether it has a button to stop the training.
+    """
 
     chart = traitlets.Unicode().tag(sync=True)
     words = traitlets.Unicode().tag(sync=True)
     running = traitlets.Bool(True).tag(sync=True)
 
-    def __init__(self, training: Training):
+    def __init__(self, training: Training, button: bool = True):
         self.training, self.stopping, self.marks = training, False, []
         self.kept: list[tuple[int, int, Agent]] = []  # (updates, episodes, the first agent)
         self.spent, self._due, self._chosen = 0.0, 0.0, None
         opens = {"road": FIRST_ROAD, "driver": "now", "ghost": "before", "pace": 2, "futures": 0, "view": "above"}
-        opens |= {"details": False, "height": SIZE[1] + 40, "watch": True, "run": True}
+        opens |= {"details": False, "height": SIZE[1] + 40, "watch": True, "run": True, "stop": button}
         super().__init__(self._pair(), opens, training.scenario)
         self._draw()
 

@@ -29,8 +29,9 @@ SCRIPTS = (
 
 
 def text_of(name: str) -> str:
-    """A file of this folder without indentation."""
-    return re.sub(r"^[ \t]+", "", (HERE / name).read_text(encoding="utf-8"), flags=re.M)
+    """A file of this folder without indentation; of a style also without comments and spaces at its marks."""
+    text = re.sub(r"^[ \t]+", "", (HERE / name).read_text(encoding="utf-8"), flags=re.M)
+    return re.sub(r" ?/\*.*?\*/|(?<=[:;{]) | (?=[{}])", "", text) if name.endswith(".css") else text
 
 
 def script(name: str) -> str:
