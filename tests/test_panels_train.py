@@ -128,6 +128,7 @@ def test_watching_takes_at_most_a_twentieth_of_the_trainings_time():
 def test_a_notebooks_cell_shows_its_training_and_closes_what_it_showed_when_it_last_ran(monkeypatch):
     displayed, cell = [], SimpleNamespace(execution_count=1)
     monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell")
+    monkeypatch.setattr("bootcourse.learn.training.this_cell", lambda: "cell")
     monkeypatch.setattr("IPython.get_ipython", lambda: cell)
     monkeypatch.setattr("IPython.display.display", lambda shown, display_id: displayed.append(shown) or Shown())
 

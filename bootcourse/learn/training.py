@@ -35,6 +35,7 @@ from bootcourse.learn.running import device_named, interrupt_after_step, one_tor
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
 from bootcourse.methods import display_name
+from bootcourse.one_per_cell import this_cell
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario, check_p
 
@@ -236,17 +237,17 @@ class Training:
         """Train until all agents have finished, until so many updates, until an interrupt, or until stop() is true.
 
         progress: show a bar with the success rate of the last 100 episodes; it counts updates if their number is given.
-        In a notebook, and without a callback, the curves and the present agent on the road (see panels/watch.py).
+        In a notebook, the curves and the present agent on the road take its place (see panels/watch.py).
         callback: called with this training after every decision.
         """
         from bootcourse.progress import end_full, progress_bar
 
         watch = None
-        if progress and callback is None:
+        if progress and this_cell() is not None:
             from bootcourse.panels.watch import watched
 
             watch = watched(self)
-        callback = callback if watch is None else watch.look
+        calls = [call for call in (callback, watch and watch.look) if call]
         started, before = time.perf_counter(), self.seconds
         total, unit = (self.n_agents * self.episodes, "episode") if updates is None else (updates, "update")
         bar = progress_bar(shown=progress and watch is None, total=total, unit=unit)
@@ -258,8 +259,8 @@ class Training:
                         break
                     self.step()
                     self.seconds = before + time.perf_counter() - started
-                    if callback is not None:
-                        callback(self)
+                    for call in calls:
+                        call(self)
                     so_far = np.minimum(self.curves.finished, self.episodes).sum() if updates is None else self.updates
                     if progress and watch is None and so_far > bar.n:
                         bar.set_postfix_str(_success(self.curves), refresh=False)

@@ -67,7 +67,7 @@ class TrainPanel(Panel):
         super().__init__("Train while you watch", self.method, numbers, buttons, self.stage)
         self.method.observe(self._choose, "value")
         self._lock_unused()
-        self.svg = training_chart(method, {}, 1000)
+        self.svg = training_chart([method], {}, 1000)
         self._buttons(running=False)
 
     def settings(self) -> Settings:

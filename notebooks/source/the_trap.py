@@ -28,7 +28,7 @@ import itertools
 import bootcourse as bc
 import gymnasium as gym
 import numpy as np
-from bootcourse.course import check, compare_predictions, live_curves, own_code, predict, table
+from bootcourse.course import check, compare_predictions, own_code, predict, table
 from bootcourse.course.lessons.the_trap import diagrams, figures
 from bootcourse.research import report, tables
 from bootcourse.road import formulas, observation
@@ -414,9 +414,7 @@ agents = bc.with_seeds(bc.settings_for("sac"), 2) + bc.with_seeds(
 )
 training = bc.Training(agents, episodes=5000)
 beginner = training.agent(2).as_policy()
-live = live_curves.LiveCurves(every=2)
-learned = training.run(progress=False, callback=live, stop=lambda: training.updates >= 1500)
-live.show(training)
+learned = training.run(updates=1500)
 
 # %% [markdown]
 # A crash in the first seconds returns about −9.5, doing nothing {{ idle().rewards.sum() | .1f }}.
