@@ -171,7 +171,7 @@ def test_a_training_is_watched_in_its_cell_and_the_road_s_button_stops_it(open_n
     )
     with open_notebook(*cells) as it:
         it.page.set_default_timeout(60_000)
-        it.page.evaluate("jupyterapp.commands.execute('notebook:run-all-cells')")
+        it.page.evaluate("() => { jupyterapp.commands.execute('notebook:run-all-cells'); }")
         road = it.page.locator(WORLD)
         clock = lambda: road.locator("#clock").inner_text()  # noqa: E731
         assert until(lambda: clock() not in ("", "0 of 150 s"), 60), "the present agent drives"
