@@ -1,4 +1,4 @@
-"""Six silent bugs that occur in practice, and the agents of the bug hunt, which were trained with them.
+"""Six silent bugs that occur in practice, and agents that were trained with each.
 
 Each bug is a `SACLearner` whose update is wrong in one place. No error is raised, no number is NaN, and the
 curves look plausible.

@@ -1,4 +1,4 @@
-"""GAIL, and CQL with an actor, with a target entropy that nine actions can reach: an experiment of the study.
+"""GAIL, and CQL with an actor, with a target entropy that nine actions can reach.
 
     bootcourse study reachable-entropy --out DIR    # some minutes
 

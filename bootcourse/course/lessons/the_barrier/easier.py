@@ -1,4 +1,4 @@
-"""SAC with one thing made easier, and nothing else changed: an experiment of the study.
+"""Plain SAC on the road with one thing made easier.
 
     bootcourse study easier --out DIR    # some minutes
 

@@ -1,4 +1,4 @@
-"""Ten PPO agents of each kind in this lesson, trained, tested and kept with their networks: an experiment of the study.
+"""Ten agents of PPO alone, with two other rewards, and after cloning: trained, tested, kept with their networks.
 
     bootcourse study second-trap --out DIR    # some minutes
 

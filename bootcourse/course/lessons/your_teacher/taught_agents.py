@@ -1,4 +1,4 @@
-"""Ten students of each of this lesson's teachers and ten agents that learn alone: an experiment of the study.
+"""Ten students each of the rule and of five other teachers, and ten agents that learn alone.
 
     bootcourse study students --out DIR    # some minutes
 
