@@ -55,7 +55,7 @@ def train(
     """Train agents and write a run of each."""
     from bootcourse.learn.settings import settings_for, with_seeds
     from bootcourse.learn.training import Training
-    from bootcourse.scenario import named
+    from bootcourse.scenario import scenario_from
     from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
     from bootcourse.storage.work import locked
 
@@ -63,7 +63,7 @@ def train(
     method = register_learner(learner, METHODS[method]) or method
     asked = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
     changes = {name: value for name, value in asked.items() if value is not None}
-    settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), named(scenario)
+    settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), scenario_from(scenario)
     rule, work, episodes = teacher_from(teacher), out / UNFINISHED, episodes or METHODS[method].episodes
     if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
         with locked(work, "training"):  # removes what is left of it, if it was killed in its last moment
