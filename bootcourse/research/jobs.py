@@ -32,7 +32,7 @@ from bootcourse.research.teachers import RULE, teacher_named
 from bootcourse.scenario import DEFAULT, Scenario
 from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
 from bootcourse.storage.runs import save_runs
-from bootcourse.storage.sealed import is_file_with, read_sealed, write_sealed
+from bootcourse.storage.sealed import amiss, read_sealed, write_sealed
 from bootcourse.storage.work import Checkpoints
 
 FORMAT = "bootcourse job 3"
@@ -207,9 +207,9 @@ def read_job(folder: Path) -> dict:
     description = read_sealed(folder / "job.json", FORMAT, remedy)
     with decoding(folder / "job.json", remedy):
         convert(description, Description)
-    damaged = [name for name, digest in description["sha256"].items() if not is_file_with(folder / name, digest)]
-    if damaged:
-        raise BootcourseError(f"{folder} is damaged ({', '.join(damaged)}): {remedy}.")
+    for name, digest in description["sha256"].items():
+        if sentence := amiss(folder / name, digest, remedy):
+            raise BootcourseError(sentence)
     return description
 
 

@@ -22,7 +22,7 @@ from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Noteboo
 from bootcourse.course.lessons import LESSONS
 from bootcourse.course.predictions import FILE, predictions
 from bootcourse.errors import BootcourseError
-from bootcourse.files import decoding, read_json, write_json
+from bootcourse.files import decoding, read_json, unix_lines, write_json
 
 ASK = "ask for it again"  # the remedy for a damaged file
 MOST = 200  # predictions, and as many problems
@@ -69,7 +69,7 @@ class Submission(Struct, frozen=True, kw_only=True):
 def fingerprint() -> str:
     """A hash of the exercises: two kits with the same one judge the same answers alike."""
     files = sorted(Path(exercises.__file__).parent.rglob("exercises.py"))
-    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:12]
+    return hashlib.sha256(b"".join(unix_lines(file.read_bytes()) for file in files)).hexdigest()[:12]
 
 
 # Written by a student -------------------------------------------------------------------------------
