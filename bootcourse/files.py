@@ -220,7 +220,7 @@ def sha256(path: Path) -> str:
 
 
 def unix_lines(data: bytes) -> bytes:
-    """A text whose lines end as on Linux, whatever Git for Windows made of it; other data, which has zeros, as it is."""
+    """A text with the line endings of Linux, whatever Git for Windows made of them; data with zeros as it is."""
     return data if b"\0" in data else data.replace(b"\r\n", b"\n")
 
 
