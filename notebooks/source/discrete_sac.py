@@ -288,8 +288,9 @@ check.critic_loss(critic_loss)
 # ## Round 3: what does the actor minimise?
 #
 # The critics say what the present policy is worth (*policy evaluation*). The actor looks for a
-# better policy, given these values (*policy improvement*): it makes the soft value large. SAC makes
-# a small step of each in turn. The actor's loss is minus the soft value:
+# better policy, given these values (*policy improvement*): it makes the soft value large. At each
+# update SAC makes one small step of both, on the same batch. The actor's loss is minus the soft
+# value:
 #
 # $$ L_\text{actor} = -\,\text{mean over } s \text{ of } \sum_a \pi(a|s)\,
 # \big(Q(s,a) - \alpha \log \pi(a|s)\big) $$
