@@ -347,9 +347,9 @@ bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most 
 # easy(MIDDLE).escapers('sac') }} of twenty agents end ahead on most roads. But {{ straight_on() }}
 # of these accelerate straight on, to a mean of {{ straight_speed() | .0f }} m/s, where a second
 # pays {{ second_pays(25) | .2f }}; they earn {{ straight_return() | .1f }}, staying {{
-# staying_return(MIDDLE) | .1f }}. {{ paying(MIDDLE) }} leave and earn more than staying, on the road
-# as it is {{ paying('as it is') }}, too few to tell the two roads apart (p = {{ middle_p() | .2f }},
-# Fisher's test of lesson [[how_many_seeds]]).
+# staying_return(MIDDLE) | .1f }}. {{ paying(MIDDLE) }} leave and earn more than staying, on the
+# road as it is {{ paying('as it is') }}, too few to tell the two roads apart (p = {{ middle_p() |
+# .2f }}, Fisher's test of lesson [[how_many_seeds]]).
 # <!-- claim: 1 <= paying(MIDDLE) <= 4 and paying('as it is') == 0 and middle_p() > 0.3 and
 #   straight_return() < staying_return(MIDDLE) / 3 -->
 #
