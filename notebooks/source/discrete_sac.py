@@ -403,8 +403,9 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Most say "falls, and stops at η", as a thermostat in a room does. Ask which entropy would have to
-# be reached. It helps to write the range, 0 to log 9, on the board before anybody answers.
+# The answer to discuss is "falls, and stops at η", as a thermostat in a room does. Ask which
+# entropy would have to be reached. It helps to write the range, 0 to log 9, on the board before
+# anybody answers.
 
 # %%
 compare_predictions(

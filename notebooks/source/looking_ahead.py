@@ -150,9 +150,9 @@ check.rollout_values(rollout_values)
 
 # %% [markdown] tags=["instructor"] minutes=9
 # Let somebody draw the nine drives as a tree before anybody writes code. Where is the agent asked,
-# and about which cars? Most wrong answers ask it about the real road, or hold the action for all
-# ten seconds. Ask why W has to be there: without it, what would the best action be just before the
-# horizon?
+# and about which cars? Two wrong answers to discuss ask it about the real road, or hold the action
+# for all ten seconds. Ask why W has to be there: without it, what would the best action be just
+# before the horizon?
 
 # %% [markdown]
 # ## Round 2: the same agent, with rollouts

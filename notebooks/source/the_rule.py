@@ -534,10 +534,10 @@ compare_predictions(
 #   {{ (15 - 5) ** 2 / 2 / DEFAULT.ego.acceleration | .0f }} m to slow down from 15 m/s to a car at
 #   5 m/s without touching it. Take more than that, and test it on as many roads as the rate demands
 #   that you want to rule out.
-# - **Imitation.** Not perfectly. The rule depends on cars that the observation may leave out (a
-#   fifth one, or one beyond {{ DEFAULT.sight.distance | g }} m) and on the number of its lane,
-#   which has to be read off y. Where two states give one observation and the rule acts differently,
-#   a learner can at best learn how often it does which.
+# - **Imitation.** Not perfectly. The rule may depend on a car that the observation leaves out (a
+#   fifth one within its sight) and on the number of its lane, which has to be read off y. Where two
+#   states give one observation and the rule acts differently, a learner can at best learn how often
+#   it does which.
 # - **Traps that look sideways.** A trap that brakes for you in the next lane reopens the gap that
 #   you fall back to find. Then the rule should look at how the gap changes after its own move, not
 #   at the gap now, which takes a model of the traps.
