@@ -563,6 +563,9 @@ bc.show(figure)
 #   with_target(0.3).max() | .0f }} |
 # | 1, above it | rise | {{ with_target(1).min() | .0f }} to {{ with_target(1).max() | .0f }} |
 #
+# With η = 1 nothing stops the rise: a larger ξ holds the policy closer to π̃, whose entropy stays
+# below η, so α rises on, and ξ = 200 α with it.
+#
 # No run here tests a small, constant ξ.
 # <!-- claim: 0.3 < entropy_of_the_rule() < 1 -->
 # <!-- claim: with_target(1).max() < of('rule').scores('returns').mean() -->

@@ -82,7 +82,7 @@ def best(problem: str, teacher: str, choose=max) -> str:
 
 
 def plain_with_entropy() -> tuple[int, int]:
-    """Of the course's plain SAC agents with η = 0.3: how many escape after 200,000 decisions, and how many there are."""
+    """Of the course's plain SAC agents with η = 0.3: how many escape after 200,000 decisions, of how many."""
     agents = equal_decisions.by_method(experiment("beyond"))["sac"]
     success = equal_decisions.at(agents, "success", equal_decisions.BUDGETS[1])
     return int((success >= ESCAPES).sum()), len(success)
