@@ -139,9 +139,9 @@ def curriculum_cases(rng):
     yield [0.0, 60.0, 60.0, 60.0], 50.0, 3, 0.0
     yield [90.0, 10.0, 10.0, 10.0], 25.0, 3, 0.05
     yield from (([mean, mean], -10.0, 2, 0.05) for mean in (-10.2, -12.0, -9.0))
-    yield from (([mean, mean], 50.0, 2, 0.05) for mean in (47.5, 47.499, 47.501))  # the limit is 47.5
-    yield from (([mean, mean], -40.0, 2, 0.25) for mean in (-50.0, -50.001, -49.999))
-    yield from (([mean], 0.0, 1, 0.05) for mean in (0.0, -0.001))
+    yield from (([mean, mean], 50.0, 2, 0.05) for mean in (47.5, 47.49999, 47.50001))  # the limit is 47.5
+    yield from (([mean, mean], -40.0, 2, 0.25) for mean in (-50.0, -50.00001, -49.99999))
+    yield from (([mean], 0.0, 1, 0.05) for mean in (0.0, -1e-5))
     yield [40.0] * 60 + [50.0] * 100, 50.0, 100, 0.0
     yield [5.0, 7.0], -np.inf, 2, 0.1
     for _ in range(40):
