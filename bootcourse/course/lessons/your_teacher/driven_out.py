@@ -13,6 +13,11 @@ OUT, BEHIND, OUTSIDE, NOT_SAME, NOT_WHOLE, NOTHING, SLOW = 0, 4, 5, 6, 7, 8, 9  
 ENDINGS = {1: "collides", 2: "leaves the road", 3: "stops on the road", BEHIND: "is still behind trap 1 at the end"}
 ENDINGS[SLOW] = "is in the left lane, and too slow to be ahead of trap 1 at the end"
 
+CHANGES = (
+    "Your rule answers the same road differently when it is asked again: it draws at random, or remembers. The label "
+    "of a state must not change."
+)
+
 
 def drive_out(answer, cars, scenario):
     """How one road ends: 0 for ahead of trap 1 at the end, without an accident, else what went wrong.
@@ -69,9 +74,6 @@ def explain_rule(cases, answers):
     if OUTSIDE in ends:
         return f"Your rule sometimes returns a number that is not an action: give a whole number, 0 to {N_ACTIONS - 1}."
     if NOT_SAME in ends:
-        return (
-            "Your rule answers the same road differently when it is asked again: it draws at random, or remembers. The "
-            "label of a state must not change."
-        )
+        return CHANGES
     failures = ", on ".join(f"{ends.count(end)} it {words}" for end, words in ENDINGS.items() if end in ends)
     return f"Your rule gets out on {ends.count(OUT)} of {len(ends)} roads; on {failures}."
