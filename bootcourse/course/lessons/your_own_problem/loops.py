@@ -12,7 +12,7 @@ from bootcourse.course.lessons.your_teacher.driven_out import (
     same_action,
 )
 from bootcourse.learn.teachers import Rule
-from bootcourse.research.problems import DoorKey
+from bootcourse.research.problems import PROBLEMS, DoorKey
 
 UP = 1.0  # the flag was reached; any other result is the farthest position, the flag is at 0.5
 PUSHES = 3
@@ -70,6 +70,15 @@ def climbed(rule: Rule, seed: int = 0) -> np.ndarray:
         positions.append(float(seen[0]))
         seen, _, terminated, _, _ = env.step(int(rule(*map(float, seen))))
     return np.array([*positions, float(seen[0])])
+
+
+def first_drives() -> dict[str, np.ndarray]:
+    """The positions of two drives of MountainCar: always pushed to the right, and by the course's teacher."""
+    ours = PROBLEMS["mountain-car"].teachers()["good"]  # it sees the speed in parts of 0.07
+    return {
+        "always to the right": climbed(lambda position, speed: 2),
+        "a rule of one line": climbed(lambda *seen: ours(np.array([seen]) / (1, 0.07))[0]),
+    }
 
 
 def rooms(teacher: Rule, seed: int) -> tuple[list[tuple[int, ...]], bool]:
