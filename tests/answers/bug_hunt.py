@@ -84,7 +84,6 @@ wrong_lines("""end_error
 """)
 
 
-
 def errors_of(target):
     """By how much a target function misses y, for four transitions."""
     reward, value = np.array([1.0, -4.0, 2.0, 0.0]), np.array([3.0, 5.0, -2.0, 7.0])

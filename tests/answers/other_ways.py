@@ -42,6 +42,7 @@ def action_by_action(pi, q, rule_actions):
             found[i, a if q[i, a] > q[i, rule] else rule] += pi[i, a]
     return found
 
+
 wrong_lines("""smallest_of
     capped: solution(q, chosen).clamp(-100, 100)
 """)

@@ -19,7 +19,7 @@ right_lines("""climb_rule
 
 wrong_lines("""climb_rule
     nothing for the left: 2 if speed >= 0 else None  # returns nothing
-    at random: int(np.random.default_rng().integers(3))  # differently each time
+    at random: int(np.random.default_rng().integers(3))  # asked again
     once up: 2 if position > -0.3 else 0
 """)
 
