@@ -13,6 +13,7 @@ from typer.core import TyperGroup
 from typer.main import get_command
 
 from bootcourse.cli.driving import drive, evaluate, replay
+from bootcourse.cli.places import with_home
 from bootcourse.cli.training import train
 from bootcourse.errors import BootcourseError
 
@@ -56,6 +57,7 @@ def main() -> None:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="spell")
     try:
+        sys.argv = [sys.argv[0], *map(with_home, sys.argv[1:])]
         app(prog_name="bootcourse")
     except BootcourseError as error:
         print(error, file=sys.stderr)
