@@ -29,7 +29,7 @@ from bootcourse.research.lookahead import CLOSELY, Cell
 from bootcourse.research.results import Results, in_assets
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, interval, mean, rate
-from bootcourse.storage.assets import FOLDER
+from bootcourse.storage.assets import shipped
 from bootcourse.storage.runs import find_runs, load_run
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
@@ -115,7 +115,7 @@ def row_of(name: str, agents: Sequence[Episodes], own: bool = False) -> Row:
 @cache
 def shipped_rows() -> tuple[Row, ...]:
     """The rows of what ships, and of the drivers that are not trained."""
-    study = in_assets(FOLDER)
+    study = in_assets(shipped())
     drivers = {"rule": rule_policy(DEFAULT), "idle": idle_policy, "random": random_policy(np.random.default_rng(0))}
     rows = [row_of(display_name(name), [drive_episodes(policy, ROADS)]) for name, policy in drivers.items()]
     rows.append(row_of("gap acceptance (rule)", [drive_episodes(teacher_policy(gap_rule), ROADS)]))
