@@ -3,9 +3,7 @@
 Commands import their modules themselves, so that `bootcourse --help` is fast.
 """
 
-import codecs
 import sys
-import unicodedata
 from pkgutil import resolve_name
 
 import typer
@@ -16,6 +14,7 @@ from bootcourse.cli.driving import drive, evaluate, replay
 from bootcourse.cli.places import with_home
 from bootcourse.cli.training import train
 from bootcourse.errors import BootcourseError
+from bootcourse.terminal import SPELL
 
 LAZY = {  # commands of the research and of the course, "module:function", imported when they are used
     "study": "bootcourse.research.commands:study",
@@ -52,10 +51,9 @@ app = typer.Typer(
 
 def main() -> None:
     """Run a command. Exit status: 2, after one sentence, for a user mistake; 130 for Ctrl-C."""
-    codecs.register_error("spell", spell)
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="spell")
+            stream.reconfigure(errors=SPELL)
     try:
         sys.argv = [sys.argv[0], *map(with_home, sys.argv[1:])]
         app(prog_name="bootcourse")
@@ -65,12 +63,6 @@ def main() -> None:
     except OSError as error:  # a name that is too long, a folder without permission, a disk that is gone ...
         print(f"{error.filename or 'A file'}: {error.strerror or error}.", file=sys.stderr)
         sys.exit(2)
-
-
-def spell(error: UnicodeError) -> tuple[str, int]:
-    """Print what the terminal's encoding lacks, such as Windows' cp1252: Greek letters by name, others as "?"."""
-    names = [unicodedata.name(letter, "").split() for letter in error.object[error.start : error.end]]
-    return "".join(name[-1].lower() if name[:1] == ["GREEK"] else "?" for name in names), error.end
 
 
 def show_version(wanted: bool) -> None:

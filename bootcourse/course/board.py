@@ -31,6 +31,7 @@ from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, interval, mean, rate
 from bootcourse.storage.assets import shipped
 from bootcourse.storage.runs import find_runs, load_run
+from bootcourse.terminal import printable
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
 HEADINGS = ("method", "return", "success %", "accidents %")
@@ -78,7 +79,7 @@ class Board:
         text = [
             f"{mark:2}{name:{LONGEST}}" + "".join(f"{cell:>20}" for cell in cells) for mark, (name, *cells) in lines
         ]
-        return "\n".join([*text, "", *BELOW])
+        return printable("\n".join([*text, "", *BELOW]))
 
     def _repr_html_(self) -> str:
         lines = [html("<tr>{}</tr>", joined(html("<th>{}</th>", heading) for heading in HEADINGS))]

@@ -37,6 +37,7 @@ from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_o
 from bootcourse.methods import display_name
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario, check_p
+from bootcourse.terminal import printable
 
 SNAPSHOT_EVERY = 200  # updates between snapshots; an agent with a non-finite loss is frozen at its last finite one
 MOST_EPISODES = 100_000  # of each agent, whose curves take 8 MB then
@@ -63,7 +64,7 @@ class Result:
         ends = np.isfinite(self.curves["return"]).sum(1)  # (agents,) episodes
         returns = [values[:n][-100:].mean() for values, n in zip(self.curves["return"], ends, strict=True) if n]
         each = ", ".join(f"{value:.1f}" for value in returns[:10]) + " …" * (len(returns) > 10)
-        return (
+        return printable(
             f"{agents} on {where}, teacher: {self.teacher}\n"
             f"{ends.sum():,} episodes in {self.seconds:.0f} s{', not finished' * self.interrupted}\n"
             f"mean return of each agent's last 100 episodes: {each or 'no episode has ended'}"
