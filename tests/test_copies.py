@@ -18,6 +18,7 @@ from bootcourse.road.trap_env import TrapEnv
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
 
+WRONG = MODELS["worst case of three wrong models"]
 HOW = {"deepcopy": copy.deepcopy, "pickle": lambda thing: pickle.loads(pickle.dumps(thing))}
 
 
@@ -39,7 +40,9 @@ POLICIES = {
     "the course's teacher": lambda: teacher_policy(course_rule),
     "a teacher": lambda: teacher_policy(my_rule),
     "the look-ahead": lambda: lookahead(rule_policy(DEFAULT), 2),
-    "the shield with other models": lambda: lookahead_shield(rule_policy(DEFAULT), 2, models=list(MODELS.values())[:2]),
+    "the shield with wrong models": lambda: lookahead_shield(rule_policy(DEFAULT), 2, models=WRONG),
+        rule_policy(DEFAULT), 2, models=MODELS["worst case of three wrong models"]
+    ),
 }
 
 
