@@ -41,8 +41,6 @@ POLICIES = {
     "a teacher": lambda: teacher_policy(my_rule),
     "the look-ahead": lambda: lookahead(rule_policy(DEFAULT), 2),
     "the shield with wrong models": lambda: lookahead_shield(rule_policy(DEFAULT), 2, models=WRONG),
-        rule_policy(DEFAULT), 2, models=MODELS["worst case of three wrong models"]
-    ),
 }
 
 
