@@ -27,7 +27,7 @@ def fast(monkeypatch):
 
 @pytest.mark.parametrize("name", RIGHT)
 def test_right_answers_pass(name):
-    for answer in (EXERCISES[name].solution, *RIGHT[name]):
+    for answer in RIGHT[name]:
         verdict = judge(EXERCISES[name], answer)
         assert verdict.passed, (answer.__name__, verdict)
 
@@ -123,7 +123,7 @@ def test_an_answer_that_is_right_in_all_but_one_case_does_not_pass():
 def test_strict_raises_what_does_not_pass_and_only_that():
     check.strict()
     try:
-        assert check.critic_target(TARGET.solution).passed
+        assert check.critic_target(lambda r, ended, v, gamma: r + gamma * (1 - ended) * v).passed
         with pytest.raises(check.NotPassed, match="critic_target: … Nothing to check yet"):
             check.critic_target(lambda *arguments: None)
     finally:

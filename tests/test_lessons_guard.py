@@ -115,7 +115,7 @@ def test_whatever_an_answer_does_is_one_sentence_and_leaves_nothing_behind(answe
         verdict = judge(TARGET, answer, 0.5 if "0.5 s" in words else None)
     assert verdict.kind in ("wrong", "did_not_run") and words in verdict.sentence and one_sentence(verdict), verdict
     assert the_state_of_this_process() == before and printed.getvalue() == ""
-    assert judge(TARGET, TARGET.solution).passed
+    assert judge(TARGET, TARGET.solution).is_right
 
 
 def test_without_a_fork_each_answer_has_a_new_process(monkeypatch):

@@ -73,9 +73,7 @@ def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = No
     return replace(verdict, sentence=verdict.sentence[:LONGEST], details=tuple(details), footer=stuck)
 
 
-def verdict_and_print(
-    exercise: Exercise, answer: Callable | str, seconds: float, begin: float
-) -> tuple[Verdict, str]:
+def verdict_and_print(exercise: Exercise, answer: Callable | str, seconds: float, begin: float) -> tuple[Verdict, str]:
     """The verdict, and what the answer printed. begin: when the check began, by the monotonic clock."""
     todo = f"Nothing to check yet: write `{exercise.name}` where the `...` stands, and end with `return`."
     if does_nothing(answer):  # an untouched stub needs no process
@@ -200,14 +198,14 @@ def stop_in_words(stopped: Stopped, answer: Callable | str, cases: int) -> str:
         return (f"Your function was {begin}, and computed hardly anything in them{where}: look for something that "
                 "waits, such as `sleep` or `input`.")  # fmt: skip
     if computed < 0.6 * seconds:
-        return (f"Too slow, {begin}, of which your function computed for only {computed:.2g} s{where}: it waits, or the "
-                "computer is busy with other programs. Run the check again.")  # fmt: skip
+        return (f"Too slow, {begin}, of which your function computed for only {computed:.2g} s{where}: it waits, or "
+                "the computer is busy with other programs. Run the check again.")  # fmt: skip
     if stopped.is_endless:
         return (f"Too slow, {begin} in one of the {cases} cases{where}: look for a loop that never ends, or that takes "
                 "far too many turns.")  # fmt: skip
     done = len(stopped.cases) - 1
-    return (f"Too slow, {begin}: {done} of the {cases} cases were done{where}. A right answer needs a fraction of that: "
-            "look for work that is done again and again.")  # fmt: skip
+    return (f"Too slow, {begin}: {done} of the {cases} cases were done{where}. A right answer needs a fraction of "
+            "that: look for work that is done again and again.")  # fmt: skip
 
 
 # Is it right? -----------------------------------------------------------------------------------------
@@ -245,7 +243,7 @@ def right_or_the_library_s(exercise: Exercise, report: runner.Report) -> Verdict
     """The verdict on an answer that is right in every case."""
     if report.library:
         sentence = "Right, and this is the library's: write your own to learn it."
-        return Verdict("library", sentence, (f"It calls {report.library}."[:LONGEST],))
+        return Verdict("library", sentence, (f"the library's own: {report.library}"[:LONGEST],))
     count = len(exercise.all_arguments)
     return Verdict("passed", f"Right. Your `{exercise.name}` agrees in all {count} cases, corner cases included.")
 

@@ -18,6 +18,7 @@ LIBRARY = {  # exercise -> the library's functions; the exercise's own solution 
     "actor_loss": (f"{LEARN}.sac.actor_loss",),
     "target_speed": ("bootcourse.rule.target_speed",),
     "safety_distance": ("bootcourse.rule.safety_distance",),
+    "cloning_loss": (f"{LEARN}.sac.conservative_loss",),  # the same, because Σ π is 1
     "log_stochastic_rule": (f"{LEARN}.bootstrap.log_stochastic_rule", "bootcourse.rule.stochastic_rule"),
     "soft_constraint": (f"{LEARN}.bootstrap.kl_to_rule",),
     "constrained_loss": (f"{LEARN}.sac.actor_loss",),
@@ -89,8 +90,8 @@ def codes(thing) -> Iterator[tuple[CodeType, dict]]:
                 part = getattr(part, "__func__", part)  # of a static method
                 if inspect.isfunction(part):
                     yield part.__code__, part.__globals__
-    elif not isinstance(thing, ModuleType) and inspect.isfunction(getattr(type(thing), "__call__", None)):
-        yield type(thing).__call__.__code__, type(thing).__call__.__globals__
+    elif inspect.isfunction(called := inspect.getattr_static(type(thing), "__call__", None)):  # an object's method
+        yield called.__code__, called.__globals__
 
 
 def inner_of(thing) -> Callable | None:
@@ -124,7 +125,7 @@ def used_by(code: CodeType, space: dict) -> list:
             for name in names:
                 try:
                     value = getattr(module, name, None)
-                except Exception:  # a lazy name that cannot be loaded here  # noqa: BLE001
+                except Exception:  # a lazy name that cannot be loaded here
                     continue
                 if isinstance(value, ModuleType) and value not in modules:
                     modules.append(value)

@@ -125,7 +125,7 @@ def difference(name: str) -> str:
     """What differs if this one part is the student's and all others are ours; "" if nothing does."""
     if name not in COMPARED:
         verdict = judge(registry()[name], _own[name])
-        return "" if verdict.passed else f"{name}: {verdict.sentence}"
+        return "" if verdict.is_right else f"{name}: {verdict.sentence}"
     try:
         ours, theirs = update({}), update({name: _own[name]})
     except Exception as error:  # whatever the student's function raises

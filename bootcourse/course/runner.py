@@ -34,6 +34,7 @@ from multiprocessing import forkserver
 
 import cloudpickle
 import msgspec
+import numpy as np
 import torch
 
 from bootcourse.course.exercise import Exercise, NotAsAsked
@@ -271,19 +272,20 @@ class Printed(io.StringIO):
 
 
 class Called:
-    """The answer, as the exercise's `run` calls it: it knows the last error that came out of it.
+    """The answer, as the exercise's `run` calls it: it knows the last value and the last error that came out of it.
 
     An iterator that the answer returns, such as a generator, becomes a list.
     """
 
     def __init__(self, answer: Callable):
-        self.answer, self.error = answer, None
+        self.answer, self.value, self.error = answer, None, None
 
     def __call__(self, *arguments, **named):
         try:
             value = self.answer(*arguments, **named)
             is_lazy = isinstance(value, Iterator) and not isinstance(value, io.IOBase)
-            return list(itertools.islice(value, MANY + 1)) if is_lazy else value
+            self.value = list(itertools.islice(value, MANY + 1)) if is_lazy else value
+            return self.value
         except BaseException as error:
             self.error = error
             raise
@@ -314,7 +316,8 @@ def work(exercise: bytes, job: bytes, notes: Notes | None = None) -> Report:
             report.changed = report.changed or changed
     except BaseException as error:  # also SystemExit and KeyboardInterrupt
         report.error = in_words(error, answer)
-        report.is_ours = called is not None and error is not called.error and is_ours(error, report.error)
+        if called is not None and error is not called.error and is_ours(error, report.error):
+            report.is_ours, report.refused = True, why_no_array(called.value)
     report.printed = PATH.sub(r"\1", sendable(printed.getvalue()))
     return report
 
@@ -323,6 +326,15 @@ def is_ours(error: BaseException, said: tuple[str, str, int | None]) -> bool:
     """Did our own code raise this error, which did not come out of the answer, on what the answer had returned?"""
     theirs = (NotAsAsked, NotImplementedError, MemoryError, SystemExit, KeyboardInterrupt)
     return said[2] is None and not isinstance(error, theirs) and "can't allocate memory" not in said[1]
+
+
+def why_no_array(value) -> str:
+    """Why NumPy can make no array of what the answer returned; "" if it can, and our own code is to blame."""
+    try:
+        np.asarray(value)
+    except Exception as error:  # whatever an object's own methods raise
+        return f"Your function returns {plain(value).words}, of which NumPy makes no array ({type(error).__name__})."
+    return ""
 
 
 def defined_in(source: str, name: str):

@@ -6,7 +6,7 @@ import array
 import io
 import itertools
 from collections import deque
-from collections.abc import Iterator, MappingView
+from collections.abc import Iterator, MappingView, Sized
 from decimal import Decimal
 from numbers import Rational
 
@@ -65,11 +65,13 @@ def copied(value, deeper: int, count: Iterator[int]) -> Plain:
     if isinstance(value, (tuple, *LIKE_A_LIST)) and not isinstance(value, io.IOBase):
         if deeper == 0:
             return Plain(f"{name} with more than {DEEPEST} lists in each other")
-        parts = []
+        many, parts = Plain(f"{name} of more than {MANY:,} values"), []
+        if isinstance(value, Sized) and len(value) > MANY:
+            return many
         for part in value:
-            if next(count) > MANY:
-                return Plain(f"{name} of more than {MANY:,} values")
             parts.append(copied(part, deeper - 1, count))
+            if next(count) > MANY:
+                return many
         return Plain("tuple" if isinstance(value, tuple) else "list", parts=tuple(parts))
     if isinstance(value, (bool, int, float, np.number, np.bool_, Rational, Decimal)):
         kind, value = "number", as_float(value)

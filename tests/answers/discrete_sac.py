@@ -2,7 +2,6 @@
 
 import torch
 
-from bootcourse.learn import sac
 from tests.answers import equivalent, right, right_lines, wrong_lines
 
 equivalent("actor_loss", "alpha * log_pi  ->  alpha * log_pi.detach()", "its slope, -α, is the same for all actions")
@@ -22,7 +21,6 @@ wrong_lines("""critic_target
     a column: (reward + gamma * (1 - terminated) * next_value)[:, None]  # shape
 """)
 
-right("soft_value")(sac.soft_value)
 right_lines("""soft_value
     value and entropy: pi = log_pi.exp(); (pi * q).sum(-1) + alpha * torch.special.entr(pi).sum(-1)
     as a product: torch.einsum("ba,ba->b", torch.exp(log_pi), q - alpha * log_pi)
