@@ -17,6 +17,7 @@ import pytest
 from bootcourse.cli import main
 from bootcourse.course import runner
 from bootcourse.course.classroom import grading
+from bootcourse.course.classroom import submission as classroom_submission
 from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook, unfinished
 from bootcourse.course.classroom.commands import read_lessons
 from bootcourse.course.classroom.grading import MISSING, Verdicts, handed_out, judge_all, key_of
@@ -352,3 +353,70 @@ def test_lessons_are_read_as_numbers():
     for text in ("four", "4-", "6-4"):
         with pytest.raises(BootcourseError, match="numbers of lessons"):
             read_lessons(text)
+
+
+# Whatever happens to one --------------------------------------------------------------------------
+
+
+def dies_or_raises(exercise: str, source: str, seconds: float) -> grading.Judged:
+    """In place of `judged`: one answer ends the process that judges it, and on another our own code raises an error."""
+    if "ends it" in source:
+        os._exit(9)
+    if "breaks it" in source:
+        raise RuntimeError("our own mistake")
+    return grading.Judged("passed", "Right.")
+
+
+@pytest.fixture(scope="module")
+def broken(tmp_path_factory):
+    """A class in which two answers break what judges them, and a file cannot be read: its folder, and what was said."""
+    folder = tmp_path_factory.mktemp("broken")
+    (folder / "class").mkdir()
+    for k, text in enumerate(["right"] * 4 + ["ends it", "breaks it"] + ["right"] * 4):
+        content = submission(answers={NAME: f"{RIGHT}# {text} {k}\n"})
+        (folder / f"class/{k}-{text.replace(' ', '-')}.json").write_text(json.dumps(content))
+    (folder / "class/unread.json").write_text(json.dumps(submission(answers={NAME: RIGHT})))
+    read_json, said = classroom_submission.read_json, io.StringIO()
+
+    def unreadable(path, *more):
+        if path.stem == "unread":
+            raise RuntimeError("nobody thought of this")
+        return read_json(path, *more)
+
+    with pytest.MonkeyPatch.context() as patch, contextlib.redirect_stderr(said), pytest.raises(SystemExit) as ended:
+        patch.chdir(folder)
+        patch.setattr(grading, "judged", dies_or_raises)
+        patch.setattr(classroom_submission, "read_json", unreadable)
+        patch.setattr(sys, "argv", ["bootcourse", "grade", "class", "--lessons", LESSON, "--workers", "2"])
+        main()
+    return folder, ended.value.code, said.getvalue()
+
+
+def test_an_answer_that_ends_its_judge_or_breaks_our_check_costs_no_other_student(broken):
+    folder, status, said = broken
+    rows = csv.DictReader((folder / "grades.csv").read_text(encoding="utf-8-sig").splitlines())
+    points = {row["id"]: row[NAME] for row in rows}
+    assert sorted(points.values()) == ["0"] * 3 + ["2"] * 8 and points["unread"] == "0"
+    assert points["4-ends-it"] == points["5-breaks-it"] == "0"
+    assert status == 1 and "Our own check broke off on 2 answers" in said and "luck of 4-ends-it" in said
+    assert "unread.json could not be read (RuntimeError: nobody thought of this)" in said
+
+
+def test_the_pages_say_that_our_check_broke_off_and_what_to_send(broken):
+    folder, *_ = broken
+    page = (folder / "grades.html").read_text()
+    assert "Our own check broke off on 2 answers." in page and "our check broke off: <code>luck</code>" in page
+    own = (folder / "grades-pages/5-breaks-it.html").read_text()
+    assert "our mistake and not yours" in own and "RuntimeError: our own mistake" in own
+
+
+def test_what_our_check_broke_off_on_is_judged_again_next_time(broken):
+    folder, *_ = broken
+    assert len(Verdicts(folder / "grades-verdicts.jsonl").known) == 8
+
+
+def test_a_class_in_which_no_process_starts_is_one_sentence(tmp_path, monkeypatch):
+    monkeypatch.setattr(grading, "judged", dies_or_raises)
+    one = Submission(answers={NAME: "ends it"})
+    with pytest.raises(BootcourseError, match="No process that judges starts"):
+        judge_all([one], [NAME], Verdicts(tmp_path / "v.jsonl"), 1)
