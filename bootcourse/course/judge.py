@@ -130,11 +130,11 @@ def is_unfinished(report: runner.Report, answer: Callable | str) -> bool:
 def not_answered(exercise: Exercise, answer: Callable | str, report: runner.Report) -> Verdict | None:
     """The verdict on a function that did not answer every case, or changed its arguments; None if it did well."""
     cases, answers, parts = exercise.all_arguments, report.answers, 1 + len(exercise.slopes)
-    if report.error is not None and report.is_ours:
-        return our_fault(exercise, f"{report.error[0]}: {report.error[1]}")
     nothing = [case for case, value in enumerate(answers) if value.kind == "NoneType"]
     if report.refused:
         return Verdict("wrong", report.refused)
+    if report.error is not None and report.is_ours:
+        return our_fault(exercise, f"{report.error[0]}: {report.error[1]}")
     if report.ended != "":
         return Verdict("did_not_run", end_in_words(report, answer, len(cases)))
     if len(answers) > len(cases) or report.error is None and len(answers) < len(cases):

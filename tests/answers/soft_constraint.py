@@ -21,7 +21,6 @@ def pi_tilde(rule_action, p, others=None):
 
 
 right_lines("""soft_constraint
-    the library's: kl_to_rule(log_pi, rule_action, torch.tensor(p))
     torch's own: rule = pi_tilde(rule_action, p).log()
         torch.nn.functional.kl_div(rule, log_pi, reduction="none", log_target=True).sum(-1)
 """)

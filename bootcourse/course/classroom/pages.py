@@ -180,8 +180,8 @@ def class_page(graduates: Sequence[Graduate], link: dict[str, Markup], holds: li
     students = [(link[one.submission.student], one.submission.name, f"{one.total:g}") for one in graduates]
     if broke := sum(len(one.of_kind("broke")) for one in graduates):
         words = (
-            "<p><strong>Our own check broke off on {} answers.</strong> They have no points, and may be right: see below. "
-            "Please send them to those who make the course.</p>"
+            "<p><strong>Our own check broke off on {} answers.</strong> They have no points, and may be right: "
+            "see below. Please send them to those who make the course.</p>"
         )
         head = joined([head, html(words, broke)])
     parts = [head, table("Students", ("id", "name", "points"), students)]
