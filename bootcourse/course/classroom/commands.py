@@ -74,7 +74,7 @@ def handout(
     solutions: bool | None = typer.Option(None, help="Let `check.solution` show solutions; by default it does not."),
     update: bool = typer.Option(False, "--update", help="Bring this handout up to date; what was changed stays."),
 ) -> None:
-    """Write what students get: lessons, the kit, a lock and one page, without solutions."""
+    """Write what students get: lessons, the kit, a lock and one page. The kit's checks hold right answers."""
     from bootcourse.course.classroom import handout
 
     chosen = read_lessons(lessons)

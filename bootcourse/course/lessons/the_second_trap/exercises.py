@@ -3,7 +3,7 @@
 import numpy as np
 import torch
 
-from bootcourse.course.exercise import exercise
+from bootcourse.course.exercise import exercise, logits
 from bootcourse.learn import ppo
 
 
@@ -142,7 +142,7 @@ EVEN = torch.full((2, 9), 1 / 9).log()
 
 @exercise(
     "L + E[(V - R)²]/2 - c E[H], arXiv 1707.06347, Equation 9", minutes=10, difficulty=2, cases=loss_cases,
-    slopes=["log_pi", "values"],
+    slopes=[logits("log_pi"), "values"],
     worked=[
         # nothing has changed: the scaled advantages have mean 0, so only (1² + 3²) / 2 / 2 is left
         ((EVEN, rows(1.0, 0.0), torch.tensor([0, 1]), EVEN[:, 0], rows(1.0, 2.0), rows(2.0, 3.0), 0.2, 0.0), 2.5),
