@@ -174,7 +174,6 @@ def names_in(code: str) -> set[str]:
     return named | {name.rpartition(".")[2] for name in shown_sources(code)}
 
 
-@pytest.mark.xfail(strict=False, reason="two lessons are being mended")
 @pytest.mark.parametrize("path", sources(), ids=lambda path: path.stem)
 def test_no_cell_above_an_exercise_calls_or_shows_the_library_s_function(path):
     """A student would find the answer there."""

@@ -49,7 +49,8 @@ ROAD = 10
 newborn = bc.Training([bc.settings_for("soft")], episodes=1).agent(0)
 first_drive = bc.record(newborn.as_policy(with_q=True), [ROAD], label="soft")[0]
 does = torch.tensor([int(first_drive.rule_actions[0])])
-rule_tilde = bc.bootstrap.log_stochastic_rule(does, torch.tensor(0.9)).exp()[0].tolist()
+drives_as_rule = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0), 0.9)
+rule_tilde = bc.record(drives_as_rule, [ROAD], label="rule")[0].policy[0].tolist()
 own_pi = newborn.probabilities(first_drive.observations[:1])[0].tolist()
 title = f"The rule would {bc.ACTION_NAMES[does.item()]}; the untrained agent has no preference"
 named = {"the untrained agent, π": own_pi, "the stochastic rule, π̃": rule_tilde}

@@ -21,15 +21,12 @@ def pi_tilde(rule_action, p, others=None):
 
 
 right_lines("""soft_constraint
-<<<<<<< HEAD
-=======
     two distributions: rule = torch.distributions.Categorical(probs=pi_tilde(rule_action, p).float())
         torch.distributions.kl_divergence(torch.distributions.Categorical(logits=log_pi), rule)
     price minus entropy: pi, price = log_pi.exp(), -pi_tilde(rule_action, p).log()
         (pi * price).sum(-1) + (pi * log_pi).sum(-1)
     own action and others: pi = log_pi.exp(); own = pi.gather(1, rule_action[:, None])[:, 0]
         (pi * log_pi).sum(-1) - own * math.log(p) - (1 - own) * math.log((1 - p) / 8)
->>>>>>> 9ffb707891ea346f321d8051fcbe1dc93372847e
     torch's own: rule = pi_tilde(rule_action, p).log()
         torch.nn.functional.kl_div(rule, log_pi, reduction="none", log_target=True).sum(-1)
 """)
