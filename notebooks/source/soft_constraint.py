@@ -36,6 +36,7 @@ from bootcourse.course import (
     shipped,
     table,
 )
+from bootcourse.course.lessons.soft_constraint.examples import kl_of
 
 # %% [markdown]
 # ## Look first
@@ -151,10 +152,7 @@ sure = torch.full((1, 9), 1e-12).scatter(1, rule_says[:, None], 1.0)
 elsewhere = torch.full((1, 9), 1e-12).scatter(1, torch.tensor([[7]]), 1.0)
 even = torch.full((1, 9), 1 / 9)
 policies = {"keep left": sure, "accelerate straight": elsewhere, "no action: all nine even": even}
-rows = []
-for words, pi in policies.items():
-    kl = bc.bootstrap.kl_to_rule(pi.log(), rule_says, torch.tensor(0.9)).item()
-    rows.append([words, f"{kl:.3f}"])
+rows = [[words, f"{kl_of(pi, rule_says, p=0.9):.3f}"] for words, pi in policies.items()]
 table(["the agent is sure of", "its KL (nats)"], rows)
 
 # %% [markdown]
