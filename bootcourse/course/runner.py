@@ -302,10 +302,9 @@ def work(exercise: bytes, job: bytes, notes: Notes | None = None) -> Report:
         warnings.simplefilter("ignore")
         if isinstance(answer, str):
             answer = defined_in(answer, asked[0])
-        report.refused = why_not_called(answer, *asked)
+        report.refused, called = why_not_called(answer, *asked), Called(answer)
         if not report.refused:
             report.library = same_content(answer, library)
-        called = Called(answer)
         copies = [case for _ in range(times) for case in pickle.loads(exercise)[1]]
         for number, (case, copy) in enumerate(zip(cases * times, copies, strict=True) if not report.refused else ()):
             if notes is not None:
