@@ -18,6 +18,7 @@ import scipy
 RESAMPLES = 99_999  # with a tenth of them, an end moved by up to 7 with the resampling seed (returns of ten agents)
 EXACT = 10  # seeds; up to these, all resamples of one sample are enumerated: 92,378 of ten
 ESCAPES = 0.95  # an agent escapes if it succeeds in at least this share of its episodes
+IN_A_ROW = 50  # training episodes, of which an agent that has found the way out ends more than half ahead
 
 
 class Estimate(NamedTuple):
@@ -152,6 +153,25 @@ def _bootstrap(samples: Sequence, statistic, seed: int) -> Estimate:
 def escapes(success: np.ndarray) -> Estimate:
     """The share of agents that escape, with its exact (Clopper-Pearson) interval: success rates (seeds,)."""
     return rate(np.asarray(success) >= ESCAPES)
+
+
+def found_after(success: np.ndarray, window: int = IN_A_ROW, least: float | None = None) -> np.ndarray:
+    """The training episodes after which each agent has found the way out: (agents,) int, 0 for one that never did.
+
+    It has when at least `least` of the last `window` episodes succeeded, by default more than half. success: (agents,
+    episodes), NaN for an episode that was not driven; a window with such an episode does not count.
+    """
+    if success.shape[1] < window:
+        return np.zeros(len(success), dtype=int)
+    least = window // 2 + 1 if least is None else least - 1e-9
+    windows = np.lib.stride_tricks.sliding_window_view(np.asarray(success, dtype=float), window, axis=1)
+    reached = windows.sum(axis=-1) >= least  # (agents, windows)
+    return np.where(reached.any(axis=1), reached.argmax(axis=1) + window, 0)
+
+
+def found(success: np.ndarray, window: int = IN_A_ROW) -> np.ndarray:
+    """Which agents found the way out in their training, (agents,) bool: see `found_after`."""
+    return found_after(success, window) > 0
 
 
 def significant(n: int) -> np.ndarray:

@@ -2,15 +2,17 @@
 
 import json
 import shutil
+from functools import partial
 
 import pytest
 
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.research import commands, ship
+from bootcourse.research.cells import train_and_test, trained
+from bootcourse.research.computed import in_assets
 from bootcourse.research.jobs import Job, run_job
-from bootcourse.research.results import in_assets, load_results
+from bootcourse.research.results import load_results
 from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.storage import assets
 from bootcourse.storage.runs import find_runs
@@ -20,8 +22,9 @@ LONGER = "longer-view/gamma-0.95.npz"
 
 def compute(root, name: str, method: str, seeds: int = 2, tests: int = 3, scenario=DEFAULT, teacher: str = "rule"):
     (root / "study.json").write_text("{}")
-    agents = with_seeds(settings_for(method, learning_starts=16, hidden=(8,), buffer_size=2000), seeds)
-    assert run_job(Job(name, tuple(agents), scenario, 2, tests, teacher=teacher), root) == ""
+    tiny = {"learning_starts": 16, "hidden": (8,), "buffer_size": 2000}
+    arguments = trained(seeds, 2, tests, (method,), scenario, teacher, **tiny)
+    assert run_job(Job(name, partial(train_and_test, keep_runs=True), arguments), root) == ""
 
 
 pytestmark = pytest.mark.usefixtures("unrendered")

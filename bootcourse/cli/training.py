@@ -22,9 +22,9 @@ import typer
 from bootcourse.colours import OTHER
 from bootcourse.errors import BootcourseError, check_known, described, did_you_mean
 from bootcourse.methods import METHODS, Method
+from bootcourse.rooms import added
 
 INTERRUPTED = 130  # exit status
-NAMED = "bootcourse.research.teachers:TEACHERS"  # the teachers with a name, loaded when one is asked for
 UNFINISHED, CHECKPOINT, SAVING, COMPLETE = "unfinished", "checkpoint.npz", "saving", "complete"  # see above
 SECONDS_BETWEEN = 20.0  # of checkpoints
 BEGINNING = ("method", "seeds", "first_seed", "episodes", "scenario", "setting", "p", "xi", "c")  # fixed by the start
@@ -41,8 +41,8 @@ def train(
     setting: str = typer.Option("quick", help="quick or paper: a quarter of an update per decision, or two."),
     teacher: str = typer.Option(
         "",
-        help="Who teaches: random-50, random-25, mirrored, timid, late, rule or planner, or a rule of your own: "
-        "FILE.py:FUNCTION.",
+        help="Who teaches: random-50, random-25, mirrored, timid, late, rule, rule-rollouts or planner, or a rule of "
+        "your own: FILE.py:FUNCTION.",
     ),
     learner: str = typer.Option("", help="A learner of your own, FILE.py:CLASS; it starts from the method's settings."),
     p: float | None = typer.Option(None, help="Probability of the rule's action in the stochastic rule."),
@@ -176,7 +176,8 @@ def teacher_from(place: str):
     if not place:
         return course_rule
     if ":" not in place:
-        teachers = resolve_name(NAMED)  # slow: it loads the planner
+        tables = map(resolve_name, added("TEACHERS").values())  # slow: it loads the planner
+        teachers = {name: teacher for table in tables for name, teacher in table.items()}
         if place not in teachers:
             own = "or give a rule of your own, FILE.py:FUNCTION"
             raise BootcourseError(f"Teacher {did_you_mean(place, teachers)}, {own}.")

@@ -1,7 +1,7 @@
 """The shipped files in `assets/`, and their check against the manifest.
 
 `manifest.json` lists the size of every file, its hash, and the command and the package versions that made it.
-`bootcourse.research.ship` makes the files.
+`bootcourse assets build` makes the files.
 """
 
 from pathlib import Path

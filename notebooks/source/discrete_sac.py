@@ -28,7 +28,7 @@ import torch
 from bootcourse.course import charts, check, compare_predictions, predict, table
 from bootcourse.course.lessons.discrete_sac import diagrams, figures
 from bootcourse.learn import sac
-from bootcourse.research import checks
+from bootcourse.research.experiments import checks
 
 # %% [markdown]
 # ## Look first

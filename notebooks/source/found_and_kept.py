@@ -28,7 +28,8 @@ import bootcourse as bc
 import numpy as np
 from bootcourse.course import charts, check, compare_predictions, predict, shipped, table
 from bootcourse.course.lessons.found_and_kept import exercises, figures
-from bootcourse.research import clocks, paper, tables
+from bootcourse.research import paper, tables
+from bootcourse.research.experiments import clocks
 from bootcourse.statistics import rolling_means
 
 # %% [markdown]
@@ -298,7 +299,7 @@ table(["β is 0 after, episodes", "return of agents with both aids that keep the
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 -->
 
 # %%
-cells = clocks.cells(shipped.shipped_experiment("clocks"))
+cells = clocks.choices(shipped.shipped_experiment("clocks"))
 bc.show(figures.fading(cells))
 
 # %% [markdown]

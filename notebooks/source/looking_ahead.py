@@ -31,8 +31,8 @@ from bootcourse.course.shipped import beginning, shipped_experiment
 from bootcourse.episodes import models
 from bootcourse.episodes.lookahead import NINE, imagine, lookahead_shield
 from bootcourse.methods import style
-from bootcourse.research.distil import learned_rows
-from bootcourse.research.lookahead import Cell, score
+from bootcourse.research.experiments.distil import learned_rows
+from bootcourse.research.experiments.lookahead import Cell, score
 from bootcourse.road.state import Accident
 
 # %% [markdown]

@@ -29,7 +29,7 @@ from bootcourse.course import charts, check, compare_predictions, own_code, pred
 from bootcourse.course.lessons.discrete_sac import figures
 from bootcourse.course.lessons.update_and_loop import by_hand, left_out
 from bootcourse.learn import sac
-from bootcourse.research import checks
+from bootcourse.research.experiments import checks
 
 # %% [markdown]
 # ## Look first

@@ -32,10 +32,10 @@ import numpy as np
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
 from bootcourse.course.lessons.your_own_problem import figures, loops
 from bootcourse.learn.teachers import teacher_policy
+from bootcourse.research.computed import experiment
 from bootcourse.research.elsewhere import settings_of
 from bootcourse.research.elsewhere_claims import Cells
 from bootcourse.research.problems import PROBLEMS
-from bootcourse.research.results import experiment
 
 # %% [markdown]
 # ## Look first

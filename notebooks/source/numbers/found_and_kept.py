@@ -9,14 +9,15 @@ from bootcourse.course.lessons.found_and_kept.figures import half_found
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.research import clocks as study_clocks
-from bootcourse.research.results import WINDOW, Results
+from bootcourse.research.experiments import clocks as study_clocks
+from bootcourse.research.results import Results
 from bootcourse.rule import stochastic_rule
 from bootcourse.statistics import ESCAPES
+from bootcourse.statistics import IN_A_ROW as WINDOW
 from scipy import stats
 from tools.course.known import clocks, escapers, fisher, in_training, of, shipped_experiment, shipped_results, varied
 
-SHORTER = study_clocks.EXPERIMENT.episodes  # training episodes of the agents of rounds 4 and 5
+SHORTER = study_clocks.TRAINED  # training episodes of the agents of rounds 4 and 5
 
 
 def undecided(method: str, first: int, last: int | None) -> float:

@@ -11,9 +11,10 @@ from bootcourse.episodes.models import MODELS
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
 from bootcourse.policies import idle_policy, random_policy
-from bootcourse.research import distil
-from bootcourse.research.lookahead import MANY, ROADS, Cell, Score, score
-from bootcourse.research.results import Results, experiment
+from bootcourse.research.computed import experiment
+from bootcourse.research.experiments import distil
+from bootcourse.research.experiments.lookahead import MANY, ROADS, Cell, Score, score
+from bootcourse.research.results import Results
 from bootcourse.road.state import Accident
 from bootcourse.scenario import DEFAULT
 from scipy import stats

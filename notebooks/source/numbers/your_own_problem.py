@@ -7,9 +7,9 @@ from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import loops  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_own_problem.figures import decisions_of
 from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
+from bootcourse.research.computed import experiment
 from bootcourse.research.elsewhere import settings_of  # noqa: F401
 from bootcourse.research.problems import PROBLEMS  # noqa: F401
-from bootcourse.research.results import experiment
 
 TEACHERS = ("good", "random", "systematic")
 FOUR = ("cloning", "soft", "demonstrations", "both")
