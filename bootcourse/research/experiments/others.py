@@ -96,12 +96,9 @@ def trained(kind: str, seed: int, decisions: int, **changes):
 
     name, teacher = KINDS[kind]
     roads, settings = FIXED[name]
-    env = TrapVecEnv(roads)
-    env.seed(FIRST_SEED + 1000 * seed)
-    learner = getattr(stable_baselines3, name)
-    model = learner("MlpPolicy", env, policy_kwargs=NETWORK, seed=None, device="cpu", **settings, **changes)
-    model.set_random_seed(seed)
-    env.seed(FIRST_SEED + 1000 * seed)
+    env, learner = TrapVecEnv(roads), getattr(stable_baselines3, name)
+    model = learner("MlpPolicy", env, policy_kwargs=NETWORK, seed=seed, device="cpu", **settings, **changes)
+    env.seed(FIRST_SEED + 1000 * seed)  # the model seeds it with its own seed
     if teacher == "clone":
         clone(model, demonstrations(), seed=seed)
     elif teacher != "nothing":
