@@ -21,7 +21,7 @@ from msgspec import Meta, Struct, convert
 from bootcourse.errors import BootcourseError
 from bootcourse.files import decoding, provenance, sha256
 from bootcourse.storage.checkpoint import DamagedCheckpoint
-from bootcourse.storage.sealed import is_file_with, read_sealed, write_sealed
+from bootcourse.storage.sealed import amiss, read_sealed, write_sealed
 from bootcourse.storage.work import owned
 
 FORMAT = "bootcourse job 3"
@@ -103,9 +103,9 @@ def read_job(folder: Path) -> dict:
     description = read_sealed(folder / "job.json", FORMAT, remedy)
     with decoding(folder / "job.json", remedy):
         convert(description, Description)
-    damaged = [name for name, digest in description["sha256"].items() if not is_file_with(folder / name, digest)]
-    if damaged:
-        raise BootcourseError(f"{folder} is damaged ({', '.join(damaged)}): {remedy}.")
+    for name, digest in description["sha256"].items():
+        if sentence := amiss(folder / name, digest, remedy):
+            raise BootcourseError(sentence)
     return description
 
 
