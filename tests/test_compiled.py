@@ -6,12 +6,14 @@ import torch
 
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
-from bootcourse.learn import records
+from bootcourse.learn import records, vectorised
 from bootcourse.learn.compiled_learner import CompiledLearner
 from bootcourse.learn.compiled_training import train
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
+from bootcourse.learn.vectorised import learner_sources
+from bootcourse.road.compiled import PACKAGE, sources
 from bootcourse.scenario import Road, Scenario
 from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
 from bootcourse.storage.runs import load_run, save_runs
@@ -143,7 +145,7 @@ def test_one_agent_s_loss_that_is_not_finite_stops_that_agent_alone():
     with pytest.warns(UserWarning, match="sac, seed 0: its loss was not finite"):
         for _ in range(70):
             training.step()
-    assert set(training.stopped) == {0} and np.isfinite(training.agent(1).actor[0]).all()
+    assert set(training.stopped) == {0} and training.agent(1).actor[0].isfinite().all()
 
 
 def test_a_wrong_learner_is_answered_with_a_sentence():
@@ -155,3 +157,21 @@ def test_a_wrong_learner_is_answered_with_a_sentence():
     }.items():
         with pytest.raises(BootcourseError, match=words):
             Training(settings, 5, **given)
+
+
+def test_a_change_of_the_learner_compiles_the_learner_again_and_leaves_the_road_s_cache_alone():
+    road, learner = set(sources(PACKAGE)), set(learner_sources(PACKAGE))
+    names = {f"{name}.py" for name in ("records", "vectorised", "compiled", "compiled_training")}
+    assert {file.name for file in learner - road} == names and road < learner
+    assert {file.parent.name for file in road} == {"road", "bootcourse"}
+
+
+def test_a_learner_that_is_not_compiled_yet_says_how_long_that_takes(tmp_path, monkeypatch, capsys):
+    settings = [settings_for("sac")]
+    CompiledLearner(settings).update(batches(settings)[0])
+    capsys.readouterr()
+    CompiledLearner(settings)
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(vectorised, "CACHE_FOLDER", tmp_path)
+    CompiledLearner(settings)
+    assert capsys.readouterr().err == "The learner is compiled, once: about 15 s.\n"

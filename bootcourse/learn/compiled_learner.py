@@ -18,6 +18,7 @@ from bootcourse.learn.protocol import Learner, check_shared
 from bootcourse.learn.records import LOSSES, SEEN
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings
+from bootcourse.learn.vectorised import announce
 from bootcourse.scenario import N_ACTIONS
 
 
@@ -35,6 +36,7 @@ class CompiledLearner(Learner):
         self.records = records.first_agents(self.settings)
         self.given = np.concatenate([records.coefficients(each) for each in settings])
         self.batches, self.work = np.zeros(self.agents, records.BATCHES), np.zeros(self.agents, records.WORK)
+        announce(update_all, 15)
         self.actor = records.parameters(self.records["actor"])  # views, as all tensors here
 
     @staticmethod
@@ -49,11 +51,7 @@ class CompiledLearner(Learner):
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
         """One gradient step of all agents. Returns the numbers of `SACLearner.losses` before the step, (agents,)."""
-        for name, values in batch._asdict().items():
-            if name in ("states", "next_states"):
-                self.batches[name]["m"][..., :SEEN] = values.numpy()
-            else:
-                self.batches[name] = values.numpy()
+        records.fill(self.batches, batch)
         update_all(self.records, self.batches, self.given, self.work)
         return {name: torch.from_numpy(self.work[name].copy()) for name in LOSSES}
 

@@ -18,7 +18,7 @@ from bootcourse.learn.compiled import draw_near, forward, policy, update
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.records import ACTIONS, BATCH, MOST_DEMONSTRATIONS, MOST_EPISODES, ROADS, SEEN
 from bootcourse.learn.settings import Settings
-from bootcourse.learn.vectorised import vectorised
+from bootcourse.learn.vectorised import announce, vectorised
 from bootcourse.road import twin
 from bootcourse.road.constants import constants
 from bootcourse.road.formulas import weighted_reward
@@ -317,6 +317,7 @@ def train(settings: Settings, episodes: int = 1000, scenario: Scenario = DEFAULT
     kinds = (records.AGENT, records.BATCHES, records.WORK, records.RUN, records.MEMORY, records.CURVES)
     agents, batches, works, runs, memories, curves = (np.zeros(1, kind) for kind in kinds)
     agents["log_alpha"] = math.log(settings.alpha_init)
+    announce(advance_first, 40)
     begin_first(agents, plan, runs, settings.seed, c)
     if settings.needs_demonstrations:
         demonstrate_first(runs, memories, s, plan, c, settings.demonstration_episodes)

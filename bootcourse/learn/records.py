@@ -15,6 +15,7 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.networks import init_mlp
 from bootcourse.learn.protocol import generators_of
+from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import METHODS, SAC
 from bootcourse.road.state import COLUMNS
@@ -199,6 +200,15 @@ def first_agents(settings: list[Settings]) -> np.ndarray:
     agents["log_alpha"] = np.log(np.array([s.alpha_init for s in settings], np.float32))
     agents["fade_1"] = agents["fade_2"] = 1.0
     return agents
+
+
+def fill(batches: np.ndarray, batch: Batch) -> None:
+    """Set `BATCHES` records (agents,) to a batch of the replay buffer."""
+    for name, values in batch._asdict().items():
+        if name in ("states", "next_states"):
+            batches[name]["m"][..., :SEEN] = values.numpy()
+        else:
+            batches[name] = values.numpy()
 
 
 def parameters(networks: np.ndarray) -> list[torch.Tensor]:

@@ -60,6 +60,7 @@ class Result:
     stopped: dict[int, int] = field(default_factory=dict)  # {agent: the decision at which its loss was not finite}
     teacher: str = "rule"  # see `teachers.teacher_name`
     environment: str = TRAP  # see `driving.environment_id`
+    learner: str = "torch"  # "compiled", or "own" for a learner of your own
 
     def __repr__(self) -> str:
         counts = Counter(display_name(agent.settings.method) for agent in self.agents)
@@ -264,7 +265,8 @@ class Training:
         agents = [self.finished_agents.get(i) or self.agent(i) for i in range(self.n_agents)]
         curves, name = {key: values.copy() for key, values in self.curves.values.items()}, teacher_name(self.teacher)
         environment = environment_id(self.env)
-        return Result(agents, curves, self.scenario, self.seconds, interrupted, dict(self.stopped), name, environment)
+        learner, stopped = self.learner_name or "own", dict(self.stopped)
+        return Result(agents, curves, self.scenario, self.seconds, interrupted, stopped, name, environment, learner)
 
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i."""

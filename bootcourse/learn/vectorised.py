@@ -5,17 +5,17 @@ of the learner's compiled files and of the road's, and nothing is compiled befor
 road do not wait. A product and a sum may be one instruction (`contract`), which rounds once instead of twice.
 """
 
+import sys
 from pathlib import Path
 
 from bootcourse.road.compiled import PACKAGE, cache_folder, cache_places, compile_into, sources
 
-RECORDS = PACKAGE / "learn" / "records.py"  # its shapes are constants of the compiled code
-
 
 def learner_sources(package: Path) -> list[Path]:
     """The files whose text the learner's cache depends on."""
-    ours = [file for file in sorted((package / "learn").glob("*.py")) if b"\n@vectorised" in file.read_bytes()]
-    return [*sources(package), RECORDS, *ours]
+    learn = package / "learn"
+    ours = [file for file in sorted(learn.glob("*.py")) if b"\n@vectorised" in file.read_bytes()]
+    return [*sources(package), learn / "vectorised.py", learn / "records.py", *ours]  # shapes are constants of the code
 
 
 CACHE_FOLDER, _ = cache_folder(learner_sources(PACKAGE), cache_places(), "learner")
@@ -24,3 +24,9 @@ CACHE_FOLDER, _ = cache_folder(learner_sources(PACKAGE), cache_places(), "learne
 def vectorised(function):
     """Compile a function that allocates no arrays, for vector instructions."""
     return compile_into(CACHE_FOLDER, function, fastmath={"contract"}, _nrt=False)
+
+
+def announce(function, seconds: int) -> None:
+    """Print, before the first call, that a function is not in the cache and takes so long to compile."""
+    if CACHE_FOLDER is None or not any(CACHE_FOLDER.rglob(f"*{function.__name__}-*.nbi")):
+        print(f"The learner is compiled, once: about {seconds} s.", file=sys.stderr)

@@ -34,13 +34,14 @@ from bootcourse.rule import SENTENCES
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS, RULE_P, Scenario
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import load_run
+from bootcourse.web.learning import learning_data, worker_as_text
 from bootcourse.web.wasm import FREE, road_module
 
 HERE = Path(__file__).resolve().parent
 IN_DEPTH = ("shaders", "webgl", "scene")  # the view in 3D
 SCRIPTS = (
-    "random", "road", "minds", "drive", "drivers", "words", "address", "view", *IN_DEPTH, "thoughts", "summary",
-    "controls", "main",
+    "imports", "random", "road", "minds", "drive", "drivers", "words", "address", "view", *IN_DEPTH, "thoughts",
+    "summary", "controls", "run_file", "learner", "main",
 )  # fmt: skip
 # The agents in the page; of plain SAC also the critics, which the compromise between Q and the rule needs.
 AGENTS = {
@@ -161,6 +162,7 @@ def page_data() -> dict:
         "module": packed(road_module()),
         "scenario": scenario_data(DEFAULT),
         "networks": networks,
+        "learning": learning_data(),
         "scene": scene_data(),
         "results": {"roads": ROADS, **measured(drivers)},
         "worth": {"speed": float(speeds[1]), "values": [round(float(value), 6) for value in worth]},
@@ -190,7 +192,8 @@ def script(name: str) -> str:
 def page() -> str:
     """The whole page as text."""
     data = json.dumps(page_data(), separators=(",", ":")).replace("<", "\\u003c")
-    scripts = "\n".join([names(), *map(script, SCRIPTS)])
+    worker = worker_as_text(script("imports") + script("learn_worker"))
+    scripts = "\n".join([names(), worker, *map(script, SCRIPTS)])
     text = (HERE / "page.html").read_text(encoding="utf-8")
     parts = {"style": (HERE / "style.css").read_text(encoding="utf-8"), "data": data, "script": scripts}
     for name, part in parts.items():

@@ -9,6 +9,7 @@ from typing import get_args
 
 import numpy as np
 
+from bootcourse.episodes.driving import TRAP
 from bootcourse.learn import records
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import MAX_SEED, Settings, settings_for
@@ -37,7 +38,7 @@ def place_of(record: np.dtype, name: str) -> list:
 
 
 def layers() -> list[dict]:
-    """The layers of a network: its inputs and outputs, the offsets in bytes, and the padded length of a row of weights."""
+    """The layers of a network: inputs, outputs, the offsets of weights and biases, the length of a padded row."""
     sizes = (records.SEEN, records.HIDDEN, records.HIDDEN, records.ACTIONS)
     offset, made = records.NETWORK.fields, []
     for layer in (1, 2, 3):
@@ -65,16 +66,12 @@ def limits() -> dict[str, dict]:
         if f.name == "rule_p":
             low, high = 1 / N_ACTIONS, LARGEST_P
         high = min(high, MOST.get(f.name, high), MAX_SEED if f.name == "seed" else high)
-        truth, whole = f.type is bool, int in kinds
         low = max(low, records.BATCH) if f.name == "buffer_size" else low
+        truth, whole, empty = f.type is bool, int in kinds, type(None) in kinds
         kind = "true or false" if truth else f"a {'whole' if whole else 'finite'} number{in_words(low, high, above)}"
-        made[f.name] = {
-            **{name: value if np.isfinite(value) else None for name, value in zip(("low", "high", "above"), (low, high, above), strict=True)},
-            "whole": whole,
-            "truth": truth,
-            "empty": type(None) in kinds,
-            "words": kind + " or null" * (type(None) in kinds),
-        }  # fmt: skip
+        numbers = {"low": low, "high": high, "above": above}
+        made[f.name] = {name: value if np.isfinite(value) else None for name, value in numbers.items()}
+        made[f.name] |= {"whole": whole, "truth": truth, "empty": empty, "words": kind + " or null" * empty}
     return made
 
 
@@ -96,9 +93,10 @@ def learning_data() -> dict:
         "without": without,
         "limits": limits(),
         "scenario": asdict(DEFAULT),
+        "environment": TRAP,
     }
 
 
-def as_text(script: str) -> str:
-    """A script as the text of another one: a worker's script is part of the page's."""
-    return json.dumps(script).replace("<", "\\u003c")
+def worker_as_text(script: str) -> str:
+    """The worker's script as a constant of the page's script, which makes workers out of it."""
+    return f"const LEARN_WORKER = {json.dumps(script)};".replace("<", "\\u003c")

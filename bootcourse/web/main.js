@@ -317,7 +317,8 @@ async function open() {
   data.scene.car = { corners: new Int16Array((await unpack(corners)).buffer),
     faces: new Uint16Array((await unpack(faces)).buffer), colours: parts };
   const compiled = await WebAssembly.compile(await unpack(data.module));
-  window.trap = { data, compiled, networks, game: new Game(data, compiled, networks) };
+  window.trap = { data, compiled, networks, game: new Game(data, compiled, networks),
+    learn: (settings, on) => learn({ data, compiled }, settings, on) };
   requestAnimationFrame(now => trap.game.frame(now));
   window.trap.ready = performance.now(); // ms since the page was opened
 }

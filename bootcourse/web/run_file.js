@@ -21,9 +21,10 @@ function tensorsOf(learner, { networks, log_alpha }) {
 }
 
 function runFile(learner, weights) {
+  if (learner.episode === 0) throw new Error("No episode has ended yet: let the agent learn first.");
   const { episodes, ...settings } = learner.begun, { learning, marks, progress } = learner;
   const config = { format: "bootcourse run 1", settings, scenario: learning.scenario, episodes: learner.episode,
-    alpha: Math.exp(weights.log_alpha) };
+    alpha: Math.exp(weights.log_alpha), environment: learning.environment };
   const provenance = { seed: settings.seed, seconds: progress.seconds ?? 0, updates: progress.updates ?? 0, marks,
     browser: navigator.userAgent, created: new Date().toISOString() };
   const metadata = { format: RUN_FORMAT, config: JSON.stringify(config), provenance: JSON.stringify(provenance) };
