@@ -138,6 +138,16 @@ def test_an_agent_is_a_snapshot_and_its_alpha_and_xi_are_those_of_the_curves():
     assert np.allclose(fixed.coefficients()["xi"], 0.3)
 
 
+def test_a_setting_that_is_changed_meanwhile_acts_as_with_torch():
+    ours, theirs = trained("compiled", 70), trained("torch", 70)
+    for training in (ours, theirs):
+        training.change(rule_p=0.5, xi_multiplier=20.0, beta_start=0.3)
+        training.update()
+    assert ours.learner.coefficients()["xi"][0] < 0.25 and ours.agent(1).settings.rule_p == 0.5
+    for name in ("xi", "kl", "actor_loss", "critic_loss"):
+        torch.testing.assert_close(ours.losses[name], theirs.losses[name], atol=1e-3, rtol=1e-3)
+
+
 def test_one_agent_s_loss_that_is_not_finite_stops_that_agent_alone():
     settings = with_seeds(settings_for("sac"), 2)
     training = Training(settings, 50, learner="compiled")

@@ -44,6 +44,11 @@ class CompiledLearner(Learner):
         """Two critics, whose smaller value counts."""
         return 2
 
+    def change(self, settings: Sequence[Settings], names: Sequence[str]) -> None:
+        """Take other values of these settings from the next update on."""
+        self.settings = list(settings)
+        self.given = np.concatenate([records.coefficients(each) for each in settings])
+
     def coefficients(self) -> dict[str, np.ndarray]:
         """The present α and ξ of each agent, (agents,)."""
         alpha, fixed = np.exp(self.records["log_alpha"]), self.given["xi_fixed"]
