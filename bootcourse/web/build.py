@@ -34,9 +34,11 @@ from bootcourse.storage.assets import FOLDER, shipped
 from bootcourse.storage.runs import load_run
 from bootcourse.web import bundle
 from bootcourse.web.bundle import HERE, module, script, text_of
+from bootcourse.web.learning import learning_data, worker_as_text
 from bootcourse.web.packing import EXACT, SHORT, packed, packed_network, scenario_data
 from bootcourse.web.wasm import road_module
 
+LEARNING = ("run_file", "learner")  # agents that learn, in the page alone
 # The agents in the page; of plain SAC also the critics, which the compromise between Q and the rule needs.
 AGENTS = {
     "sac": FOLDER / "runs/sac-2",
@@ -123,6 +125,7 @@ def page_data() -> dict:
         "module": packed(road_module()),
         "scenario": scenario_data(DEFAULT),
         "networks": networks,
+        "learning": learning_data(),
         "scene": scene_data(),
         "results": {"roads": ROADS, **measured(drivers)},
         "worth": {"speed": float(speeds[1]), "values": [round(float(value), 6) for value in worth]},
@@ -163,7 +166,8 @@ def page() -> str:
     """The whole page as text."""
     text = (HERE / "page.html").read_text(encoding="utf-8")
     parts = {"style": text_of("theme.css") + text_of("page.css"), "data": bundle.content()["data"]}
-    parts["script"] = "\n".join([module(), script("page")])
+    worker = worker_as_text(script("imports") + script("learn_worker"))
+    parts["script"] = "\n".join([module(), worker, *map(script, LEARNING), script("page")])
     for name, part in parts.items():
         text = text.replace("{{ " + name + " }}", part)
     return text
