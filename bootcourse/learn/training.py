@@ -220,31 +220,42 @@ class Training:
         """Train until all agents have finished, until so many updates, until an interrupt, or until stop() is true.
 
         progress: show a bar with the success rate of the last 100 episodes; it counts updates if their number is given.
+        In a notebook, and without a callback, the curves and the present agent on the road (see panels/watch.py).
         callback: called with this training after every decision.
         """
         from bootcourse.progress import end_full, progress_bar
 
+        watch = None
+        if progress and callback is None:
+            from bootcourse.panels.watch import watched
+
+            watch = watched(self)
+        callback = callback if watch is None else watch.look
         started, before = time.perf_counter(), self.seconds
         total, unit = (self.n_agents * self.episodes, "episode") if updates is None else (updates, "update")
-        bar = progress_bar(shown=progress, total=total, unit=unit)
+        bar = progress_bar(shown=progress and watch is None, total=total, unit=unit)
         with one_torch_thread(), bar, interrupt_after_step() as interrupted:
             try:
                 while not (self.done or interrupted.is_set()):
-                    if (stop is not None and stop()) or (updates is not None and self.updates >= updates):
+                    stopped = (stop is not None and stop()) or (watch is not None and watch.stopping)
+                    if stopped or (updates is not None and self.updates >= updates):
                         break
                     self.step()
                     self.seconds = before + time.perf_counter() - started
                     if callback is not None:
                         callback(self)
                     so_far = np.minimum(self.curves.finished, self.episodes).sum() if updates is None else self.updates
-                    if progress and so_far > bar.n:
+                    if progress and watch is None and so_far > bar.n:
                         bar.set_postfix_str(_success(self.curves), refresh=False)
                         bar.update(min(int(so_far), total) - bar.n)
                 if not interrupted.is_set():
                     end_full(bar)  # it is over as planned
             except KeyboardInterrupt:
                 interrupted.set()
-        return self.result(interrupted=interrupted.is_set() or not self.done)
+        result = self.result(interrupted=interrupted.is_set() or not self.done)
+        if watch is not None:
+            watch.ended(result)
+        return result
 
     def result(self, interrupted: bool = False) -> Result:
         """The agents and curves so far."""

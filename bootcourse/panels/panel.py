@@ -28,7 +28,6 @@ STYLE = """<style>
 @media (max-width: 640px) {  /* a drawing keeps a size that can be read, and its box scrolls */
   .bc-panel .widget-html-content {overflow-x: auto}
   .bc-panel .widget-html-content > svg {max-width: none; width: 720px}
-  .bc-panel .bc-road .widget-html-content > svg {width: 500px}  /* the ego is in sight */
 }
 .bc-panel :focus-visible {outline: 2px solid var(--jp-brand-color1, #1976D2); outline-offset: 2px}
 .bc-panel .widget-html, .bc-panel .widget-html-content {line-height: normal; height: auto}

@@ -2,7 +2,7 @@
 
 trainer = train_panel()
 trainer.result                                  # of the last training: bc.save_runs(trainer.result, "runs/mine")
-train_panel(drives=mine.demonstrations)         # bootstrap from your own drives (see drive_panel)
+train_panel(drives=world.attempts)              # bootstrap from your own drives (see `bc.world`)
 """
 
 import math

@@ -142,10 +142,10 @@ table(["plan", "ends with", "after"], rows)
 # ## Round 2: is there another way?
 #
 # The rule brakes for some seconds. Could you also get out without braking? Try it on another road,
-# number 7. The panel's ghost does nothing here.
+# number 7. The ghost beside you does nothing here.
 
 # %% tags=["nbval-ignore-output"]
-bc.panels.drive_panel(seed=7, ghost=bc.idle_policy)
+bc.world(road=7, ghosts="idle")
 
 # %% [markdown]
 # Take the {{ 3 ** 8 | , }} plans that steer left, straight or right in each of eight seconds at the
