@@ -23,7 +23,7 @@ from bootcourse.course.notebook import beside_the_notebook
 from bootcourse.course.own_learner import own_learner, part, parts_of
 from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError, check_known
-from bootcourse.learn.learner import SACLearner, learner_for
+from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
@@ -82,7 +82,7 @@ def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Trai
     own = {name: _own[name] for name in names if name in _own}
     if own and more.get("device", "cpu") != "cpu":
         raise BootcourseError(f"Your own code trains on the CPU: leave out device={more['device']!r}.")
-    make_learner = functools.partial(own_learner, own) if own else learner_for
+    make_learner = functools.partial(own_learner, own) if own else None
     mine = Training(settings, episodes, make_learner=make_learner, **more)
     print(f"Training with {whose(names) or 'no part that an exercise writes'}.".replace("`", ""))
     return mine

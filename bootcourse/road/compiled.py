@@ -36,10 +36,10 @@ def cache_places() -> list[Path]:
     return [*([Path(chosen)] if chosen else []), PACKAGE / "__pycache__", Path(user_cache_dir("bootcourse"))]
 
 
-def cache_folder(package: Path, places: list[Path]) -> tuple[Path | None, str]:
-    """(the cache of this version, "") in the first of these places that can be written, or (None, why none can)."""
-    text = b"".join(source.read_bytes() for source in sources(package))
-    name, reasons = f"numba-{hashlib.sha256(text).hexdigest()[:12]}", []
+def cache_folder(files: list[Path], places: list[Path], kind: str = "numba") -> tuple[Path | None, str]:
+    """(the cache for these files, "") in the first of these places that can be written, or (None, why none can)."""
+    text = b"".join(file.read_bytes() for file in files)
+    name, reasons = f"{kind}-{hashlib.sha256(text).hexdigest()[:12]}", []
     for place in places:
         try:
             (place / name).mkdir(parents=True, exist_ok=True)
@@ -61,30 +61,31 @@ def make_temporary_place() -> None:
         atexit.register(lambda: os.getpid() == owner and shutil.rmtree(folder, ignore_errors=True))
 
 
-CACHE_FOLDER, UNWRITABLE = cache_folder(PACKAGE, cache_places())
+CACHE_FOLDER, UNWRITABLE = cache_folder(sources(PACKAGE), cache_places())
 ADVICE = "Make one of them writable, or set NUMBA_CACHE_DIR to a folder of yours that can be written."
 if UNWRITABLE:
     print(
         f"Every start compiles the road again, because nothing can be kept in {UNWRITABLE}. {ADVICE}", file=sys.stderr
     )
     make_temporary_place()
-    CACHE_FOLDER, _ = cache_folder(PACKAGE, cache_places())
+    CACHE_FOLDER, _ = cache_folder(sources(PACKAGE), cache_places())
 
 
 def compiled(function):
     """Compile a function that allocates no arrays in numba's nopython mode; division by zero as in numpy."""
-    return _compile(function, makes_arrays=False)
+    return compile_into(CACHE_FOLDER, function, forceinline=True, _nrt=False)
 
 
 def compiled_loop(function):
     """Compile a function that may allocate arrays, such as a loop over many roads."""
-    return _compile(function, makes_arrays=True)
+    return compile_into(CACHE_FOLDER, function, forceinline=True, _nrt=True)
 
 
-def _compile(function, makes_arrays: bool):
-    before, cached = numba.config.CACHE_DIR, CACHE_FOLDER is not None
-    numba.config.CACHE_DIR = str(CACHE_FOLDER)
+def compile_into(folder: Path | None, function, **options):
+    """The function compiled with these options of numba, cached in a folder; None: not cached."""
+    before = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(folder)
     try:
-        return numba.njit(cache=cached, error_model="numpy", nogil=True, forceinline=True, _nrt=makes_arrays)(function)
+        return numba.njit(cache=folder is not None, error_model="numpy", nogil=True, **options)(function)
     finally:
         numba.config.CACHE_DIR = before

@@ -20,10 +20,10 @@ from bootcourse.files import write_bytes
 HERE = Path(__file__).resolve().parent
 PACKAGE = HERE.parent
 MADE_OF = ("*.py", "road/*.py", "episodes/*.py", "learn/*.py", "replay3d/*.py", "plots/*.py",
-           "web/build.py", "web/entries.py", "web/packing.py", "web/wasm.py", "web/*.safetensors")  # fmt: skip
+           "web/build.py", "web/entries.py", "web/learning.py", "web/packing.py", "web/wasm.py", "web/*.safetensors")  # fmt: skip
 IN_DEPTH = ("shaders", "webgl", "scene")  # the view in 3D
 SCRIPTS = (
-    "random", "road", "minds", "drive", "drivers", "seat", "words", "address", "view", *IN_DEPTH, "thoughts", "summary",
+    "imports", "random", "road", "minds", "drive", "drivers", "seat", "words", "address", "view", *IN_DEPTH, "thoughts", "summary",
     "controls", "main", "mount",
 )  # fmt: skip
 

@@ -23,5 +23,6 @@ mount(element, data, { details: true, page: true, keys: document }).then(game =>
   element.addEventListener("shown", () => remember(game.state));
   window.addEventListener("hashchange", () => readAddress(game));
   const { compiled, networks, find } = game;
-  window.trap = { data, compiled, networks, game, find, ready: performance.now() }; // ms since the page was opened
+  window.trap = { data, compiled, networks, game, find, learn: (settings, on) => learn({ data, compiled }, settings, on),
+    ready: performance.now() }; // ms since the page was opened
 });
