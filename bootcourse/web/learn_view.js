@@ -18,7 +18,7 @@ const METHOD_WORDS = {
   sac: ["plain SAC", "Learning from reward alone."],
   soft: ["the soft constraint", "The KL pulls the policy towards the rule’s."],
   demos: ["demonstrations", "The rule’s drives are in each batch, with a bonus."],
-  bootstrapped: ["both aids: the paper’s method", "The pull and the demonstrations together."],
+  bootstrapped: ["both aids, the paper’s method", "The pull and the demonstrations together."],
   margin: ["margin", "Demonstrations with a margin loss in place of the bonus."],
   margin_soft: ["margin and soft constraint", "The pull, and a margin loss in place of the bonus."],
 };

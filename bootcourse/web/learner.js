@@ -16,7 +16,8 @@ const EVERY = 20; // episodes between two snapshots of the agent
 // The library's settings of an agent, out of what was asked for. Throws an Error whose message says what is wrong.
 function settingsOf(learning, { method = "bootstrapped", episodes = 1000, ...asked }) {
   const known = learning.methods[method];
-  if (!known) throw new Error(`“${method}” is not a method of this page: choose ${Object.keys(learning.methods).join(", ")}.`);
+  const methods = Object.keys(learning.methods).join(", ");
+  if (!known) throw new Error(`“${method}” is not a method of this page: choose ${methods}.`);
   const changes = changesOf(learning, asked), settings = { ...known, ...changes, episodes };
   for (const name of learning.without[method]) {
     if (changes[name] > 0) throw new Error(`${name} = ${changes[name]}, but method “${method}” is defined by doing without.`);
@@ -31,7 +32,8 @@ function settingsOf(learning, { method = "bootstrapped", episodes = 1000, ...ask
 function changesOf(learning, asked) {
   return Object.fromEntries(Object.entries(asked).map(([given, value]) => {
     const name = SHORT[given] ?? given, limits = learning.limits[name];
-    if (!limits) throw new Error(`“${given}” is not a setting: choose ${[...Object.keys(SHORT), ...Object.keys(learning.limits)].join(", ")}.`);
+    const names = [...Object.keys(SHORT), ...Object.keys(learning.limits)].join(", ");
+    if (!limits) throw new Error(`“${given}” is not a setting: choose ${names}.`);
     const { low, high, above, whole, empty } = limits;
     const fits = value === null ? empty : typeof value === "boolean" ? limits.truth : !limits.truth
       && Number.isFinite(value) && (low === null || value >= low) && (high === null || value <= high)
@@ -71,6 +73,12 @@ class Learner {
 
   get episode() { return this.curves.return.length; }
   get latest() { return this.agents.at(-1); } // { episode, layers }, undefined before the first
+
+  // The snapshot nearest to an episode, { episode, layers }; undefined before the first.
+  agentAt(episode) {
+    const away = snapshot => Math.abs(snapshot.episode - episode);
+    return this.agents.reduce((best, each) => (best && away(best) <= away(each) ? best : each), undefined);
+  }
 
   hear({ kind, episode, ...said }) {
     if (this.state === "stopped") return;

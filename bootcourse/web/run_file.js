@@ -64,7 +64,8 @@ function readSafetensors(bytes) {
     if (dtype !== "F32" || to - from !== 4 * size || 8 + length + to > bytes.length) {
       throw new Error(`The tensor “${name}” is damaged, or not of float32.`);
     }
-    return [name, { shape, values: Float32Array.from({ length: size }, (_, i) => view.getFloat32(8 + length + from + 4 * i, true)) }];
+    const start = 8 + length + from, number = (_, i) => view.getFloat32(start + 4 * i, true);
+    return [name, { shape, values: Float32Array.from({ length: size }, number) }];
   }));
   return { tensors, metadata };
 }
@@ -74,13 +75,15 @@ function readSafetensors(bytes) {
 // Throws an Error with a sentence for another file.
 function readRun(learning, bytes) {
   const { tensors, metadata } = readSafetensors(bytes);
-  const parts = (name, member) => learning.layers.flatMap(({ inputs, outputs }, layer) => [inputs, 1].map((rows, part) => {
-    const tensor = tensors[`${name}.${2 * layer + part}`], size = rows * outputs;
+  const part = (name, member, rows, outputs) => {
+    const tensor = tensors[name], size = rows * outputs;
     if (!tensor || tensor.shape.slice(1).join() !== `${rows},${outputs}` || tensor.values.length < (member + 1) * size) {
       throw new Error(`The file has no ${name} of this page’s shape: it is of another kind of agent.`);
     }
     return tensor.values.slice(member * size, (member + 1) * size);
-  }));
+  };
+  const parts = (name, member) => learning.layers.flatMap(({ inputs, outputs }, layer) => (
+    [inputs, 1].map((rows, k) => part(`${name}.${2 * layer + k}`, member, rows, outputs))));
   const actor = parts("actor", 0), layers = layersOf(learning, Float32Array.from(actor.flatMap(part => [...part])));
   if (metadata.format !== RUN_FORMAT) return { layers };
   const [critic_1, critic_2, target_1, target_2] = [0, 1, 2, 3].map(k => parts(k < 2 ? "critics" : "targets", k % 2));
