@@ -54,8 +54,7 @@ def test_agents_learn_at_a_press_of_start_and_their_curves_grow(visit):
         page.page.wait_for_timeout(400)
         assert page.page.evaluate("trap.view.learners.map(each => each.episode)") == still
         ARTEFACTS.mkdir(exist_ok=True)
-        page.page.screenshot(path=ARTEFACTS / "learn.png")
-        assert not is_blank(ARTEFACTS / "learn.png")
+        assert not is_blank(page.page.screenshot(path=ARTEFACTS / "learn.png"))
         assert page.errors == []
 
 
