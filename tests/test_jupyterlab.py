@@ -22,23 +22,23 @@ CHANGED = """(number, act) => new Promise(done => {
 })"""
 
 WORLD = ".jp-OutputArea [data-lm-suppress-shortcuts]"
-PRESSED = """async host => {
+FRAMES = """async host => {  // pictures from a key to its arrow, with a clock that waits for decisions
     const pad = host.shadowRoot.getElementById('pad'), shell = host.shadowRoot.getElementById('shell'), took = [];
     const send = (kind, key) => shell.dispatchEvent(new KeyboardEvent(kind, { key, bubbles: true, composed: true }));
-    for (const key of ['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown']) {
-        const start = performance.now(), shown = new Promise(done => new MutationObserver((_, watch) => {
-            if (pad.querySelector('.coming')) { watch.disconnect(); done(performance.now() - start); }
-        }).observe(pad, { subtree: true, attributes: true }));
+    const frame = () => new Promise(requestAnimationFrame);
+    for (const key of ['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight']) {
+        await new Promise(rest => setTimeout(rest, 2500));
+        await frame();
         send('keydown', key);
-        took.push(await shown);
+        let frames = 0;
+        while (!pad.querySelector('.coming') && frames < 100) { await frame(); frames++; }
+        took.push(frames);
         send('keyup', key);
-        await new Promise(rest => setTimeout(rest, 1200));
     }
     return took;
 }"""
-TRAINED = """from bootcourse.learn.settings import settings_for
-from bootcourse.learn.training import Training
-agent = Training([settings_for("soft", hidden=(16, 16))], 1).result().agents[0]
+TRAINED = """from bootcourse.storage.assets import FOLDER
+agent = bc.load_run(FOLDER / "runs/bootstrapped-4").agent
 """
 THINKING = """from bootcourse.learn.settings import settings_for
 from bootcourse.learn.training import Training
@@ -157,10 +157,30 @@ def test_a_rule_that_fails_is_one_sentence_on_the_road(worlds):
     assert worlds.shown.errors == []
 
 
-def test_a_key_shows_its_arrow_within_a_tenth_of_a_second_and_the_module_is_there_once(worlds):
-    took = worlds.page.locator(WORLD).nth(0).evaluate(PRESSED)
-    assert statistics.median(took) < 100, took
+def test_a_key_is_seen_two_pictures_later_and_the_module_is_there_once(worlds):
+    took = worlds.page.locator(WORLD).nth(0).evaluate(FRAMES)
+    assert max(took) <= 2, took  # 33 ms at 60 pictures a second
     assert answer(worlds, "print(len({id(each.library) for each in (mine, learned, ruled)}))") == "1"
+
+
+def test_a_training_is_watched_in_its_cell_and_the_road_s_button_stops_it(open_notebook):
+    cells = (
+        "from bootcourse.learn.settings import settings_for\nfrom bootcourse.learn.training import Training\n"
+        "result = Training([settings_for('bootstrapped', learning_starts=64)], 20_000).run()",
+        "print('interrupted' if result.interrupted else 'whole', len(result.agents))",
+    )
+    with open_notebook(*cells) as it:
+        it.page.set_default_timeout(60_000)
+        it.page.evaluate("() => { jupyterapp.commands.execute('notebook:run-all-cells'); }")
+        road = it.page.locator(WORLD)
+        clock = lambda: road.locator("#clock").inner_text()  # noqa: E731
+        assert until(lambda: clock() not in ("", "0 of 150 s"), 60), "the present agent drives"
+        assert until(lambda: "the agent now" in road.locator("#driver").inner_text())
+        it.page.locator(".jp-OutputArea svg circle").first.wait_for()
+        it.page.locator(".jp-OutputArea-output").first.screenshot(path=str(ARTEFACTS / "watched.png"))
+        it.page.get_by_role("button", name="Stop, and keep what was learned").click()
+        it.page.get_by_text("interrupted 1").wait_for()
+        assert "Stopped after" in it.page.locator(".jp-OutputArea").first.inner_text() and it.shown.errors == []
 
 
 # Panels
@@ -219,18 +239,16 @@ def test_a_slider_shows_its_effect_within_a_tenth_of_a_second(notebook):
     assert statistics.median(took) < 100, took
 
 
-def test_a_training_grows_on_the_page_stops_and_is_watched(notebook):
+def test_a_training_grows_on_the_page_and_stops(notebook):
     shown = panel(notebook, 0)
     button(notebook, 0, "Train").press("Enter")
     waits_for(notebook, 0, "<circle")
     notebook.page.wait_for_function("document.activeElement.getAttribute('aria-label') === 'Stop'")
     waits_for(notebook, 0, "decisions/s")
+    assert until(lambda: shown.locator("#clock").inner_text() not in ("", "0 of 150 s")), "the present agent drives"
     shown.screenshot(path=str(ARTEFACTS / "train-panel.png"))
-    button(notebook, 0, "Stop").click()
+    button(notebook, 0, "Stop").first.click()
     waits_for(notebook, 0, "Stopped: ")
-    button(notebook, 0, "Watch").click()
-    frame = shown.locator("iframe").element_handle().content_frame()
-    frame.wait_for_selector("canvas")
 
 
 def test_the_keyboard_commits_a_prediction(notebook):
@@ -251,7 +269,7 @@ def test_the_keyboard_commits_a_prediction(notebook):
 def test_each_control_of_a_panel_has_a_name_in_letters(notebook):
     controls = ".bc-panel [role=slider], .bc-panel input:not([type=radio], [type=checkbox]), .bc-panel button"
     names = notebook.page.locator(controls).evaluate_all(
-        "each => each.map(one => one.getAttribute('aria-label') ?? '')"
+        "each => each.filter(one => one.getRootNode() === document).map(one => one.getAttribute('aria-label') ?? '')"
     )
     assert len(names) > 20 and all(re.search("[a-z]{3}", name) for name in names), names
     assert "Prediction 4.2" in names

@@ -14,7 +14,7 @@ import time
 import warnings
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pkgutil import resolve_name
 
 import numpy as np
@@ -35,10 +35,13 @@ from bootcourse.learn.running import device_named, interrupt_after_step, one_tor
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
 from bootcourse.methods import display_name
+from bootcourse.one_per_cell import this_cell
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario, check_p
+from bootcourse.terminal import printable
 
 SNAPSHOT_EVERY = 200  # updates between snapshots; an agent with a non-finite loss is frozen at its last finite one
+CHANGEABLE = ("rule_p", "xi_multiplier", "bonus", "beta_start")  # while a training runs: see `Training.change`
 MOST_EPISODES = 100_000  # of each agent, whose curves take 8 MB then
 FIRST_SEED = 2**33  # seed of the first training road; demonstrations start at 2**34, held-out roads are below 2**32
 
@@ -69,7 +72,7 @@ class Result:
         ends = np.isfinite(self.curves["return"]).sum(1)  # (agents,) episodes
         returns = [values[:n][-100:].mean() for values, n in zip(self.curves["return"], ends, strict=True) if n]
         each = ", ".join(f"{value:.1f}" for value in returns[:10]) + " …" * (len(returns) > 10)
-        return (
+        return printable(
             f"{agents} on {where}, teacher: {self.teacher}\n"
             f"{ends.sum():,} episodes in {self.seconds:.0f} s{', not finished' * self.interrupted}\n"
             f"mean return of each agent's last 100 episodes: {each or 'no episode has ended'}"
@@ -177,6 +180,21 @@ class Training:
             return np.zeros(self.env.num_envs, dtype=np.int64)
         return self._teach(self.env.cars if self.on_the_trap else self.states)
 
+    def change(self, **values) -> None:
+        """Change settings of all agents from the next update on: rule_p, xi_multiplier, bonus or beta_start.
+
+        A share of demonstrations that is set here no longer fades. Raises BootcourseError for another setting, for a
+        value out of range, and for a setting that the method does not use.
+        """
+        for name in values:
+            check_known("While it trains, the setting", name, CHANGEABLE)
+        changed = [replace(settings, **values) for settings in self.settings]
+        self.learner.change(changed, [name for name in values if name != "beta_start"])
+        self.settings = changed
+        if "beta_start" in values:
+            self.beta_start = np.array([s.beta_start for s in changed])
+            self.beta_episodes = np.full(self.n_agents, np.inf)
+
     def step(self) -> None:
         """One decision in every environment, and the updates that follow it."""
         shape = (self.n_agents, self.envs_per_agent)
@@ -234,17 +252,17 @@ class Training:
         """Train until all agents have finished, until so many updates, until an interrupt, or until stop() is true.
 
         progress: show a bar with the success rate of the last 100 episodes; it counts updates if their number is given.
-        In a notebook, and without a callback, the curves and the present agent on the road (see panels/watch.py).
+        In a notebook, the curves and the present agent on the road take its place (see panels/watch.py).
         callback: called with this training after every decision.
         """
         from bootcourse.progress import end_full, progress_bar
 
         watch = None
-        if progress and callback is None:
+        if progress and this_cell() is not None:
             from bootcourse.panels.watch import watched
 
             watch = watched(self)
-        callback = callback if watch is None else watch.look
+        calls = [call for call in (callback, watch and watch.look) if call]
         started, before = time.perf_counter(), self.seconds
         total, unit = (self.n_agents * self.episodes, "episode") if updates is None else (updates, "update")
         bar = progress_bar(shown=progress and watch is None, total=total, unit=unit)
@@ -256,8 +274,8 @@ class Training:
                         break
                     self.step()
                     self.seconds = before + time.perf_counter() - started
-                    if callback is not None:
-                        callback(self)
+                    for call in calls:
+                        call(self)
                     so_far = np.minimum(self.curves.finished, self.episodes).sum() if updates is None else self.updates
                     if progress and watch is None and so_far > bar.n:
                         bar.set_postfix_str(_success(self.curves), refresh=False)

@@ -48,10 +48,7 @@ class Panel(widgets.VBox):
         head = widgets.HTML(Markup(STYLE) + html("<h3>{}</h3>", title) + for_everybody())
         super().__init__([head, *parts, self.says])
         self.add_class("bc-panel")
-        cell = one_per_cell.this_cell()
-        place = None if cell is None else (cell, type(self).__name__)
-        one_per_cell.close_shown_by(place)
-        one_per_cell.note(place, self)
+        one_per_cell.replace_with(self)
 
     def say(self, sentence: str = "", wrong: bool = False) -> None:
         """Show a message in the panel; an empty one removes it."""

@@ -30,7 +30,7 @@ from bootcourse.road.branching import future_worth
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import SENTENCES
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS, RULE_P
-from bootcourse.storage.assets import FOLDER
+from bootcourse.storage.assets import FOLDER, shipped
 from bootcourse.storage.runs import load_run
 from bootcourse.web import bundle
 from bootcourse.web.bundle import HERE, module, script, text_of
@@ -110,7 +110,8 @@ def scene_data() -> dict:
 
 
 def page_data() -> dict:
-    """All that the scripts read, as JSON."""
+    """All that the scripts read, as JSON. Raises BootcourseError where the agents do not ship."""
+    shipped()
     agents: dict[str, Agent] = {name: load_run(path).agent for name, path in AGENTS.items()}
     networks = {name: packed_network(agent.actor, 0, EXACT) for name, agent in agents.items()}
     clone = read_tensors(PPO)

@@ -20,8 +20,10 @@ from bootcourse.files import write_bytes
 HERE = Path(__file__).resolve().parent
 PACKAGE = HERE.parent
 MADE_OF = (
-    "*.py", "road/*.py", "episodes/*.py", "learn/*.py", "replay3d/*.py", "plots/*.py", "web/build.py",
-    "web/entries.py", "web/learning.py", "web/packing.py", "web/wasm.py", "web/*.safetensors",
+    "*.py", "road/*.py", "episodes/*.py", "learn/agent.py", "learn/networks.py", "learn/protocol.py",
+    "learn/compiled*.py", "learn/records.py", "learn/settings.py", "learn/vectorised.py", "replay3d/*.py",
+    "plots/road.py", "plots/svg.py", "web/build.py", "web/entries.py", "web/learning.py", "web/packing.py",
+    "web/wasm.py", "web/*.safetensors",
 )  # fmt: skip
 IN_DEPTH = ("shaders", "webgl", "scene")  # the view in 3D
 SCRIPTS = (
@@ -31,8 +33,9 @@ SCRIPTS = (
 
 
 def text_of(name: str) -> str:
-    """A file of this folder without indentation."""
-    return re.sub(r"^[ \t]+", "", (HERE / name).read_text(encoding="utf-8"), flags=re.M)
+    """A file of this folder without indentation; of a style also without comments and spaces at its marks."""
+    text = re.sub(r"^[ \t]+", "", (HERE / name).read_text(encoding="utf-8"), flags=re.M)
+    return re.sub(r" ?/\*.*?\*/|(?<=[:;{]) | (?=[{}])", "", text) if name.endswith(".css") else text
 
 
 def script(name: str) -> str:

@@ -27,6 +27,7 @@ class Game {
       t: () => this.toggleTheme(), v: () => this.find("view").click(), 0: () => this.setPace(0),
       1: () => this.setPace(1), 2: () => this.setPace(2), 5: () => this.setPace(5),
     });
+    this.controls.touched = () => { this.dirty = true; }; // a key is seen at once, also where the clock waits
     this.controls.pad.forEach((button, action) => button.setAttribute("aria-label", data.actions[action]));
     makeSliders(this.find, this.settings, name => this.tuned(name));
     if (options.page) this.find("shell").tabIndex = -1; // the keys are the world's wherever the focus is

@@ -25,7 +25,7 @@ function besideCurves(model, el, host) {
     chart.innerHTML = model.get("chart");
     chart.firstChild.style.cssText = "width: 100%; height: auto";
     words.textContent = model.get("words");
-    stop.hidden = !model.get("running");
+    stop.hidden = !(model.get("running") && model.get("opens").stop);
   };
   stop.addEventListener("click", () => model.send({ kind: "stop" }));
   chart.addEventListener("click", ({ clientX }) => {

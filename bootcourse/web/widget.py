@@ -53,10 +53,6 @@ class World(anywidget.AnyWidget):
         self._drives, self._ends, self._eye = {}, [], None
         super().__init__(library=library(), opens=opens, drivers=self._told())
         self.on_msg(self._heard)
-        cell = one_per_cell.this_cell()
-        place = None if cell is None else (cell, type(self).__name__)
-        one_per_cell.close_shown_by(place)
-        one_per_cell.note(place, self)
 
     @property
     def drive(self):
@@ -203,7 +199,9 @@ def world(
     names = list(guests)
     opens = {"road": road, "driver": names[0], "ghost": ",".join(names[1:]) or "none", "futures": int(futures)}
     opens |= {"view": view, "details": details, "height": whole(height, "height", 4000, 300)}
-    return World(guests, opens, scenario)
+    shown = World(guests, opens, scenario)
+    one_per_cell.replace_with(shown)
+    return shown
 
 
 def _several(ghosts) -> dict:
