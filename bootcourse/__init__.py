@@ -4,6 +4,7 @@ The front door: `import bootcourse as bc` gives every name in `NAMES` and every 
 it is first used. The parts, each of which uses only those above it; all but the last two are the small library:
 
 errors             the exception for mistakes that a user can mend
+rooms              what the last two parts add to the front door, the command line and the studies
 files              reading and writing files, whole or not at all
 markup             text as HTML: the one place that escapes
 progress           a progress bar, or lines where no terminal shows one
@@ -18,6 +19,7 @@ episodes           driving: one recorded drive, many evaluated episodes, a drive
 learn              discrete SAC, the rule's help, the baselines, the training loop
 storage            runs, checkpoints and shipped results on disk
 plots              figures: the road from above, a drive over time, training curves
+others             the road for other people's code: one fast car, and adapters for other libraries
 comparison         some trainings side by side, in any environment: curves, intervals, a table
 one_per_cell       a notebook cell that runs again replaces what it showed
 replay3d           drives in 3D: in a notebook, in a browser, as one file
@@ -37,10 +39,11 @@ if sys.argv[:1] == ["-m"] and sys.path[:1] == [os.getcwd()] != [os.path.dirname(
     del sys.path[0]  # `python -m bootcourse` in a class's folder: import nothing that was handed in
 
 from bootcourse.errors import did_you_mean
+from bootcourse.rooms import added
 
 __version__ = "0.1.0"
 
-NAMES = {  # name -> where it is defined
+NAMES = added("NAMES") | {  # name -> where it is defined
     # the road
     "DEFAULT": "bootcourse.scenario",
     "CALIBRATED": "bootcourse.scenario",
@@ -77,11 +80,6 @@ NAMES = {  # name -> where it is defined
     "Success": "bootcourse.episodes.success",
     "save_runs": "bootcourse.storage.runs",
     "load_run": "bootcourse.storage.runs",
-    # what ships with the course
-    "shipped_results": "bootcourse.course.shipped",
-    "shipped_agents": "bootcourse.course.shipped",
-    "shipped_drive": "bootcourse.course.shipped",
-    "board": "bootcourse.course.board",
     # to look at it
     "show": "bootcourse.plots.figure",
     "top_view_over_time": "bootcourse.plots.top_view",
@@ -110,11 +108,11 @@ try:
 except ModuleNotFoundError:  # `bootcourse doctor` says what is missing, and needs nothing else from here
     pass
 else:
-    _gym.register(
-        id="Trap-v0",
-        entry_point="bootcourse.road.trap_env:TrapEnv",
-        vector_entry_point="bootcourse.road.vector_env:TrapVectorEnv",
-    )
+    for _name, _entry_point in (
+        ("Trap-v0", "bootcourse.road.trap_env:TrapEnv"),
+        ("FastTrap-v0", "bootcourse.others.fast_env:FastTrapEnv"),
+    ):
+        _gym.register(_name, _entry_point, vector_entry_point="bootcourse.road.vector_env:TrapVectorEnv")
 
 
 def __getattr__(name: str):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.research.experiments.teacher_worth import QUANTITIES, by_teacher, in_words, worth_rows
 from bootcourse.research.results import Results, agent_entries
-from bootcourse.research.teacher_worth import QUANTITIES, cells, in_words, worth_rows
 
 EPISODES, TESTS = 120, 20
 
@@ -30,7 +30,7 @@ ESCAPING = {("planner", "rlpd"): 10, ("rule", "soft"): 7, ("random-50", "soft"):
 
 @pytest.fixture(scope="module")
 def worth():
-    return cells({f"{t}, {m}": ten_agents(t, m, escaping) for (t, m), escaping in ESCAPING.items()})
+    return by_teacher({f"{t}, {m}": ten_agents(t, m, escaping) for (t, m), escaping in ESCAPING.items()})
 
 
 @pytest.mark.parametrize(

@@ -6,13 +6,11 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.files import write_arrays
 from bootcourse.learn.replay_buffer import decode_transitions
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.policies import PolicyOutput
-from bootcourse.research import checks
-from bootcourse.research.results import load_results
+from bootcourse.research.experiments import checks
 
 BALANCE = teacher_policy(checks.balance, None, 2)
 
@@ -45,12 +43,11 @@ def cloned(seeds: int) -> checks.Trained:
     return checks.train(settings, checks.cartpole, 1500, rows), [returns]
 
 
-def test_a_check_trains_its_agents_and_its_page_says_whether_they_reach_the_published_figure(monkeypatch, tmp_path):
+def test_a_check_trains_its_agents_and_its_page_says_whether_they_reach_the_published_figure(monkeypatch):
     for name, published in (("gail-cartpole", 450.0), ("cql-cartpole", 600.0)):
         one = replace(checks.CHECKS[name], published=published, train=cloned, make_env=checks.cartpole)
         monkeypatch.setitem(checks.CHECKS, name, one)
-    write_arrays(tmp_path / "results.npz", checks.measured("gail-cartpole", 2))
-    results = load_results(tmp_path / "results.npz")
+    results = checks.measured("gail-cartpole", 2)
     assert results.measured["return"].shape == (2,) and results.measured["return"].min() > 450
     yes, no = checks.page({"gail-cartpole": results, "cql-cartpole": results}).splitlines()[-2:]
     assert "| yes |" in yes and "2 seeds (the demonstrator: 500)" in yes and "| **no** |" in no

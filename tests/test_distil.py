@@ -5,10 +5,10 @@ import pytest
 
 import bootcourse as bc
 from bootcourse.episodes.lookahead import nine_drives
-from bootcourse.research import distil
-from bootcourse.research.distil import learned_rows
-from bootcourse.research.lookahead import shipped_actors
-from bootcourse.research.results import experiment
+from bootcourse.research.computed import experiment
+from bootcourse.research.experiments import distil
+from bootcourse.research.experiments.distil import learned_rows
+from bootcourse.research.experiments.lookahead import shipped_actors
 
 TINY = {"DRIVES": 3, "ROUNDS": 2, "UPDATES": 2, "AGENTS": 1, "ROADS": 2}
 
@@ -36,8 +36,8 @@ def test_a_student_learns_drives_alone_and_leaves_its_base_as_it_was(name, base,
     for constant, value in TINY.items():
         monkeypatch.setattr(distil, constant, value)
     before = [layer.clone() for layer in base.actor]
-    arrays = distil.distilled(**distil.TRIES[name])
-    assert arrays["measured.roads"].tolist() == [2] and 0 <= arrays["measured.accidents"][0] <= 2
+    measured = distil.distilled(**distil.TRIES[name]).measured
+    assert measured["roads"].tolist() == [2] and 0 <= measured["accidents"][0] <= 2
     assert all((one == other).all() for one, other in zip(before, base.actor, strict=True))
 
 

@@ -11,7 +11,7 @@ from bootcourse import rule
 from bootcourse.course.shipped import shipped_experiment, shipped_results
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import METHODS
-from bootcourse.research.clocks import cells
+from bootcourse.research.experiments.clocks import choices
 from bootcourse.research.paper import EPISODES, PRINTED, earned_at
 from bootcourse.road.formulas import bicycle_step, steering_reward, weighted_reward
 from bootcourse.scenario import CALIBRATED, DEFAULT
@@ -63,7 +63,7 @@ def test_the_counts_of_agents_that_escape_are_those_of_the_shipped_study():
     clocks, both = shipped_experiment("clocks"), ("sac", "soft", "demos", "bootstrapped")
     actor_only = shipped_experiment("ablations")["KL in the actor only"]
     assert escaping(shipped_results(), "soft", "demos") == [8, 0] and escaping(actor_only, "soft") == [9]
-    assert escaping(cells(clocks)["2", "π̃"], *both) == [0, 5, 10, 10]  # the settings' comment has all four
+    assert escaping(choices(clocks)["2", "π̃"], *both) == [0, 5, 10, 10]  # the settings' comment has all four
     assert "8 of 10 with the KL in both losses, 9 of 10" in GAPS["open-kl-target"].parts["What follows."]
     assert "5 of 10 and 10 of 10" in GAPS["open-network"].parts["What follows."]
 

@@ -19,8 +19,9 @@ from bootcourse.policies import PlanPolicy, PolicyOutput, idle_policy, plan_poli
 from bootcourse.replay3d.recorder import to_html
 from bootcourse.replay3d.scene import timelines_of
 from bootcourse.replay3d.stage import _ribbon
-from bootcourse.research.lookahead import Cell, cells, drive, rows
-from bootcourse.research.results import Results, experiment
+from bootcourse.research.computed import experiment
+from bootcourse.research.experiments.lookahead import Cell, drive, every_cell, rows
+from bootcourse.research.results import Results
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import CALIBRATED, DEFAULT, N_ACTIONS
@@ -276,9 +277,9 @@ def results_of(hurt: int, returns: float = 130.0) -> Results:
 
 
 def test_the_figure_and_the_table_say_how_many_drives_end_in_an_accident():
-    computed = {cell.name: results_of(60 if cell.form == "alone" else 8) for cell in cells()}
+    computed = {cell.name: results_of(60 if cell.form == "alone" else 8) for cell in every_cell()}
     assert "others keep speed and lane 4.0 and 130.0" in wrong_models(computed).alt
-    headings, lines = rows(computed, cells())
+    headings, lines = rows(computed, every_cell())
     assert lines[0][7].startswith("60 in 2,000: 30.00 [") and {len(headings)} == {len(line) for line in lines}
     with pytest.raises(BootcourseError, match="lack ppo_cloned, rollouts"):
         wrong_models({"ppo_cloned, alone": results_of(60)})

@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 
 from bootcourse.episodes.evaluate import drive_episodes
-from bootcourse.files import write_arrays
 from bootcourse.learn.teachers import teacher_policy
-from bootcourse.research import elsewhere
-from bootcourse.research.elsewhere import EXPERIMENT, cell
+from bootcourse.research.experiments import elsewhere
+from bootcourse.research.experiments.elsewhere import EXPERIMENT
+from bootcourse.research.jobs import Workplace
 from bootcourse.research.problems import (
     EAST,
     FORWARD,
@@ -103,21 +103,19 @@ def test_a_worse_teacher_errs_where_it_is_meant_to(name):
 
 
 def test_a_cell_is_trained_tested_and_shown(tmp_path):
-    part = EXPERIMENT.only("chain-random-soft")
-    (job,) = part.jobs("elsewhere", seeds=2, episodes=3, tests=4)
+    (job,) = EXPERIMENT.jobs("chain-random-soft", seeds=2, episodes=3, tests=4)
     assert job.name == "elsewhere/chain-random-soft" and job.arguments["seeds"] == 2
-    write_arrays(tmp_path / "results.npz", cell(**job.arguments))
+    job.run(Workplace(tmp_path, tmp_path), **job.arguments)
     results = load_results(tmp_path / "results.npz")
     assert results.sizes == (4, 3) and results.measured["teacher_success"].tolist() == [1, 1]
     assert results.scores("success").shape == (2,) and results.agents[0]["teacher"] == "random"
 
 
 def test_the_lander_is_left_out_with_a_sentence_where_box2d_is_missing(monkeypatch, capsys):
-    lander = EXPERIMENT.only("lander")
     monkeypatch.setattr(elsewhere, "has_box2d", lambda: True)
-    assert {job.arguments["seeds"] for job in lander.jobs("elsewhere")} == {10}
+    assert {job.arguments["seeds"] for job in EXPERIMENT.jobs("lander")} == {10}
     monkeypatch.setattr(elsewhere, "has_box2d", lambda: False)
-    assert lander.jobs("elsewhere") == []
+    assert EXPERIMENT.jobs("lander") == []
     assert capsys.readouterr().out == (
         "Lunar lander is left out, since box2d is not installed: `pip install bootcourse[lander]`.\n"
     )

@@ -60,7 +60,7 @@ def test_a_training_of_a_kind_keeps_what_the_lesson_reads(monkeypatch):
     monkeypatch.setattr(ppo_kinds, "QUICK", {"hidden": (4, 4), "envs_per_agent": 4, "horizon": 8, "batch": 32})
     monkeypatch.setattr(ppo_kinds, "EVERY", 200)
     monkeypatch.setattr(ppo_kinds, "ROADS", held_out_seeds(14, 3))
-    arrays, ships = ppo_kinds.train_kind("shaped", seeds=2), ppo_kinds.shipped_kinds.__wrapped__()["shaped"]
-    names = {f"{part}.{name}" for part in ("notes", "measured", "weights") for name in getattr(ships, part)}
-    assert {name for name in arrays if "." in name} == names
-    assert arrays["notes.at"].shape == (2, 3) and arrays["weights.actor.0"].shape == (2, 26, 4)
+    trained, ships = ppo_kinds.train_kind("shaped", seeds=2), ppo_kinds.shipped_kinds.__wrapped__()["shaped"]
+    for part in ("notes", "measured", "weights", "tested", "curves"):
+        assert getattr(trained, part).keys() == getattr(ships, part).keys()
+    assert trained.notes["at"].shape == (2, 3) and trained.weights["actor.0"].shape == (2, 26, 4)

@@ -9,31 +9,39 @@ import sys
 import threading
 import time
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 import typer.testing
 
+import bootcourse as bc
 from bootcourse.cli import app
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
 from bootcourse.files import read_json
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.research import jobs as jobs_module
-from bootcourse.research.jobs import BoundJob, Job, LessonJob, asked, finished, run_job
-from bootcourse.research.plan import EXPERIMENTS, experiment_named, methods_named, study_jobs
+from bootcourse.research import cells as cells_module
+from bootcourse.research.cells import results_of, train_and_test
+from bootcourse.research.experiment import EXPERIMENTS, chosen, experiment_named, folder
+from bootcourse.research.jobs import Job, asked, finished, read_job, run_job
 from bootcourse.research.planner import Search
-from bootcourse.research.results import Results, as_arrays, load_jobs, load_results, save_results
+from bootcourse.research.results import Results, agent_entries, load_jobs, load_results, save_results, weights_of
 from bootcourse.research.runner import run_jobs, seconds_of, time_needed
+from bootcourse.research.studies import STUDIES, search_bound
 from bootcourse.research.teachers import TEACHERS
 from bootcourse.scenario import DEFAULT
+from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import load_run
+from bootcourse.storage.sealed import write_sealed
 
 TINY = {"learning_starts": 16, "hidden": (8,), "buffer_size": 2000}
 
 
-def job(name: str = "default/sac-0-1", method: str = "sac", episodes: int = 6, **changes) -> Job:
-    return Job(name, tuple(with_seeds(settings_for(method, **TINY, **changes), 2)), DEFAULT, episodes, tests=5)
+def job(name: str = "default/sac-0-1", method: str = "sac", episodes: int = 6, seeds: int = 2, **changes) -> Job:
+    settings = tuple(with_seeds(settings_for(method, **TINY, **changes), seeds))
+    arguments = {"settings": settings, "scenario": DEFAULT, "episodes": episodes, "tests": 5, "teacher": "rule"}
+    return Job(name, partial(train_and_test, keep_runs=True), arguments)
 
 
 BOTH = [job(), job("default/soft-0-1", "soft")]
@@ -88,7 +96,7 @@ def test_a_damaged_job_is_named_and_computed_again_when_it_is_deleted(study, tmp
 def test_a_job_that_was_interrupted_goes_on_as_if_it_never_was(study, root, monkeypatch):
     calls = iter([False] * 3 + [True] * 10**6)
     with monkeypatch.context() as patch:
-        patch.setattr(jobs_module, "orphaned", lambda: next(calls))
+        patch.setattr(cells_module, "orphaned", lambda: next(calls))
         assert run_job(job(), root) == "default/sac-0-1: interrupted" and not finished(job(), root)
     checkpoint = root / "unfinished/default/sac-0-1/checkpoint.npz"
     whole = checkpoint.read_bytes()
@@ -101,36 +109,46 @@ def test_a_job_that_was_interrupted_goes_on_as_if_it_never_was(study, root, monk
     np.testing.assert_array_equal(straight.tested["returns"], resumed.tested["returns"])
 
 
-def noted(seeds: int) -> dict:
+def noted(seeds: int) -> Results:
     """What a function of a lesson returns."""
-    agents = [vars(each) | {"teacher": "rule"} for each in with_seeds(settings_for("sac"), seeds)]
+    agents = agent_entries(with_seeds(settings_for("sac"), seeds))
     notes, weights = {"escapes": np.zeros((seeds, 3))}, {"actor.0": np.ones((1, 2, 4))}
-    return as_arrays(
-        Results(agents, np.full(seeds, -1), notes=notes, measured={"xi": np.arange(seeds)}, weights=weights)
-    )
+    return Results(agents, np.full(seeds, -1), notes=notes, measured={"xi": np.arange(seeds)}, weights=weights)
 
 
 def test_the_planner_s_bound_and_a_lesson_s_function_are_jobs_too_and_a_job_that_fails_stops_no_other(root):
     short = replace(DEFAULT, clock=replace(DEFAULT.clock, decisions=5))
     bound, lesson = (
-        BoundJob("bound-default/0000", short, 3, 2, Search(beam=5)),
-        LessonJob("mine/two", f"{__name__}:noted", {"seeds": 2}),
+        Job("bound-default/0000", search_bound, {"scenario": short, "first": 3, "episodes": 2, "search": Search(5)}),
+        Job("mine/two", results_of(noted), {"seeds": 2}),
     )
-    same_twice = tuple(with_seeds(settings_for("sac", **TINY), 1) * 2)  # two runs of one name
-    (problem,) = run_jobs([Job("default/broken", same_twice, DEFAULT, 1, 5), bound, lesson], root, workers=1)
+    broken = job("default/broken", episodes=1, seeds=1)
+    broken.arguments["settings"] *= 2  # two runs of one name
+    (problem,) = run_jobs([broken, bound, lesson], root, workers=1)
     assert "default/broken" in problem and finished(bound, root) and finished(lesson, root)
     with np.load(root / "jobs/bound-default/0000/results.npz") as arrays:
         assert arrays["first"] == 3 and arrays["returns"].shape == (2,)
     results = load_results(root / "jobs/mine/two/results.npz").pick([1])
     assert results.measured["xi"].tolist() == [1] and results.notes["escapes"].shape == (1, 3)
-    with pytest.raises(BootcourseError, match="other arguments"):
+    with pytest.raises(BootcourseError, match="other seeds"):
+        finished(replace(lesson, arguments={"seeds": 3}), root)
+
+
+@pytest.mark.parametrize("stored", [{"function": "module:function", "arguments": {"seeds": 2}}, {"cell": {"seeds": 2}}])
+def test_a_finished_job_of_an_earlier_version_counts(root, stored):
+    lesson = Job("mine/two", results_of(noted), {"seeds": 2})
+    assert run_job(lesson, root) == ""
+    description = read_job(root / "jobs/mine/two") | {"asked": stored}
+    write_sealed(root / "jobs/mine/two/job.json", description)
+    assert finished(lesson, root)
+    with pytest.raises(BootcourseError, match="other seeds"):
         finished(replace(lesson, arguments={"seeds": 3}), root)
 
 
 def test_a_study_says_how_long_it_takes_if_such_jobs_were_timed(study, tmp_path):
     ours = tmp_path / "jobs/mine"
     shutil.copytree(study / "jobs/default/sac-0-1", ours / "sac-0-1")
-    known, unknown = job("mine/sac-2-3"), LessonJob("none/alone", "module:function")
+    known, unknown = job("mine/sac-2-3"), Job("none/alone", results_of(noted), {})
     seconds = read_json(ours / "sac-0-1/job.json")["provenance"]["seconds"]
     assert seconds_of(job("mine/sac-2-3", episodes=12), tmp_path) == pytest.approx(2 * seconds)
     assert "About 1 minute(s) on 1 core" in time_needed([known], tmp_path, 2)
@@ -186,7 +204,7 @@ def test_a_study_on_a_dask_cluster_survives_the_death_of_a_worker(root):
 
 def test_results_of_several_jobs_join_and_read_back_and_each_agent_counts_once(study, tmp_path):
     root = shutil.copytree(study, tmp_path / "study")
-    assert run_job(replace(job("default/sac-0-0"), settings=job().settings[:1]), root) == ""
+    assert run_job(job("default/sac-0-0", seeds=1), root) == ""
     results = load_jobs(root, "default")
     assert results.methods == ["sac", "soft"] and len(results) == 4 and len(results.of("soft")) == 2
     save_results(results, tmp_path / "all.npz", {})
@@ -195,36 +213,73 @@ def test_results_of_several_jobs_join_and_read_back_and_each_agent_counts_once(s
     np.testing.assert_array_equal(again.scores("returns"), results.scores("returns"))
     kinds = [results.episodes(kind) for kind in ("collision", "road_departure", "stoppage")]
     np.testing.assert_array_equal(results.episodes("accident"), sum(kinds))
+    with pytest.raises(BootcourseError, match="Measure 'return' is unknown: did you mean 'returns'"):
+        results.scores("return")
 
 
 # The plan ------------------------------------------------------------------------------------------------
 
 
 def test_a_study_s_plan_has_every_method_with_every_seed_once():
-    jobs = study_jobs("default", methods_named(""), 10, 1000)
-    agents = [(s.method, s.seed) for each in jobs if isinstance(each, Job) for s in each.settings]
+    jobs = STUDIES["default"].jobs()
+    agents = [(s.method, s.seed) for each in jobs for s in each.arguments.get("settings", ())]
     assert len(agents) == len(set(agents)) and {seed for _, seed in agents} == set(range(10))
-    bounds = [each for each in jobs if isinstance(each, BoundJob)]
-    assert sum(each.episodes for each in bounds) == 1000 and len({each.name for each in jobs}) == len(jobs)
+    bounds = [each.arguments["episodes"] for each in jobs if each.run is search_bound]
+    assert sum(bounds) == 1000 and len({each.name for each in jobs}) == len(jobs)
 
 
 @pytest.mark.parametrize("name", EXPERIMENTS)
 def test_every_variation_of_an_experiment_asks_something_else(name):
-    experiment = experiment_named(name)
-    jobs = experiment.jobs(name)  # without Box2D, those of Lunar lander are left out
+    jobs = experiment_named(name).jobs()  # without Box2D, those of Lunar lander are left out
     questions = {json.dumps(asked(each), sort_keys=True) for each in jobs}
     assert len(questions) == len(jobs) > 0
 
 
 def test_an_experiment_may_be_run_in_part_by_the_names_of_its_methods_teachers_and_variations():
-    def chosen(name: str, only: str) -> set[str]:
-        return set(experiment_named(name).only(only).variations)
+    def named(name: str, only: str) -> set[str]:
+        return set(chosen(experiment_named(name).cells(), only))
 
-    assert chosen("teachers", "planner") == {"planner, dagger", "planner, ppo_cloned", "planner, rlpd"}
-    assert chosen("teachers", "dagger") == {f"{teacher}, dagger" for teacher in TEACHERS}
-    assert chosen("teachers", "late-soft, planner-dagger") == {"late, soft", "planner, dagger"}
-    assert chosen("sensitivity", "gamma-0.9") == {"γ = 0.9"} and chosen("students", "racer-long") == {"racer, long"}
+    assert named("teachers", "planner") == {"planner, dagger", "planner, ppo_cloned", "planner, rlpd"}
+    assert named("teachers", "dagger") == {f"{teacher}, dagger" for teacher in TEACHERS}
+    assert named("teachers", "late-soft, planner-dagger") == {"late, soft", "planner, dagger"}
+    assert named("sensitivity", "gamma-0.9") == {"γ = 0.9"} and named("students", "racer-long") == {"racer, long"}
     with pytest.raises(BootcourseError, match="Part 'planer' is unknown: did you mean 'planner'"):
-        chosen("teachers", "planer")
+        named("teachers", "planer")
     with pytest.raises(BootcourseError, match="leave out --seeds"):
-        experiment_named("students").jobs("students", seeds=3)
+        experiment_named("students").jobs(seeds=3)
+
+
+def test_the_help_says_of_each_experiment_what_it_asks(bootcourse):
+    words = " ".join(bootcourse("study", "--help").out.split())
+    assert all(f"{name}: " in words for name in EXPERIMENTS)
+    assert "sensitivity: What the paper leaves open" in words and "teachers: What is a teacher worth?" in words
+
+
+@pytest.mark.parametrize("name", EXPERIMENTS)
+def test_an_experiment_is_found_under_its_own_name_and_every_cell_ships_under_its_folder(name):
+    experiment = experiment_named(name)
+    assert experiment.name == name
+    folders = {folder(cell) for cell in experiment.cells()}
+    assert len(folders) == len(experiment.cells()) and {path.stem for path in FOLDER.glob(f"{name}/*")} <= folders
+
+
+# Agents ---------------------------------------------------------------------------------------------------
+
+
+def test_agents_come_back_from_results_with_their_own_weights(root):
+    agents = [bc.Training([one], 1).agent(0) for one in with_seeds(settings_for("sac", **TINY), 3)]
+    kept = Results(
+        agent_entries([agent.settings for agent in agents]),
+        np.full(3, -1),
+        measured={"alpha": np.array([0.1, 0.2, 0.3])},
+        weights=weights_of(agents[:2], "actor", "critics"),
+    )
+    save_results(kept, root / "some.npz", {})
+    again, seen = load_results(root / "some.npz"), np.random.default_rng(0).normal(size=(5, 26)).astype(np.float32)
+    for i in range(2):
+        agent = again.agent(i)
+        assert agent.settings == agents[i].settings and agent.alpha == [0.1, 0.2][i]
+        np.testing.assert_array_equal(agent.probabilities(seen), agents[i].probabilities(seen))
+        np.testing.assert_array_equal(agent.q_values(seen), agents[i].q_values(seen))
+    with pytest.raises(BootcourseError, match="Of agent 2 no weights were kept: there are those of 2 agents"):
+        again.agent(2)

@@ -1,12 +1,13 @@
-"""How often a table of single agents reads as the paper's: `bootcourse.research.clocks`."""
+"""How often a table of single agents reads as the paper's: `bootcourse.research.experiments.clocks`."""
 
 import numpy as np
 import pytest
 
 from bootcourse.course.lessons.found_and_kept.figures import half_found
-from bootcourse.research.clocks import cells, pattern, pattern_rows
+from bootcourse.research.experiments.clocks import choices, pattern, pattern_rows
 from bootcourse.research.results import Results
 from bootcourse.research.tables import found_and_kept
+from bootcourse.statistics import found_after
 
 
 def agents(**success):
@@ -29,7 +30,7 @@ def test_a_row_stands_for_a_choice_whose_four_methods_were_computed():
     alone, helped = agents(sac=[0, 0], soft=[0, 1]), agents(demos=[1, 1], bootstrapped=[1, 1])
     varied = {"2 updates, no demonstrations": alone, "2 updates, demonstrations by π̃": helped}
     varied["1 updates, demonstrations by μ"] = helped  # sac and soft are missing there
-    assert list(cells(varied)) == [("2", "π̃")]
+    assert list(choices(varied)) == [("2", "π̃")]
     headings, rows = pattern_rows(varied)
     assert rows[0][:6] == ["2", "π̃", "0, 0 of 2", "1, 1 of 2", "2, 2 of 2", "2, 2 of 2"] and rows[0][6].startswith(
         "50 ["
@@ -54,3 +55,10 @@ def test_an_agent_has_found_the_way_out_if_most_of_fifty_episodes_in_a_row_end_a
     assert found.tolist() == [True, True, False, False]  # half of the episodes is not more than half
     assert kept.tolist() == [True, False, False, False]
     assert found_and_kept(results, "soft") == "2, 1 of 4"
+
+
+def test_a_window_with_an_episode_that_was_not_driven_does_not_count():
+    success = np.array([[1, 1, np.nan, np.nan], [0, 1, 1, np.nan], [1, 1, 1, 0]])
+    assert found_after(success, 3).tolist() == [0, 3, 3]
+    assert found_after(success, 3, least=3).tolist() == [0, 0, 3]
+    assert found_after(success, 2).tolist() == [2, 3, 2] and found_after(success, 5).tolist() == [0, 0, 0]

@@ -8,10 +8,11 @@ import pytest
 from bootcourse.files import write_json
 from bootcourse.learn.settings import settings_for
 from bootcourse.research import tables
+from bootcourse.research.computed import in_study
 from bootcourse.research.fidelity import fidelity, judge
 from bootcourse.research.paper import COLUMNS, PRINTED, TABLES, arithmetic, earned_at, paper_interval, possible
 from bootcourse.research.report import rule_results, write_report
-from bootcourse.research.results import Results, agent_entries, in_study, save_results
+from bootcourse.research.results import Results, agent_entries, save_results
 from bootcourse.scenario import SCENARIOS
 from bootcourse.statistics import Estimate
 

@@ -6,9 +6,10 @@ import pytest
 from bootcourse.cli.training import teacher_from
 from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import course_rule, slow, teacher_name, teacher_policy
 from bootcourse.learn.training import Training
+from bootcourse.research.cells import train_and_test, trained
 from bootcourse.research.jobs import Job, finished, run_job
 from bootcourse.research.results import load_job
 from bootcourse.research.teachers import (
@@ -31,8 +32,7 @@ QUICK = [name for name in TEACHERS if name != PLANNER]
 
 
 def job(teacher: str) -> Job:
-    agents = tuple(with_seeds(settings_for("soft", **TINY), 2))
-    return Job(NAME, agents, DEFAULT, 4, tests=3, runs=False, teacher=teacher)
+    return Job(NAME, train_and_test, trained(2, 4, 3, ("soft",), teacher=teacher, **TINY))
 
 
 def some_roads(n: int = 60) -> np.ndarray:
@@ -97,7 +97,7 @@ def test_a_job_trains_with_its_teacher_and_its_results_say_so(tmp_path):
     (tmp_path / "study.json").write_text("{}")
     assert run_job(job("mirrored"), tmp_path) == "" and finished(job("mirrored"), tmp_path)
     results = load_job(tmp_path / "jobs" / NAME)
-    by_hand = Training(list(job("mirrored").settings), 4, teacher=mirrored).run(progress=False)
+    by_hand = Training(list(job("mirrored").arguments["settings"]), 4, teacher=mirrored).run(progress=False)
     np.testing.assert_array_equal(results.curves["return"], by_hand.curves["return"].astype(np.float32))
     assert [agent["teacher"] for agent in results.agents] == ["mirrored", "mirrored"]
     with pytest.raises(BootcourseError, match="computed with other teacher: choose another folder"):

@@ -1,9 +1,12 @@
 """Ruff, over every file of the course and every cell of its notebooks; and which room imports from which."""
 
 import ast
+import re
 import subprocess
 import sys
 from pathlib import Path
+
+import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -22,19 +25,27 @@ def test_every_file_is_formatted():
     assert result.returncode == 0, f"run `ruff format`:\n{result.stdout}{result.stderr}"
 
 
-def imported(path: Path) -> set[str]:
-    """The modules that a file imports, wherever in it."""
+def named(path: Path) -> set[str]:
+    """The modules of this package that a file imports or names in its words, wherever in it."""
     nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
     names = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
     froms = [node for node in nodes if isinstance(node, ast.ImportFrom)]
-    return names | {f"{node.module}.{alias.name}" for node in froms for alias in node.names}
+    names |= {f"{node.module}.{alias.name}" for node in froms for alias in node.names}
+    texts = [node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)]
+    return names | {name for text in texts for name in re.findall(r"\bbootcourse(?:\.\w+)+", text)}
 
 
 CLOSED = {"research": ("bootcourse.course",), "course": ()}  # of the other parts of the package: both
 
 
-def test_no_room_imports_from_one_behind_it():
+def test_no_room_names_one_behind_it():
     room = ROOT / "bootcourse"
     for path in room.rglob("*.py"):
         closed = CLOSED.get(path.relative_to(room).parts[0], ("bootcourse.course", "bootcourse.research"))
-        assert [name for name in imported(path) if name.startswith(closed)] == [], path
+        assert [name for name in named(path) if name.startswith(closed)] == [], path
+
+
+@pytest.mark.parametrize("text", ["import bootcourse.course.check", 'place = "bootcourse.course.shipped:board"'])
+def test_a_name_in_an_import_or_in_a_text_is_found(text, tmp_path):
+    (tmp_path / "some.py").write_text(text)
+    assert [name for name in named(tmp_path / "some.py") if name.startswith("bootcourse.course")]

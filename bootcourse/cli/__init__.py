@@ -1,4 +1,4 @@
-"""The command line, `bootcourse` or `python -m bootcourse`: a command is a function in `COMMANDS` or in `LAZY`.
+"""The command line, `bootcourse` or `python -m bootcourse`: a command is a function in `COMMANDS` or of a room behind.
 
 Commands import their modules themselves, so that `bootcourse --help` is fast.
 """
@@ -15,28 +15,23 @@ from typer.main import get_command
 from bootcourse.cli.driving import drive, evaluate, replay
 from bootcourse.cli.training import train
 from bootcourse.errors import BootcourseError
+from bootcourse.rooms import added
 
-LAZY = {  # commands of the research and of the course, "module:function", imported when they are used
-    "study": "bootcourse.research.commands:study",
-    "assets": "bootcourse.research.commands:assets",
-    "handout": "bootcourse.course.classroom.commands:handout",
-    "submit": "bootcourse.course.classroom.commands:submit",
-    "grade": "bootcourse.course.classroom.commands:grade",
-}
 PLAIN = {"add_completion": False, "rich_markup_mode": None, "pretty_exceptions_enable": False}  # on every terminal
 
 
 class Commands(TyperGroup):
-    """The commands of `COMMANDS` and of `LAZY`; of the latter only those that are asked for are imported."""
+    """The commands of `COMMANDS`, and of the rooms (rooms.py) those that are asked for, which are then imported."""
 
     def __init__(self, **options):
         super().__init__(**options)
-        self.commands |= dict.fromkeys(LAZY)
+        self.places = added("COMMANDS")
+        self.commands |= dict.fromkeys(self.places)
 
     def get_command(self, ctx, name):
-        if name in LAZY and self.commands[name] is None:
+        if name in self.places and self.commands[name] is None:
             alone = typer.Typer(**PLAIN)
-            alone.command(name)(resolve_name(LAZY[name]))
+            alone.command(name)(resolve_name(self.places[name]))
             self.commands[name] = get_command(alone)
         return super().get_command(ctx, name)
 

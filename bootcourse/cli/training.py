@@ -22,9 +22,9 @@ import typer
 from bootcourse.colours import OTHER
 from bootcourse.errors import BootcourseError, check_known, described, did_you_mean
 from bootcourse.methods import METHODS, Method
+from bootcourse.rooms import added
 
 INTERRUPTED = 130  # exit status
-NAMED = "bootcourse.research.teachers:TEACHERS"  # the teachers with a name, loaded when one is asked for
 UNFINISHED, CHECKPOINT, SAVING, COMPLETE = "unfinished", "checkpoint.npz", "saving", "complete"  # see above
 SECONDS_BETWEEN = 20.0  # of checkpoints
 BEGINNING = ("method", "seeds", "first_seed", "episodes", "scenario", "setting", "p", "xi", "c")  # fixed by the start
@@ -41,8 +41,8 @@ def train(
     setting: str = typer.Option("quick", help="quick or paper: a quarter of an update per decision, or two."),
     teacher: str = typer.Option(
         "",
-        help="Who teaches: random-50, random-25, mirrored, timid, late, rule or planner, or a rule of your own: "
-        "FILE.py:FUNCTION.",
+        help="Who teaches: random-50, random-25, mirrored, timid, late, rule, rule-rollouts or planner, or a rule of "
+        "your own: FILE.py:FUNCTION.",
     ),
     learner: str = typer.Option("", help="A learner of your own, FILE.py:CLASS; it starts from the method's settings."),
     p: float | None = typer.Option(None, help="Probability of the rule's action in the stochastic rule."),
@@ -55,7 +55,7 @@ def train(
     """Train agents and write a run of each."""
     from bootcourse.learn.settings import settings_for, with_seeds
     from bootcourse.learn.training import Training
-    from bootcourse.scenario import named
+    from bootcourse.scenario import scenario_from
     from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
     from bootcourse.storage.work import locked
 
@@ -63,7 +63,7 @@ def train(
     method = register_learner(learner, METHODS[method]) or method
     asked = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
     changes = {name: value for name, value in asked.items() if value is not None}
-    settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), named(scenario)
+    settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), scenario_from(scenario)
     rule, work, episodes = teacher_from(teacher), out / UNFINISHED, episodes or METHODS[method].episodes
     if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
         with locked(work, "training"):  # removes what is left of it, if it was killed in its last moment
@@ -176,7 +176,8 @@ def teacher_from(place: str):
     if not place:
         return course_rule
     if ":" not in place:
-        teachers = resolve_name(NAMED)  # slow: it loads the planner
+        tables = map(resolve_name, added("TEACHERS").values())  # slow: it loads the planner
+        teachers = {name: teacher for table in tables for name, teacher in table.items()}
         if place not in teachers:
             own = "or give a rule of your own, FILE.py:FUNCTION"
             raise BootcourseError(f"Teacher {did_you_mean(place, teachers)}, {own}.")

@@ -23,10 +23,11 @@ from bootcourse.learn.training import Result
 from bootcourse.markup import html, joined
 from bootcourse.methods import AFTER, display_name
 from bootcourse.policies import Policy, idle_policy, random_policy, rule_policy
+from bootcourse.research.computed import in_assets
 from bootcourse.research.equal_decisions import by_method
+from bootcourse.research.experiments.lookahead import CLOSELY, Cell
 from bootcourse.research.jobs import HELD_OUT
-from bootcourse.research.lookahead import CLOSELY, Cell
-from bootcourse.research.results import Results, in_assets
+from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, interval, mean, rate
 from bootcourse.storage.assets import FOLDER

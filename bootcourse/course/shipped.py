@@ -7,8 +7,9 @@ import numpy as np
 from bootcourse.episodes.rollout import BY_RULE, OPTIONAL, Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
-from bootcourse.research.results import Results, experiment, load_bound, load_results
-from bootcourse.research.teacher_worth import Cells, cells
+from bootcourse.research.computed import experiment, load_bound
+from bootcourse.research.experiments.teacher_worth import Cells, by_teacher
+from bootcourse.research.results import Results, load_results
 from bootcourse.storage.assets import FOLDER
 from bootcourse.storage.runs import Run, find_runs, load_run
 
@@ -51,7 +52,7 @@ def shipped_experiment(name: str) -> dict[str, Results]:
 
 def shipped_teachers() -> Cells:
     """What agents of several methods learned from teachers from bad to perfect: {(teacher, method): results}."""
-    return cells(shipped_experiment("teachers"))
+    return by_teacher(shipped_experiment("teachers"))
 
 
 def shipped_bound(scenario: str = "default") -> np.ndarray:

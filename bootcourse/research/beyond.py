@@ -6,6 +6,7 @@ import numpy as np
 
 from bootcourse.research.results import Results
 from bootcourse.research.tables import bracketed, escaped, score
+from bootcourse.statistics import found_after
 
 SHARE, WINDOW = 0.95, 50  # an agent has learned the way out when this share of so many episodes in a row ended ahead
 
@@ -20,13 +21,9 @@ def decisions_until(success: np.ndarray, decisions: np.ndarray, share: float = S
 
     success, decisions: (agents, episodes), 1 or 0 and the episode's length; NaN for episodes that were not driven.
     """
-    if success.shape[1] < window:
-        return np.full(len(success), np.inf)
-    recent = np.apply_along_axis(np.convolve, 1, np.nan_to_num(success, nan=-window), np.ones(window), "valid")
-    reached = recent >= share * window - 1e-9  # (agents, episodes - window + 1)
-    spent = np.cumsum(np.nan_to_num(decisions), axis=1, dtype=float)[:, window - 1 :]
-    first = np.take_along_axis(spent, reached.argmax(axis=1)[:, None], axis=1)[:, 0]
-    return np.where(reached.any(axis=1), first, np.inf)
+    after = found_after(success, window, share * window)
+    spent = np.cumsum(np.nan_to_num(decisions), axis=1, dtype=float)
+    return np.where(after > 0, spent[np.arange(len(spent)), np.maximum(after, 1) - 1], np.inf)
 
 
 def spent(results: Results) -> np.ndarray:

@@ -3,6 +3,8 @@
 A study that is stopped by Ctrl-C (exit status 130) or killed goes on when the same command is started again.
 """
 
+import ast
+import re
 import sys
 import time
 from collections.abc import Callable
@@ -10,18 +12,17 @@ from pathlib import Path
 
 import typer
 
+import bootcourse
 from bootcourse.cli.training import INTERRUPTED
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import write_bytes
+from bootcourse.rooms import added
+
+EXPERIMENTS = added("EXPERIMENTS")
 
 
 def study(
-    name: str = typer.Argument(
-        "default",
-        help="default, calibrated or paper; sensitivity, clocks, ablations, longer-view or teachers; "
-        "beyond-search or beyond; elsewhere; checks; look-ahead or distil; bug-hunt, students, second-trap, easier or "
-        "reachable-entropy.",
-    ),
+    name: str = typer.Argument("default", help="A study or an experiment: see above."),
     out: Path = typer.Option(..., help="The study's folder: new, or that of a study to continue; all may share one."),
     seeds: int = typer.Option(0, min=0, help="Training seeds of each method; 0: the study's own number."),
     episodes: int = typer.Option(0, min=0, help="Training episodes of each agent; 0: the study's own number."),
@@ -37,36 +38,40 @@ def study(
 ) -> None:
     """Train and test methods with many seeds; write tables, figures and the fidelity report.
 
-    default, calibrated and paper: the paper's methods and baselines. sensitivity, clocks and ablations: the paper's
-    ablation, varied. longer-view: its method with other numbers. teachers: what a teacher is worth. beyond: methods
-    that the paper does not train, at equal numbers of decisions, with the settings of beyond-search. elsewhere: does a
-    teacher help on other problems? checks: do our learners reach published figures? look-ahead: agents with rollouts,
-    and with wrong models. distil: do networks learn what the look-ahead does? bug-hunt, students, second-trap, easier
-    and reachable-entropy: the agents of five lessons.
+    default, calibrated and paper are the studies of the paper's methods and baselines: behind traps of 10 m/s, behind
+    faster ones, and with the paper's two updates for each decision. The others are experiments:
     """
-    from bootcourse.research import checks, plan
+    from bootcourse.research.computed import experiment, in_study
+    from bootcourse.research.experiment import experiment_named
     from bootcourse.research.report import write_report
-    from bootcourse.research.results import experiment, in_study
+    from bootcourse.research.studies import STUDIES
     from bootcourse.research.tables import measured_table
 
-    check_known("Study", name, (*plan.STUDIES, *plan.EXPERIMENTS))
-    if name in plan.STUDIES:
-        methods = plan.methods_named(only)
-        wanted = plan.study_jobs(name, methods, seeds or plan.SEEDS, tests or plan.TESTS, episodes)
-    else:
-        wanted = plan.experiment_named(name).only(only).jobs(name, seeds, episodes, tests)
+    check_known("Study", name, (*STUDIES, *EXPERIMENTS))
+    wanted = STUDIES[name] if name in STUDIES else experiment_named(name)
+    jobs = wanted.jobs(only, seeds=seeds, episodes=episodes, tests=tests)
 
     def report(problems: list[str]) -> None:
         study = in_study(out)
         if study.results:
             print(write_report(study, out))
-        if name not in plan.STUDIES and (varied := experiment(name, out)):
-            means = f"# {name}: means over agents\n\n{measured_table(varied)}"
-            page = checks.page(varied) if name == "checks" else means
+        if name in EXPERIMENTS and (computed := experiment(name, out)):
+            means = f"# {name}: means over agents\n\n{measured_table(computed)}"
+            page = wanted.page(computed) if wanted.page else means
             write_bytes(out / f"{name}.md", page.encode())
             print(page, out / f"{name}.md", sep="\n")
 
-    raise typer.Exit(compute(wanted, out, report, backend=backend, scheduler=scheduler, workers=workers))
+    raise typer.Exit(compute(jobs, out, report, backend=backend, scheduler=scheduler, workers=workers))
+
+
+def words_of(experiment: str) -> str:
+    """The first sentence of an experiment's file, which is read and not loaded: loading them all takes seconds."""
+    file = Path(bootcourse.__file__).parents[1] / f"{EXPERIMENTS[experiment].replace('.', '/')}.py"
+    text = ast.get_docstring(ast.parse(file.read_text(encoding="utf-8")))
+    return re.split(r"(?<=[.?])\s", text, maxsplit=1)[0].replace("\n", " ")
+
+
+study.__doc__ += "".join(f"\n\n    {name}: {words_of(name)}" for name in EXPERIMENTS)
 
 
 def compute(wanted: list, out: Path, after: Callable[[list[str]], None], **how) -> int:

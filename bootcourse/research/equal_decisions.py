@@ -1,4 +1,4 @@
-"""Later methods beside the paper's, at equal numbers of decisions and after the same search: the experiment `beyond`.
+"""Later methods beside the paper's, at equal numbers of decisions and after the same search: what both trainings do.
 
     bootcourse study beyond-search --out DIR && bootcourse study beyond --out DIR
 
@@ -18,13 +18,13 @@ from itertools import product
 import numpy as np
 
 from bootcourse.episodes.evaluate import held_out_seeds
-from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
 from bootcourse.methods import display_name
 from bootcourse.research.beyond import at_budget
-from bootcourse.research.jobs import HELD_OUT, Interrupted, drives, orphaned, smaller
-from bootcourse.research.plan import SEEDS, TESTS, LessonExperiment
-from bootcourse.research.results import Results, agent_entries, as_arrays, join
+from bootcourse.research.cells import drives, smaller
+from bootcourse.research.jobs import Interrupted, orphaned
+from bootcourse.research.results import Results, agent_entries, join
 from bootcourse.research.tables import bracketed
 from bootcourse.statistics import ESCAPES, interval
 
@@ -74,30 +74,12 @@ def last_of(method: str, first: int) -> int:
     return LAST.get(method, BUDGETS[1] if first else BUDGETS[-1])
 
 
-def searched(method: str) -> dict[str, np.ndarray]:
-    """Every try with a few seeds, tested on `SEARCH_ROADS`: the arrays of a file of results. Raises Interrupted."""
-    agents = [with_seeds(one, SEARCH_SEEDS, FIRST_SEARCH_SEED) for one in tries(method)]
-    groups = agents if method.startswith("ppo") else [sum(agents, [])]  # what differs in η alone trains side by side
-    return as_arrays(_joined([trained_and_tested(group, [SEARCHED], SEARCH_ROADS) for group in groups]))
-
-
-def compared(method: str, first: int) -> dict[str, np.ndarray]:
-    """The chosen try with `GROUP` seeds from `first` on, tested at each budget: the arrays of a file of results.
-
-    `tested` is at `BOARD`, `measured` has the means at each budget: returns_100000, success_100000 ... Raises
-    Interrupted.
-    """
-    settings = with_seeds(tries(method)[CHOSEN[method]], GROUP, first)
-    budgets = [budget for budget in BUDGETS if budget <= last_of(method, first)]
-    return as_arrays(trained_and_tested(settings, budgets, held_out_seeds(HELD_OUT, TESTS)))
-
-
 def by_method(computed: dict[str, Results]) -> dict[str, Results]:
     """{method: all its agents}, of the results of `compared` by job."""
     groups: dict[str, list[Results]] = {}
     for results in computed.values():
         groups.setdefault(results.methods[0], []).append(results)
-    return {method: _joined(groups[method]) for method in COMMON if method in groups}
+    return {method: joined(groups[method]) for method in COMMON if method in groups}
 
 
 def trained_and_tested(settings: Sequence[Settings], budgets: Sequence[int], roads: Sequence[int]) -> Results:
@@ -129,7 +111,7 @@ def trained_and_tested(settings: Sequence[Settings], budgets: Sequence[int], roa
     )
 
 
-def _joined(parts: Sequence[Results]) -> Results:
+def joined(parts: Sequence[Results]) -> Results:
     """Parts with curves of different lengths as one, and with different budgets, filled up with NaN."""
     longest = max(part.sizes[1] for part in parts)
     measures = {name for part in parts for name in part.measured}
@@ -141,13 +123,6 @@ def _joined(parts: Sequence[Results]) -> Results:
         return replace(part, curves=curves, measured={name: part.measured.get(name, unknown) for name in measures})
 
     return join([filled(part) for part in parts])
-
-
-SEARCH = LessonExperiment(f"{__name__}:searched", {method: {"method": method} for method in COMMON})
-EXPERIMENT = LessonExperiment(
-    f"{__name__}:compared",
-    {f"{method}-{first}": {"method": method, "first": first} for first in range(0, SEEDS, GROUP) for method in COMMON},
-)
 
 
 def _words(settings: dict) -> str:

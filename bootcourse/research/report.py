@@ -10,19 +10,17 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
 from bootcourse.plots.figure import save
 from bootcourse.policies import rule_policy
-from bootcourse.research import clocks, distil, lookahead, tables, teacher_worth
 from bootcourse.research import figures as training_figures
-from bootcourse.research.beyond import learner_rows
-from bootcourse.research.elsewhere_page import write_page
-from bootcourse.research.equal_decisions import budget_rows, by_method, search_rows, seconds_rows
+from bootcourse.research import tables
+from bootcourse.research.computed import StudyResults
+from bootcourse.research.experiment import experiment_named
 from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity, fidelity_table
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
-from bootcourse.research.plan import STUDIES
-from bootcourse.research.results import KINDS, Results, StudyResults, join
-from bootcourse.research.results import WINDOW as IN_A_ROW
+from bootcourse.research.results import KINDS, Results, join
+from bootcourse.research.studies import STUDIES
 from bootcourse.scenario import Scenario
-from bootcourse.statistics import ESCAPES, Estimate, mean
+from bootcourse.statistics import ESCAPES, IN_A_ROW, Estimate, mean
 
 
 def rule_results(scenario: Scenario, tests: int) -> Results:
@@ -45,9 +43,9 @@ def write_report(study: StudyResults, folder: Path) -> Path:
     text += ["## Fidelity: every number of the paper's two tables\n", FIDELITY.format(close=close()), counted(findings)]
     text += [fidelity_table(findings), "### What each row's own numbers say\n"]
     text += ["\n".join(f"- **{ROWS[method]}.** {arithmetic(method)}" for method in PRINTED) + "\n"]
-    text += experiments_part(study.experiments)
-    if write_page(study.experiments.get("elsewhere", {}), folder):
-        text += ["## Other problems\n", "[When does a sub-optimal teacher help?](elsewhere.md)\n"]
+    for name, computed in study.experiments.items():
+        if computed and (section := experiment_named(name).section):
+            text += section(study.experiments, folder)
     path = folder / "report.md"
     write_bytes(path, "\n".join(text).encode())
     return path
@@ -117,36 +115,6 @@ def stopped(results: Results) -> str:
     return f"Stopped because their loss was not a number, and tested with the weights from before: {named}.\n"
 
 
-def experiments_part(experiments: dict[str, dict[str, Results]]) -> list[str]:
-    """The tables of what was varied."""
-    text = []
-    if varied := experiments.get("sensitivity"):
-        seeds = len(next(iter(varied.values())).of("sac"))
-        text += ["## Sensitivity\n", f"{seeds} seeds each: mean (lowest to highest seed). Too few for intervals.\n"]
-        text += [tables.sensitivity_table(varied, measure) for measure in ("success", "returns", "collision")]
-    if varied := experiments.get("clocks"):
-        text += ["## Two clocks\n", CLOCKS, tables.markdown(*clocks.pattern_rows(varied))]
-    if varied := experiments.get("ablations"):
-        text += ["## One choice of the method changed\n", tables.variations_table(varied)]
-    if varied := experiments.get("longer-view"):
-        text += ["## A longer view\n", LONGER_VIEW, tables.markdown(*learner_rows(varied))]
-    if varied := experiments.get("beyond"):
-        later = by_method(varied)
-        text += ["## Other learners, at equal decisions\n", BUDGET, tables.markdown(*budget_rows(later))]
-        text += ["### After equal seconds\n", EQUAL_SECONDS, tables.markdown(*seconds_rows(later))]
-    if varied := experiments.get("beyond-search"):
-        text += ["### The search before it\n", tables.markdown(*search_rows(varied))]
-    if varied := experiments.get("teachers"):
-        worth = tables.markdown(*teacher_worth.worth_rows(teacher_worth.cells(varied)))
-        text += ["## What a teacher is worth\n", TEACHERS, worth]
-    if varied := experiments.get("look-ahead"):
-        text += ["## Looking ahead\n", LOOK_AHEAD, tables.markdown(*lookahead.rows(varied, lookahead.cells()))]
-    if tried := experiments.get("distil"):
-        learned = tables.markdown(*distil.learned_rows(tried, experiments.get("look-ahead", {})))
-        text += ["### What networks learned of it\n", DISTIL, learned]
-    return text
-
-
 def close() -> str:
     """What counts as close to the paper's number, in words."""
     return ", ".join(f"{COLUMNS[column].split(',')[0]} within {within:g}" for column, within in CLOSE.items())
@@ -195,43 +163,6 @@ FIDELITY = """The paper's intervals assume 20 test episodes, the number that its
 An agent of ours scores "so" if it lies in the paper's interval, or close to its value ({close}).
 *Reproduced*: at least half of our agents score so. *Partly*: fewer do, or none does but the intervals meet. *Not
 reproduced*: neither. The rules were fixed before the study was run.
-"""
-
-CLOCKS = """ξ = 200 α fades with the updates, β with the episodes. The paper does not print how many updates follow a
-decision; its text says that π̃ drove the demonstrations. Each row is one choice of both, with one road per agent (four
-where a decision has 1/4 of an update). The methods' columns: found, kept. The last column is the probability that a
-table with *one* trained agent per method and 20 test episodes each reads as the paper's: successes 0, 0, 20 and 20.
-Its interval is over training seeds (Jeffreys).
-"""
-
-TEACHERS = """Teachers from bad to perfect, and methods that learn from them. Return: interquartile mean over agents,
-accidents: mean, decisions: median, each with its 95 % interval over training seeds. In brackets behind the decisions:
-how many agents reached it in their training.
-"""
-
-LOOK_AHEAD = """Nothing is trained here: trained agents drive alone, with rollouts, or with a shield that overrules only
-an action that is imagined to end in an accident; with the exact model of the road, and with wrong ones. Return: mean
-over agents with its 95 % interval over agents. Accidents: over all drives, with the exact (Clopper-Pearson) interval,
-as if all drives were independent. The roads are those that each agent drives, the first of the held-out ones. Time: of
-one core, on a machine with other work.
-"""
-
-DISTIL = """Agents of PPO after cloning that learned, from the 26 numbers, what their own look-ahead does in the states
-that they reached themselves. Tested alone on 1,000 held-out roads.
-"""
-
-BUDGET = """Each method has γ = 0.97 and the best of three settings, which were compared on other seeds and roads (the
-table below). Tested with most probable actions on the held-out roads. The teacher's decisions in demonstrations are not
-counted. Seconds are those of one core, shared among the agents that trained side by side. RLPD takes about five times
-as long for a decision as the others with a replay buffer, and stops at the second budget, as half of their agents do.
-Plain SAC trained on a slower machine, so its seconds are not compared.
-"""
-EQUAL_SECONDS = """The last 50 training episodes that ended in so much time, with drawn actions; the teacher drives the
-beginning of jump-start RL's.
-"""
-
-LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.5 instead of 2, batches of 128 instead
-of 64, and a γ of 0.95 instead of 0.8.
 """
 
 CARD = """# Model card

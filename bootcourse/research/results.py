@@ -1,37 +1,32 @@
-"""The results of a study: the scores and curves of every agent, the planner's bound, the experiments.
+"""Results: the scores, curves and weights of some agents, and their files.
 
-Read from the jobs of a study's folder, or from what ships. A file of results holds `agents` and `stopped`, and arrays
-named PART.NAME: see the fields of `Results`.
+A file of results holds `agents` and `stopped`, and arrays named PART.NAME: see the fields of `Results`.
 """
 
 import json
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import torch
 
 from bootcourse.episodes.evaluate import Episodes
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import check_arrays, decoding, parse, read_arrays, read_json, write_arrays
+from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings, stored_settings
 from bootcourse.research.jobs import Description
-from bootcourse.research.plan import STUDIES, experiment_named, folder
-from bootcourse.research.planner import Staying
 from bootcourse.research.teachers import RULE
 from bootcourse.road.state import Accident
-from bootcourse.statistics import ESCAPES
-from bootcourse.storage.assets import FOLDER
+from bootcourse.statistics import ESCAPES, found
 
 MEASURES = ("success", "returns", "speed", "distance", "collision", "road_departure", "stoppage")
 RUN_AGAIN = "run the study again, or restore it from a copy"
 KINDS = {"collision": Accident.COLLISION, "road_departure": Accident.ROAD_DEPARTURE, "stoppage": Accident.STOPPAGE}
 OF_AGENTS = ("tested", "curves", "notes", "measured")  # the parts with every agent; weights are kept of the first ones
 PARTS = (*OF_AGENTS, "weights")
-REPORTED = ("sensitivity", "clocks", "ablations", "longer-view", "teachers", "beyond-search", "beyond", "elsewhere",
-            "look-ahead", "distil", "checks")  # the experiments of the report and the page of checks  # fmt: skip
-WINDOW = 50  # training episodes in a row, in which an agent that has found the way out is ahead more often than not
 
 
 @dataclass(frozen=True)
@@ -45,7 +40,7 @@ class Results:
     seconds: np.ndarray | None = None  # (agents,) of one core, training and test; NaN where they are not known
     notes: dict[str, np.ndarray] = field(default_factory=dict)  # of a lesson, taken in training: (agents, points)
     measured: dict[str, np.ndarray] = field(default_factory=dict)  # of a lesson, of trained agents: (agents,)
-    weights: dict[str, np.ndarray] = field(default_factory=dict)  # of a lesson, {"actor.0": (agents kept, ...)}
+    weights: dict[str, np.ndarray] = field(default_factory=dict)  # of the first agents, see `weights_of` and `agent`
 
     def __post_init__(self):
         if self.seconds is None:
@@ -83,37 +78,39 @@ class Results:
         return int((self.of(method).scores("success") >= ESCAPES).sum())
 
     def found_and_kept(self, method: str) -> tuple[np.ndarray, np.ndarray]:
-        """Which agents of a method found the way out (see `found`), and which of these kept it, each (agents,) bool.
+        """Which agents of a method found the way out, and which of these kept it, each (agents,) bool.
 
-        Kept: after training the agent escapes, see `escapers`.
+        Found: see `statistics.found`. Kept: after training the agent escapes, see `escapers`.
         """
         agents = self.of(method)
         way_out = found(agents.curves["success"])
         return way_out, way_out & (agents.scores("success") >= ESCAPES)
 
+    def agent(self, which: int = 0) -> Agent:
+        """An agent whose weights were kept, `alpha` as it was measured. Raises BootcourseError for another."""
+        kept = len(self.weights.get("actor.0", ()))
+        if not 0 <= which < kept:
+            raise BootcourseError(f"Of agent {which} no weights were kept: there are those of {kept} agents.")
+        networks: dict[str, list[torch.Tensor]] = {"actor": [], "critics": []}
+        for name, layers in self.weights.items():  # (agents kept · networks of each, inputs, outputs)
+            part = len(layers) // kept
+            networks[name.partition(".")[0]].append(torch.from_numpy(layers[which * part : (which + 1) * part]))
+        settings = {name: value for name, value in self.agents[which].items() if name != "teacher"}
+        alpha = self.measured["alpha"][which] if "alpha" in self.measured else 0.0
+        return Agent(stored_settings(settings), **networks, alpha=float(alpha))
+
     def episodes(self, measure: str) -> np.ndarray:
         """A measure in every held-out episode, (agents, episodes); an event is 1 where it happened, else 0.
 
-        measure: one of `MEASURES`, or "accident" for one of any kind.
+        measure: one of `MEASURES`, or "accident" for one of any kind. Raises BootcourseError for another name.
         """
+        check_known("Measure", measure, (*MEASURES, "accident"))
         if measure == "accident":
             accident = self.tested["accident"]
             values = np.where(np.isnan(accident), np.nan, accident != Accident.NONE)
         else:
             values = self.tested["accident"] == KINDS[measure] if measure in KINDS else self.tested[measure]
         return values.astype(np.float64)
-
-
-def found(success: np.ndarray, window: int = WINDOW) -> np.ndarray:
-    """Which agents found the way out: more than half of some `window` training episodes in a row succeeded.
-
-    success: (agents, episodes), NaN for episodes that were not driven. Returns (agents,) bool.
-    """
-    success = np.nan_to_num(success).astype(float)
-    if success.shape[1] < window:
-        return np.zeros(len(success), dtype=bool)
-    windows = np.lib.stride_tricks.sliding_window_view(success, window, axis=1)  # (agents, windows, window)
-    return (windows.mean(axis=-1) > 0.5).any(axis=1)
 
 
 def join(parts: Sequence[Results]) -> Results:
@@ -136,6 +133,12 @@ def join(parts: Sequence[Results]) -> Results:
 def agent_entries(settings: Sequence[Settings], teacher: str = RULE) -> list[dict]:
     """`Results.agents` of agents with these settings and this teacher."""
     return [asdict(one) | {"teacher": teacher} for one in settings]
+
+
+def weights_of(agents: Sequence[Agent], *parts: str) -> dict[str, np.ndarray]:
+    """`Results.weights` of agents with the same shapes. parts: of "actor" and "critics"."""
+    layers = {part: zip(*(getattr(agent, part) for agent in agents), strict=True) for part in parts}
+    return {f"{part}.{i}": np.concatenate(each) for part in parts for i, each in enumerate(layers[part])}
 
 
 def as_arrays(results: Results) -> dict[str, np.ndarray]:
@@ -195,76 +198,3 @@ def load_jobs(root: Path, part: str) -> Results:
     everyone = join([load_job(path.parent) for path in sorted((Path(root) / "jobs" / part).glob("*/results.npz"))])
     once = {json.dumps(agent, sort_keys=True): i for i, agent in enumerate(everyone.agents)}
     return everyone.pick(sorted(once.values()))
-
-
-@dataclass(frozen=True)
-class StudyResults:
-    """Everything is by name, and absent if it was not computed."""
-
-    results: dict[str, Results]  # {study: every method's agents}, see plan.STUDIES
-    bound: dict[str, np.ndarray] = field(default_factory=dict)  # {scenario: best known return of each episode (tests,)}
-    staying: dict[str, dict] = field(default_factory=dict)  # {scenario: the fields of planner.Staying}
-    experiments: dict[str, dict[str, Results]] = field(default_factory=dict)  # {experiment: {variation: agents}}
-
-
-def in_study(root: Path) -> StudyResults:
-    """What the finished jobs of a study's folder hold."""
-    jobs = Path(root) / "jobs"
-    results = {name: load_jobs(root, name) for name in STUDIES if list(jobs.glob(f"{name}/*/results.npz"))}
-    bounds = {name: _bound(jobs / f"bound-{name}", each.sizes[0]) for name, each in results.items()}
-    return StudyResults(
-        results,
-        {name: bound for name, bound in bounds.items() if bound is not None},
-        _staying({name: jobs / f"staying-{name}/gamma-0.8/staying.json" for name in results}),
-        {name: experiment(name, root) for name in REPORTED},
-    )
-
-
-def in_assets(root: Path) -> StudyResults:
-    """The results in an assets folder: what ships, or what is prepared for shipping."""
-    root = Path(root)
-    studies, bounds = ({name: root / f"{kind}-{name}.npz" for name in STUDIES} for kind in ("study", "bound"))
-    return StudyResults(
-        {name: load_results(path) for name, path in studies.items() if path.exists()},
-        {name: load_bound(path) for name, path in bounds.items() if path.exists()},
-        _staying({name: root / f"staying-{name}.json" for name in STUDIES}),
-        {name: _variations(name, load_results, root, ".npz") for name in REPORTED},
-    )
-
-
-def experiment(name: str, study: Path | str = "") -> dict[str, Results]:
-    """The variations of one experiment that were computed: in a study's folder, by default those that ship."""
-    if study:
-        return _variations(name, load_job, Path(study) / "jobs", "")
-    return _variations(name, load_results, FOLDER, ".npz")
-
-
-def _variations(name: str, load: Callable[[Path], Results], root: Path, ending: str) -> dict[str, Results]:
-    """The variations that were computed, root/EXPERIMENT/VARIATION + ending."""
-    paths = {each: root / name / f"{folder(each)}{ending}" for each in experiment_named(name).variations}
-    return {variation: load(path) for variation, path in paths.items() if path.exists()}
-
-
-def _staying(paths: dict[str, Path]) -> dict[str, dict]:
-    return {name: vars(read_json(path, Staying, RUN_AGAIN)) for name, path in paths.items() if path.exists()}
-
-
-def load_bound(path: Path) -> np.ndarray:
-    """The best return that the planner found on each held-out road of a study, (episodes,)."""
-    return _returns(path)["returns"]
-
-
-def _bound(folder: Path, tests: int) -> np.ndarray | None:
-    """The planner's return on each episode; None until all of them are computed."""
-    jobs = [_returns(path, "first", "success") for path in folder.glob("*/results.npz")]
-    of_road = {int(job["first"]) + i: value for job in jobs for i, value in enumerate(job["returns"])}
-    return np.array([of_road[i] for i in range(tests)]) if set(range(tests)) <= set(of_road) else None
-
-
-def _returns(path: Path, *others: str) -> dict[str, np.ndarray]:
-    """The planner's returns (episodes,) in a file, and its other arrays."""
-    arrays = read_arrays(path, RUN_AGAIN)
-    n = arrays["returns"].shape[:1] if "returns" in arrays else ()
-    shapes = {"returns": n, "success": n, "first": ()}
-    check_arrays(arrays, {name: shapes[name] for name in ("returns", *others)}, path, RUN_AGAIN)
-    return arrays

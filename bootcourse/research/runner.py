@@ -10,10 +10,10 @@ import numpy as np
 
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import write_json
-from bootcourse.research.jobs import AnyJob, Job, finished, run_job
+from bootcourse.research.jobs import Job, finished, run_job
 from bootcourse.research.results import Results, load_job, load_results
 from bootcourse.storage.assets import FOLDER
-from bootcourse.storage.work import locked
+from bootcourse.storage.work import locked, remove_empty
 
 BACKENDS = ("loky", "dask")
 CONNECT = 10.0  # s until a scheduler must answer
@@ -49,6 +49,7 @@ def run_jobs(
             write_json(root / "study.json", {"jobs": [job.name for job in jobs]})
             with connected(backend, scheduler, workers):
                 problems = _compute(waiting, root.resolve())
+            remove_empty(root / "unfinished")
         after(problems)
         return problems
 
@@ -89,7 +90,7 @@ def _dask_client(scheduler: str | None, workers: int | None):
         raise BootcourseError(f"No dask scheduler answers at {scheduler}: start one, or check the address.") from None
 
 
-def time_needed(jobs: Sequence[AnyJob], root: Path, workers: int | None) -> str:
+def time_needed(jobs: Sequence[Job], root: Path, workers: int | None) -> str:
     """A sentence about jobs that wait. root: the study's folder, whose finished jobs count, too."""
     known = [each for each in (seconds_of(job, root) for job in jobs) if not np.isnan(each)]
     if not known:
@@ -105,11 +106,12 @@ def in_words(seconds: float) -> str:
     return f"{seconds / 3600:.1f} hours" if seconds >= 5400 else f"{max(1, round(seconds / 60))} minute(s)"
 
 
-def seconds_of(job: AnyJob, root: Path) -> float:
+def seconds_of(job: Job, root: Path) -> float:
     """The seconds that a job will take on one core; NaN where no such job has been timed."""
     part = job.name.partition("/")[0]
     shipped = [path for path in (FOLDER / f"{job.name}.npz", FOLDER / f"study-{part}.npz") if path.exists()]
-    done = [path.parent for path in sorted((root / "jobs" / part).glob("*/results.npz"))] if type(job) is Job else []
+    trains = "settings" in job.arguments  # and jobs that trained others of these methods tell how long it takes
+    done = [path.parent for path in sorted((root / "jobs" / part).glob("*/results.npz"))] if trains else []
     for load, paths in ((load_results, shipped), (load_job, done)):
         for path in paths:
             if not np.isnan(seconds := of_agents(job, load(path))):
@@ -117,10 +119,10 @@ def seconds_of(job: AnyJob, root: Path) -> float:
     return np.nan
 
 
-def of_agents(job: AnyJob, alike: Results) -> float:
+def of_agents(job: Job, alike: Results) -> float:
     """The seconds of a job, from those of agents that were trained alike."""
-    if type(job) is not Job:  # what ships is the same job
+    if "settings" not in job.arguments:  # what ships is the same job
         return float(alike.seconds.sum())
-    trained = alike.sizes[1]
-    times = [alike.of(one.method).seconds.mean() if one.method in alike.methods else np.nan for one in job.settings]
-    return float(sum(times)) * job.episodes / trained if trained else np.nan
+    trained, methods = alike.sizes[1], [settings.method for settings in job.arguments["settings"]]
+    times = [alike.of(method).seconds.mean() if method in alike.methods else np.nan for method in methods]
+    return float(sum(times)) * job.arguments["episodes"] / trained if trained else np.nan

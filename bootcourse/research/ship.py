@@ -18,22 +18,18 @@ from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.files import provenance, sha256, write_arrays, write_bytes, write_json
 from bootcourse.policies import rule_policy
-from bootcourse.research import checks
+from bootcourse.research.computed import in_assets, in_study
+from bootcourse.research.experiment import EXPERIMENTS, experiment_named
 from bootcourse.research.jobs import HELD_OUT, read_job
-from bootcourse.research.plan import EXPERIMENTS, STUDIES, Experiment, experiment_named
 from bootcourse.research.report import model_card, write_report
-from bootcourse.research.results import Results, in_assets, in_study, load_job, load_jobs, load_results, save_results
+from bootcourse.research.results import Results, load_job, load_jobs, load_results, save_results
+from bootcourse.research.studies import STUDIES
 from bootcourse.scenario import DEFAULT
 from bootcourse.storage.assets import FOLDER, FORMAT, LIMIT, MANIFEST, Entry, read_manifest
 from bootcourse.storage.runs import load_run
 from bootcourse.storage.sealed import write_sealed
 
 CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
-VARIED_CURVES = ("success", "return", "xi", "decisions")  # of an `Experiment`
-FEWER_CURVES = {"teachers": ("success", "decisions"),
-                "beyond-search": (), "beyond": ("return", "decisions"),
-                "elsewhere": ("success", "return"), "easier": ("success", "alpha"),
-                "reachable-entropy": ()}  # many agents  # fmt: skip
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 PICTURES = (
     "readme",
@@ -149,12 +145,12 @@ def add_studies(to: Shipment) -> None:
 
 
 def add_experiments(to: Shipment) -> None:
-    """Scores and curves of every variation that was run, a file each."""
+    """Scores and curves of every cell that was run, a file each."""
     for name in EXPERIMENTS:
-        varied = isinstance(experiment_named(name), Experiment)
+        shown = experiment_named(name).curves
         for job in sorted(to.study.glob(f"jobs/{name}/*/results.npz")):
             results, path = load_job(job.parent), to.new / name / f"{job.parent.name}.npz"
-            curves = FEWER_CURVES.get(name, VARIED_CURVES if varied else tuple(results.curves))
+            curves = tuple(results.curves) if shown is None else shown
             to.add_results(results, path, f"{name}/{job.parent.name}", curves)
 
 
@@ -208,13 +204,14 @@ def add_rollouts(to: Shipment) -> None:
 
 
 def add_report(to: Shipment) -> None:
-    """The report with its figures, the page of checks and the model card, made from the files that ship."""
+    """The report with its figures, the experiments' pages and the model card, made from the files that ship."""
     to.clear("report/**/*")
-    study, page = in_assets(to.new), to.new / "checks.md"
+    study = in_assets(to.new)
     write_report(study, to.new / "report")
-    if computed := study.experiments["checks"]:
-        write_bytes(page, checks.page(computed).encode())
-        to.add(page, command("checks"), provenance())
+    for name, computed in study.experiments.items():
+        if computed and (page := experiment_named(name).page):
+            write_bytes(to.new / f"{name}.md", page(computed).encode())
+            to.add(to.new / f"{name}.md", command(name), provenance())
     card = model_card(load_results(to.new / "study-default.npz"), RUNS)
     write_bytes(to.new / "MODEL_CARD.md", card.encode())
     for path in (to.new / "MODEL_CARD.md", *sorted((to.new / "report").rglob("*"))):

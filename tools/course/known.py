@@ -30,9 +30,9 @@ from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import settings_for
 from bootcourse.methods import METHODS
 from bootcourse.policies import idle_policy, plan_policy, rule_policy
-from bootcourse.research import clocks as study_clocks
 from bootcourse.research import report
-from bootcourse.research.clocks import pattern
+from bootcourse.research.experiments import clocks as study_clocks
+from bootcourse.research.experiments.clocks import pattern
 from bootcourse.research.paper import EPISODES, PRINTED
 from bootcourse.research.results import KINDS, Results
 from bootcourse.research.teachers import LATE
@@ -123,7 +123,7 @@ def escaped_with(change: str, method: str) -> int:
 @cache
 def clocks() -> dict[tuple[str, str], Results]:
     """The four methods' ten agents each, by (updates per decision, who drives the demonstrations): ("2", "π̃")."""
-    return study_clocks.cells(shipped_experiment("clocks"))
+    return study_clocks.choices(shipped_experiment("clocks"))
 
 
 escapers = Results.escapers  # (results, method): how many of a method's agents in these results escape

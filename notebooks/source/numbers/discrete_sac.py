@@ -3,7 +3,7 @@
 from functools import cache
 
 import numpy as np
-from bootcourse.research import checks
+from bootcourse.research.experiments import checks
 
 
 @cache

@@ -11,9 +11,10 @@ from bootcourse.episodes.models import MODELS
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
 from bootcourse.policies import idle_policy, random_policy
-from bootcourse.research import distil
-from bootcourse.research.lookahead import MANY, ROADS, Cell, Score, score
-from bootcourse.research.results import Results, experiment
+from bootcourse.research.computed import experiment
+from bootcourse.research.experiments import distil
+from bootcourse.research.experiments.lookahead import MANY, ROADS, Cell, Score, score
+from bootcourse.research.results import Results
 from bootcourse.road.state import Accident
 from bootcourse.scenario import DEFAULT
 from scipy import stats
@@ -77,6 +78,24 @@ def all_ten_gain() -> bool:
     """Whether each of them has fewer accidents with rollouts, and a higher return."""
     fewer = each("rollouts", "accidents") < each("alone", "accidents")
     return bool((fewer & (each("rollouts", "returns") > each("alone", "returns"))).all())
+
+
+def _accidents(base: str) -> np.ndarray:
+    """The accidents of each agent of a base policy, alone and with rollouts, (2, agents)."""
+    return np.stack([shipped()[Cell(base, form).name].measured["accidents"] for form in ("alone", "rollouts")])
+
+
+def less_safe(base: str) -> np.ndarray:
+    """Which agents of a base policy have more accidents with rollouts than alone, (agents,)."""
+    alone, ahead = _accidents(base)
+    return ahead > alone
+
+
+def most_harmed(base: str) -> tuple[int, int]:
+    """The accidents alone and with rollouts of the agent that gains most of them, on its 1,000 roads."""
+    alone, ahead = _accidents(base)
+    worst = int((ahead - alone).argmax())
+    return int(alone[worst]), int(ahead[worst])
 
 
 @cache

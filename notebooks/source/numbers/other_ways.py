@@ -16,9 +16,14 @@ from bootcourse.policies import random_policy, rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.beyond import at_budget
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
-from bootcourse.research.results import Results, found  # noqa: F401
+from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES, Estimate, interval
+from bootcourse.statistics import (
+    ESCAPES,
+    Estimate,
+    found,  # noqa: F401
+    interval,
+)
 from tools.course.known import shipped_experiment, shipped_teachers
 
 FIRST, SECOND, LAST = BUDGETS

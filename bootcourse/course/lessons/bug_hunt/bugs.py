@@ -1,4 +1,4 @@
-"""Six silent bugs that occur in practice, and the agents of the bug hunt, which were trained with them.
+"""Six silent bugs that occur in practice, and agents that were trained with each.
 
 Each bug is a `SACLearner` whose update is wrong in one place. No error is raised, no number is NaN, and the
 curves look plausible.
@@ -23,8 +23,10 @@ from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.policies import rule_policy
-from bootcourse.research.plan import LessonExperiment
-from bootcourse.research.results import Results, agent_entries, as_arrays, experiment
+from bootcourse.research.cells import results_of
+from bootcourse.research.computed import experiment
+from bootcourse.research.experiment import Experiment
+from bootcourse.research.results import Results, agent_entries, weights_of
 from bootcourse.scenario import DEFAULT, RULE_P
 from bootcourse.statistics import rolling_means
 
@@ -97,8 +99,6 @@ SEEDS, UPDATES, EVERY = 2, 10_000, 250  # agents with each bug; updates of each;
 ROADS = range(900, 908)  # whose drives by the rule give the states of the probes
 PROBES = ("kl", "entropy", "alike", "late", "rarest", "promise", "end")
 CURVES = ("success", "return", "accident", "alpha")
-PARTS = ("actor", "critics")  # of an agent
-EXPERIMENT = LessonExperiment(f"{__name__}:train_bug", {bug: {"bug": bug} for bug in LEARNERS})
 
 # Training them ---------------------------------------------------------------------------------------
 
@@ -152,27 +152,24 @@ class Probe:
         return float(q.gather(-1, own.actions[ended][:, None]).mean())
 
 
-def train_bug(bug: str, updates: int = UPDATES) -> dict[str, np.ndarray]:
-    """Train the paper's method with a bug, "none" for none: the arrays of a file of results.
-
-    They are curves, probes, and the weights of the first agent.
-    """
+def train_bug(bug: str, updates: int = UPDATES) -> Results:
+    """Train the paper's method with a bug, "none" for none: curves, probes, and the weights of the first agent."""
     settings, probe = with_seeds(settings_for("bootstrapped"), SEEDS), Probe()
     training = Training(settings, 4000, make_learner=LEARNERS[bug])
     result = training.run(progress=False, callback=probe, stop=lambda: training.updates >= updates)
     episodes = int(training.curves.finished.max())
     probes = np.array(probe.rows, dtype=np.float32).reshape(-1, SEEDS, len(PROBES)).transpose(2, 1, 0)
-    first = result.agents[0]
-    weights = {f"{part}.{i}": layer.numpy() for part in PARTS for i, layer in enumerate(getattr(first, part))}
-    results = Results(
+    return Results(
         agent_entries(training.settings),
         np.full(SEEDS, -1),
         curves={name: result.curves[name][:, :episodes].astype(np.float16) for name in CURVES},
         notes={"updates": np.tile(probe.updates, (SEEDS, 1)), **dict(zip(PROBES, probes, strict=True))},
         measured={"alpha": np.array([agent.alpha for agent in result.agents])},
-        weights=weights,
+        weights=weights_of(result.agents[:1], "actor", "critics"),
     )
-    return as_arrays(results)
+
+
+EXPERIMENT = Experiment("bug-hunt", lambda: {bug: {"bug": bug} for bug in LEARNERS}, results_of(train_bug))
 
 
 # Reading them ----------------------------------------------------------------------------------------
@@ -231,9 +228,4 @@ class Hunt:
 
     def agent(self, name: str) -> Agent:
         """The agent of the first seed at the end of its training."""
-        results = self._of(name)
-        networks = {
-            part: [torch.from_numpy(layer) for key, layer in results.weights.items() if key.startswith(part)]
-            for part in PARTS
-        }
-        return Agent(settings_for("bootstrapped"), **networks, alpha=float(results.measured["alpha"][0]))
+        return self._of(name).agent()

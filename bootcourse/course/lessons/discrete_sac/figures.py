@@ -9,7 +9,7 @@ from matplotlib.patches import Rectangle
 from bootcourse.episodes.words import sentence
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure
-from bootcourse.research.checks import CARTPOLE_SCALES
+from bootcourse.research.experiments.checks import CARTPOLE_SCALES
 
 TRACK, POLE = 2.4, 1.8  # m: half the track; the pole as it is drawn
 PICTURES, STEP, ROW = 8, 5.4, 0.85  # in a strip; from one to the next (m); a strip's height (inches)

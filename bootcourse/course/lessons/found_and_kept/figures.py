@@ -23,10 +23,9 @@ from bootcourse.plots.figure import (
     wrapped,
 )
 from bootcourse.plots.training_curves import WINDOW
-from bootcourse.research.clocks import UPDATES
-from bootcourse.research.results import WINDOW as IN_A_ROW
+from bootcourse.research.experiments.clocks import UPDATES
 from bootcourse.research.results import Results
-from bootcourse.statistics import rolling_means
+from bootcourse.statistics import IN_A_ROW, found_after, rolling_means
 
 LEAST = 1e-4  # the lowest part of ξ that is drawn
 SHORT = {"1/4": "¼"}  # how a figure writes a number of updates
@@ -128,8 +127,9 @@ def _number(ax, words: str, x: float, y: float, offset: tuple[float, float]) -> 
 
 def half_found(agents: Results) -> int:
     """The episode by which half of the agents have found the way out."""
-    windows = np.lib.stride_tricks.sliding_window_view(agents.curves["success"], IN_A_ROW, axis=1).mean(-1) > 0.5
-    ends = np.where(windows.any(1), windows.argmax(1) + IN_A_ROW, agents.curves["success"].shape[1])
+    success = agents.curves["success"]
+    after = found_after(success)
+    ends = np.where(after > 0, after, success.shape[1])
     return int(np.sort(ends)[(len(ends) - 1) // 2])
 
 

@@ -1,4 +1,4 @@
-"""GAIL, and CQL with an actor, with a target entropy that nine actions can reach: an experiment of the study.
+"""GAIL, and CQL with an actor, with a target entropy that nine actions can reach.
 
     bootcourse study reachable-entropy --out DIR    # some minutes
 
@@ -8,12 +8,11 @@ agents of each method have η = 0.3 log 9 and five have η = -1, with the same s
 
 import math
 
-import numpy as np
-
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.research.jobs import Interrupted, orphaned, tested_arrays
-from bootcourse.research.plan import LessonExperiment
+from bootcourse.research.cells import results_of, tested_results
+from bootcourse.research.experiment import Experiment
+from bootcourse.research.jobs import Interrupted, orphaned
 from bootcourse.research.results import Results
 from bootcourse.research.teachers import RULE
 from bootcourse.scenario import N_ACTIONS
@@ -26,17 +25,19 @@ UPDATES = 12_000  # the study's GAIL agents had long found the way out by then
 EPISODES = 10_000  # more than any of these trainings drives
 TESTS = 800  # held-out roads
 
-EXPERIMENT = LessonExperiment(f"{__name__}:train_method", {method: {"method": method} for method in METHODS})
 
-
-def train_method(method: str) -> dict[str, np.ndarray]:
-    """Train the agents of a method side by side: the arrays of a file of results. Raises Interrupted."""
+def train_method(method: str) -> Results:
+    """Train the agents of a method side by side. Raises Interrupted."""
     settings = [agent for η in ENTROPIES for agent in with_seeds(settings_for(method, target_entropy=η), SEEDS)]
     training = Training(settings, EPISODES)
     result = training.run(progress=False, updates=UPDATES, stop=orphaned)
     if training.updates < UPDATES:
         raise Interrupted(method)
-    return tested_arrays(result, TESTS, RULE)
+    return tested_results(result, TESTS, RULE)
+
+
+CELLS = {method: {"method": method} for method in METHODS}
+EXPERIMENT = Experiment("reachable-entropy", lambda: CELLS, results_of(train_method), ())
 
 
 def by_entropy(results: Results) -> dict[float, Results]:

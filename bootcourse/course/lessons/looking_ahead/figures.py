@@ -1,7 +1,7 @@
 """The figures of this lesson: what looking ahead changes, what it gains by horizon, what a wrong model costs.
 
-The last two take the results of the experiment `look-ahead`, {cell: agents}; bootcourse.research.lookahead has the
-scores.
+The last two take the results of the experiment `look-ahead`, {cell: agents}; its file,
+bootcourse.research.experiments.lookahead, has the scores.
 """
 
 from collections.abc import Container, Mapping, Sequence
@@ -16,7 +16,7 @@ from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure, plain_axes
-from bootcourse.research.lookahead import CLOSELY, FORM_NAMES, FORMS, HORIZONS, Cell, Score, score
+from bootcourse.research.experiments.lookahead import CLOSELY, FORM_NAMES, FORMS, HORIZONS, Cell, Score, score
 from bootcourse.research.results import Results
 
 MEANINGS = {  # of the wrong models, for readers

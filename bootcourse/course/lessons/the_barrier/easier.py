@@ -1,4 +1,4 @@
-"""SAC with one thing made easier, and nothing else changed: an experiment of the study.
+"""Plain SAC on the road with one thing made easier.
 
     bootcourse study easier --out DIR    # some minutes
 
@@ -20,8 +20,10 @@ from bootcourse.course.lessons.the_barrier.attempts import PLAN, ThenAccelerate,
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.policies import PlanPolicy, Policy, idle_policy, random_policy
-from bootcourse.research.jobs import Interrupted, orphaned, tested_arrays
-from bootcourse.research.plan import LessonExperiment
+from bootcourse.research.cells import results_of, tested_results
+from bootcourse.research.experiment import Experiment
+from bootcourse.research.jobs import Interrupted, orphaned
+from bootcourse.research.results import Results
 from bootcourse.research.teachers import RULE
 from bootcourse.road import twin
 from bootcourse.road.state import EGO, LANE, SPEED, Y
@@ -85,7 +87,6 @@ KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the set
     "a later start, η = 1": (LaterStart, {"target_entropy": 1.0}),
     "free accidents": (free_accidents, {}),
 }
-EXPERIMENT = LessonExperiment(f"{__name__}:train_kind", {kind: {"kind": kind} for kind in KINDS})
 
 ACCELERATE = 7  # straight on
 LATER_DRIVES = {
@@ -106,8 +107,8 @@ def drivers(kind: str, seed: int = 0) -> Mapping[str, Policy]:
     return {"stays": idle_policy, "at random": random_policy(np.random.default_rng(seed))} | skilled[kind]
 
 
-def train_kind(kind: str) -> dict[str, np.ndarray]:
-    """Train the agents of a kind side by side: the arrays of a file of results. Raises Interrupted.
+def train_kind(kind: str) -> Results:
+    """Train the agents of a kind side by side. Raises Interrupted.
 
     Tested: on the study's first held-out roads, as this kind drives them, by the most probable action.
     """
@@ -117,4 +118,8 @@ def train_kind(kind: str) -> dict[str, np.ndarray]:
     result = training.run(progress=False, updates=UPDATES, stop=orphaned)
     if training.updates < UPDATES:
         raise Interrupted(kind)
-    return tested_arrays(result, TESTS, RULE, make_env)
+    return tested_results(result, TESTS, RULE, make_env)
+
+
+CELLS = {kind: {"kind": kind} for kind in KINDS}
+EXPERIMENT = Experiment("easier", lambda: CELLS, results_of(train_kind), ("success", "alpha"))

@@ -1,4 +1,4 @@
-"""Ten PPO agents of each kind in this lesson, trained, tested and kept with their networks: an experiment of the study.
+"""Ten agents of PPO alone, with two other rewards, and after cloning: trained, tested, kept with their networks.
 
     bootcourse study second-trap --out DIR    # some minutes
 
@@ -22,8 +22,10 @@ from bootcourse.learn.networks import mlp
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.teachers import course_rule
 from bootcourse.learn.training import MOST_EPISODES, Training
-from bootcourse.research.plan import LessonExperiment
-from bootcourse.research.results import Results, agent_entries, as_arrays, experiment
+from bootcourse.research.cells import results_of
+from bootcourse.research.computed import experiment
+from bootcourse.research.experiment import Experiment
+from bootcourse.research.results import Results, agent_entries, weights_of
 
 SEEDS, EVERY = 10, 50_000  # agents of each kind; decisions between two points of a curve
 ROADS = held_out_seeds(14, 200)  # that every agent is tested on
@@ -45,7 +47,6 @@ KINDS = {
     "concave": Kind("ppo", 800_000, partial(Repaid, pay=concave_pay)),
     "cloned": Kind("ppo_cloned", 300_000),
 }
-EXPERIMENT = LessonExperiment(f"{__name__}:train_kind", {kind: {"kind": kind} for kind in KINDS})
 
 
 class Trained(NamedTuple):
@@ -103,16 +104,15 @@ def tested(agent: Agent) -> dict[str, float]:
     return means | {"accident": np.mean(drives.accident > 0), "alike": alike([agent], course_rule)[0]}
 
 
-def train_kind(kind: str, seeds: int = SEEDS) -> dict[str, np.ndarray]:
-    """Train and test the agents of a kind, one after the other: the arrays of a file of results."""
+def train_kind(kind: str, seeds: int = SEEDS) -> Results:
+    """Train and test the agents of a kind, one after the other."""
     settings = [settings_of(kind, seed) for seed in range(seeds)]
     each = []
     for one in settings:
         training = Training([one], MOST_EPISODES, make_env=KINDS[kind].make_env)
         each.append(train(training, KINDS[kind].decisions))
     measures = [tested(one.agent) for one in each]
-    layers = zip(*(one.agent.actor for one in each), strict=True)
-    results = Results(
+    return Results(
         agent_entries(settings),
         np.full(seeds, -1),
         notes={
@@ -120,9 +120,11 @@ def train_kind(kind: str, seeds: int = SEEDS) -> dict[str, np.ndarray]:
             for name in Trained._fields[1:]
         },
         measured={name: np.array([one[name] for one in measures]) for name in measures[0]},
-        weights={f"actor.{i}": np.concatenate(layer) for i, layer in enumerate(layers)},
+        weights=weights_of([one.agent for one in each], "actor"),
     )
-    return as_arrays(results)
+
+
+EXPERIMENT = Experiment("second-trap", lambda: {kind: {"kind": kind} for kind in KINDS}, results_of(train_kind))
 
 
 @cache
@@ -141,6 +143,4 @@ def reference() -> dict[str, dict[str, np.ndarray]]:
 
 def agent_of(kind: str, seed: int = 0) -> Agent:
     """One of the agents of a kind that ship."""
-    weights = shipped_kinds()[kind].weights
-    actor = [torch.from_numpy(weights[f"actor.{i}"][seed])[None] for i in range(len(weights))]
-    return Agent(settings_of(kind, seed), actor, [], 0.0)
+    return shipped_kinds()[kind].agent(seed)

@@ -14,7 +14,7 @@ from torch import Tensor, nn
 from bootcourse.learn import sac
 from bootcourse.learn.textbook import mlp
 from bootcourse.policies import Policy, PolicyOutput
-from bootcourse.research import checks
+from bootcourse.research.experiments import checks
 
 SIZES, HIDDEN = (4, 2), (64, 64)  # the pole's observations and actions
 

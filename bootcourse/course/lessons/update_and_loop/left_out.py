@@ -10,8 +10,8 @@ from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.research import checks
-from bootcourse.research.checks import several
+from bootcourse.research.experiments import checks
+from bootcourse.research.experiments.checks import several
 
 WHOLE = "nothing: the whole agent"
 KINDS = (WHOLE, "the entropy", "the second critic", "the slow copies", "(1 − terminated)")

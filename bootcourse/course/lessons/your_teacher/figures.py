@@ -11,8 +11,8 @@ from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
+from bootcourse.research.experiments.teacher_worth import TAUGHT, Cells
 from bootcourse.research.jobs import HELD_OUT
-from bootcourse.research.teacher_worth import TAUGHT, Cells
 from bootcourse.research.teachers import PLANNER, TEACHERS
 from bootcourse.statistics import ESCAPES
 

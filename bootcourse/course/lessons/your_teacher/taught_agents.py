@@ -1,4 +1,4 @@
-"""Ten students of each of this lesson's teachers and ten agents that learn alone: an experiment of the study.
+"""Ten students each of the rule and of five other teachers, and ten agents that learn alone.
 
     bootcourse study students --out DIR    # some minutes
 
@@ -20,8 +20,10 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.teachers import Rule, all_roads, course_rule, teacher_of
 from bootcourse.learn.training import Training
-from bootcourse.research.plan import LessonExperiment
-from bootcourse.research.results import Results, agent_entries, as_arrays, experiment
+from bootcourse.research.cells import results_of
+from bootcourse.research.computed import experiment
+from bootcourse.research.experiment import Experiment
+from bootcourse.research.results import Results, agent_entries
 from bootcourse.research.teachers import RULE
 from bootcourse.scenario import Scenario
 
@@ -40,10 +42,6 @@ TEACHERS = {"the rule": course_rule, f"the rule, {NEAR:g} m": near_sighted}
 TEACHERS |= {teacher.__name__: teacher for teacher in (careful, timid, reckless, racer)}
 ALONE = "alone"  # agents without a teacher, as plain SAC
 RACER_LONG, LONG = "racer, long", 40_000  # updates, after which both aids have faded
-EXPERIMENT = LessonExperiment(
-    f"{__name__}:train_group",
-    {name: {"group": name} for name in (ALONE, *TEACHERS)} | {RACER_LONG: {"group": racer.__name__, "updates": LONG}},
-)
 
 
 class Taught(NamedTuple):
@@ -92,15 +90,24 @@ def alike(agents: list[Agent], teacher: Rule, roads: int = 4) -> np.ndarray:
     return np.array(shares)
 
 
-def train_group(group: str, seeds: int = SEEDS, updates: int = UPDATES) -> dict[str, np.ndarray]:
-    """Train and test the students of a teacher, or the agents that learn alone: the arrays of a file of results."""
+def train_group(group: str, seeds: int = SEEDS, updates: int = UPDATES) -> Results:
+    """Train and test the students of a teacher, or the agents that learn alone."""
     teacher, method = TEACHERS.get(group, course_rule), "sac" if group == ALONE else "bootstrapped"
     settings = with_seeds(settings_for(method), seeds)
     taught = teach(teacher, settings, updates)
     measured = tested(taught.agents) | {"beta": taught.beta, "xi": taught.xi, "alike": alike(taught.agents, teacher)}
     notes = {"updates": np.tile(taught.updates, (seeds, 1)), "escapes": taught.escapes}
     agents = agent_entries(settings, group if group in TEACHERS else RULE)
-    return as_arrays(Results(agents, np.full(seeds, -1), notes=notes, measured=measured))
+    return Results(agents, np.full(seeds, -1), notes=notes, measured=measured)
+
+
+def cells() -> dict[str, dict]:
+    """A teacher each, nobody, and one teacher for longer."""
+    groups = {name: {"group": name} for name in (ALONE, *TEACHERS)}
+    return groups | {RACER_LONG: {"group": racer.__name__, "updates": LONG}}
+
+
+EXPERIMENT = Experiment("students", cells, results_of(train_group))
 
 
 def reference() -> dict[str, dict[str, np.ndarray]]:

@@ -1,20 +1,22 @@
-"""What is a teacher worth? The experiment `teachers`: each teacher with each method that it taught, as numbers.
+"""What is a teacher worth? Each teacher, from bad to perfect, with each method that it taught, as numbers.
 
     bootcourse study teachers --out DIR
 
-`cells` holds the agents, `QUANTITIES` what can be said of them, each agent's number and their estimate.
+`by_teacher` holds the agents, `QUANTITIES` what can be said of them, each agent's number and their estimate.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from bootcourse.methods import display_name
 from bootcourse.research.beyond import SHARE, WINDOW, spent
-from bootcourse.research.plan import Experiment, Variation
+from bootcourse.research.cells import train_and_test, trained
+from bootcourse.research.experiment import Computed, Experiment
 from bootcourse.research.results import Results
-from bootcourse.research.tables import bracketed, k_of_n
+from bootcourse.research.tables import bracketed, k_of_n, markdown
 from bootcourse.research.teachers import PLANNER, TEACHERS
 from bootcourse.statistics import ESCAPES, Estimate, escapes, interval, median
 
@@ -32,22 +34,21 @@ TAUGHT = {
 }
 
 
-def _teachers() -> dict[str, Variation]:
-    """Five ways to use a teacher, with teachers from bad to perfect, a cell each."""
+def cells(seeds: int = 10, episodes: int = 0, tests: int = 200) -> dict[str, dict]:
+    """Five ways to use a teacher, with teachers from bad to perfect, a cell each. episodes: 0 for those of `TAUGHT`."""
     return {
-        f"{teacher}, {method}": Variation(changes, methods=(method,), episodes=episodes, teacher=teacher)
-        for method, (changes, episodes) in TAUGHT.items()
+        f"{teacher}, {method}": trained(seeds, episodes or own, tests, (method,), teacher=teacher, **changes)
+        for method, (changes, own) in TAUGHT.items()
         for teacher in TEACHERS
         if teacher != PLANNER or method not in ("bootstrapped", "soft")
     }
 
 
-EXPERIMENT = Experiment(_teachers(), seeds=10, episodes=1500, tests=200)
 Cells = dict[tuple[str, str], Results]  # {(teacher, method): its agents}
 
 
-def cells(varied: dict[str, Results]) -> Cells:
-    """The variations that were computed, by (teacher, method), in the orders of `TEACHERS` and `TAUGHT`."""
+def by_teacher(varied: Computed) -> Cells:
+    """The cells that were computed, by (teacher, method), in the orders of `TEACHERS` and `TAUGHT`."""
     of = {(agents.agents[0]["teacher"], agents.agents[0]["method"]): agents for agents in varied.values()}
     return {(t, m): of[t, m] for t in TEACHERS for m in TAUGHT if (t, m) in of}
 
@@ -109,3 +110,16 @@ def worth_rows(computed: Cells) -> tuple[list[str], list[list[str]]]:
         rows.append([TEACHERS[teacher].words, display_name(method), escaping, *numbers])
     labels = [QUANTITIES[name].label for name in ("return", "accidents", "decisions")]
     return ["teacher", "method", "agents that escape", *labels], rows
+
+
+def section(computed: dict[str, Computed], folder: Path) -> list[str]:
+    """Each cell's numbers."""
+    return ["## What a teacher is worth\n", ABOUT, markdown(*worth_rows(by_teacher(computed["teachers"])))]
+
+
+ABOUT = """Teachers from bad to perfect, and methods that learn from them. Return: interquartile mean over agents,
+accidents: mean, decisions: median, each with its 95 % interval over training seeds. In brackets behind the decisions:
+how many agents reached it in their training.
+"""
+
+EXPERIMENT = Experiment("teachers", cells, train_and_test, ("success", "decisions"), section)

@@ -1,4 +1,4 @@
-"""Can a network learn from the 26 numbers what the look-ahead does? Four tries: the experiment `distil`.
+"""Can a network learn from the 26 numbers what the look-ahead does? Four tries.
 
     bootcourse study distil --out DIR
 
@@ -8,6 +8,7 @@ arXiv 1011.0686). The one after the last round is tested, never a chosen one.
 """
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import torch
@@ -18,10 +19,13 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.networks import init_mlp, mlp
+from bootcourse.research.cells import results_of
+from bootcourse.research.experiment import Computed, Experiment
+from bootcourse.research.experiments.lookahead import NAME as LOOK_AHEAD
+from bootcourse.research.experiments.lookahead import ROADS, Cell, measured, shipped_actors
 from bootcourse.research.jobs import HELD_OUT
-from bootcourse.research.lookahead import ROADS, Cell, measured, shipped_actors
-from bootcourse.research.plan import LessonExperiment
-from bootcourse.research.results import Results, as_arrays
+from bootcourse.research.results import Results, agent_entries
+from bootcourse.research.tables import markdown
 from bootcourse.road.branching import advance
 from bootcourse.road.constants import constants
 from bootcourse.road.observation import observe_all
@@ -41,8 +45,8 @@ TRIES = {  # {what is learned: arguments of `distilled`}
 }
 
 
-def distilled(target: str, hidden: tuple[int, ...] = (), weight: float = 1.0, onward: int = 0) -> dict[str, np.ndarray]:
-    """Train a student from each of some base agents, and test it alone: the arrays of a file of results.
+def distilled(target: str, hidden: tuple[int, ...] = (), weight: float = 1.0, onward: int = 0) -> Results:
+    """Train a student from each of some base agents, and test it alone.
 
     target: "actions", "shield" or "values". hidden: of a new network; () begins with the base's weights. weight: of a
     state in which the label is not the base's action. onward: from such states, do what the label says, let the student
@@ -52,8 +56,7 @@ def distilled(target: str, hidden: tuple[int, ...] = (), weight: float = 1.0, on
     students = [_student(base, target, hidden, weight, onward) for base in bases]
     each = [measured(student.as_policy(), held_out_seeds(HELD_OUT, ROADS)) for student in students]
     numbers = {name: np.array([one[name] for one in each]) for name in each[0]}
-    entries = [vars(student.settings) | {"teacher": "rule"} for student in students]
-    return as_arrays(Results(entries, np.full(AGENTS, -1), measured=numbers))
+    return Results(agent_entries([student.settings for student in students]), np.full(AGENTS, -1), measured=numbers)
 
 
 def _student(base: Agent, target: str, hidden: tuple[int, ...], weight: float, onward: int) -> Agent:
@@ -102,7 +105,7 @@ def labelled(cars: np.ndarray, base: Agent, target: str) -> tuple[np.ndarray, ..
     return states, actions, below, actions != own
 
 
-def learned_rows(tried: dict[str, Results], cells: dict[str, Results]) -> tuple[list[str], list[list[str]]]:
+def learned_rows(tried: Computed, cells: Computed) -> tuple[list[str], list[list[str]]]:
     """(headings, rows): what the students of the look-ahead do alone (`distil.py`), below the agents that they were.
 
     tried: the students by what they learned; cells: the look-ahead's, which hold these agents before.
@@ -116,4 +119,14 @@ def learned_rows(tried: dict[str, Results], cells: dict[str, Results]) -> tuple[
     return ["learned", "return of each agent", "accidents in 1,000 of each"], lines
 
 
-EXPERIMENT = LessonExperiment(f"{__name__}:distilled", TRIES)
+def section(computed: dict[str, Computed], folder: Path) -> list[str]:
+    """The students below the agents that they were."""
+    learned = markdown(*learned_rows(computed["distil"], computed[LOOK_AHEAD]))
+    return ["### What networks learned of it\n", DISTIL, learned]
+
+
+DISTIL = """Agents of PPO after cloning that learned, from the 26 numbers, what their own look-ahead does in the states
+that they reached themselves. Tested alone on 1,000 held-out roads.
+"""
+
+EXPERIMENT = Experiment("distil", lambda: TRIES, results_of(distilled), section=section)

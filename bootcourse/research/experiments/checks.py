@@ -1,4 +1,4 @@
-"""Independent checks: our learners on tasks with published results, an experiment of the study.
+"""Do our learners reach published figures on other tasks?
 
     bootcourse study checks --out DIR    # about twenty minutes of one core
 
@@ -31,11 +31,12 @@ from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.teachers import all_roads, teacher_policy
 from bootcourse.learn.training import MOST_EPISODES, Training
 from bootcourse.policies import Policy, random_policy
+from bootcourse.research.cells import results_of
+from bootcourse.research.experiment import Computed, Experiment
 from bootcourse.research.jobs import Interrupted, orphaned
-from bootcourse.research.plan import LessonExperiment
 from bootcourse.research.problems import CARTPOLE_SCALES as CARTPOLE_SCALES
 from bootcourse.research.problems import MakeEnv, acrobot, cartpole, fixed_cartpole, several
-from bootcourse.research.results import Results, agent_entries, as_arrays
+from bootcourse.research.results import Results, agent_entries
 from bootcourse.research.tables import markdown
 
 TEST_SEED, DATA_SEED, SEED = 10**6, 2 * 10**6, 3 * 10**6  # of the first test, data and training environment
@@ -164,8 +165,13 @@ the mean over the seeds is within 1 % of the published figure, or above it.
 """
 
 
-def measured(check: str, seeds: int) -> dict[str, np.ndarray]:
-    """Train and test the agents of a check: the arrays of a file of results. Raises Interrupted.
+def cells(seeds: int = 4) -> dict[str, dict]:
+    """The checks, with so many agents each."""
+    return {name: {"check": name, "seeds": seeds} for name in CHECKS}
+
+
+def measured(check: str, seeds: int) -> Results:
+    """Train and test the agents of a check. Raises Interrupted.
 
     Measured, (agents,): return, and the mean return of each who drove the data, the same for all: data_0, data_1.
     """
@@ -174,10 +180,7 @@ def measured(check: str, seeds: int) -> dict[str, np.ndarray]:
     numbers = {"return": scores(agents, one.make_env)}
     numbers |= {f"data_{i}": np.full(seeds, value) for i, value in enumerate(returns)}
     entries = agent_entries([agent.settings for agent in agents], "none")
-    return as_arrays(Results(entries, np.full(seeds, -1), measured=numbers))
-
-
-EXPERIMENT = LessonExperiment(f"{__name__}:measured", {name: {"check": name, "seeds": 4} for name in CHECKS})
+    return Results(entries, np.full(seeds, -1), measured=numbers)
 
 
 def reached(returns: np.ndarray, check: Check) -> bool:
@@ -185,7 +188,7 @@ def reached(returns: np.ndarray, check: Check) -> bool:
     return bool(returns.mean() >= check.published - CLOSE * abs(check.published))
 
 
-def page(computed: dict[str, Results]) -> str:
+def page(computed: Computed) -> str:
     """The checks that were computed as a page of Markdown: {check: its agents}."""
     rows = []
     for name, results in computed.items():
@@ -199,3 +202,6 @@ def page(computed: dict[str, Results]) -> str:
         rows.append([check.learner, check.task, *published, ours, budget, verdict, check.source])
     headings = ["learner", "task", "published", "its budget", "ours, mean [worst, best]", "our budget", "reached"]
     return PAGE + markdown([*headings, "source"], rows)
+
+
+EXPERIMENT = Experiment("checks", cells, results_of(measured), page=page)

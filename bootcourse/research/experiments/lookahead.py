@@ -1,4 +1,4 @@
-"""The experiment on looking ahead: how safe and how good it makes each base policy, and what a wrong model costs.
+"""How safe and how good does looking ahead make each base policy, and what does a wrong model cost?
 
     bootcourse study look-ahead --out DIR
 
@@ -12,12 +12,11 @@ of so many independent drives; returns are means of the agents' means, with a bo
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import torch
 from gymnasium.vector import AutoresetMode
 
 from bootcourse.episodes.driving import steps
@@ -27,12 +26,12 @@ from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import write_arrays
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.settings import stored_settings
 from bootcourse.methods import display_name
 from bootcourse.policies import Policy, rule_policy
-from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned
-from bootcourse.research.plan import LessonExperiment, folder
-from bootcourse.research.results import Results, as_arrays, load_results
+from bootcourse.research.experiment import Computed, Experiment, folder
+from bootcourse.research.jobs import HELD_OUT, Interrupted, Workplace, orphaned
+from bootcourse.research.results import Results, agent_entries, as_arrays, load_results, weights_of
+from bootcourse.research.tables import markdown
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, interval, rate
@@ -76,7 +75,7 @@ class Cell:
         return ", ".join(parts)
 
 
-def cells() -> list[Cell]:
+def every_cell() -> list[Cell]:
     """Every cell, those that matter most first."""
     wrong = [model for model in MODELS if model != "exact"]
     plain = [Cell(base, form, agents) for form in ("alone", "shield") for base, agents in BASES.items()]
@@ -91,35 +90,18 @@ def cells() -> list[Cell]:
     return [*plain, *closely, *shields, *horizons, *others, *rollouts, *most]
 
 
-@dataclass(frozen=True)
-class CellJob:
-    """Drive a cell."""
-
-    name: str
-    cell: Cell
-
-    def compute(self, folder: Path) -> None:
-        root = folder.parents[self.name.count("/") + 1]
-        write_arrays(folder / "results.npz", as_arrays(drive(self.cell, root / "agents")))
+def cells(seeds: int = max(BASES.values()), tests: int = MANY) -> dict[str, dict]:
+    """The fields of every cell, with at most so many agents and roads."""
+    fields = {cell.name: vars(cell) for cell in every_cell()}
+    return {
+        name: each | {"agents": min(seeds, each["agents"]), "roads": min(tests, each["roads"])}
+        for name, each in fields.items()
+    }
 
 
-@dataclass(frozen=True)
-class CellExperiment(LessonExperiment):
-    """The cells: {their names: the fields of each}."""
-
-    def jobs(self, name: str, seeds: int = 0, episodes: int = 0, tests: int = 0) -> list[CellJob]:
-        """One job for each cell, with at most so many agents and roads. Raises BootcourseError for `episodes`."""
-        if episodes:
-            raise BootcourseError(f"The experiment {name} trains nothing: leave out --episodes.")
-        jobs = []
-        for each, fields in self.variations.items():
-            cell = Cell(**fields)
-            agents, roads = min(seeds or cell.agents, cell.agents), min(tests or cell.roads, cell.roads)
-            jobs.append(CellJob(f"{name}/{folder(each)}", replace(cell, agents=agents, roads=roads)))
-        return jobs
-
-
-EXPERIMENT = CellExperiment(f"{__name__}:drive", {cell.name: vars(cell) for cell in cells()})
+def run(at: Workplace, **fields) -> None:
+    """Drive a cell with the agents in the study's folder `agents`, and with those that ship."""
+    write_arrays(at.job / "results.npz", as_arrays(drive(Cell(**fields), at.study / "agents")))
 
 
 def drive(cell: Cell, trained: Path) -> Results:
@@ -134,15 +116,12 @@ def drive(cell: Cell, trained: Path) -> Results:
     for i, driver in enumerate(drivers):
         policy = make(driver, cell.horizon, DEFAULT, MODELS[cell.model], seed=i) if make else driver
         measures.append(measured(policy, held_out_seeds(HELD_OUT, cell.roads)))
-    layers = (
-        zip(*(agent.actor for agent in agents), strict=True) if (cell.form, cell.agents) == ("alone", SHIPPING) else ()
-    )
-    entries = [vars(agent.settings) | {"teacher": "rule"} for agent in agents]
+    entries = agent_entries([agent.settings for agent in agents])
     return Results(
         entries or [{"method": "rule", "seed": 0, "teacher": "rule"}],
         np.full(len(drivers), -1),
         measured={name: np.array([one[name] for one in measures]) for name in measures[0]},
-        weights={f"actor.{i}": np.concatenate(layer) for i, layer in enumerate(layers)},
+        weights=weights_of(agents, "actor") if (cell.form, cell.agents) == ("alone", SHIPPING) else {},
     )
 
 
@@ -170,14 +149,8 @@ def shipped_actors(base: str) -> dict[int, Agent]:
     if not path.exists():
         return {}
     results = load_results(path)
-    if not results.weights:
-        return {}
-    actors = zip(*(results.weights[f"actor.{i}"] for i in range(len(results.weights))), strict=True)
-    tensors = ([torch.from_numpy(layer)[None] for layer in actor] for actor in actors)
-    settings = [
-        stored_settings({name: value for name, value in agent.items() if name != "teacher"}) for agent in results.agents
-    ]
-    return {one.seed: Agent(one, actor, [], 0.0) for one, actor in zip(settings, tensors, strict=True)}
+    kept = [results.agent(i) for i in range(len(results.weights.get("actor.0", ())))]
+    return {agent.settings.seed: agent for agent in kept}
 
 
 def measured(driver: Policy, roads: Sequence[int]) -> dict[str, float]:
@@ -254,3 +227,18 @@ def rows(cells: dict[str, Results], wanted: Sequence[Cell]) -> tuple[list[str], 
             )
     headings = ["base policy", "form", "horizon", "model", "agents", "roads", "return [95 %]"]
     return [*headings, "accidents in 1,000 [95 %]", "ahead, %", "overruled in 1,000", "ms a decision"], lines
+
+
+def section(computed: dict[str, Computed], folder: Path) -> list[str]:
+    """Every cell that was computed."""
+    return ["## Looking ahead\n", LOOK_AHEAD, markdown(*rows(computed[NAME], every_cell()))]
+
+
+LOOK_AHEAD = """Nothing is trained here: trained agents drive alone, with rollouts, or with a shield that overrules only
+an action that is imagined to end in an accident; with the exact model of the road, and with wrong ones. Return: mean
+over agents with its 95 % interval over agents. Accidents: over all drives, with the exact (Clopper-Pearson) interval,
+as if all drives were independent. The roads are those that each agent drives, the first of the held-out ones. Time: of
+one core, on a machine with other work.
+"""
+
+EXPERIMENT = Experiment(NAME, cells, run, section=section)

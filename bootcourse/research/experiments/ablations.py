@@ -1,0 +1,28 @@
+"""One choice of the method changed: the KL's place, how long β lasts, a ξ that stays."""
+
+from pathlib import Path
+
+from bootcourse.research import tables
+from bootcourse.research.cells import CURVES, TESTS, train_and_test, trained
+from bootcourse.research.experiment import Computed, Experiment
+
+HELPED = ("demos", "bootstrapped")
+CHANGED = {
+    "KL in the actor only": {"kl_in_target": False, "methods": ("soft", "bootstrapped")},
+    "β over 300 episodes": {"beta_episodes": 300, "methods": HELPED},
+    "β for ever": {"beta_episodes": None, "methods": HELPED},
+    "ξ stays at 2": {"xi_fixed": 2.0, "methods": ("soft",)},
+}
+
+
+def cells(seeds: int = 10, episodes: int = 2000, tests: int = TESTS) -> dict[str, dict]:
+    """The methods that the choice is about."""
+    return {name: trained(seeds, episodes, tests, **changes) for name, changes in CHANGED.items()}
+
+
+def section(computed: dict[str, Computed], folder: Path) -> list[str]:
+    """Who escapes and what they earn."""
+    return ["## One choice of the method changed\n", tables.variations_table(computed["ablations"])]
+
+
+EXPERIMENT = Experiment("ablations", cells, train_and_test, CURVES, section)
