@@ -1,4 +1,4 @@
-"""The figure of the lesson on demonstrations: what the margin adds in one state, and why the filter is off there."""
+"""What the lesson on demonstrations shows of the margin in one state: loss, slopes, and why the filter is off there."""
 
 from collections.abc import Sequence
 
