@@ -323,7 +323,7 @@ predict(
 
 # %%
 for expert in (0, 2):
-    loss, gradient = figures.margin_in_one_state([3.0, 2.4, 0.0], expert)
+    loss, gradient = figures.margin_example([3.0, 2.4, 0.0], expert)
     print(f"expert took {expert}: loss {loss:.1f}, gradient in Q {gradient}")
 
 # %% [markdown]

@@ -2,7 +2,6 @@
 
 import torch
 
-from bootcourse.learn import bootstrap
 from bootcourse.learn.replay_buffer import REWARD
 from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
@@ -10,10 +9,6 @@ PLACES = "rng.integers(len(demonstrations), size=n)"
 TORCH_PLACES = f"demonstrations[torch.from_numpy({PLACES})]"
 equivalent("mixed_batch", f"{TORCH_PLACES}  ->  demonstrations[{PLACES}]", "either library's numbers index a tensor")
 equivalent("large_margin_loss", "q.shape[-1]  ->  q.detach().shape[-1]", "only its shape")
-
-
-for _name in ("large_margin_loss", "paper_q_filter"):
-    right(_name)(getattr(bootstrap, _name))
 
 
 @right("mixed_batch")

@@ -6,16 +6,16 @@ import numpy as np
 import torch
 from matplotlib.figure import Figure
 
-from bootcourse.learn import bootstrap
+from bootcourse.learn.bootstrap import large_margin_loss
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, one_axes
 from bootcourse.scenario import ACTION_NAMES
 
 
-def margin_in_one_state(q: Sequence[float], expert: int) -> tuple[float, list[float]]:
-    """The margin loss of one state, and its slope in each Q: q (actions,), the expert's action -> loss, (actions,)."""
-    values = torch.tensor([list(q)], requires_grad=True)
-    loss = bootstrap.large_margin_loss(values, torch.tensor([expert])).sum()
+def margin_example(q: Sequence[float], expert: int) -> tuple[float, list[float]]:
+    """The margin loss of one state with these Q, and its gradient in each of them. expert: the demonstrated action."""
+    values = torch.tensor([q], requires_grad=True)
+    loss = large_margin_loss(values, torch.tensor([expert])).sum()
     return loss.item(), torch.autograd.grad(loss, values)[0][0].tolist()
 
 
