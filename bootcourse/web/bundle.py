@@ -45,7 +45,8 @@ def script(name: str) -> str:
 
 def module() -> str:
     """The scripts that make a world, whose door is `mount`, with the style and the elements of its shadow root."""
-    own = {"STYLE": text_of("theme.css") + text_of("style.css"), "WORLD": text_of("world.html")}
+    style = "".join(map(text_of, ("theme.css", "controls.css", "style.css")))
+    own = {"STYLE": style, "WORLD": text_of("world.html")}
     texts = [f"const {name} = `{text}`;" for name, text in own.items()]
     return "\n".join([content()["names"], *texts, *map(script, SCRIPTS)])
 
