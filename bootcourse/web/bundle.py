@@ -53,9 +53,10 @@ def module() -> str:
 
 def notebook_module() -> str:
     """The same as an ES module for notebooks, with its data in it."""
-    return "\n".join(
-        [module(), f"const DATA = {content()['data']};", script("widget"), "export { mount, show, DATA };"]
-    )
+    data = json.loads(content()["data"])
+    data.pop("learning", None)  # in a notebook, Python trains
+    texts = [module(), f"const DATA = {json.dumps(data)};", script("watched"), script("widget")]
+    return "\n".join([*texts, "export { mount, show, DATA };"])
 
 
 @cache
