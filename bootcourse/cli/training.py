@@ -8,7 +8,6 @@
 A training that is stopped by Ctrl-C (exit status 130) or killed goes on with --resume.
 """
 
-import importlib.util
 import os
 import shlex
 import shutil
@@ -19,8 +18,10 @@ from pkgutil import resolve_name
 
 import typer
 
+from bootcourse.cli.own_files import loaded
+from bootcourse.cli.places import ask_for
 from bootcourse.colours import OTHER
-from bootcourse.errors import BootcourseError, check_known, described, did_you_mean
+from bootcourse.errors import BootcourseError, check_known, did_you_mean
 from bootcourse.methods import METHODS, Method
 from bootcourse.rooms import added
 
@@ -44,7 +45,11 @@ def train(
         help="Who teaches: random-50, random-25, mirrored, timid, late, rule, rule-rollouts or planner, or a rule of "
         "your own: FILE.py:FUNCTION.",
     ),
-    learner: str = typer.Option("", help="A learner of your own, FILE.py:CLASS; it starts from the method's settings."),
+    learner: str = typer.Option(
+        "",
+        help="compiled, which is faster for one agent; or a learner of your own, FILE.py:CLASS, which starts from the "
+        "method's settings.",
+    ),
     p: float | None = typer.Option(None, help="Probability of the rule's action in the stochastic rule."),
     xi: float | None = typer.Option(None, help="Strength of the soft constraint: ξ = XI times α."),
     c: float | None = typer.Option(None, help="Bonus on a demonstration's reward."),
@@ -60,7 +65,8 @@ def train(
     from bootcourse.storage.work import locked
 
     check_known("Method", method, METHODS)
-    method = register_learner(learner, METHODS[method]) or method
+    compiled = learner == "compiled"
+    method = (not compiled and register_learner(learner, METHODS[method])) or method
     asked = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
     changes = {name: value for name, value in asked.items() if value is not None}
     settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), scenario_from(scenario)
@@ -70,9 +76,11 @@ def train(
             print(f"{out} is finished: there is nothing to resume.")
         return
     check_folder(out, resume)
+    ask_for(out)
     if getattr(rule, "is_slow", False) and settings[0].needs_demonstrations and not (resume or quiet):
         print("First this teacher drives the demonstrations. It is a slow one: that may take minutes.", file=sys.stderr)
-    training = None if resume else Training(settings, episodes, road, rule, device=device)
+    make = {"device": device, "learner": "compiled" if compiled else "torch"}
+    training = None if resume else Training(settings, episodes, road, rule, **make)
     with locked(work, "training"):
         check_folder(out, resume)  # another training may have ended before this one had the lock
         if training is not None:
@@ -83,6 +91,8 @@ def train(
             except DamagedCheckpoint as error:
                 raise BootcourseError(f"{error} Delete {work}, and start again without --resume.") from None
             check_resumed(training, (settings, episodes, road), given_options(context))
+            if compiled and training.learner_name != "compiled":
+                raise BootcourseError("--learner compiled: this training began without it; leave it out to go on.")
         try:
             status = finish_training(training, out, progress=not quiet)
         except KeyboardInterrupt:  # before the first decision, or after the last: the checkpoint is there
@@ -91,7 +101,7 @@ def train(
             print(f"Interrupted. To continue, run `{command_to_continue(context)}`.", file=sys.stderr)
         elif not quiet:
             words = ["bootcourse", "evaluate", str(out)]
-            for option, place in (("--teacher", teacher), ("--learner", learner)):
+            for option, place in (("--teacher", teacher), ("--learner", "" if compiled else learner)):
                 words += [option, place] if place else []
             print(f"To test these agents on 1,000 other roads, run `{shlex.join(words)}`.")
         raise typer.Exit(status)
@@ -183,24 +193,6 @@ def teacher_from(place: str):
             raise BootcourseError(f"Teacher {did_you_mean(place, teachers)}, {own}.")
         return teachers[place].rule
     return loaded(place, "--teacher", "function")
-
-
-def loaded(place: str, option: str, what: str):
-    """The function or class of "FILE.py:NAME". Raises BootcourseError if it is not there or does not load."""
-    file, _, name = place.rpartition(":")
-    if Path(file).suffix != ".py":
-        raise BootcourseError(f"{option} {place}: give a file and a {what} in it, such as mine.py:mine.")
-    if not Path(file).is_file():
-        raise BootcourseError(f"{option} {place}: there is no file {file}.")
-    spec = importlib.util.spec_from_file_location(Path(file).stem, file)
-    module = importlib.util.module_from_spec(spec)
-    try:
-        spec.loader.exec_module(module)
-    except (Exception, SystemExit) as error:  # whatever the user's file does
-        raise BootcourseError(f"{file} cannot be loaded: {described(error)}.") from error
-    if not callable(getattr(module, name, None)):
-        raise BootcourseError(f"{file} has no {what} '{name}': write it there, or give another name.")
-    return getattr(module, name)
 
 
 def finish_training(training, out: Path, progress: bool) -> int:

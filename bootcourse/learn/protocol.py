@@ -117,7 +117,8 @@ def generators_of(settings: Sequence[Settings], offset: int = 0) -> list[torch.G
 def per_agent(settings: Sequence[Settings], name: str) -> Tensor:
     """The agents' values of a setting, (agents, 1); NaN for None."""
     values = [getattr(s, name) for s in settings]
-    return torch.tensor([[float("nan") if value is None else float(value)] for value in values])
+    rows = [[float("nan") if value is None else float(value)] for value in values]
+    return torch.tensor(rows, dtype=torch.float32)
 
 
 def adam(*groups: tuple[list[Tensor], float]) -> torch.optim.Adam:

@@ -14,12 +14,14 @@ it is a function of one observation, `my_rule(observation)`, that returns one of
 import hashlib
 import inspect
 import math
+import operator
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from bootcourse.errors import BootcourseError, RuleFailed, described
-from bootcourse.policies import Policy, PolicyOutput
+from bootcourse.policies import Policy, policy_of
 from bootcourse.road.constants import constants
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
 from bootcourse.rule import rule, track
@@ -74,42 +76,52 @@ def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: in
     """
     if not callable(my_rule):
         raise BootcourseError(f"teacher = {my_rule!r:.80}: give a function that returns an action.")
-    given = () if scenario is None else (scenario,)
-    an_action_is = f"an action is a whole number from 0 to {n_actions - 1}"
-    name = getattr(my_rule, "__name__", type(my_rule).__name__)
-    ours = str(getattr(my_rule, "__module__", "")).startswith("bootcourse.")  # its exception is a bug: it passes
+    asked = _Asked(my_rule, scenario, n_actions)
+    return asked.about_all if getattr(my_rule, "answers_for_all_roads", False) else asked.about_each
 
-    def failed(how: str, state: np.ndarray, where: str = "") -> RuleFailed:
-        return RuleFailed(name, how, where or _place(state, scenario), state)
 
-    def ask(state: np.ndarray, where: str = ""):
-        try:
-            return my_rule(state, *given)
-        except (Exception, SystemExit) as error:  # your rule may raise anything
-            if ours:
-                raise
-            raise failed(f"raised {described(error)}", state, where) from error
+@dataclass(frozen=True)
+class _Asked:
+    """A rule, and where it is asked."""
 
-    def teach_all(cars: np.ndarray) -> np.ndarray:
-        actions = np.asarray(ask(cars, ALL))
+    rule: Rule
+    scenario: Scenario | None
+    n_actions: int
+
+    def about_all(self, cars: np.ndarray) -> np.ndarray:
+        actions = np.asarray(self._ask(cars, ALL))
         if actions.shape != (len(cars),) or actions.dtype.kind not in "iu":
             answered = f"actions of shape {actions.shape} and type {actions.dtype}"
-            raise failed(f"returned {answered}, but {len(cars)} roads need a whole number each", cars, ALL)
-        for road in np.flatnonzero((actions < 0) | (actions >= n_actions))[:1]:
-            raise failed(f"returned {actions[road]}, but {an_action_is}", cars[road])
+            raise self._failed(f"returned {answered}, but {len(cars)} roads need a whole number each", cars, ALL)
+        for road in np.flatnonzero((actions < 0) | (actions >= self.n_actions))[:1]:
+            raise self._failed(f"returned {actions[road]}, but {self._an_action_is}", cars[road])
         return actions
 
-    def teach_each(cars: np.ndarray) -> np.ndarray:
+    def about_each(self, cars: np.ndarray) -> np.ndarray:
         actions = np.empty(len(cars), dtype=np.int64)
         for road, state in enumerate(cars):
-            action = ask(state.copy())  # your rule may write into it
-            if not is_action(action, n_actions):
+            action = self._ask(state.copy())  # your rule may write into it
+            if not is_action(action, self.n_actions):
                 remedy = ": give int(...) of it" if isinstance(action, (bool, np.bool_, np.ndarray)) else ""
-                raise failed(f"returned {action!r:.80}, but {an_action_is}{remedy}", state)
+                raise self._failed(f"returned {action!r:.80}, but {self._an_action_is}{remedy}", state)
             actions[road] = action
         return actions
 
-    return teach_all if getattr(my_rule, "answers_for_all_roads", False) else teach_each
+    def _ask(self, state: np.ndarray, where: str = ""):
+        try:
+            return self.rule(state) if self.scenario is None else self.rule(state, self.scenario)
+        except (Exception, SystemExit) as error:  # your rule may raise anything
+            if str(getattr(self.rule, "__module__", "")).startswith("bootcourse."):  # ours: it is a bug, and passes
+                raise
+            raise self._failed(f"raised {described(error)}", state, where) from error
+
+    def _failed(self, how: str, state: np.ndarray, where: str = "") -> RuleFailed:
+        name = getattr(self.rule, "__name__", type(self.rule).__name__)
+        return RuleFailed(name, how, where or _place(state, self.scenario), state)
+
+    @property
+    def _an_action_is(self) -> str:
+        return f"an action is a whole number from 0 to {self.n_actions - 1}"
 
 
 def _place(state: np.ndarray, scenario: Scenario | None) -> str:
@@ -120,15 +132,18 @@ def _place(state: np.ndarray, scenario: Scenario | None) -> str:
 
 
 def is_action(action, n_actions: int = N_ACTIONS) -> bool:
-    """Whether it is a whole number in 0..n_actions - 1, Python's or NumPy's."""
-    is_whole = isinstance(action, (int, np.integer)) and not isinstance(action, (bool, np.bool_))
-    return is_whole and 0 <= action < n_actions
+    """Whether it is one whole number in 0..n_actions - 1: Python's, or a 0-dimensional array of NumPy's or torch's."""
+    if isinstance(action, (bool, np.bool_)) or not hasattr(action, "__index__") or np.ndim(action) > 0:
+        return False
+    try:
+        return 0 <= operator.index(action) < n_actions
+    except TypeError:  # an array of other numbers
+        return False
 
 
 def teacher_policy(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: int = N_ACTIONS) -> Policy:
     """The rule as a policy; scenario: None off the trap. The policy raises RuleFailed as `teacher_of` says."""
-    teacher = teacher_of(my_rule, scenario, n_actions)
-    return lambda observations, cars: PolicyOutput(teacher(cars))
+    return policy_of(teacher_of(my_rule, scenario, n_actions))
 
 
 def teacher_name(my_rule: Rule) -> str:
