@@ -15,13 +15,15 @@ import hashlib
 import inspect
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from bootcourse.episodes.place import Place
 from bootcourse.errors import BootcourseError, RuleFailed, described
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.constants import constants
-from bootcourse.road.state import EGO, LANE, SPEED, X, Y
+from bootcourse.road.state import EGO, LANE, SPEED, X
 from bootcourse.rule import rule, track
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
@@ -49,22 +51,52 @@ def toward(cars: np.ndarray, speed: float, lane: int, scenario: Scenario = DEFAU
     return int(track(cars, float(speed), int(lane), constants(scenario)))
 
 
-def all_roads(many: Callable[[np.ndarray, Scenario], np.ndarray]):
+@dataclass(frozen=True)
+class MarkedRule:
+    """A rule, and what those who ask it must know. It is called as the rule itself."""
+
+    rule: Rule
+    answers_all_roads: bool = False  # in one call: (roads, vehicles, 10) -> (roads,)
+    is_slow: bool = False  # takes milliseconds: a training asks only if its method uses the answers (`asks_teacher`)
+    name: str = ""  # in the files of a run; "" for the function's
+
+    def __post_init__(self):
+        object.__setattr__(self, "__wrapped__", self.rule)  # `inspect` reads its source and its arguments there
+        object.__setattr__(self, "__name__", getattr(self.rule, "__name__", type(self.rule).__name__))
+
+    def __call__(self, *state):
+        return self.rule(*state)
+
+
+def marked(rule: Rule) -> MarkedRule:
+    """The rule with its marks: it answers for one road and at once, if nobody said otherwise."""
+    return rule if isinstance(rule, MarkedRule) else MarkedRule(rule)
+
+
+def all_roads(rule: Rule) -> MarkedRule:
     """Mark a rule that computes the actions of all roads in one call, (roads, vehicles, 10) -> (roads,)."""
-    many.answers_for_all_roads = True
-    return many
+    return replace(marked(rule), answers_all_roads=True)
 
 
-def slow(my_rule: Rule) -> Rule:
+def slow(rule: Rule) -> MarkedRule:
     """Mark a rule that takes milliseconds: a training asks it only if its method uses the answers (`asks_teacher`)."""
-    my_rule.is_slow = True
-    return my_rule
+    return replace(marked(rule), is_slow=True)
+
+
+def with_name(rule: Rule, name: str) -> MarkedRule:
+    """The rule under another name in the files of a run, where one function makes several rules."""
+    return replace(marked(rule), name=name)
 
 
 @all_roads
 def course_rule(cars: np.ndarray, scenario: Scenario) -> np.ndarray:
     """The course's rule controller μ (Algorithm 1) as a teacher: the default."""
     return rule(cars, scenario).actions
+
+
+def default_teacher(place: Place) -> Rule | None:
+    """Who teaches where no teacher is given: the course's rule on the trap, elsewhere nobody."""
+    return course_rule if place.is_trap else None
 
 
 def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: int = N_ACTIONS) -> Teacher:
@@ -74,49 +106,53 @@ def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: in
     """
     if not callable(my_rule):
         raise BootcourseError(f"teacher = {my_rule!r:.80}: give a function that returns an action.")
-    given = () if scenario is None else (scenario,)
-    an_action_is = f"an action is a whole number from 0 to {n_actions - 1}"
-    name = getattr(my_rule, "__name__", type(my_rule).__name__)
-    ours = str(getattr(my_rule, "__module__", "")).startswith("bootcourse.")  # its exception is a bug: it passes
+    questions = _Questions(marked(my_rule), Place(scenario), n_actions)
+    return questions.for_all if questions.rule.answers_all_roads else questions.for_each
 
-    def failed(how: str, state: np.ndarray, where: str = "") -> RuleFailed:
-        return RuleFailed(name, how, where or _place(state, scenario), state)
 
-    def ask(state: np.ndarray, where: str = ""):
-        try:
-            return my_rule(state, *given)
-        except (Exception, SystemExit) as error:  # your rule may raise anything
-            if ours:
-                raise
-            raise failed(f"raised {described(error)}", state, where) from error
+@dataclass(frozen=True)
+class _Questions:
+    """Questions to a rule, and checks of its answers."""
 
-    def teach_all(cars: np.ndarray) -> np.ndarray:
-        actions = np.asarray(ask(cars, ALL))
+    rule: MarkedRule
+    place: Place
+    n_actions: int
+
+    def for_all(self, cars: np.ndarray) -> np.ndarray:
+        """The actions on all roads, (roads, vehicles, 10) -> (roads,), in one call."""
+        actions = np.asarray(self._ask(cars, ALL))
         if actions.shape != (len(cars),) or actions.dtype.kind not in "iu":
             answered = f"actions of shape {actions.shape} and type {actions.dtype}"
-            raise failed(f"returned {answered}, but {len(cars)} roads need a whole number each", cars, ALL)
-        for road in np.flatnonzero((actions < 0) | (actions >= n_actions))[:1]:
-            raise failed(f"returned {actions[road]}, but {an_action_is}", cars[road])
+            raise self._failed(f"returned {answered}, but {len(cars)} roads need a whole number each", cars, ALL)
+        for road in np.flatnonzero((actions < 0) | (actions >= self.n_actions))[:1]:
+            raise self._failed(f"returned {actions[road]}, but {self._an_action_is}", cars[road])
         return actions
 
-    def teach_each(cars: np.ndarray) -> np.ndarray:
+    def for_each(self, cars: np.ndarray) -> np.ndarray:
+        """The same, in a call for each road."""
         actions = np.empty(len(cars), dtype=np.int64)
         for road, state in enumerate(cars):
-            action = ask(state.copy())  # your rule may write into it
-            if not is_action(action, n_actions):
+            action = self._ask(state.copy())  # your rule may write into it
+            if not is_action(action, self.n_actions):
                 remedy = ": give int(...) of it" if isinstance(action, (bool, np.bool_, np.ndarray)) else ""
-                raise failed(f"returned {action!r:.80}, but {an_action_is}{remedy}", state)
+                raise self._failed(f"returned {action!r:.80}, but {self._an_action_is}{remedy}", state)
             actions[road] = action
         return actions
 
-    return teach_all if getattr(my_rule, "answers_for_all_roads", False) else teach_each
+    def _ask(self, state: np.ndarray, where: str = ""):
+        try:
+            return self.rule(state, *self.place.told)
+        except (Exception, SystemExit) as error:  # your rule may raise anything
+            if str(getattr(self.rule.rule, "__module__", "")).startswith("bootcourse."):
+                raise  # an error in ours is a bug: it passes
+            raise self._failed(f"raised {described(error)}", state, where) from error
 
+    def _failed(self, how: str, state: np.ndarray, where: str = "") -> RuleFailed:
+        return RuleFailed(self.rule.__name__, how, where or self.place.in_words(state), state)
 
-def _place(state: np.ndarray, scenario: Scenario | None) -> str:
-    """The state of one road in which a rule failed, in words."""
-    if scenario is None:
-        return f"for the observation {np.array2string(state, precision=3)}"
-    return f"with the ego at x = {state[EGO, X]:.1f} m, y = {state[EGO, Y]:.1f} m, {state[EGO, SPEED]:.1f} m/s"
+    @property
+    def _an_action_is(self) -> str:
+        return f"an action is a whole number from 0 to {self.n_actions - 1}"
 
 
 def is_action(action, n_actions: int = N_ACTIONS) -> bool:
@@ -140,9 +176,10 @@ def teacher_name(my_rule: Rule) -> str:
         return "none"
     if my_rule is course_rule:
         return "rule"
-    name = getattr(my_rule, "__qualname__", type(my_rule).__name__)
+    one = marked(my_rule)
+    name = one.name or getattr(one.rule, "__qualname__", type(one.rule).__name__)
     try:
-        source = inspect.getsource(my_rule).encode()
+        source = inspect.getsource(one.rule).encode()
     except (OSError, TypeError):  # without a source file, or not a function
-        source = getattr(getattr(my_rule, "__code__", None), "co_code", b"")
+        source = getattr(getattr(one.rule, "__code__", None), "co_code", b"")
     return f"{name} {hashlib.sha256(source).hexdigest()[:12]}"
