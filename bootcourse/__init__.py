@@ -19,6 +19,7 @@ episodes           driving: one recorded drive, many evaluated episodes, a drive
 learn              discrete SAC, the rule's help, the baselines, the training loop
 storage            runs, checkpoints and shipped results on disk
 plots              figures: the road from above, a drive over time, training curves
+others             the road for other people's code: one fast car, and adapters for other libraries
 comparison         some trainings side by side, in any environment: curves, intervals, a table
 one_per_cell       a notebook cell that runs again replaces what it showed
 replay3d           drives in 3D: in a notebook, in a browser, as one file
@@ -107,11 +108,11 @@ try:
 except ModuleNotFoundError:  # `bootcourse doctor` says what is missing, and needs nothing else from here
     pass
 else:
-    _gym.register(
-        id="Trap-v0",
-        entry_point="bootcourse.road.trap_env:TrapEnv",
-        vector_entry_point="bootcourse.road.vector_env:TrapVectorEnv",
-    )
+    for _name, _entry_point in (
+        ("Trap-v0", "bootcourse.road.trap_env:TrapEnv"),
+        ("FastTrap-v0", "bootcourse.others.fast_env:FastTrapEnv"),
+    ):
+        _gym.register(_name, _entry_point, vector_entry_point="bootcourse.road.vector_env:TrapVectorEnv")
 
 
 def __getattr__(name: str):

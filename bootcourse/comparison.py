@@ -6,14 +6,14 @@ bc.compare({"soft": settings, "a clone of my rule": bc.settings_for("bc")}, make
 
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from gymnasium.vector import VectorEnv
 from matplotlib.figure import Figure
 
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.settings import Settings, with_seeds
 from bootcourse.learn.training import Result, Training
 from bootcourse.markup import html
@@ -31,7 +31,12 @@ class Comparison:
     tested: dict[str, list[Episodes]]  # of each agent, with its most probable actions
 
     def scores(self, name: str, measure: str = "returns") -> np.ndarray:
-        """Each agent's mean over its test episodes, (seeds,). measure: a field of `Episodes`."""
+        """Each agent's mean over its test episodes, (seeds,). measure: a field of `Episodes`.
+
+        Raises BootcourseError for an unknown name or measure.
+        """
+        check_known("Training", name, self.tested)
+        check_known("Measure", measure, [field.name for field in fields(Episodes)])
         return np.array([getattr(episodes, measure).mean() for episodes in self.tested[name]])
 
     def rows(self) -> list[tuple[str, ...]]:

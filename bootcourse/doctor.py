@@ -45,9 +45,9 @@ def packages() -> Iterator[Finding]:
     if not LOCK.exists():
         yield Finding("note", f"{LOCK} is missing: versions not compared", "Work in a clone of the course.")
         return
-    locked = locked_versions(LOCK.read_text())
+    locked = locked_versions(LOCK.read_text(encoding="utf-8"))
     installed = {name: installed_version(name) for name in locked}
-    needed = locked_versions(STUDENT_LOCK.read_text()) if STUDENT_LOCK.exists() else locked
+    needed = locked_versions(STUDENT_LOCK.read_text(encoding="utf-8")) if STUDENT_LOCK.exists() else locked
     missing = [name for name in ("bootcourse", *needed) if installed_version(name) is None]
     if missing:
         yield Finding("STOP", f"not installed: {', '.join(missing)}", SET_UP)
@@ -129,7 +129,8 @@ def lessons() -> Iterator[Finding]:
     if not (FOLDER / MANIFEST).exists():
         yield Finding("STOP", f"the results that the lessons show are not in {FOLDER}", whole)
     elif problems := verify():
-        yield Finding("STOP", f"{len(problems)} of the shipped files are wrong. {problems[0]}", "git checkout assets")
+        again = f"Delete the folder {FOLDER}, and run `git checkout {FOLDER.name}` in {ROOT}."
+        yield Finding("STOP", f"{len(problems)} of the shipped files are wrong. {problems[0]}", again)
     elif notebooks:
         yield Finding("ok", f"{len(notebooks)} lessons, and the results that they show")
 

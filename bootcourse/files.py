@@ -219,6 +219,11 @@ def sha256(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
+def unix_lines(data: bytes) -> bytes:
+    """A text with the line endings of Linux, whatever Git for Windows made of them; data with zeros as it is."""
+    return data if b"\0" in data else data.replace(b"\r\n", b"\n")
+
+
 def provenance(**more) -> dict:
     """The versions of Python and of the packages that results depend on, and the given entries."""
     packages = ("bootcourse", "highway-env", "gymnasium", "numpy", "numba", "torch")

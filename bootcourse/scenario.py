@@ -5,7 +5,8 @@ course; in `CALIBRATED` the traps drive at the speed that the paper's results su
 """
 
 import math
-from dataclasses import dataclass, field, fields
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
 
 from bootcourse.errors import check_known, require
 from bootcourse.limits import Range, check_limits, limited
@@ -241,7 +242,25 @@ CALIBRATED = Scenario(name="calibrated", traps=Traps(speed=10.9))  # ‡ the sof
 SCENARIOS = {scenario.name: scenario for scenario in (DEFAULT, CALIBRATED)}
 
 
-def named(name: str) -> Scenario:
-    """The scenario of that name. Raises BootcourseError for an unknown name."""
-    check_known("Scenario", name, SCENARIOS)
-    return SCENARIOS[name]
+def scenario_from(given: Scenario | str | Mapping) -> Scenario:
+    """A scenario: itself, by its name, or from a dictionary such as {"name": "dense", "traffic": {"cars": 12}}.
+
+    What a dictionary leaves out is as in `DEFAULT`. `dataclasses.asdict` makes a whole one, which JSON may carry.
+    Raises BootcourseError for an unknown name, and for what is none of the three.
+    """
+    if isinstance(given, str):
+        check_known("Scenario", given, SCENARIOS)
+        return SCENARIOS[given]
+    is_one = isinstance(given, (Scenario, Mapping))
+    require(is_one, f"scenario = {given!r:.80}: give a Scenario, the name of one, or a dictionary.")
+    return _built(Scenario, given) if isinstance(given, Mapping) else given
+
+
+def _built(kind: type, given: Mapping):
+    """A part of the scenario from a dictionary; JSON has lists for its ranges."""
+    types, values = {f.name: f.type for f in fields(kind)}, {}
+    for name, value in given.items():
+        check_known(f"{kind.__name__}: field", name, types)
+        is_part = is_dataclass(types[name]) and isinstance(value, Mapping)
+        values[name] = _built(types[name], value) if is_part else tuple(value) if isinstance(value, list) else value
+    return kind(**values)

@@ -176,8 +176,8 @@ def compare(report: Report, scenario: Scenario, drivers, seeds) -> None:
             _compare_cars(report, cars, twin.unwrapped.cars[i], places[i])
             report.compare("observation", observation, observations[i], places[i])
             report.compare("reward", reward, rewards[i], places[i])
-            for name, term in info["rewards"].items():
-                report.compare(name, term, infos[name][i], places[i])
+            for name in ("r_v", "r_y", "r_theta"):
+                report.compare(name, info[name], infos[name][i], places[i])
             report.compare("ending", [ended, out_of_time, info["accident"]],
                            [terminated[i], truncated[i], infos["accident"][i]], places[i])  # fmt: skip
             report.compare("success", info["is_success"], infos["is_success"][i], places[i])

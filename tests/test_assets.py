@@ -15,7 +15,7 @@ from bootcourse.research.jobs import Job, run_job
 from bootcourse.research.results import load_results
 from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.storage import assets
-from bootcourse.storage.runs import find_runs
+from bootcourse.storage.runs import find_runs, load_run
 
 LONGER = "longer-view/gamma-0.95.npz"
 
@@ -81,6 +81,15 @@ def test_a_damaged_missing_or_unlisted_file_is_named_with_the_command_that_makes
     printed = capsys.readouterr().out
     assert "gamma-0.95.npz is damaged" in printed and "bootcourse study longer-view --out DIR" in printed
     assert "MODEL_CARD.md is missing" in printed and "notes.txt is not in" in printed and "3 wrong" in printed
+
+
+def test_a_text_whose_line_endings_were_changed_is_said_to_have_changed_there_and_in_nothing_else(shipped):
+    for name in ("MODEL_CARD.md", "runs/sac-0/config.json"):
+        (shipped / name).write_bytes((shipped / name).read_bytes().replace(b"\n", b"\r\n"))
+    sentences = assets.verify(shipped)
+    assert len(sentences) == 2 and all("line endings were changed" in words for words in sentences), sentences
+    with pytest.raises(BootcourseError, match=r"config.json .* line endings were changed.*`git checkout` again\.$"):
+        load_run(shipped / "runs/sac-0")
 
 
 def test_what_cannot_be_built_is_one_sentence_and_what_ships_stays(study, shipped, tmp_path, monkeypatch):

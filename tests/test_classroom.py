@@ -25,6 +25,7 @@ from bootcourse.course.classroom.sandbox import HOLDS, shut_in
 from bootcourse.course.classroom.submission import Submission, collect, fingerprint, from_notebooks
 from bootcourse.course.judge import judge
 from bootcourse.course.lessons import number, registry
+from bootcourse.course.predictions import FILE
 from bootcourse.errors import BootcourseError
 from tests.answers import here
 from tools.course.source import NOTEBOOKS
@@ -103,6 +104,24 @@ def test_submit_puts_answers_and_predictions_into_one_file_that_is_read_as_it_wa
     assert one.problems == () and "return 1" in one.answers["decode"], "a stub in another notebook does not replace it"
     (folder / "submission-ada.json").write_bytes(out.read_bytes())
     assert [each.answers for each in collect(folder.parent)][-1] == one.answers, "a folder with the file in it"
+
+
+def test_submit_finds_what_a_kernel_kept_elsewhere_and_says_where_it_looked(bootcourse, folder, monkeypatch):
+    monkeypatch.chdir(folder.parent)
+    later, first = ({"answer": words, "time": f"2026-10-0{day}T00:00:00+00:00"} for day, words in ((2, "b"), (1, "a")))
+    for place, kept in (("mine", {"a.1": later, "a.2": later}), (".", {"a.1": first})):
+        Path(place, "answers").mkdir(exist_ok=True)
+        Path(place, FILE).write_text(json.dumps(kept))
+    answer = bootcourse("submit", "mine", "--name", "Ada")
+    assert f"The predictions are those of mine/{FILE} and {folder.parent / FILE}." in answer.out
+    handed_in = json.loads(Path("mine/submission-ada.json").read_text())["predictions"]
+    assert [handed_in[name]["answer"] for name in ("a.1", "a.2")] == ["a", "b"], "the first answer to a question stays"
+    assert from_notebooks(folder).predictions["a.1"].answer == "b", "a grading reads what is in the student's folder"
+    for place in ("mine", "."):
+        Path(place, FILE).unlink()
+    answer = bootcourse("submit", "mine/06_copy.ipynb", "--name", "Ada")
+    looked = f"there is no {FILE} in {folder} or {folder.parent}."
+    assert f"No predictions were found: {looked}" in answer.out, answer.err
 
 
 def test_a_notebook_that_was_handed_out_under_another_number_is_of_the_same_lesson(folder):

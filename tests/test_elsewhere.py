@@ -12,6 +12,7 @@ import torch
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 import bootcourse as bc
+from bootcourse.errors import BootcourseError
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.replay_buffer import decode_transitions
 from bootcourse.learn.teachers import all_roads, teacher_policy
@@ -142,6 +143,10 @@ def test_a_comparison_trains_each_entry_and_shows_a_table_and_curves():
     entries = {"bc": bc.settings_for("bc", **QUICK | {"learning_starts": 0}), "sac, mine": mine}  # sac needs no teacher
     compared = bc.compare(entries, 2, 12, tests=3, make_env=Chain, teacher=chain.rule, progress=False)
     assert compared.scores("bc").tolist() == [10, 10] and compared.scores("bc", "success").tolist() == [1, 1]
+    with pytest.raises(BootcourseError, match="Measure 'return' is unknown: did you mean 'returns'"):
+        compared.scores("bc", "return")
+    with pytest.raises(BootcourseError, match="Training 'returns' is unknown: choose from bc"):
+        compared.scores("returns")
     head, clones, own = compared.rows()
     assert clones[:4] == ("bc", "2", "100.00 [100.00, 100.00]", "10.00 [10.00, 10.00]")
     assert own[:2] == ("sac, mine", "2")

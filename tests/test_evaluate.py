@@ -1,5 +1,7 @@
 """Held-out episodes and their intervals."""
 
+import math
+
 import numpy as np
 import pytest
 from scipy import stats
@@ -18,7 +20,18 @@ from bootcourse.learn.demonstrations import FIRST_SEED as DEMONSTRATIONS
 from bootcourse.learn.training import FIRST_SEED as TRAINING
 from bootcourse.policies import idle_policy, in_words, plan_policy, random_policy, rule_policy
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import improvement, interval, iqm, mean, median, power, rate, rolling_means, significant
+from bootcourse.statistics import (
+    all_resamples,
+    improvement,
+    interval,
+    iqm,
+    mean,
+    median,
+    power,
+    rate,
+    rolling_means,
+    significant,
+)
 
 
 def test_the_ego_that_does_nothing_earns_23_4375_on_every_held_out_road():
@@ -105,6 +118,19 @@ def test_resampling_seeds_gives_the_interval_that_brute_force_gives():
     estimate = interval(scores)
     assert (estimate.low, estimate.high) == pytest.approx(np.percentile(brute, [2.5, 97.5], method="inverted_cdf"))
     assert estimate.value == pytest.approx(8 / 3)
+
+
+def test_the_interval_of_ten_seeds_is_exact_and_more_are_resampled():
+    scores = np.array([7.0, 96, 127, 127, 128, 128, 128, 128, 20, 23])  # as in the default study: some never escape
+    rows, probabilities = all_resamples(10)
+    assert len(rows) == math.comb(19, 10) and probabilities.sum() == pytest.approx(1)
+    exact = interval(scores)
+    assert exact == interval(scores, seed=1)
+    drawn = iqm(scores[np.random.default_rng(0).integers(10, size=(200_000, 10))])
+    assert np.mean(drawn < exact.low) < 0.025 + 0.001 and np.mean(drawn <= exact.low) > 0.025 - 0.001
+    assert np.mean(drawn > exact.high) < 0.025 + 0.001 and np.mean(drawn >= exact.high) > 0.025 - 0.001
+    twelve = [*scores, 100.0, 110.0]
+    assert interval(twelve) == interval(twelve, seed=0) != interval(twelve, seed=1)
 
 
 def test_one_seed_has_no_interval_and_equal_seeds_have_one_of_length_0():

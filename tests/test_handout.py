@@ -73,3 +73,8 @@ def test_an_update_replaces_what_nobody_changed_and_writes_the_new_version_besid
     new.write_text("mine, too")
     handout.update(folder, None, None)
     assert new.read_text() == "mine, too"
+
+
+def test_a_file_whose_line_endings_alone_were_changed_is_not_the_students_own(folder):
+    (folder / "LICENSE").write_bytes((folder / "LICENSE").read_bytes().replace(b"\n", b"\r\n"))
+    assert handout.update(folder, None, None) == [] and b"\r" not in (folder / "LICENSE").read_bytes()

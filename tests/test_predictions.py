@@ -3,10 +3,14 @@
 import json
 import subprocess
 import sys
+from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from bootcourse.course import compare_predictions, predict
+from bootcourse.course import answer_files, compare_predictions, predict
+from bootcourse.course.edition import solutions_are_open
+from bootcourse.course.notebook import beside_the_notebook
 from bootcourse.course.prediction_form import PredictionForm
 from bootcourse.course.predictions import FILE, predictions
 from bootcourse.errors import BootcourseError
@@ -34,6 +38,26 @@ def test_a_click_keeps_the_answer_with_its_question_and_the_time_and_locks_the_f
     assert (kept["answer"], kept["question"], kept["choices"]) == ("it stays", "What does it do?", CHOICES)
     assert kept["time"].endswith("+00:00")
     assert form.field.disabled and form.button.disabled and "You predict: it stays." in words(form)
+
+
+@pytest.mark.parametrize("editor", ["VS Code", "Jupyter's server"])
+def test_what_is_kept_lies_beside_the_notebook_in_whatever_folder_its_kernel_works(editor, folder, monkeypatch):
+    notebook = folder / "lessons/04_the_barrier.ipynb"
+    notebook.parent.mkdir()
+    names = {"__vsc_ipynb_file__": str(notebook)} if editor == "VS Code" else {}
+    monkeypatch.setenv("JPY_SESSION_NAME", "elsewhere.ipynb" if names else str(notebook))
+    shell = SimpleNamespace(user_ns=names)
+    monkeypatch.setattr("IPython.get_ipython", lambda: SimpleNamespace(kernel=SimpleNamespace(shell=shell)))
+    ask(answer="it stays")
+    assert "it stays" in (notebook.parent / FILE).read_text() and not FILE.exists()
+    assert answer_files.file_of("luck") == notebook.parent / "answers/luck.py"
+    (notebook.parent / "handout.json").write_text('{"solutions": false}')
+    assert not solutions_are_open()
+
+
+def test_without_a_kernel_what_is_kept_lies_in_the_working_folder(folder, monkeypatch):
+    monkeypatch.setenv("JPY_SESSION_NAME", "/anywhere/04_the_barrier.ipynb")  # as in a terminal of JupyterLab
+    assert beside_the_notebook() == Path()
 
 
 def test_the_first_answer_stays():

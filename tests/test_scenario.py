@@ -1,7 +1,9 @@
 """The scenario: impossible numbers are refused in one sentence, and a scenario survives the disk."""
 
 import dataclasses
+import json
 import math
+import re
 
 import pytest
 
@@ -19,7 +21,7 @@ from bootcourse.scenario import (
     Traffic,
     Traps,
     check_p,
-    named,
+    scenario_from,
 )
 
 IMPOSSIBLE = [
@@ -77,6 +79,31 @@ def test_a_scenario_cannot_be_changed_behind_ones_back():
 
 
 def test_a_mistyped_scenario_is_told_the_nearest_name():
-    assert named("calibrated") is CALIBRATED
+    assert scenario_from("calibrated") is CALIBRATED
     with pytest.raises(BootcourseError, match="did you mean 'calibrated'"):
-        named("calibratet")
+        scenario_from("calibratet")
+
+
+def test_a_dictionary_names_what_differs_from_the_default_and_a_whole_one_survives_json():
+    dense = scenario_from({"name": "dense", "traffic": {"cars": 12, "speed": [11.0, 12.0]}})
+    assert dense == Scenario("dense", traffic=Traffic(cars=12, speed=(11.0, 12.0)))
+    for scenario in (DEFAULT, CALIBRATED, dense):
+        assert scenario_from(json.loads(json.dumps(dataclasses.asdict(scenario)))) == scenario
+    assert scenario_from(dense) is dense
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"trafic": {}}, "Scenario: field 'trafic' is unknown: did you mean 'traffic'"),
+        ({"traffic": {"car": 3}}, "Traffic: field 'car' is unknown: did you mean 'cars'"),
+        ({"traffic": {"cars": -1}}, "Traffic.cars = -1: give a whole number"),
+        ({"traffic": 12}, "Scenario.traffic = 12: expected Traffic"),
+        ({"name": 3}, "Scenario.name = 3"),
+        ({3: {}}, "field '3' is unknown"),
+        (None, "scenario = None: give a Scenario, the name of one, or a dictionary"),
+    ],
+)
+def test_a_scenario_that_is_none_is_refused_in_one_sentence(given, words):
+    with pytest.raises(BootcourseError, match=re.escape(words)):
+        scenario_from(given)

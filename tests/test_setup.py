@@ -99,6 +99,21 @@ def test_the_install_compiles_the_road_and_jupyterlab_will_ask_nothing(tmp_path)
     assert CALM["@jupyterlab/apputils-extension:notification"] in settings.values()
 
 
+@pytest.mark.skipif(not shutil.which("git"), reason="there is no Git")
+def test_a_clone_as_git_for_windows_makes_it_has_the_same_bytes(tmp_path):
+    kit, clone, git = tmp_path / "kit", tmp_path / "clone", ("git", "-c", "user.name=x", "-c", "user.email=x@x")
+    one_of_each = {path.suffix: path.relative_to(ROOT) for path in sorted((ROOT / "assets").rglob("*.*"))}
+    for name in (".gitattributes", ".ci/run", ".binder/postBuild", "Makefile", "tools/hub.sh", *one_of_each.values()):
+        (kit / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, kit / name)
+    for command in (["init", "-q", kit], ["-C", kit, "add", "."], ["-C", kit, "commit", "-q", "-m", "all"]):
+        subprocess.run([*git, *command], check=True)
+    subprocess.run([*git, "-c", "core.autocrlf=true", "clone", "-q", kit, clone], check=True)
+    files = [path.relative_to(kit) for path in kit.rglob("*") if path.is_file() and ".git" not in path.parts]
+    assert {".sh", ".npz", ".json", ".png"} <= {path.suffix for path in files}
+    assert [name for name in files if (clone / name).read_bytes() != (kit / name).read_bytes()] == []
+
+
 # The doctor
 
 

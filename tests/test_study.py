@@ -213,6 +213,8 @@ def test_results_of_several_jobs_join_and_read_back_and_each_agent_counts_once(s
     np.testing.assert_array_equal(again.scores("returns"), results.scores("returns"))
     kinds = [results.episodes(kind) for kind in ("collision", "road_departure", "stoppage")]
     np.testing.assert_array_equal(results.episodes("accident"), sum(kinds))
+    with pytest.raises(BootcourseError, match="Measure 'return' is unknown: did you mean 'returns'"):
+        results.scores("return")
 
 
 # The plan ------------------------------------------------------------------------------------------------

@@ -262,7 +262,7 @@ def test_the_end_of_a_drive_is_one_picture_and_one_sentence(visit):
         assert "Out after" in end.inner_text() and "gained" in end.inner_text()
         assert "plain SAC: still in the trap" in end.inner_text()
         assert end.locator("svg polyline").count() == 4  # two drivers in two plots
-        assert page.page.evaluate("document.activeElement.id") == "end"
+        assert page.page.evaluate("trap.game.root.activeElement.id") == "end"
         page.page.keyboard.press("r")
         assert not end.is_visible() and state(page)["actions"] == []
 
@@ -346,7 +346,7 @@ def test_each_wrong_part_of_an_address_is_answered_with_a_sentence(visit):
         for address, sentence in WRONG.items():
             page.page.evaluate("address => { location.hash = address; }", address)
             page.page.wait_for_function(
-                "words => find('message').textContent.startsWith(words) && find('live').textContent.startsWith(words)",
+                "words => ['message', 'live'].every(id => trap.find(id).textContent.startsWith(words))",
                 arg=sentence,
             )
             assert state(page)["number"] == 10 and state(page)["ghostName"] == "rule"
@@ -370,7 +370,7 @@ def test_a_key_shows_the_road_in_3d_and_from_above_again_also_after_the_graphics
         assert page.page.locator("#scene").is_visible() and "view=3d" in page.page.url
         assert page.page.get_by_role("button", name="In 3D", pressed=True).is_visible()
         page.page.evaluate("() => trap.game.scene.gl.getExtension('WEBGL_lose_context').loseContext()")
-        page.page.wait_for_function("() => find('message').textContent.startsWith('The graphics card gave up')")
+        page.page.wait_for_function("() => trap.find('message').textContent.startsWith('The graphics card gave up')")
         assert not page.page.locator("#scene").is_visible()
         page.page.keyboard.press("v")
         assert page.page.locator("#scene").is_visible() and page.page.evaluate(COLOURS) > 1000

@@ -89,12 +89,12 @@ def drivers_of(who: str, scenario: str, seed: int, teacher: str, horizon: int) -
 
     from bootcourse.episodes.lookahead import lookahead
     from bootcourse.policies import idle_policy, random_policy, rule_policy
-    from bootcourse.scenario import DEFAULT, named
+    from bootcourse.scenario import DEFAULT, scenario_from
 
     if who in BUILT_IN:
         if teacher:
             raise BootcourseError(f"--teacher {teacher}: {', '.join(BUILT_IN)} drive without a teacher: leave it out.")
-        road, rng = named(scenario) if scenario else DEFAULT, np.random.default_rng(seed)
+        road, rng = scenario_from(scenario) if scenario else DEFAULT, np.random.default_rng(seed)
         built_in = {"rule": rule_policy(road), "idle": idle_policy, "random": random_policy(rng)}
         drivers = [Driver(who, built_in[who], road)]
     elif not Path(who).exists():
@@ -111,13 +111,13 @@ def agents_in(folder: Path, scenario: str, teacher: str, with_q: bool) -> list[D
     """The agent of each run in a folder."""
     from bootcourse.cli.training import teacher_from
     from bootcourse.learn.teachers import teacher_of
-    from bootcourse.scenario import named
+    from bootcourse.scenario import scenario_from
     from bootcourse.storage.runs import find_runs, load_run
 
     drivers, rule = [], teacher_from(teacher)
     for path in find_runs(folder):
         run = load_run(path, rule)
-        road = named(scenario) if scenario else run.scenario
+        road = scenario_from(scenario) if scenario else run.scenario
         if road.observation_size != run.scenario.observation_size:
             raise BootcourseError(
                 f"{path} sees {run.scenario.observation_size} numbers, and {road.name} shows "

@@ -56,7 +56,7 @@ def train(
 ) -> None:
     """Train agents and write a run of each."""
     from bootcourse.learn.settings import settings_for, with_seeds
-    from bootcourse.scenario import named
+    from bootcourse.scenario import scenario_from
     from bootcourse.storage.work import locked
 
     check_known("Method", method, METHODS)
@@ -64,7 +64,10 @@ def train(
         method = own or method
         given = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
         changes = {name: value for name, value in given.items() if value is not None}
-        settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), named(scenario)
+        settings, road = (
+            with_seeds(settings_for(method, setting, **changes), seeds, first_seed),
+            scenario_from(scenario),
+        )
         asked, rule = (settings, episodes or METHODS[method].episodes, road), teacher_from(teacher)
         if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
             with locked(out / UNFINISHED, "training"):  # removes what a training left that was killed at its very end

@@ -12,10 +12,11 @@ from pathlib import Path
 from types import FunctionType, ModuleType
 
 from bootcourse.course.names import names_used
+from bootcourse.course.notebook import beside_the_notebook
 from bootcourse.errors import BootcourseError, described
 from bootcourse.files import write_bytes
 
-FOLDER = Path("answers")  # beside the notebooks, where their kernels work
+FOLDER = Path("answers")  # beside the notebooks
 PARTS = (  # the exercises whose answers train the agent: see own_code.py
     "soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "ReplayBuffer",
     "update", "train",
@@ -33,13 +34,18 @@ def write(name: str, answer: Callable) -> Path:
     collect(answer, texts)
     imports = sorted(text for text in texts.values() if text.startswith(("import ", "from ")))
     rest = [text for text in texts.values() if text not in imports]
-    path = FOLDER / f"{name}.py"
+    path = file_of(name)
     write_bytes(path, ("\n\n\n".join([HEAD.format(name), "\n".join(imports), *rest]) + "\n").encode())
     return path
 
 
+def file_of(name: str) -> Path:
+    """Where the answer of this name is kept, or would be."""
+    return beside_the_notebook() / FOLDER / f"{name}.py"
+
+
 def collect(answer: Callable, texts: dict[str, str]) -> None:
-    """Put the answer's text into `found`, {name: text}, after the texts of all that it uses of its notebook."""
+    """Put the answer's text into `texts`, {name: text}, after the texts of all that it uses of its notebook."""
     text, space = definition(answer), a_function(answer).__globals__
     for name in sorted(names_used(text) - set(vars(builtins)) - set(texts) - {answer.__name__}):
         value = space.get(name)
@@ -79,7 +85,7 @@ def definition(answer: Callable) -> str:
 
 def read(name: str) -> Callable:
     """Run the file of an answer and return its function or class. Raises BootcourseError if it cannot be run."""
-    path = FOLDER / f"{name}.py"
+    path = file_of(name)
     spec = importlib.util.spec_from_file_location(f"answers_{name}", path)
     module = importlib.util.module_from_spec(spec)
     try:

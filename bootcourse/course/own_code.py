@@ -19,6 +19,7 @@ from bootcourse.course import answer_files
 from bootcourse.course.answer_files import PARTS
 from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
+from bootcourse.course.notebook import beside_the_notebook
 from bootcourse.course.own_learner import own_learner, part, parts_of
 from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError, check_known
@@ -60,10 +61,11 @@ def keep(name: str, answer: Callable) -> str:
 
 def load() -> None:
     """Run the parts' files in `answers/`, use them, print which. Raises BootcourseError if one does not run."""
-    stored = [name for name in PARTS if (answer_files.FOLDER / f"{name}.py").is_file()]
+    stored = [name for name in PARTS if answer_files.file_of(name).is_file()]
     for name in stored:
         _own[name] = answer_files.read(name)
-    print(f"Found in {answer_files.FOLDER}: {whose(stored)}.".replace("`", "") if stored else NONE)
+    folder = beside_the_notebook() / answer_files.FOLDER
+    print(f"Found in {folder}: {whose(stored)}.".replace("`", "") if stored else NONE)
 
 
 def whose(names: Sequence[str]) -> str:

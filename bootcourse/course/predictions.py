@@ -16,11 +16,12 @@ from pathlib import Path
 from filelock import FileLock, Timeout
 
 from bootcourse.course.lessons import LESSONS, number
+from bootcourse.course.notebook import beside_the_notebook
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import read_json, write_json
 from bootcourse.markup import html
 
-FILE = Path("answers/predictions.json")  # in the folder of the notebooks, where a kernel works
+FILE = Path("answers/predictions.json")  # in the folder of the notebooks
 LONGEST = 2000  # characters of an answer
 PATIENCE = 20  # seconds that a notebook waits for another one that writes
 NAME = re.compile(rf"({'|'.join(LESSONS)})\.\d{{1,2}}")
@@ -76,9 +77,9 @@ def number_of(name: str) -> str:
 def predictions(folder: Path | None = None) -> dict[str, dict]:
     """What a student has committed to: name -> question, choices, unit, answer, time (UTC). {} if nothing.
 
-    folder: that of the notebooks; by default the present one. Raises BootcourseError for a damaged file.
+    folder: that of the notebooks; by default that of this one. Raises BootcourseError for a damaged file.
     """
-    path = Path(folder or "") / FILE
+    path = (beside_the_notebook() if folder is None else folder) / FILE
     if not path.exists():
         return {}
     entries = read_json(path, dict[str, dict])
@@ -96,10 +97,11 @@ def commit(question: Question, answer: object) -> dict:
         "answer": question.read(answer),
         "time": datetime.now(UTC).isoformat(timespec="seconds"),
     }
-    with alone_with(FILE):  # another notebook may have written since
+    file = beside_the_notebook() / FILE
+    with alone_with(file):  # another notebook may have written since
         entries = predictions()
         if question.name not in entries:
-            write_json(FILE, entries | {question.name: one})
+            write_json(file, entries | {question.name: one})
     return entries.get(question.name, one)
 
 

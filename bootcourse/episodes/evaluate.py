@@ -7,6 +7,7 @@ import numpy as np
 from gymnasium.vector import VectorEnv
 
 from bootcourse.episodes.driving import one_episode_each, steps
+from bootcourse.episodes.infos import known_success, reported
 from bootcourse.errors import whole
 from bootcourse.policies import Policy
 from bootcourse.road.state import Accident
@@ -19,7 +20,10 @@ MAX_SEED = 2**32 // BLOCK - 1  # training roads have seeds above 2**32, so held-
 
 @dataclass(frozen=True)
 class Episodes:
-    """The results of some episodes; every array is (episodes,), and NaN where the environment does not report it."""
+    """The results of some episodes; every array is (episodes,), and NaN where the environment does not report it.
+
+    `success` is unknown for all episodes or for none: see `episodes/infos.py`.
+    """
 
     success: np.ndarray  # bool: ahead of trap 1 at the end
     returns: np.ndarray  # sum of rewards
@@ -64,7 +68,15 @@ def drive_episodes(
         part = list(seeds[i : i + together])
         env = one_episode_each(len(part), scenario, make_env)
         parts.append(_drive(policy, env, part, (scenario or DEFAULT).clock.decision_rate))
-    return Episodes(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+    success, returns, speed, distance, accident = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+    success = known_success(success)
+    return Episodes(
+        success if np.isnan(success).any() else success.astype(bool),
+        returns,
+        speed,
+        distance,
+        accident if np.isnan(accident).any() else accident.astype(np.int64),
+    )
 
 
 def _drive(policy: Policy, env: VectorEnv, seeds: list[int], decision_rate: float) -> tuple[np.ndarray, ...]:
@@ -74,12 +86,9 @@ def _drive(policy: Policy, env: VectorEnv, seeds: list[int], decision_rate: floa
         returns += step.rewards * step.running
         decisions += step.running
         ended = step.running & (step.terminated | step.truncated)
-        reported = step.infos.get("final_info", step.infos)  # where autoreset has restarted, the old episode's
-        for name in ends.keys() & reported.keys():
-            ends[name][ended] = reported[name][ended]
+        for name, values in ends.items() if ended.any() else ():
+            values[ended] = reported(name, step.infos, len(seeds))[ended]
     success, distance, accident = ends.values()
-    success = success if np.isnan(success).any() else success.astype(bool)
-    accident = accident if np.isnan(accident).any() else accident.astype(np.int64)
     return success, returns, distance / (decisions / decision_rate), distance, accident
 
 

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from bootcourse.episodes.infos import known_success, reported
+
 NAMES = (
     "success",  # 1 if the ego ended ahead of trap 1
     "return",  # sum of rewards
@@ -25,17 +27,17 @@ class Curves:
         self.agents, self.roads, self.episodes = agents, roads, episodes
         self.values = {name: np.full((agents, episodes), np.nan) for name in NAMES}
         self.finished = np.zeros(agents, dtype=np.int64)  # episodes, including those after the last that is recorded
-        self.unknown = np.full(agents * roads, np.nan)
+        self.success_is_known = False  # found out again where a training is resumed
         self.running = np.zeros((4, agents * roads))  # return, decisions, speed, entropy of the running episodes
 
     def note(self, rewards, entropies, done, infos, now: dict[str, np.ndarray]) -> None:
         """Record a decision: rewards, entropies, done (agents x envs,), env.step's infos, now {name: (agents,)}.
 
-        Values that an environment other than the trap does not report are NaN.
+        Values that an environment other than the trap does not report are NaN: see `episodes/infos.py`.
         """
-        ended = infos.get("final_info", infos)
-        ended = {name: ended.get(name, self.unknown) for name in ("speed", "is_success", "distance", "accident")}
-        self.running += np.stack([rewards, np.ones_like(rewards), ended["speed"], entropies])
+        names = ("speed", "is_success", "distance", "accident")
+        said = {name: reported(name, infos, len(rewards)) for name in names}
+        self.running += np.stack([rewards, np.ones_like(rewards), said["speed"], entropies])
         for road in np.flatnonzero(done):
             agent, episode = road // self.roads, self.finished[road // self.roads]
             total, decisions, speed, entropy = self.running[:, road]
@@ -44,17 +46,21 @@ class Curves:
             if episode >= self.episodes:
                 continue
             values = {
-                "success": ended["is_success"][road],
+                "success": said["is_success"][road],
                 "return": total,
                 "speed": speed / decisions,
-                "distance": ended["distance"][road],
-                "accident": ended["accident"][road],
+                "distance": said["distance"][road],
+                "accident": said["accident"][road],
                 "entropy": entropy / decisions,
                 "decisions": decisions,
                 **{name: each[agent] for name, each in now.items()},
             }
             for name, value in values.items():
                 self.values[name][agent, episode] = value
+        if done.any() and not (self.success_is_known and np.isfinite(said["is_success"][done]).all()):
+            over = np.isfinite(self.values["decisions"])
+            self.values["success"][over] = known_success(self.values["success"][over])
+            self.success_is_known = bool(np.isfinite(self.values["success"][over]).any())
 
     def recent(self, name: str, window: int = 100) -> np.ndarray:
         """The mean of each agent's last `window` episodes, (agents,); NaN before the first episode."""

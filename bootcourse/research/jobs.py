@@ -4,7 +4,8 @@
     DIR/jobs/NAME         when it is done: `results.npz`, `runs/`, and `job.json` with what was asked for, the versions
                           that computed it, and the hash of every file
 
-The folder is moved in one step, so every folder in `jobs` is complete.
+The folder is moved in one step, so every folder in `jobs` is complete. A job has one owner at a time (see
+`storage.work.owned`): a worker may go on after the process that started it was killed.
 """
 
 import json
@@ -20,7 +21,8 @@ from msgspec import Meta, Struct, convert
 from bootcourse.errors import BootcourseError
 from bootcourse.files import decoding, provenance, sha256
 from bootcourse.storage.checkpoint import DamagedCheckpoint
-from bootcourse.storage.sealed import is_file_with, read_sealed, write_sealed
+from bootcourse.storage.sealed import amiss, read_sealed, write_sealed
+from bootcourse.storage.work import owned
 
 FORMAT = "bootcourse job 3"
 CHECKPOINT = "checkpoint.npz"
@@ -101,9 +103,9 @@ def read_job(folder: Path) -> dict:
     description = read_sealed(folder / "job.json", FORMAT, remedy)
     with decoding(folder / "job.json", remedy):
         convert(description, Description)
-    damaged = [name for name, digest in description["sha256"].items() if not is_file_with(folder / name, digest)]
-    if damaged:
-        raise BootcourseError(f"{folder} is damaged ({', '.join(damaged)}): {remedy}.")
+    for name, digest in description["sha256"].items():
+        if sentence := amiss(folder / name, digest, remedy):
+            raise BootcourseError(sentence)
     return description
 
 
@@ -112,17 +114,18 @@ def run_job(job: Job, root: Path) -> str:
     try:
         if not (root / "study.json").exists():  # on a machine of a cluster that has another disk
             return f"{root} is not there for the process that should compute {job.name}: use a folder that all share."
-        _run(job, root)
+        with owned(root / "unfinished" / job.name, orphaned) as is_lost:
+            _run(job, root, is_lost)
+    except (Interrupted, InterruptedError, KeyboardInterrupt):
+        return f"{job.name}: interrupted"
     except (BootcourseError, OSError) as error:
         return f"{job.name}: {error}"
-    except (Interrupted, KeyboardInterrupt):
-        return f"{job.name}: interrupted"
     return ""
 
 
-def _run(job: Job, root: Path) -> None:
+def _run(job: Job, root: Path, is_lost: Callable[[], bool]) -> None:
     final, folder = root / "jobs" / job.name, root / "unfinished" / job.name
-    if final.exists():  # another process was faster: a cluster may start a job twice
+    if final.exists():  # the owner before has finished it: a cluster may start a job twice
         return
     folder.mkdir(parents=True, exist_ok=True)
     started = time.perf_counter()
@@ -140,5 +143,7 @@ def _run(job: Job, root: Path) -> None:
         "provenance": provenance(seconds=round(seconds, 1)),
     }
     write_sealed(folder / "job.json", description)
+    if is_lost():  # the machine slept, say, and another process took over: what is here is that one's
+        raise Interrupted(job.name)
     final.parent.mkdir(parents=True, exist_ok=True)
     os.rename(folder, final)

@@ -13,7 +13,7 @@ import numpy as np
 import torch
 
 from bootcourse.episodes.evaluate import Episodes
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import check_arrays, decoding, parse, read_arrays, read_json, write_arrays
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings, stored_settings
@@ -102,8 +102,9 @@ class Results:
     def episodes(self, measure: str) -> np.ndarray:
         """A measure in every held-out episode, (agents, episodes); an event is 1 where it happened, else 0.
 
-        measure: one of `MEASURES`, or "accident" for one of any kind.
+        measure: one of `MEASURES`, or "accident" for one of any kind. Raises BootcourseError for another name.
         """
+        check_known("Measure", measure, (*MEASURES, "accident"))
         if measure == "accident":
             accident = self.tested["accident"]
             values = np.where(np.isnan(accident), np.nan, accident != Accident.NONE)

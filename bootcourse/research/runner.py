@@ -13,7 +13,7 @@ from bootcourse.files import write_json
 from bootcourse.research.jobs import Job, finished, run_job
 from bootcourse.research.results import Results, load_job, load_results
 from bootcourse.storage.assets import FOLDER
-from bootcourse.storage.work import locked
+from bootcourse.storage.work import locked, remove_empty
 
 BACKENDS = ("loky", "dask")
 CONNECT = 10.0  # s until a scheduler must answer
@@ -49,6 +49,7 @@ def run_jobs(
             write_json(root / "study.json", {"jobs": [job.name for job in jobs]})
             with connected(backend, scheduler, workers):
                 problems = _compute(waiting, root.resolve())
+            remove_empty(root / "unfinished")
         after(problems)
         return problems
 

@@ -6,7 +6,6 @@ step (highway-env also counts an overlap predicted for the next step, half a sec
 backwards. The episode ends at the simulation step of the accident.
 """
 
-import gymnasium as gym
 import numpy as np
 from highway_env.envs.common.graphics import EnvViewer
 from highway_env.road.lane import LineType, StraightLane
@@ -14,11 +13,8 @@ from highway_env.road.road import Road, RoadNetwork
 from highway_env.vehicle.behavior import IDMVehicle
 from highway_env.vehicle.kinematics import Vehicle
 
-from bootcourse.errors import BootcourseError, whole
 from bootcourse.road import twin
-from bootcourse.road.constants import constants
-from bootcourse.road.formulas import weighted_reward
-from bootcourse.road.observation import bounds, observe
+from bootcourse.road.one_car import OneCar
 from bootcourse.road.state import (
     ACCELERATION,
     COLUMNS,
@@ -31,12 +27,10 @@ from bootcourse.road.state import (
     TARGET_LANE,
     TIMER,
     TRAFFIC,
-    TRAP_1,
-    Accident,
     X,
     Y,
 )
-from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
+from bootcourse.scenario import DEFAULT, Scenario
 
 NODES = ("start", "end")  # highway-env names a lane (node, node, number)
 PICTURE = {  # of the viewer: pixels, pixels per metre, where the ego is
@@ -94,66 +88,28 @@ class TrafficCar(_CollidesByOverlap, IDMVehicle):
         self.color = TRAP_COLOUR if is_trap else TRAFFIC_COLOUR
 
 
-class TrapEnv(gym.Env):
-    """The decision process (Equation 1): observation (26,) float32, nine actions, 150 decisions.
-
-    info contains "rewards" (the terms r_v, r_y, r_theta), "accident" (an `Accident`), "is_success", "distance" (m)
-    and "speed" (m/s). `cars()` returns the true state, `trace` those after each simulation step of the last decision.
-    Raises BootcourseError for a scenario that is none, and for another render mode.
-    """
+class TrapEnv(OneCar):
+    """`OneCar` on highway-env, whose viewer draws it."""
 
     metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 1}
     action_type = observation_type = None  # highway-env's viewer asks for them
 
-    def __init__(self, scenario: Scenario = DEFAULT, render_mode: str | None = None):
-        if not isinstance(scenario, Scenario):
-            raise BootcourseError(f"scenario = {scenario!r}: give a bootcourse.scenario.Scenario.")
-        if render_mode not in (None, *self.metadata["render_modes"]):
-            raise BootcourseError(f"render_mode = {render_mode!r}: choose from None, 'human', 'rgb_array'.")
-        self.scenario, self.render_mode, self.constants = scenario, render_mode, constants(scenario)
-        low, high = bounds(scenario)
-        self.observation_space = gym.spaces.Box(low, high, dtype=np.float32)
-        self.action_space = gym.spaces.Discrete(N_ACTIONS)
-        self.decisions, self.accident, self.trace, self.viewer = 0, Accident.NONE, [], None
+    def __init__(self, scenario: Scenario | str | dict = DEFAULT, render_mode: str | None = None):
+        """As `OneCar`."""
+        super().__init__(scenario, render_mode)
+        self.viewer = None
         self.config = PICTURE | {  # for the viewer
-            "simulation_frequency": scenario.clock.simulation_rate,
+            "simulation_frequency": self.scenario.clock.simulation_rate,
             "offscreen_rendering": render_mode == "rgb_array",
         }
 
-    def reset(self, *, seed: int | None = None, options: dict | None = None):
-        """Start an episode. The same seed gives the same road, here and on the compiled road.
-
-        Raises BootcourseError for a seed that is not a whole number of 0 or more.
-        """
-        super().reset(seed=None if seed is None else whole(seed, "seed"))
-        self.decisions, self.accident = 0, Accident.NONE
-        start = twin.empty_cars(1, self.scenario.vehicles)[0]
-        twin.place(self.np_random.random(twin.uniforms_needed(len(start))), self.constants, start)
+    def _start(self, cars: np.ndarray) -> None:
         self.road = Road(_lanes(self.scenario), np_random=self.np_random)
-        self.vehicle = EgoCar(self.road, self.scenario, start[EGO])
-        others = [TrafficCar(self.road, self.scenario, start[i], i < TRAFFIC) for i in range(1, len(start))]
+        self.vehicle = EgoCar(self.road, self.scenario, cars[EGO])
+        others = [TrafficCar(self.road, self.scenario, cars[i], i < TRAFFIC) for i in range(1, len(cars))]
         self.road.vehicles = [self.vehicle, *others]
-        if self.render_mode == "human":
-            self.render()
-        return self._observe(self.cars()), self._info((0.0, 0.0, 0.0))
-
-    def step(self, action: int):
-        """One decision. Raises BootcourseError for an action outside 0..8."""
-        if not self.action_space.contains(action):
-            raise BootcourseError(f"Action {action!r} is outside 0..8.")
-        self._simulate(int(action))
-        self.decisions += 1
-        cars, weights = self.trace[-1], self.scenario.reward
-        terms = twin.reward_terms(cars, self.constants)
-        usual = weighted_reward(*terms, weights.w_v, weights.w_y, weights.w_theta)
-        reward, terminated = (float(weights.accident) if self.accident else usual), bool(self.accident)
-        truncated = not terminated and self.decisions >= self.scenario.clock.decisions
-        if self.render_mode == "human":
-            self.render()
-        return self._observe(cars), reward, terminated, truncated, self._info(terms)
 
     def _simulate(self, action: int) -> None:
-        """The simulation steps of one decision (Equation 8); an accident ends them."""
         ego, self.trace = self.scenario.ego, []
         acceleration, steering = (action // 3 - 1) * ego.acceleration, (action % 3 - 1) * ego.steering
         self.vehicle.act({"acceleration": acceleration, "steering": steering})
@@ -161,7 +117,7 @@ class TrapEnv(gym.Env):
             self.road.act()
             self.road.step(self.scenario.clock.dt)
             self.trace.append(self.cars())
-            self.accident = Accident(twin.ego_accident(self.trace[-1], self.constants))
+            self.accident = twin.ego_accident(self.trace[-1], self.constants)
             if self.accident:
                 break
 
@@ -178,25 +134,9 @@ class TrapEnv(gym.Env):
             row[CRASHED] = car.crashed
         return cars
 
-    def _observe(self, cars: np.ndarray) -> np.ndarray:
-        observation = np.empty(self.scenario.observation_size, dtype=np.float32)
-        observe(cars, self.constants, observation)
-        return observation
-
-    def _info(self, terms: tuple[float, float, float]) -> dict:
-        ego, trap_1 = self.road.vehicles[EGO], self.road.vehicles[TRAP_1]
-        return {
-            "rewards": dict(zip(("r_v", "r_y", "r_theta"), terms, strict=True)),
-            "accident": self.accident,
-            "is_success": bool(ego.position[0] > trap_1.position[0]),
-            "distance": float(ego.position[0]),
-            "speed": float(ego.speed),
-        }
-
     def render(self) -> np.ndarray | None:
         """Draw the road by highway-env's viewer; in the mode "rgb_array", the picture (160, 1000, 3) uint8."""
-        if self.render_mode is None:
-            raise BootcourseError("Nothing is drawn without a render mode: give render_mode='rgb_array' to gym.make.")
+        self.check_rendered()
         if self.viewer is None:
             self.viewer = EnvViewer(self)
         self.viewer.display()

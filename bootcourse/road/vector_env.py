@@ -8,54 +8,69 @@ from gymnasium.utils import seeding
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from bootcourse.errors import BootcourseError, whole
+from bootcourse.errors import BootcourseError, check_known, require, whole
 from bootcourse.road import twin
 from bootcourse.road.constants import constants
 from bootcourse.road.observation import bounds, observe_all
 from bootcourse.road.state import EGO, SPEED, TRAP_1, X
-from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
+from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario, scenario_from
 
 
 class TrapVectorEnv(VectorEnv):
-    """`num_envs` roads (Equation 1) that are stepped together.
+    """`num_envs` roads (Equation 1) that are stepped together: the numbers of gymnasium's `SyncVectorEnv` of `TrapEnv`.
 
     observation (num_envs, 26) float32; action (num_envs,) in 0..8; reward (num_envs,) float64. Road i, reset with
-    `seed`, is the same as `TrapEnv` reset with `seed + i`. An episode that ends is restarted in the same step
-    (same-step autoreset); its last observation is infos["final_obs"], its last infos are infos["final_info"]. With
-    `autoreset_mode=AutoresetMode.DISABLED` the road stands still, with reward 0, until all are reset.
+    `seed`, is the same as `TrapEnv` reset with `seed + i`.
+
+    autoreset_mode: what follows an episode's end, as an `AutoresetMode` or its value. SAME_STEP: the road starts anew
+    in the same step; the last observation is infos["final_obs"], the last infos are infos["final_info"]. NEXT_STEP: it
+    starts anew in the next step, whose action is ignored and whose reward is 0. DISABLED: it stands still, with
+    reward 0, until it is reset (`SyncVectorEnv` refuses such a step).
+    max_episode_steps: truncates an episode after so many decisions, as gymnasium's `TimeLimit`; None or -1: only the
+    scenario's clock does.
 
     `cars` (num_envs, vehicles, 10) is the true state (columns in `bootcourse.road.state`), `final_cars` the state
-    before the last autoreset. With `record=True`, `trace` (num_envs, steps, vehicles, 10) is the state after each
-    simulation step of the last decision. Raises BootcourseError for an argument that is not supported.
+    before the last autoreset of SAME_STEP. With `record=True`, `trace` (num_envs, steps, vehicles, 10) is the state
+    after each simulation step of the last decision. Raises BootcourseError for an argument that is not supported.
     """
 
     def __init__(
         self,
         num_envs: int = 1,
-        scenario: Scenario = DEFAULT,
-        autoreset_mode: AutoresetMode = AutoresetMode.SAME_STEP,
+        scenario: Scenario | str | dict = DEFAULT,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
         record: bool = False,
+        max_episode_steps: int | None = None,
+        render_mode: None = None,
     ):
-        if not isinstance(scenario, Scenario):
-            raise BootcourseError(f"scenario = {scenario!r}: give a bootcourse.scenario.Scenario.")
-        if autoreset_mode not in (AutoresetMode.SAME_STEP, AutoresetMode.DISABLED):
-            raise BootcourseError(f"autoreset_mode = {autoreset_mode!r}: the compiled road has SAME_STEP and DISABLED.")
-        self.metadata = {"autoreset_mode": autoreset_mode, "render_modes": []}
-        self.num_envs, self.scenario = whole(num_envs, "num_envs", low=1), scenario
-        low, high = bounds(scenario)
+        require(
+            render_mode is None,
+            f"render_mode = {render_mode!r}: these roads draw nothing. Leave it out, or draw one road of "
+            "gym.make('bootcourse:FastTrap-v0', render_mode='rgb_array').",
+        )
+        modes = {mode.value: mode for mode in AutoresetMode}
+        mode = modes.get(autoreset_mode, autoreset_mode) if isinstance(autoreset_mode, str) else autoreset_mode
+        wanted = f"choose from {', '.join(modes)}"
+        require(isinstance(mode, AutoresetMode), f"autoreset_mode = {autoreset_mode!r}: {wanted}.")
+        self.metadata = {"autoreset_mode": mode, "render_modes": []}
+        self.num_envs, self.scenario = whole(num_envs, "num_envs", low=1), scenario_from(scenario)
+        has_limit = max_episode_steps not in (None, -1)
+        self.max_episode_steps = whole(max_episode_steps, "max_episode_steps", low=1) if has_limit else None
+        low, high = bounds(self.scenario)
         self.single_observation_space = gym.spaces.Box(low, high, dtype=np.float32)
         self.single_action_space = gym.spaces.Discrete(N_ACTIONS)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
 
-        n, vehicles = self.num_envs, scenario.vehicles
-        self.constants = constants(scenario)
+        n, vehicles = self.num_envs, self.scenario.vehicles
+        self.constants = constants(self.scenario)
         self.cars = twin.empty_cars(n, vehicles)
         self.final_cars = self.cars
         steps = self.constants.steps
         self.trace = np.zeros((n, steps, vehicles, self.cars.shape[2])) if record else twin.NO_TRACE
         self.decisions = np.zeros(n, dtype=np.int64)
         self.asleep = np.ones(n, dtype=bool)  # roads that stand still
+        self._ended = np.zeros(n, dtype=bool)  # roads that NEXT_STEP starts anew in the next step
         self.was_reset = False
         self._uniforms = twin.uniforms_needed(vehicles)
         self._generators = [seeding.np_random()[0] for _ in range(n)]
@@ -63,22 +78,22 @@ class TrapVectorEnv(VectorEnv):
         self._accidents = np.zeros(n, dtype=np.int64)
 
     def reset(self, *, seed: int | Sequence[int | None] | None = None, options: dict | None = None):
-        """Reset all roads; road i has the seed `seed + i` or `seed[i]`. options: none are known.
+        """Reset all roads, or those of options["reset_mask"], (num_envs,) bool. Road i has `seed + i` or `seed[i]`.
 
-        Returns observations (num_envs, 26) and infos. Raises BootcourseError, before any road is reset, for a wrong
-        seed or number of seeds.
+        Returns observations (num_envs, 26) and infos, whose masks name the roads that were reset. Raises
+        BootcourseError, before any road is reset, for a wrong seed, number of seeds or mask, and for another option.
         """
+        mask = mask_of(options or {}, self.num_envs)
+        require(self.was_reset or mask.all(), "There are no cars on the other roads yet: first reset all roads.")
         if seed is not None:
             seeds = seeds_of(seed, self.num_envs)
             super().reset(seed=seeds[0])
             for i, each in enumerate(seeds):
-                if each is not None:
+                if each is not None and mask[i]:
                     self._generators[i] = seeding.np_random(each)[0]
-        everywhere = np.ones(self.num_envs, dtype=bool)
-        self._start(everywhere)
-        self._rewards[:], self._terms[:], self._accidents[:] = 0.0, 0.0, 0
+        self._start(mask)
         self.was_reset = True
-        return self.observe(), self._infos(everywhere)
+        return self.observe(), self._infos(mask)
 
     def step(self, actions):
         """One decision on every road, actions (num_envs,).
@@ -93,19 +108,25 @@ class TrapVectorEnv(VectorEnv):
             raise BootcourseError(f"Action {int(actions[(actions < 0) | (actions >= N_ACTIONS)][0])} is outside 0..8.")
         if not self.was_reset:
             raise BootcourseError("There are no cars on these roads yet: call env.reset(seed=0) before env.step.")
-        self._rewards[self.asleep], self._terms[self.asleep] = 0.0, 0.0
+        began, decides = self._ended.copy(), ~(self._ended | self.asleep)
+        self._start(began)
+        self._rewards[~decides], self._terms[~decides] = 0.0, 0.0
         twin.decide(
-            self.cars, actions.astype(np.int64), self.asleep, self.constants,
+            self.cars, actions.astype(np.int64), ~decides, self.constants,
             self._rewards, self._terms, self._accidents, self.trace,
         )  # fmt: skip
-        self.decisions[~self.asleep] += 1
+        self.decisions[decides] += 1
         terminated = self._accidents != 0
         truncated = ~terminated & (self.decisions >= self.scenario.clock.decisions)
+        if self.max_episode_steps is not None:
+            truncated |= self.decisions >= self.max_episode_steps
         rewards = self._rewards.copy()
-        observations, infos = self.observe(), self._infos(~self.asleep)
-        done = terminated | truncated
-        if self.metadata["autoreset_mode"] is AutoresetMode.DISABLED:
+        observations, infos = self.observe(), self._infos(decides | began)
+        done, mode = terminated | truncated, self.metadata["autoreset_mode"]
+        if mode is AutoresetMode.DISABLED:
             self.asleep |= done
+        elif mode is AutoresetMode.NEXT_STEP:
+            self._ended = done
         elif done.any():
             self.final_cars = self.cars.copy()
             infos = self._restart(done, observations, infos)
@@ -121,8 +142,9 @@ class TrapVectorEnv(VectorEnv):
     def _start(self, mask: np.ndarray) -> None:
         for i in np.flatnonzero(mask):
             twin.place(self._generators[i].random(self._uniforms), self.constants, self.cars[i])
-        self.decisions[mask] = 0
-        self.asleep[mask] = False
+        self.decisions[mask], self._accidents[mask] = 0, 0
+        self.asleep[mask], self._ended[mask] = False, False
+        self._rewards[mask], self._terms[mask] = 0.0, 0.0
 
     def _restart(self, done: np.ndarray, observations: np.ndarray, infos: dict) -> dict:
         final_obs = np.full(self.num_envs, None, dtype=object)
@@ -131,7 +153,6 @@ class TrapVectorEnv(VectorEnv):
         final_info = {name: value for name, value in infos.items() if not name.startswith("_")}
         final_info |= {f"_{name}": done.copy() for name in final_info}
         self._start(done)
-        self._terms[done], self._accidents[done] = 0.0, 0
         infos = self._infos(np.ones(self.num_envs, dtype=bool))
         return infos | {
             "final_obs": final_obs,
@@ -152,6 +173,16 @@ class TrapVectorEnv(VectorEnv):
             "speed": self.cars[:, EGO, SPEED].copy(),
         }
         return infos | {f"_{name}": mask.copy() for name in infos}
+
+
+def mask_of(options: dict, roads: int) -> np.ndarray:
+    """The roads that a reset with these options resets, (roads,) bool. Raises BootcourseError for a wrong mask."""
+    for name in options:
+        check_known("Option", name, ("reset_mask",))
+    mask = options.get("reset_mask", np.ones(roads, dtype=bool))
+    is_mask = isinstance(mask, np.ndarray) and mask.shape == (roads,) and mask.dtype == bool and mask.any()
+    require(is_mask, f"reset_mask = {mask!r:.80}: give an array of {roads} booleans, at least one of them True.")
+    return mask
 
 
 def seeds_of(seed, roads: int) -> list[int | None]:

@@ -11,7 +11,7 @@ from msgspec import Meta, convert
 
 from bootcourse.errors import BootcourseError
 from bootcourse.files import decoding
-from bootcourse.storage.sealed import is_file_with, read_sealed
+from bootcourse.storage.sealed import amiss, read_sealed
 
 FOLDER = Path(__file__).resolve().parent.parent.parent / "assets"
 MANIFEST = "manifest.json"
@@ -48,10 +48,9 @@ def verify(folder: Path = FOLDER) -> list[str]:
     entries = read_manifest(folder)["files"]
     problems = []
     for entry in entries:
-        path = folder / entry["file"]
-        if not is_file_with(path, entry["sha256"]):
-            what = "damaged" if path.is_file() else "missing"
-            problems.append(f"{path} is {what}: restore it from a copy, or make it again: {entry['command']}")
+        remedy = f"restore it from a copy, or make it again with `{entry['command']}`"
+        if sentence := amiss(folder / entry["file"], entry["sha256"], remedy):
+            problems.append(sentence)
     listed = {MANIFEST, *(entry["file"] for entry in entries)}
     for path in sorted(folder.rglob("*")):
         if path.is_file() and path.relative_to(folder).as_posix() not in listed:

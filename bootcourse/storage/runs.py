@@ -43,7 +43,7 @@ from bootcourse.learn.teachers import Rule, default_teacher, teacher_name, teach
 from bootcourse.learn.training import Result
 from bootcourse.methods import METHODS
 from bootcourse.scenario import N_ACTIONS, Scenario
-from bootcourse.storage.sealed import read_sealed, write_sealed
+from bootcourse.storage.sealed import amiss, read_sealed, write_sealed
 
 UNFINISHED = "unfinished"  # the folder of a training that is not over, beside the runs
 HASHED = ("config.json", "weights.safetensors", "curves.npz")
@@ -153,8 +153,8 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -
     with decoding(path / "provenance.json", TRAIN_AGAIN):
         stored = convert(record, Provenance)
     for name in HASHED:
-        if stored.sha256.get(name) != sha256(path / name):
-            raise BootcourseError(f"{path / name} is damaged: its hash has changed. Train this run again.")
+        if sentence := amiss(path / name, stored.sha256.get(name, ""), TRAIN_AGAIN):
+            raise BootcourseError(sentence)
     config = read_json(path / "config.json", Config, TRAIN_AGAIN)
     if (method := config.settings.get("method")) not in METHODS:
         own = "if it is a learner of your own, add the --learner FILE.py:CLASS that it was trained with"

@@ -1,11 +1,13 @@
-"""JSON files with a hash of their own content, so that a changed one is noticed when it is read."""
+"""Hashes: JSON files with one of their own content, and what to say of a file that has not the hash it should have."""
 
 import hashlib
 import json
 from pathlib import Path
 
 from bootcourse.errors import BootcourseError
-from bootcourse.files import COPY, read_json, sha256, write_json
+from bootcourse.files import COPY, LARGEST_JSON, read_bytes, read_json, sha256, unix_lines, write_json
+
+LINE_ENDINGS = "In a Git clone, run `git config core.autocrlf false`, delete it, and fetch it with `git checkout` again"
 
 
 def write_sealed(path: Path, content: dict) -> None:
@@ -31,6 +33,12 @@ def seal(content: dict) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
-def is_file_with(path: Path, digest: str) -> bool:
-    """Is there a file with this SHA-256 hash?"""
-    return path.is_file() and sha256(path) == digest
+def amiss(path: Path, digest: str, remedy: str = COPY) -> str:
+    """A sentence about a file that has not this SHA-256 hash; "" if it has. remedy: for one that is damaged."""
+    if not path.is_file():
+        return f"{path} is missing: {remedy}."
+    if sha256(path) == digest:
+        return ""
+    if path.stat().st_size < LARGEST_JSON and hashlib.sha256(unix_lines(read_bytes(path))).hexdigest() == digest:
+        return f"{path} is not as it was: its line endings were changed, as Git for Windows does. {LINE_ENDINGS}."
+    return f"{path} is damaged, its hash has changed: {remedy}."

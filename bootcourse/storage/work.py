@@ -2,15 +2,16 @@
 
 It is done in a locked folder, with checkpoints; what is finished is moved to its place when it is complete. The
 operating system holds the lock until the process ends, also when that is killed. (On a network disk without locks,
-take care yourself to start only one process.)
+take care yourself to start only one process.) The lock of a piece of that work is a file whose owner shows again and
+again that it is alive, because workers may outlive the process that started them, and may be on other machines.
 """
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from filelock import FileLock, Timeout
+from filelock import FileLock, SoftFileLease, Timeout
 
 from bootcourse.errors import BootcourseError
 from bootcourse.files import remove_temporary
@@ -18,6 +19,7 @@ from bootcourse.learn.training import Training
 from bootcourse.storage.checkpoint import save_checkpoint
 
 LOCK = ".lock"
+LEASE = 60.0  # s without a sign of life, after which an owner on another machine counts as dead
 
 
 @contextmanager
@@ -47,6 +49,33 @@ def locked(folder: Path, what: str = "study") -> Iterator[None]:
             if all(path.name == LOCK for path in folder.iterdir()):
                 (folder / LOCK).unlink(missing_ok=True)
                 folder.rmdir()
+
+
+@contextmanager
+def owned(folder: Path, stop: Callable[[], bool] = lambda: False) -> Iterator[Callable[[], bool]]:
+    """Be the one process, on all machines, that works on a folder: waits while another does, takes over when it died.
+
+    The folder itself need not be there. Gives a function that says whether this process has lost it: another took over,
+    because for `LEASE` this one showed no sign of life. Raises InterruptedError once stop() is true while it waits.
+    """
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    lease = SoftFileLease(folder.with_name(f".{folder.name}.owner"), lease_duration=LEASE)
+    while not lease.is_locked:
+        if stop():
+            raise InterruptedError(f"{folder}: stopped while another process had it.")
+        with suppress(Timeout):
+            lease.acquire(timeout=1)
+    try:
+        yield lambda: lease.compromise is not None
+    finally:
+        lease.release()
+
+
+def remove_empty(folder: Path) -> None:
+    """Remove the empty folders in a folder, and itself if nothing is left."""
+    for path in sorted([folder, *folder.rglob("*")], reverse=True):
+        with suppress(OSError):  # a file, or a folder that is not empty
+            path.rmdir()
 
 
 class Checkpoints:

@@ -1,4 +1,4 @@
-// What the address asks for, as in "#road=7&ghost=rule&view=3d", and a sentence for each part that cannot be had.
+// What the address asks for, as in "#road=7&ghost=rule,sac&view=3d", and a sentence for each part that cannot be had.
 
 const LARGEST_ROAD = 999999999;
 const listed = names => `${names.slice(0, -1).join(", ")} or ${names.at(-1)}`;
@@ -12,12 +12,14 @@ function askedFor(text, drivers, now) {
   for (const [name, value] of new URLSearchParams(text)) {
     if (name !== "road" && !choices[name]) {
       fault(`The address has “${name}”, which is unknown: it takes ${listed(["road", ...Object.keys(choices)])}.`);
-    } else if (name === "road" ? isRoad(value) : choices[name].includes(value)) wanted[name] = value;
+    } else if (name === "road" ? isRoad(value) : isChoice(name, value, choices[name])) wanted[name] = value;
     else if (name === "road") fault(noRoad(value));
     else fault(`“${name}” cannot be “${value}”, so it is ${now[name]}: choose ${listed(choices[name])}.`);
   }
   return { wanted, faults };
 }
 
+const isChoice = (name, value, choices) => // of ghosts there may be several
+  choices.includes(value) || (name === "ghost" && value.split(",").every(each => each !== "none" && choices.includes(each)));
 const isRoad = value => /^\d{1,9}$/.test(String(value).trim());
 const noRoad = value => `“${value}” is not a road: give a whole number from 0 to ${LARGEST_ROAD}.`;

@@ -39,8 +39,8 @@ from bootcourse.web.wasm import FREE, road_module
 HERE = Path(__file__).resolve().parent
 IN_DEPTH = ("shaders", "webgl", "scene")  # the view in 3D
 SCRIPTS = (
-    "random", "road", "minds", "drive", "drivers", "words", "address", "view", *IN_DEPTH, "thoughts", "summary",
-    "controls", "main",
+    "random", "road", "minds", "drive", "drivers", "seat", "words", "address", "view", *IN_DEPTH, "thoughts", "summary",
+    "controls", "main", "mount",
 )  # fmt: skip
 # The agents in the page; of plain SAC also the critics, which the compromise between Q and the rule needs.
 AGENTS = {
@@ -187,12 +187,24 @@ def script(name: str) -> str:
     return re.sub(r"^[ \t]*(//.*)?\n?", "", (HERE / f"{name}.js").read_text(encoding="utf-8"), flags=re.M)
 
 
+def text_of(name: str) -> str:
+    """A file of this folder without indentation."""
+    return re.sub(r"^[ \t]+", "", (HERE / name).read_text(encoding="utf-8"), flags=re.M)
+
+
+def module() -> str:
+    """The scripts that make a world, whose door is `mount`, with the style and the elements of its shadow root."""
+    own = {"STYLE": text_of("theme.css") + text_of("style.css"), "WORLD": text_of("world.html")}
+    texts = [f"const {name} = `{text}`;" for name, text in own.items()]
+    return "\n".join([names(), *texts, *map(script, SCRIPTS)])
+
+
 def page() -> str:
     """The whole page as text."""
     data = json.dumps(page_data(), separators=(",", ":")).replace("<", "\\u003c")
-    scripts = "\n".join([names(), *map(script, SCRIPTS)])
     text = (HERE / "page.html").read_text(encoding="utf-8")
-    parts = {"style": (HERE / "style.css").read_text(encoding="utf-8"), "data": data, "script": scripts}
+    parts = {"style": text_of("theme.css") + text_of("page.css"), "data": data}
+    parts["script"] = "\n".join([module(), script("page")])
     for name, part in parts.items():
         text = text.replace("{{ " + name + " }}", part)
     return text

@@ -7,8 +7,9 @@ const KEYS = {
 const TOGETHER = 70; // ms: keys pressed this close together are one action, where the clock waits for it
 
 class Controls {
-  // pressed(): the player has chosen something. commands: { key: function }, for all other keys.
-  constructor(pad, pressed, commands) {
+  // keys: the element whose keys count while it, or what is in it, has the focus; signal: ends that. pressed(): the
+  // player has chosen something. commands: { key: function }, for all other keys.
+  constructor(pad, keys, signal, pressed, commands) {
     Object.assign(this, { pressed, held: new Map(), tapped: {}, pad: [] });
     for (const action of [6, 7, 8, 3, 4, 5, 0, 1, 2]) {
       const button = document.createElement("button");
@@ -29,9 +30,10 @@ class Controls {
         if (event.detail === 0) this.tap(wish);
       });
     }
-    document.addEventListener("keydown", event => {
-      if (event.ctrlKey || event.altKey || event.metaKey || usesKeys(event.target, event.key)) return;
+    keys.addEventListener("keydown", event => {
+      if (event.ctrlKey || event.altKey || event.metaKey || usesKeys(event.composedPath()[0], event.key)) return;
       const name = keyName(event);
+      if (KEYS[name] || commands[name]) event.stopPropagation(); // a notebook has shortcuts of its own
       if (KEYS[name]) {
         event.preventDefault();
         const [axis, sign] = KEYS[name];
@@ -40,9 +42,10 @@ class Controls {
         event.preventDefault();
         commands[name]();
       }
-    });
-    document.addEventListener("keyup", event => this.release(keyName(event)));
-    window.addEventListener("blur", () => this.held.clear());
+    }, { signal });
+    keys.addEventListener("keyup", event => this.release(keyName(event)), { signal });
+    keys.addEventListener("focusout", () => this.held.clear(), { signal }); // of a shadow root: the focus leaves it
+    window.addEventListener("blur", () => this.held.clear(), { signal });
   }
 
   hold(source, wish) {
@@ -87,6 +90,7 @@ const keyName = ({ key }) => (key.length === 1 ? key.toLowerCase() : key);
 
 // Whether the part of the page that has the focus needs this key itself.
 function usesKeys(target, key) {
+  if (!target.matches) return false; // the document
   if (target.matches("select, input[type=number]")) return true;
   if (target.matches("input[type=range]")) return /^(Arrow|Page|Home|End)/.test(key);
   return target.matches("button, input") && (key === " " || key === "Enter");

@@ -1,10 +1,7 @@
-// Who can drive. Each driver has a name, a colour, a sentence, and decide(road, cars) -> { action, policy, q }.
+// Who can drive. Each driver has a name, a colour, a sentence, and decide(road, cars, drive) -> { action, policy, q }.
 
 function makeDrivers(data, networks, settings) {
-  const agent = name => (road, cars) => {
-    const policy = softmax(forward(networks[name], road.observe(cars)));
-    return { action: largest(policy), policy };
-  };
+  const agent = name => byNetwork(networks[name]);
   const rule = (road, cars) => {
     const { action } = road.rule(cars);
     return { action, policy: stochasticRule(action, settings.p) };
@@ -44,6 +41,20 @@ function makeDrivers(data, networks, settings) {
   };
   for (const [id, each] of Object.entries(drivers)) each.id = id;
   return drivers;
+}
+
+// An agent: it does what its network finds most probable.
+const byNetwork = layers => (road, cars) => {
+  const policy = softmax(forward(layers, road.observe(cars)));
+  return { action: largest(policy), policy };
+};
+
+// A driver that comes from elsewhere, { id, name, label, colour, words } with one of: network, as `packed_network` in
+// build.py makes it; plan, its actions; ask(drive), which promises { action, policy, q } for the drive as it is.
+async function guest({ network, plan, ask, ...driver }) {
+  if (network) return { ...driver, decide: byNetwork(await unpackNetwork(network)) };
+  if (plan) return { ...driver, elsewhere: true, decide: (road, cars, drive) => ({ action: plan[drive.time] ?? IDLE }) };
+  return { ...driver, elsewhere: true, decide: (road, cars, drive) => ask(drive) };
 }
 
 // Nine imagined drives: each action, then a base policy. As in bootcourse/episodes/lookahead.py, the value is what the

@@ -1,82 +1,121 @@
-// The game: a clock that asks for a decision a second, and all that is shown around it.
+// The game: a clock that asks for a decision a second, and all that is shown around it, within one shadow root.
+// What happens is told to the element around it by events: "shown" (road, drivers or view changed), "theme", "decided"
+// (after each decision) and "ended" (a drive is over; its drive in `detail`).
 
-const find = id => document.getElementById(id);
 const FIRST_ROAD = 10;
 const PATIENCE = 5; // decisions between two sentences for readers who do not see the road
 const STEP_PACE = 2.5; // how much faster than real time a single step is shown
+const WIDE = 1080, NARROW = 640; // px
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
 class Game {
-  constructor(data, compiled, networks) {
-    this.data = data;
+  // ready: see `prepared` in mount.js. options: see `mount`.
+  constructor(root, { data, compiled, networks }, options) {
+    Object.assign(this, { root, data, compiled, networks, options, host: root.host, stop: new AbortController() });
+    this.find = id => root.getElementById(id);
     this.settings = { p: data.p, xi: 0, c: 0 };
-    this.failures = 0;
+    this.failures = this.attempts = 0;
     this.pace = calm.matches ? 0 : 1;
     this.road = new Road(compiled, data.scenario);
     this.drivers = makeDrivers(data, networks, this.settings);
-    this.view = new View(find("road"), this.road.scenario);
-    this.thoughts = new Thoughts(data.actions);
-    this.controls = new Controls(find("pad"), () => this.pressed(), {
-      " ": () => this.go(), r: () => this.again(), n: () => this.another(), f: () => find("futures").click(),
-      t: () => find("theme").click(), v: () => find("view").click(), 0: () => this.setPace(0), 1: () => this.setPace(1), 2: () => this.setPace(2),
-      5: () => this.setPace(5),
+    for (const driver of options.drivers) this.drivers[driver.id] = driver;
+    this.view = new View(this.find("road"), this.road.scenario);
+    this.thoughts = new Thoughts(this.find("thoughts"), data.actions);
+    this.controls = new Controls(this.find("pad"), options.keys ?? this.host, this.stop.signal, () => this.pressed(), {
+      " ": () => this.go(), r: () => this.again(), n: () => this.another(), f: () => this.find("futures").click(),
+      t: () => this.toggleTheme(), v: () => this.find("view").click(), 0: () => this.setPace(0),
+      1: () => this.setPace(1), 2: () => this.setPace(2), 5: () => this.setPace(5),
     });
     this.controls.pad.forEach((button, action) => button.setAttribute("aria-label", data.actions[action]));
-    makeSliders(this.settings, name => this.tuned(name));
+    makeSliders(this.find, this.settings, name => this.tuned(name));
     this.wire();
-    this.readAddress();
+    const system = () => this.theme(options.theme ?? (dark.matches ? "dark" : "light"));
+    dark.addEventListener("change", system, { signal: this.stop.signal });
+    system();
+    this.open(options);
+    requestAnimationFrame(now => this.frame(now));
   }
 
   get mine() { return this.drivers[this.driverName]; } // undefined if you drive
-  get rival() { return this.drivers[this.ghostName]; } // undefined without a ghost
+  get rivals() { return this.ghostName.split(",").map(name => this.drivers[name]).filter(Boolean); } // the ghosts' drivers
+  get drive() { return this.seat.drive; }
+
+  // Offer drivers in both lists, in place of those of the same id: { id, name, label, colour, words, decide }, as in
+  // drivers.js. Who is at the wheel or beside you drives on from the next decision.
+  offer(...drivers) {
+    for (const driver of drivers) this.drivers[driver.id] = driver;
+    this.list();
+    for (const seat of [this.seat, ...this.ghosts ?? []]) {
+      if (seat?.driver.id in this.drivers) Object.assign(seat, { driver: this.drivers[seat.driver.id] }).think();
+    }
+  }
+
+  list() {
+    const entries = Object.values(this.drivers).map(({ id, name }) => [id, name]);
+    const several = this.ghostName?.includes(",") ? [[this.ghostName, this.rivals.map(({ name }) => name).join(" and ")]] : [];
+    const fill = (id, list) => this.find(id).replaceChildren(...list.map(([value, name]) => new Option(name, value)));
+    fill("driver", [["you", "you"], ...entries]);
+    fill("ghost", [["none", "nobody"], ...entries, ...several]);
+    [this.find("ghost").value, this.find("driver").value] = [this.ghostName ?? "none", this.driverName ?? "you"];
+  }
 
   wire() {
-    const entries = Object.values(this.drivers).map(({ id, name }) => [id, name]);
-    const fill = (select, list) => select.append(...list.map(([id, name]) => new Option(name, id)));
-    fill(find("driver"), [["you", "you"], ...entries]);
-    fill(find("ghost"), [["none", "nobody"], ...entries]);
-    find("driver").addEventListener("change", event => this.begin({ driver: event.target.value }));
-    find("ghost").addEventListener("change", event => this.begin({ ghost: event.target.value }));
-    find("number").addEventListener("change", event => this.begin({ number: event.target.value }));
-    find("futures").addEventListener("change", () => { this.think(); this.dirty = true; });
-    document.addEventListener("change", ({ target }) => { // after a mouse or a finger, the arrow keys drive again
-      if (!target.matches(":focus-visible") || target.type === "number") target.blur();
+    const { find, stop: { signal } } = this;
+    this.find("driver").addEventListener("change", event => this.begin({ driver: event.target.value }));
+    this.find("ghost").addEventListener("change", event => this.begin({ ghost: event.target.value }));
+    this.find("number").addEventListener("change", event => this.begin({ number: event.target.value }));
+    this.find("futures").addEventListener("change", () => { this.think(); this.dirty = true; });
+    this.root.addEventListener("change", ({ target }) => { // after a mouse or a finger, the arrow keys drive again
+      if (!target.matches(":focus-visible") || target.type === "number") this.focus();
     });
-    find("go").addEventListener("click", () => this.go());
+    this.find("go").addEventListener("click", () => this.go());
     for (const id of ["again", "end-again"]) find(id).addEventListener("click", () => this.again());
     for (const id of ["next", "end-next"]) find(id).addEventListener("click", () => this.another());
-    find("never").addEventListener("click", () => this.neverOut());
-    for (const button of document.querySelectorAll("[data-pace]")) {
-      button.addEventListener("click", () => this.setPace(Number(button.dataset.pace)));
-    }
-    const other = () => (document.documentElement.dataset.theme === "dark" ? "light" : "dark");
-    find("theme").addEventListener("click", () => this.theme(other()));
-    find("view").addEventListener("click", () => this.announce(this.look(!this.inDepth)));
-    dark.addEventListener("change", () => this.theme(dark.matches ? "dark" : "light"));
-    this.theme(dark.matches ? "dark" : "light");
-    new ResizeObserver(() => this.fit()).observe(find("road"));
-    document.addEventListener("visibilitychange", () => { if (document.hidden) this.run(false); });
-    window.addEventListener("hashchange", () => this.readAddress());
-    this.setPace(this.pace);
+    this.find("never").addEventListener("click", () => this.neverOut());
+    for (const button of this.paces) button.addEventListener("click", () => this.setPace(Number(button.dataset.pace)));
+    this.find("view").addEventListener("click", () => this.announce(this.look(!this.inDepth)));
+    this.find("road").addEventListener("pointerdown", () => this.focus());
+    this.seen = new ResizeObserver(() => this.fit());
+    this.seen.observe(this.find("road"));
+    this.seen.observe(this.host);
+    document.addEventListener("visibilitychange", () => { if (document.hidden) this.run(false); }, { signal });
   }
+
+  get paces() { return this.root.querySelectorAll("[data-pace]"); }
+
+  focus() { this.find("shell").focus({ preventScroll: true }); }
+
+  // Take it out of the page.
+  close() {
+    this.stop.abort();
+    this.seen.disconnect();
+    this.root.replaceChildren();
+  }
+
+  event(name, detail) { this.host.dispatchEvent(new CustomEvent(name, { detail })); }
 
   theme(name) {
-    document.documentElement.dataset.theme = name;
+    this.host.dataset.theme = name;
     this.fit();
+    this.event("theme", name);
   }
 
-  // The address may choose road, ghost, driver, pace, futures and view; what it asks for in vain is answered.
-  readAddress() {
-    const now = { road: this.number ?? FIRST_ROAD, ghost: this.ghostName ?? "rule", driver: this.driverName ?? "you",
-      pace: this.pace, futures: Number(find("futures").checked), view: this.inDepth ? "3d" : "above" };
-    const { wanted, faults } = askedFor(location.hash.slice(1), Object.keys(this.drivers), now);
-    const { road, ghost, driver, pace, futures, view } = { ...now, ...wanted };
+  toggleTheme() { this.theme(this.host.dataset.theme === "dark" ? "light" : "dark"); }
+
+  // What is shown, in the words of the options of `mount`.
+  get state() {
+    return { road: this.number ?? FIRST_ROAD, ghost: this.ghostName ?? "rule", driver: this.driverName ?? "you",
+      pace: this.pace, futures: Number(this.find("futures").checked), view: this.inDepth ? "3d" : "above" };
+  }
+
+  // Begin with what is given; the rest stays as it is.
+  open(given) {
+    const { road, ghost, driver, pace, futures, view } = { ...this.state, ...given };
     this.setPace(Number(pace));
-    find("futures").checked = Number(futures) === 1;
+    this.find("futures").checked = Number(futures) === 1;
     this.begin({ number: road, ghost, driver });
-    const lost = this.look(view === "3d");
-    if (faults.length || lost) this.announce([...faults, lost].join(" "));
+    return this.look(view === "3d");
   }
 
   // From above, or in 3D where the browser can.
@@ -85,59 +124,59 @@ class Game {
     let lost = "";
     this.inDepth = inDepth;
     try {
-      if (inDepth) this.scene ??= new Scene(find("scene"), this.view, this.data.scene, () => this.announce(this.lose()));
+      if (inDepth) this.scene ??= new Scene(this.find("scene"), this.view, this.data.scene, () => this.announce(this.lose()));
     } catch (error) {
       this.inDepth = false;
       lost = `The road stays as seen from above: 3D needs WebGL 2, and this browser says “${error.message}”.`;
     }
-    find("scene").hidden = !this.inDepth;
-    find("view").setAttribute("aria-pressed", this.inDepth);
-    find("road").setAttribute("aria-label", this.inDepth ? "The road in 3D, behind the car" : "The road from above");
-    this.remember();
+    this.find("scene").hidden = !this.inDepth;
+    this.find("view").setAttribute("aria-pressed", this.inDepth);
+    this.find("road").setAttribute("aria-label", this.inDepth ? "The road in 3D, behind the car" : "The road from above");
     this.fit();
+    this.event("shown");
     return lost;
   }
 
   // The graphics card has given up the picture: what was drawn there is gone, so a new scene begins on a new canvas.
   lose() {
-    find("scene").replaceWith(find("scene").cloneNode());
+    this.find("scene").replaceWith(this.find("scene").cloneNode());
     this.scene = null;
     this.look(false);
     return "The graphics card gave up the picture in 3D: the road is shown from above. V tries again.";
   }
 
   fit() {
+    const wide = this.host.clientWidth, plain = !this.options.details;
+    const size = wide < NARROW ? "small" : wide < WIDE && !plain ? "middle" : "";
+    this.find("shell").className = `world ${size} ${plain ? "plain" : ""}`;
     this.view.fit();
     if (this.inDepth) this.scene?.fit();
     this.dirty = true;
   }
 
-  // The address says what is shown, so that it can be passed on.
-  remember() {
-    const driving = this.mine ? `&driver=${this.driverName}` : "", view = this.inDepth ? "&view=3d" : "";
-    history.replaceState(null, "", `#road=${this.number}&ghost=${this.ghostName}${driving}${view}`);
-  }
-
   // A new drive; whatever is not given stays as it is.
   begin({ number = this.number, ghost = this.ghostName, driver = this.driverName }) {
-    const valid = isRoad(number);
+    const valid = isRoad(number), solved = this.finished && this.drive.outAfter !== null;
+    if (solved || this.seat && Number(number) !== this.number) this.attempts = 0;
     this.number = valid ? Number(number) : this.number ?? FIRST_ROAD;
     [this.ghostName, this.driverName] = [ghost, driver];
-    [find("number").value, find("ghost").value, find("driver").value] = [this.number, this.ghostName, this.driverName];
-    this.remember();
-    this.drive = new Drive(this.road, this.number);
-    this.ghost = this.ghostName === "none" ? null : new Drive(this.road, this.number);
+    this.find("number").value = this.number;
+    this.list();
+    const seat = driver => new Seat(this.road, this.number, driver);
+    this.seat = seat(this.mine ?? { decide: () => ({ action: IDLE }) });
+    this.ghosts = this.rivals.map(seat);
     this.shown = 0;
     this.finished = false;
     this.controls.forget();
-    find("end").hidden = true;
-    find("about").textContent = this.rival?.words ?? "";
+    this.find("end").hidden = true;
+    this.find("about").textContent = this.rivals.length === 1 ? this.rivals[0].words : "";
     this.run(false);
     this.think();
     const invitation = this.mine ? `Press Start and watch ${this.mine.label} drive.`
       : "Press ↑ ↓ ← → or the pad: your first decision starts the clock.";
     this.say(valid ? invitation : noRoad(number));
     this.tell(`Road ${this.number}. ${stateInWords(this.drive.cars)}`);
+    this.event("shown");
   }
 
   again() { this.begin({}); }
@@ -154,8 +193,8 @@ class Game {
 
   setPace(pace) {
     this.pace = [0, 1, 2, 5].includes(pace) ? pace : 1;
-    document.documentElement.style.setProperty("--pace", Math.max(this.pace, 1));
-    for (const button of document.querySelectorAll("[data-pace]")) {
+    this.host.style.setProperty("--pace", Math.max(this.pace, 1));
+    for (const button of this.paces) {
       button.setAttribute("aria-pressed", Number(button.dataset.pace) === this.pace);
     }
     this.showClock();
@@ -169,7 +208,7 @@ class Game {
   }
 
   showClock() {
-    find("go").textContent = this.pace === 0 ? "Next" : this.running ? "Pause" : "Start";
+    this.find("go").textContent = this.pace === 0 ? "Next" : this.running ? "Pause" : "Start";
   }
 
   // The Start button and the space bar: start or stop the clock, or make one decision.
@@ -188,107 +227,119 @@ class Game {
   }
 
   step() {
-    if (this.drive.over || this.shown < this.drive.time - 0.5) return;
+    if (this.drive.over || this.waiting || this.shown < this.drive.time - 0.5) return;
     this.shown = this.drive.time;
     this.run(true);
     this.decide();
     if (calm.matches) this.shown = this.drive.end;
   }
 
-  // One decision of both cars.
+  // One decision of all cars.
   decide() {
-    const { drive, ghost } = this, ahead = () => drive.cars[X] > row(drive.cars, TRAP_1)[X], wasAhead = ahead();
-    drive.decide(this.mine ? this.thought.action : this.controls.take());
-    if (!this.mine) this.remark(remark(drive.cars, ahead() && !wasAhead));
-    if (ghost && !ghost.over) ghost.decide(this.rival.decide(this.road, ghost.cars).action);
+    const { drive } = this, ahead = () => drive.cars[X] > row(drive.cars, TRAP_1)[X], wasAhead = ahead();
+    if (!this.mine) {
+      this.attempts += Number(drive.time === 0);
+      this.seat.thought = { action: this.controls.take() };
+    }
+    for (const seat of [this.seat, ...this.ghosts]) seat.decide();
+    if (!this.mine) this.remark(remark(drive.cars, ahead() && !wasAhead, this.attempts));
     this.before = this.futures;
     this.think();
     if (this.pace === 0 || drive.time % PATIENCE === 0) this.tell(`${drive.time} s. ${stateInWords(drive.cars)}`);
+    this.event("decided", drive);
   }
 
   // What the driver, or the ghost in your place, thinks of the road as it is now.
   think() {
-    const beside = this.drivers[this.ghostName === "rule" ? "escaping" : this.ghostName] ?? this.drivers.escaping;
+    const { cars } = this.drive, wanted = this.find("futures").checked, details = this.options.details;
+    const beside = this.rivals.find(({ id, elsewhere }) => id !== "rule" && !elsewhere) ?? this.drivers.escaping;
     const mind = this.mine ?? beside; // the rule's own thoughts are in the column of π̃ already
-    const { cars } = this.drive, taught = this.road.rule(cars);
-    this.thought = mind.decide(this.road, cars);
-    const wanted = find("futures").checked;
-    const futures = wanted ? this.thought.futures ?? this.drivers.lookahead.decide(this.road, cars).futures : null;
+    const thought = (this.mine ? this.seat.thought : details && mind.decide(this.road, cars, this.drive)) || {};
+    const futures = wanted ? thought.futures ?? this.drivers.lookahead.decide(this.road, cars).futures : null;
     this.futures = this.drive.over ? null : futures;
-    this.thoughts.show(this.thought, stochasticRule(taught.action, this.settings.p), mind);
+    if (!details) return;
+    const taught = this.road.rule(cars), policy = thought.policy ?? Array.from({ length: ACTIONS }, (_, a) => Number(a === thought.action));
+    this.thoughts.show({ policy, action: thought.action }, stochasticRule(taught.action, this.settings.p), mind);
     const base = mind.id === "lookahead" ? " π is PPO’s; the imagined drives choose the action in bold." : "";
-    find("mind-title").textContent = `What ${mind.label} thinks`;
+    this.find("mind-title").textContent = `What ${mind.label} thinks`;
     const where = this.mine ? "" : "In your place. ";
-    find("mind-words").textContent = `${where}The rule says: ${this.data.reasons[taught.reason]}.${base}`;
+    this.find("mind-words").textContent = `${where}The rule says: ${this.data.reasons[taught.reason]}.${base}`;
   }
 
   // A slider moved: the compromise drives on with the new numbers; if nobody drove by it, it becomes the ghost.
   tuned(name) {
-    if (name !== "p" && this.driverName !== "soft" && this.ghostName !== "soft") this.begin({ ghost: "soft" });
+    if (name !== "p" && this.driverName !== "soft" && !this.rivals.includes(this.drivers.soft)) this.begin({ ghost: "soft" });
+    for (const seat of [this.seat, ...this.ghosts]) if (!seat.driver.elsewhere) seat.think();
     this.think();
   }
 
   // Once for each picture: let the clock run, and draw.
   frame(now) {
+    const waited = this.waited;
+    this.waited = this.waiting;
+    if (waited && !this.waited) this.think();
     const passed = Math.min((now - (this.last ?? now)) / 1000, 0.1);
     this.last = now;
     if (this.running) this.advance(passed * (this.pace || STEP_PACE));
     if (this.running || this.dirty) this.draw();
-    requestAnimationFrame(next => this.frame(next));
+    if (!this.stop.signal.aborted) requestAnimationFrame(next => this.frame(next));
   }
+
+  // Whether a driver elsewhere has not answered yet: the clock waits.
+  get waiting() { return Boolean(this.mine && this.seat.waiting) || this.ghosts.some(ghost => ghost.waiting); }
 
   advance(passed) {
     this.shown += passed;
-    while (this.pace > 0 && this.shown >= this.drive.time && !this.drive.over) this.decide();
+    while (this.pace > 0 && this.shown >= this.drive.time && !this.drive.over && !this.waiting) this.decide();
     const limit = this.drive.over ? this.drive.end : this.drive.time;
     if (this.shown < limit) return;
     this.shown = limit;
     if (this.drive.over) this.finish();
-    else if (this.pace === 0) this.run(false);
+    else if (this.pace === 0 && !this.waiting) this.run(false);
   }
 
   draw() {
     this.dirty = false;
-    const cars = this.drive.at(this.shown), coming = this.mine ? this.thought.action : this.controls.coming;
+    const cars = this.drive.at(this.shown), coming = this.mine ? this.seat.thought?.action ?? null : this.controls.coming;
     const shown = this.drive.over || (!this.mine && this.controls.idle) ? null : coming;
-    const ghost = this.ghost && {
-      state: this.ghost.at(Math.min(this.shown, this.ghost.end)), gone: this.ghost.over && this.shown >= this.ghost.end,
-      colour: this.rival.colour, name: this.rival.label,
-    };
+    const ghosts = this.ghosts.map(({ drive, driver: { colour, label } }) => ({
+      state: drive.at(Math.min(this.shown, drive.end)), gone: drive.over && this.shown >= drive.end, colour, name: label }));
     const colour = this.mine?.colour ?? this.view.colour("you");
     const futures = this.shown < this.drive.time ? this.before : this.futures; // those of the decision that is shown
-    (this.inDepth ? this.scene : this.view).draw({ cars, ghost, coming: shown, colour, futures });
+    (this.inDepth ? this.scene : this.view).draw({ cars, ghosts, coming: shown, colour, futures });
     this.controls.mark(shown);
     const earned = this.drive.rewards.slice(0, Math.ceil(this.shown)), lastReward = earned.at(-1) ?? 0;
-    find("speed").textContent = cars[SPEED].toFixed(1);
-    find("return").textContent = points(earned.reduce((sum, reward) => sum + reward, 0));
-    find("earning").textContent = (lastReward < 0 ? "" : "+") + lastReward.toFixed(2).replace("-", "−");
-    find("clock").textContent = `${Math.floor(this.shown)} of ${this.road.scenario.decisions} s`;
+    this.find("speed").textContent = cars[SPEED].toFixed(1);
+    this.find("return").textContent = points(earned.reduce((sum, reward) => sum + reward, 0));
+    this.find("earning").textContent = (lastReward < 0 ? "" : "+") + lastReward.toFixed(2).replace("-", "−");
+    this.find("clock").textContent = `${Math.floor(this.shown)} of ${this.road.scenario.decisions} s`;
   }
 
-  finish() {
+  async finish() {
+    const { find, drive, seat, ghosts } = this, { label, colour } = this.mine ?? { label: "you", colour: "var(--you)" };
     this.finished = true;
     this.run(false);
+    this.event("ended", drive);
+    for (const ghost of ghosts) await ghost.finish();
+    if (seat !== this.seat) return; // another drive has begun meanwhile
     const idle = new Drive(this.road, this.number).finish({ decide: () => ({ action: IDLE }) });
-    const { label, colour } = this.mine ?? { label: "you", colour: "var(--you)" };
-    const drives = [{ drive: this.drive, label, colour, width: 3 }];
-    let sentence = verdict(this.drive, idle, label);
-    if (this.ghost) {
-      drives.unshift({ drive: this.ghost.finish(this.rival), ...this.rival, width: 1.8 });
-      const end = title(this.ghost).toLowerCase();
-      sentence += ` The ghost, ${this.rival.label}: ${end}, return ${points(this.ghost.total)}.`;
+    const drives = [...ghosts.map(ghost => ({ drive: ghost.drive, ...ghost.driver, width: 1.8 })), { drive, label, colour, width: 3 }];
+    let sentence = verdict(drive, idle, label);
+    for (const ghost of ghosts) {
+      sentence += ` The ghost, ${ghost.driver.label}: ${title(ghost.drive).toLowerCase()}, return ${points(ghost.drive.total)}.`;
     }
-    if (!this.mine) this.failures = this.drive.outAfter === null ? this.failures + 1 : 0;
+    if (!this.mine) this.failures = drive.outAfter === null ? this.failures + 1 : 0;
     const hint = this.mine ? "" : hintAfter(this.failures);
-    find("verdict-title").textContent = title(this.drive);
-    find("verdict").textContent = sentence;
-    find("hint").textContent = hint;
-    find("hint").hidden = !hint;
-    find("end").hidden = false;
-    find("picture").innerHTML = picture(drives, find("picture").clientWidth);
-    find("end").focus({ preventScroll: true });
+    const tries = !this.mine && drive.outAfter !== null && this.attempts > 1 ? `, in ${this.attempts} attempts` : "";
+    this.find("verdict-title").textContent = title(drive) + tries;
+    this.find("verdict").textContent = sentence;
+    this.find("hint").textContent = hint;
+    this.find("hint").hidden = !hint;
+    this.find("end").hidden = false;
+    this.find("picture").innerHTML = picture(drives, this.find("picture").clientWidth);
+    if (this.options.keys || this.root.activeElement) this.find("end").focus({ preventScroll: true });
     this.say("");
-    this.tell(`${title(this.drive)}. ${sentence} ${hint}`);
+    this.tell(`${title(drive)}. ${sentence} ${hint}`);
     this.dirty = true;
   }
 
@@ -305,26 +356,6 @@ class Game {
     this.tell(words);
   }
 
-  say(words) { find("message").textContent = words; }
-  tell(words) { find("live").textContent = words; }
+  say(words) { this.find("message").textContent = words; }
+  tell(words) { this.find("live").textContent = words; }
 }
-
-async function open() {
-  const data = JSON.parse(find("data").textContent);
-  const unpacked = Object.entries(data.networks).map(async ([name, packed]) => [name, await unpackNetwork(packed)]);
-  const networks = Object.fromEntries(await Promise.all(unpacked));
-  const { corners, faces, parts } = data.scene;
-  data.scene.car = { corners: new Int16Array((await unpack(corners)).buffer),
-    faces: new Uint16Array((await unpack(faces)).buffer), colours: parts };
-  const compiled = await WebAssembly.compile(await unpack(data.module));
-  window.trap = { data, compiled, networks, game: new Game(data, compiled, networks) };
-  requestAnimationFrame(now => trap.game.frame(now));
-  window.trap.ready = performance.now(); // ms since the page was opened
-}
-
-open().catch(error => {
-  const old = !globalThis.WebAssembly || !globalThis.DecompressionStream;
-  const remedy = old ? "It needs a browser of 2023 or later." : "";
-  find("message").textContent = `This page could not start: ${error.message}. ${remedy}`;
-  throw error;
-});

@@ -28,12 +28,12 @@ class Scene {
     const { canvas, view } = this, ratio = Math.min(view.ratio, 2);
     [canvas.width, canvas.height] = [view.width * ratio, view.height * ratio];
     this.gl.viewport(0, 0, canvas.width, canvas.height);
-    const dark = document.documentElement.dataset.theme === "dark";
+    const dark = canvas.getRootNode().host.dataset.theme === "dark";
     this.theme = Object.fromEntries(Object.entries(this.data[dark ? "dark" : "light"]).map(([k, v]) => [k, rgb(v)]));
     this.night = dark ? 1 : 0;
   }
 
-  draw({ cars, ghost, coming, colour, futures }) {
+  draw({ cars, ghosts, coming, colour, futures }) {
     const { gl, view } = this;
     this.x = cars[X];
     this.aim(cars);
@@ -46,7 +46,7 @@ class Scene {
     gl.bindVertexArray(this.empty);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.enable(gl.BLEND);
-    this.marks({ cars, ghost, coming, colour, futures });
+    this.marks({ cars, ghosts, coming, colour, futures });
     gl.disable(gl.BLEND);
     gl.enable(gl.DEPTH_TEST);
     gl.clear(gl.DEPTH_BUFFER_BIT);
@@ -56,8 +56,8 @@ class Scene {
       this.drive(row(cars, car), view.colour(car < TRAFFIC ? "trap" : "traffic"));
     }
     this.drive(cars, colour);
-    if (ghost) this.through(ghost, cars);
-    this.words(cars, ghost);
+    for (const ghost of ghosts) this.through(ghost, cars);
+    this.words(cars, ghosts);
   }
 
   // The camera: behind the ego; it goes along with some of the way to the side, and turns a little with the car.
@@ -140,7 +140,7 @@ class Scene {
   }
 
   // All that lies flat on the road: shadows, imagined drives, and the action of the next decision.
-  marks({ cars, ghost, coming, colour, futures }) {
+  marks({ cars, ghosts, coming, colour, futures }) {
     const { gl, layer, scenario } = this, corners = [];
     const triangle = (points, tint, rims) => points.forEach((p, i) => corners.push(...p, ...(rims?.[i] ?? [0, 0]), ...tint));
     const quad = (p, tint, rims) => [[0, 1, 2], [0, 2, 3]].forEach(
@@ -168,7 +168,7 @@ class Scene {
       quad([[x - r, y], [x, y - r], [x + r, y], [x, y + r]], [...shade, 1]);
     }
     for (let car = 1; car < scenario.vehicles; car++) shadow(row(cars, car), 0.42);
-    if (ghost) shadow(ghost.state, 0.16);
+    for (const ghost of ghosts) shadow(ghost.state, 0.16);
     shadow(cars, 0.5);
     if (coming !== null) {
       const side = 1 - (coming % 3), push = Math.floor(coming / 3) - 1, [x, y, yaw] = this.pose(cars);
@@ -196,18 +196,20 @@ class Scene {
   }
 
   // The traps' numbers, the ghost's name, and how far it is where it is not in the picture.
-  words(cars, ghost) {
+  words(cars, ghosts) {
     const { view } = this;
     view.pen.clearRect(0, 0, view.width, view.height);
     for (const car of [TRAP_2, TRAP_1]) {
       const [x, y] = this.pose(row(cars, car)), at = this.spot([x, y, 2.1]);
       if (at && at[2] < 160 && at[1] > 20) view.sign(`trap ${car}`, at[0], at[1] - 8, view.colour("trap"));
     }
-    if (!ghost) return;
-    const [x, y] = this.pose(ghost.state), at = this.spot([x, y, 2.1]);
-    const inside = at && at[2] < 160 && at[0] > 30 && at[0] < view.width - 30 && at[1] < view.height - 20;
-    if (inside) view.sign(ghost.name, at[0], at[1] - 8 - (Math.abs(x) < 4 && Math.abs(y + cars[Y]) < 1.5 ? 26 : 0), ghost.colour);
-    else view.signAway(ghost.name, x, ghost.colour);
+    view.signs = { above: 0, below: 0 };
+    for (const ghost of ghosts) {
+      const [x, y] = this.pose(ghost.state), at = this.spot([x, y, 2.1]);
+      const inside = at && at[2] < 160 && at[0] > 30 && at[0] < view.width - 30 && at[1] < view.height - 20;
+      if (inside) view.sign(ghost.name, at[0], at[1] - 8 - (Math.abs(x) < 4 && Math.abs(y + cars[Y]) < 1.5 ? 26 : 0), ghost.colour);
+      else view.signAway(ghost.name, x, ghost.colour);
+    }
   }
 }
 

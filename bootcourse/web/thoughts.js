@@ -1,8 +1,8 @@
 // What a driver thinks in the place of the car: π, the rule's π̃ and the KL between them, as a table with bars.
 
 class Thoughts {
-  constructor(names) {
-    this.body = document.querySelector("#thoughts tbody");
+  constructor(table, names) {
+    this.table = table;
     this.rows = names.map((name, action) => {
       const line = document.createElement("tr");
       line.innerHTML = `<th scope="row"><b aria-hidden="true">${SIGNS[action]}</b> ${name}</th>`
@@ -11,13 +11,13 @@ class Thoughts {
         { bar: cell.querySelector("i"), number: cell.querySelector("span") }));
       return { line, cells };
     });
-    for (const action of [6, 7, 8, 3, 4, 5, 0, 1, 2]) this.body.append(this.rows[action].line); // as on the pad
+    for (const action of [6, 7, 8, 3, 4, 5, 0, 1, 2]) table.tBodies[0].append(this.rows[action].line); // as on the pad
   }
 
   show({ policy, action }, rule, driver) {
     const shares = klShares(policy, rule), kl = shares.reduce((sum, share) => sum + share, 0);
     const dearest = Math.log(1 / Math.min(...rule)); // nats: the most that an action can cost
-    document.documentElement.style.setProperty("--mind", driver.colour);
+    this.table.style.setProperty("--mind", driver.colour);
     this.rows.forEach(({ line, cells }, a) => {
       const parts = [[policy[a], policy[a]], [rule[a], rule[a]], [Math.abs(shares[a]) / dearest, shares[a]]];
       parts.forEach(([length, value], k) => {
@@ -26,19 +26,19 @@ class Thoughts {
       });
       line.classList.toggle("chosen", a === action);
     });
-    document.querySelector("#kl").textContent = kl.toFixed(2);
+    this.table.querySelector("#kl").textContent = kl.toFixed(2);
   }
 }
 
 // The sliders for p, ξ and c. Calls `changed` with what was moved.
-function makeSliders(settings, changed) {
+function makeSliders(find, settings, changed) {
   const STRENGTHS = [0, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1, 2, 5, 10, 20, 50, 100]; // ξ
-  const inputs = Object.fromEntries(["p", "xi", "c"].map(name => [name, document.getElementById(name)]));
+  const inputs = Object.fromEntries(["p", "xi", "c"].map(name => [name, find(name)]));
   inputs.xi.max = STRENGTHS.length - 1;
   const read = { p: Number, xi: place => STRENGTHS[place], c: Number };
   const write = { p: value => value, xi: value => STRENGTHS.indexOf(value), c: value => value };
   for (const [name, input] of Object.entries(inputs)) {
-    const label = document.getElementById(`${name}-value`);
+    const label = find(`${name}-value`);
     input.value = write[name](settings[name]);
     const show = () => {
       label.textContent = String(settings[name]);

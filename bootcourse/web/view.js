@@ -11,13 +11,13 @@ class View {
 
   // Fit the canvas to its place on the page, and read the theme's colours.
   fit() {
-    const { clientWidth, clientHeight } = this.canvas, zoom = this.canvas.getBoundingClientRect().width / clientWidth;
+    const { clientWidth, clientHeight } = this.canvas, zoom = this.canvas.getBoundingClientRect().width / clientWidth || 1;
     const ratio = this.ratio = Math.min(devicePixelRatio * zoom, 2.5);
     [this.width, this.height] = [clientWidth, clientHeight];
     [this.canvas.width, this.canvas.height] = [clientWidth * ratio, clientHeight * ratio];
     this.pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.scale = Math.max(Math.min(clientWidth / 24, clientHeight / 54), 6); // px for a metre
-    const style = getComputedStyle(document.documentElement);
+    const style = getComputedStyle(this.canvas);
     this.colour = name => style.getPropertyValue(`--${name}`).trim();
   }
 
@@ -27,7 +27,7 @@ class View {
     return [this.width / 2 + (y - middle) * this.scale, this.height * AHEAD - (x - this.x) * this.scale];
   }
 
-  draw({ cars, ghost, coming, colour, futures }) {
+  draw({ cars, ghosts, coming, colour, futures }) {
     this.x = cars[X];
     this.ground();
     if (futures) this.trails(futures);
@@ -35,7 +35,8 @@ class View {
       const trap = car < TRAFFIC;
       this.car(row(cars, car), this.colour(trap ? "trap" : "traffic"), { label: trap ? `${car}` : "" });
     }
-    if (ghost) this.ghost(ghost);
+    this.signs = { above: 0, below: 0, beside: [] }; // of the ghosts: how many beyond the picture, and at which heights
+    for (const ghost of ghosts) this.ghost(ghost);
     this.car(cars, colour, { label: "" });
     if (coming !== null) this.coming(cars, coming, colour);
   }
@@ -137,14 +138,22 @@ class View {
     this.car(state, colour, { label: "", hollow: true, alpha: gone ? 0.4 : 1 });
     const beyond = py < 10 || py > this.height - 10, [edge] = this.spot(0, -this.scenario.laneWidth / 2);
     if (beyond) this.signAway(name, state[X] - this.x, colour);
-    else this.sign(name, edge - 8, py + 4, colour, "right"); // beside the road, where it covers no car
+    else this.sign(name, edge - 8, this.free(py + 4), colour, "right"); // beside the road, where it covers no car
+  }
+
+  // The height of a sign beside the road: below those that are there already.
+  free(y) {
+    for (const other of this.signs.beside) if (Math.abs(other - y) < 24) y = other + 24;
+    this.signs.beside.push(y);
+    return y;
   }
 
   // The sign of a car that is not in the picture: where, and how far.
   signAway(name, away, colour) {
     const words = `${away > 0 ? "▲" : "▼"} ${name}, ${Math.abs(away).toFixed(0)} m`;
     const below = this.width < 480 ? 100 : 18; // on a phone above the dials, which leave no room between them
-    this.sign(words, this.width / 2, away > 0 ? 62 : this.height - below, colour);
+    const row = 26 * this.signs[away > 0 ? "above" : "below"]++;
+    this.sign(words, this.width / 2, away > 0 ? 62 + row : this.height - below - row, colour);
   }
 
   // Words in a frame, in the middle above (x, y) or to its left.

@@ -47,8 +47,9 @@ function verdict(drive, idle, who) {
 }
 
 // What is worth saying to a player at this moment, or "".
-function remark(cars, justOut) {
-  if (justOut) return "You are out. 15 m/s pays best. Press 5 for a faster clock.";
+function remark(cars, justOut, attempts) {
+  const tries = attempts > 1 ? `, in ${attempts} attempts` : "";
+  if (justOut) return `You are out${tries}. 15 m/s pays best. Press 5 for a faster clock.`;
   if (cars[SPEED] < 3) return "Slow: below 1 m/s the drive ends.";
   if (cars[SPEED] > 16.5) return "Above 15 m/s every second pays less.";
   if (cars[Y] < -1.2 || cars[Y] > 9.2) return "You are at the edge of the road.";

@@ -372,6 +372,7 @@ looks = [charts.Style("#332288", "--"), charts.Style("#332288"), charts.Style("#
 looks.append(charts.Style("#000000", ":"))
 words = "decisions unlike the rule's so far"
 bc.show(charts.lines(np.arange(1, 151), named, title, "time (s)", words, looks=looks))
+print(f"ε in the rule's states: {error:.2f}; in the first 10 s {means[THEIRS][9] / 10:.2f}")
 
 # %% [markdown]
 # **Explain.** (Yours will differ.) The clones' errors look compounded, but over a whole drive they
@@ -381,9 +382,11 @@ bc.show(charts.lines(np.arange(1, 151), named, title, "time (s)", words, looks=l
 #   which more errors follow. So do the study's clones, trained with many times as many updates: {{
 #   unlike_the_rule()[0] | .0f }} decisions of a drive against {{ unlike_the_rule()[1] | .0f }}.
 # <!-- claim: unlike_the_rule()[0] > 2 * unlike_the_rule()[1] -->
-# - *At first they are as bad as the worst case:* in our run the lines follow the dotted one for
-#   about half a minute. Then they leave it: over the whole drive nearly every decision of the worst
-#   case is wrong, of ours without an accident about half, and half of these in the first 40 s.
+# - *At first they follow the dotted line*, in our run for about half a minute. (That line takes the
+#   ε of the whole drive for each second. The way out is harder than the free road: in its first
+#   seconds ε is larger, so there the line is no worst case.) Then they leave it: over the whole
+#   drive nearly every decision of the worst case is wrong, of ours without an accident about half,
+#   and half of these in the first 40 s.
 #
 # So test a clone by driving.
 

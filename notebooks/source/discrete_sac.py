@@ -288,8 +288,9 @@ check.critic_loss(critic_loss)
 # ## Round 3: what does the actor minimise?
 #
 # The critics say what the present policy is worth (*policy evaluation*). The actor looks for a
-# better policy, given these values (*policy improvement*): it makes the soft value large. SAC makes
-# a small step of each in turn. The actor's loss is minus the soft value:
+# better policy, given these values (*policy improvement*): it makes the soft value large. At each
+# update SAC makes one small step of both, on the same batch. The actor's loss is minus the soft
+# value:
 #
 # $$ L_\text{actor} = -\,\text{mean over } s \text{ of } \sum_a \pi(a|s)\,
 # \big(Q(s,a) - \alpha \log \pi(a|s)\big) $$
@@ -402,8 +403,9 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Most say "falls, and stops at η", as a thermostat in a room does. Ask which entropy would have to
-# be reached. It helps to write the range, 0 to log 9, on the board before anybody answers.
+# The answer to discuss is "falls, and stops at η", as a thermostat in a room does. Ask which
+# entropy would have to be reached. It helps to write the range, 0 to log 9, on the board before
+# anybody answers.
 
 # %%
 compare_predictions(

@@ -111,7 +111,8 @@ predict(
 # makes more than 200,000 decisions of its own. SAC and our GAIL, whose agent is SAC, are
 # *off-policy*: they learn from a buffer, also from decisions that an older policy made, or another
 # driver. (GAIL's authors used a learner that learns from its newest drives alone, *on-policy*, as
-# PPO in lesson [[the_second_trap]]. With a buffer it is also called DAC,
+# PPO in lesson [[the_second_trap]]. With a buffer, and with absorbing states behind an episode's
+# end (a cure for what Round 2 shows), it is called DAC,
 # *discriminator-actor-critic*.)
 # <!-- claim: min(own_decisions(m) for m in ('gail', 'sac', 'bootstrapped')) > 200_000 and
 #   {settings_for(m).beta_start for m in ('bc', 'cql')} == {1} -->

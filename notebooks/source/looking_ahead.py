@@ -150,9 +150,9 @@ check.rollout_values(rollout_values)
 
 # %% [markdown] tags=["instructor"] minutes=9
 # Let somebody draw the nine drives as a tree before anybody writes code. Where is the agent asked,
-# and about which cars? Most wrong answers ask it about the real road, or hold the action for all
-# ten seconds. Ask why W has to be there: without it, what would the best action be just before the
-# horizon?
+# and about which cars? Two wrong answers to discuss ask it about the real road, or hold the action
+# for all ten seconds. Ask why W has to be there: without it, what would the best action be just
+# before the horizon?
 
 # %% [markdown]
 # ## Round 2: the same agent, with rollouts
@@ -264,7 +264,10 @@ bc.show(figures.arrows(changed, [style(base).colour for base in bases], title))
 # ahead('demos').success | .0f }} %. Plain SAC gets out in half of its drives, and of the three that
 # earn little alone it gains least, {{ gain('sac') | .0f }}. But in both groups some agents get out
 # in none of their drives and some in all: ten agents (on 1,000 roads each) and five (on 100) do not
-# show that one base is better.
+# show that one base is better. And the means hide agents that get worse: {{
+# less_safe('sac').sum() }} of the ten plain SAC agents have *more* accidents with rollouts than
+# alone, one of them {{ most_harmed('sac')[1] }} instead of {{ most_harmed('sac')[0] }} in 1,000.
+# <!-- claim: less_safe('sac').sum() == 4 and all_ten_gain() -->
 # <!-- claim: all((outs(b).min(), outs(b).max()) == (0, 1) for b in ('sac', 'demos')) and
 #   (outs('demos', 'alone') == 0).all() and (ahead('sac').drives, ahead('demos').drives) == (10_000,
 #   500) and stats.mannwhitneyu(outs('sac'), outs('demos')).pvalue >

@@ -276,8 +276,9 @@ table(["action in the data", "CQL's term", "cloning loss of softmax(Q)"], rows)
 # The term *is* the cloning loss of softmax(Q). So **CQL is Q-learning and cloning in one.** In one
 # state the data hold one action. But states that look alike to the network hold several, and
 # between them the rewards can decide. Look at the two agents whose rewards are 0: at γ =
-# {{ settings_for('cql').gamma }} the rewards do not even speak for the way out, since the rule's
-# drive is worth less than staying (lesson [[the_barrier]]). How far does cloning alone take them?
+# {{ settings_for('cql').gamma }} the rewards do not speak for the way out at its *start*, where the
+# rule's drive is worth less than staying (lesson [[the_barrier]]); later in the drive they do. How
+# far does cloning alone take them?
 # <!-- claim: discounted(by_rule(), 0.8) < discounted(idle(), 0.8) and settings_for('cql').gamma ==
 #   0.8 -->
 

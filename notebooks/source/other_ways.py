@@ -54,11 +54,11 @@ bc.show(figures.what_is_taken())
 # RLPD (*reinforcement learning with prior data*) is SAC with half of each batch demonstrations,
 # from the first update to the last, without bonus, margin and KL. Lesson [[offline_learning]]
 # showed what goes wrong with such data: the target follows the highest of nine guesses, and untried
-# actions are guessed too high. RLPD's remedy is an **ensemble**: {{ settings_for('rlpd').critics }}
-# critics instead of two. Each update draws {{ settings_for('rlpd').target_critics }} of them, and
-# the target takes the smallest of *their* values. Where the data say little, critics that began
-# differently disagree, and the smallest is a careful guess. (It also normalises what goes through
-# each hidden layer, which bounds a critic's values.)
+# actions are guessed too high. RLPD's remedy is **layer normalisation**: what goes through each
+# hidden layer is normalised, which bounds the values that a critic can give to what the data do not
+# show. It also has an **ensemble**, {{ settings_for('rlpd').critics }} critics instead of two. Each
+# update draws {{ settings_for('rlpd').target_critics }} of them, and the target takes the smallest
+# of *their* values.
 # <!-- claim: (lambda s: s.bonus == s.margin == s.xi_multiplier == 0 and s.beta_start == 0.5 and
 #   s.beta_episodes is None)(settings_for('rlpd')) -->
 #
@@ -354,7 +354,7 @@ predict("other_ways.4", "Which earns most after 5 seconds of computing?", learne
 compared = equal_decisions.by_method(shipped.shipped_experiment("beyond"))
 by_rule = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 200))
 title = (
-    "Of the five with a teacher PPO after cloning is last after 100,000 decisions, and first "
+    "PPO after cloning has the lowest mean of the five after 100,000 decisions, and the highest "
     "after 5 s"
 )
 bc.show(figures.at_equal_budgets(compared, by_rule.returns.mean(), title))
@@ -388,8 +388,9 @@ below = (
 table(["", *headings], rows, below)
 
 # %% [markdown]
-# **See.** After {{ FIRST | , }} decisions PPO after cloning earns the least of the five; after {{
-# SECOND | , }} all ten of its agents escape. By computing time it is far ahead.
+# **See.** After {{ FIRST | , }} decisions PPO after cloning has the lowest mean of the five (ten
+# agents show it against two of the four, see below); after {{ SECOND | , }} all ten of its agents
+# escape. By computing time it is far ahead.
 #
 # The last two rows have no teacher. PPO escapes in none of its ten trainings of {{ LAST | , }}
 # decisions, although its return still rises. Plain SAC, which keeps its drives, escapes in {{
@@ -479,9 +480,9 @@ compare_predictions(
 #
 # 1. A teacher can give data, a start, a second opinion or a pull. Some learners need it once,
 #    others for as long as they drive.
-# 2. RLPD's ensemble is meant as a careful guess where the data say little; this lesson did not
-#    measure that. IBRL's choice need not fade, but the teacher has to be present. A curriculum by
-#    return needs a return that tells success from failure.
+# 2. RLPD bounds its critics by layer normalisation, and takes the smallest of some of them; this
+#    lesson did not take the two apart. IBRL's choice need not fade, but the teacher has to be
+#    present. A curriculum by return needs a return that tells success from failure.
 # 3. After {{ FIRST | , }} decisions bootstrapped SAC and IBRL earn more than PPO after cloning. Our
 #    agents do not rank the other four, and after {{ SECOND | , }} none of the five.
 # 4. PPO needs by far the least computing time.

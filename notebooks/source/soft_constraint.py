@@ -163,9 +163,10 @@ table(["the agent is sure of", "its KL (nats)"], rows)
 # π̃.
 #
 # The order matters. $D_\mathrm{KL}(\pi \| \tilde\pi)$, the *reverse* KL, charges the agent for
-# doing often what π̃ does seldom, and lets it drop what π̃ does. The *forward* KL,
-# $D_\mathrm{KL}(\tilde\pi \| \pi)$, charges it for doing seldom what π̃ does often, and lets it add
-# other actions.
+# doing often what π̃ does seldom; to drop the rule's action for another one costs that one's price,
+# {{ math.log(80) | .2f }} nats, and no more. The *forward* KL, $D_\mathrm{KL}(\tilde\pi \| \pi)$,
+# charges it for doing seldom what π̃ does often; to drop the rule's action there costs infinitely
+# many nats.
 #
 # **Exercise (5 min, ●●○).** Write the KL for a batch of states.
 
@@ -428,8 +429,9 @@ bc.show(charts.lines(strengths, worth, title, x_label, y_label, "x", marks=marks
 # to be seen (lesson [[how_many_seeds]]).
 # <!-- claim: with_kl_in_actor_only() >= escaped('soft') == 8 -->
 #
-# In the program of lesson [[update_and_loop]], `bootcourse/learn/textbook.py`, the KL stands in
-# `critic_target` and in `actor_loss`.
+# (The field calls the KL in the target a *value penalty*, the KL in the actor's loss alone *policy
+# regularisation*.) In the program of lesson [[update_and_loop]], `bootcourse/learn/textbook.py`,
+# the KL stands in `critic_target` and in `actor_loss`.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # In the paper the KL stands inside the discounted sum (its Equation 15). One can also leave it out
@@ -468,7 +470,22 @@ bc.show(charts.lines(updates, {"soft": xi}, title, "update", y_label, logarithmi
 
 # %% [markdown]
 # In the study, with the same settings, that is after {{ tenth_of_xi('soft').min() }} to {{
-# tenth_of_xi('soft').max() }} episodes. Do your parts make the same update as ours?
+# tenth_of_xi('soft').max() }} episodes.
+#
+# **What fades?** Put ξ = 200 α into the best compromise of Round 3:
+#
+# $$ \pi^*(a) \propto
+# \exp\Big( \frac{Q(a)}{201\,\alpha} + \tfrac{200}{201} \log\tilde\pi(a) \Big) $$
+#
+# α stands under Q alone. So the second term, the rule's head start measured in *logits*, is
+# $\tfrac{200}{201} \log 72$ = {{ 200 / 201 * math.log(72) | .2f }} at the first update and at the
+# last one: the rule as a prior does not fade. What fades is the temperature 201 α, from {{ 201 *
+# SETTINGS.alpha_init | .2f }} towards 0. While it is high a lead of 1 in Q hardly counts; when it
+# is low the same lead outweighs every head start. Where two actions have almost the same Q, the
+# rule's action stays the more probable one.
+# <!-- claim: math.isclose(200 / 201 * math.log(8 * RULE_P / (1 - RULE_P)), 4.26, abs_tol=0.005) -->
+#
+# Do your parts make the same update as ours?
 
 # %%
 own_code.compare()
@@ -546,6 +563,9 @@ bc.show(figure)
 #   with_target(0.3).max() | .0f }} |
 # | 1, above it | rise | {{ with_target(1).min() | .0f }} to {{ with_target(1).max() | .0f }} |
 #
+# With η = 1 nothing stops the rise: a larger ξ holds the policy closer to π̃, whose entropy stays
+# below η, so α rises on, and ξ = 200 α with it.
+#
 # No run here tests a small, constant ξ.
 # <!-- claim: 0.3 < entropy_of_the_rule() < 1 -->
 # <!-- claim: with_target(1).max() < of('rule').scores('returns').mean() -->
@@ -576,8 +596,9 @@ compare_predictions(
 # 4. The objective, a sum over time, puts the KL in the actor's loss and in the critics' target. In
 #    the target it lowers the value of staying in the trap.
 # 5. With ξ fixed at 2 the study's agents end near the rule's return. With ξ = {{
-#    SETTINGS.xi_multiplier }} α, which fades, {{ beyond_the_rule() }} of ten earn more than twice
-#    as much, and the others get out on hardly any road.
+#    SETTINGS.xi_multiplier }} α, {{ beyond_the_rule() }} of ten earn more than twice as much, and
+#    the others get out on hardly any road. In logits the rule's head start stays; the temperature
+#    fades, so that small differences in Q come to count.
 # <!-- claim: beyond_the_rule() == escaped('soft') -->
 #
 

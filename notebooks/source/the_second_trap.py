@@ -349,7 +349,7 @@ bc.show(charts.lines(alone["at"][0] / 1000, named, title, *axes, looks=(PPO,)))
 # <!-- claim: (ppo('alone')['curve'][:, -1] > idle().rewards.sum()).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=10
-# The two endings are where most answers fail. Draw two rows, one that ends in an accident and one
+# The two endings are the hard part. Draw two rows, one that ends in an accident and one
 # that runs out of time, and fill in δ and the sum for both. Who thinks that clipping is a limit on
 # the policy? It takes the payment away, and other rows of the batch can push the policy further.
 

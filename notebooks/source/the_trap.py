@@ -476,12 +476,13 @@ table(["", "who gets out", "mean return", "drives that end in an accident"], row
 # of('bootstrapped').scores('success') >= ESCAPES].max() | .0f }} % of their drives, the others in
 # {{ 100 * of('bootstrapped').scores('accident')[of('bootstrapped').scores('success') <
 # ESCAPES].min() | .0f }} % or more. In brackets is the 95 % *interval*: the mean over very many
-# such agents probably lies in it. It is wide because we have only ten.
+# such agents probably lies in it. It is wide because ten agents in two such groups are few.
 #
 # Look at the last row. A plan of 13 actions that looks at nothing for 150 s earns more than plain
 # SAC's mean agent. (The interval of the ten helped agents holds the plan's return, so they do not
-# tell which is better; each that escapes earns more than the plan, which crashes often.) What does
-# an agent add to it?
+# tell which is better; each that escapes earns more than the plan.) What does an agent add to it?
+# Nearly every road, with fewer accidents: the plan gets out on {{ 100 * blind_plan().success.mean()
+# | .0f }} % of the roads and crashes on {{ 100 * (blind_plan().accident > 0).mean() | .0f }} %.
 # <!-- claim: of('bootstrapped').scores('returns')[of('bootstrapped').scores('success') >=
 #   ESCAPES].min() > blind_plan().returns.mean() -->
 # <!-- claim: blind_plan().returns.mean() > of('bootstrapped').scores('returns').mean() >

@@ -310,12 +310,12 @@ for words, fallen_too in (("as before", False), ("and rows of fallen states", Tr
 table(["rows, all with terminated = 0", "Q after 4,000 pushes"], rows, "One agent of each kind.")
 
 # %% [markdown]
-# **Explain.** With these rows the estimate stays low, so they were what was missing. It also stays
-# low for longer: after 18,000 pushes three agents of ours were within a tenth of {{ 1 / (1 - 0.99)
-# | .0f }}, where the estimate belongs if nothing ends. Yet these agents, too, use a network, learn
-# estimates from estimates, and do so on rows of older policies. (Sutton and Barto, chapter 11, call
-# these three the *deadly triad*: together they *can* diverge.) A target that reads values which no
-# row corrects comes back in lesson [[offline_learning]].
+# **Explain.** With these rows the estimate stays low over these 4,000 pushes, so they were what was
+# missing. (If nothing ends, it belongs near {{ 1 / (1 - 0.99) | .0f }}. Does it stay there? Try
+# 30,000 pushes.) These agents, too, use a network, learn estimates from estimates, and do so on
+# rows of older policies. Sutton and Barto, chapter 11, call these three the *deadly triad*:
+# together they *can* diverge. A target that reads values which no row corrects comes back in lesson
+# [[offline_learning]].
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Let groups predict the whole order, not only the first place. A belief to name: "the second critic

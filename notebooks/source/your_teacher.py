@@ -78,8 +78,8 @@ table(["100 roads", "gets out, %", "accidents, %", "return"], rows)
 #   teacher_exam('racer').accident.any() -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Ask for a ranking of the students, on the board. Expect most people to rank them as the teachers
-# are ranked, by what they earn. Keep it visible until Round 3. The one training of this lesson
+# Ask for a ranking of the students, on the board. The ranking to discuss is that of the teachers
+# themselves, by what they earn. Keep it visible until Round 3. The one training of this lesson
 # comes out differently on another processor; the groups of ten ship with the course.
 
 # %% [markdown]
@@ -195,8 +195,9 @@ bc.show(bc.top_view_over_time(mine_drive, times=[0, 3, 6, 9, 15, out], title=tit
 #   (two_situations(10.0).accident > 0).sum() > 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# A usual first attempt changes left at once, at 10 m/s or more, and hits trap 2. Let them print the
-# seconds before the accident. With 1 m/s less the same rule passes. A group that finds this has a
+# A first attempt that changes left at once, at 10 m/s, hits a car on {{ 100 *
+# (two_situations(10.0).accident > 0).mean() | .0f }} % of the roads. Let them print the seconds
+# before such an accident. With 1 m/s less the same rule passes. A group that finds this has a
 # rule of two situations: let the others say why it works. A rule that passes but brakes to 6 m/s is
 # worth keeping, too: look whether its students are slow as well.
 
@@ -407,12 +408,13 @@ bc.show(figures.learners(worth, title))
 #   the twenty agents of DAgger and the soft constraint {{ sum(worth()['random-50',
 #   m].escapers(m) for m in ('dagger', 'soft')) }} escapes.
 # - **The mirrored teacher does not get out, and none of its thirty students does.**
-# - **The best driver is not the best to copy**: the planner's DAgger agents crash in nearly all
-#   drives; {{ worth()['rule', 'dagger'].escapers('dagger') }} of the rule's ten escape. We have not
-#   tested why. What the 26 numbers leave out is no likely reason: nine in ten of these drives end
-#   within 5 s, beside the two traps, which hold their speed and are both observed.
-# <!-- claim: 0.85 < (lambda r: np.mean(r.tested['distance'] / r.tested['speed'] <
-#   5.3))(worth()['planner', 'dagger']) < 0.95 -->
+# - **A row with few labels says little about its teacher.** DAgger has the same number of *drives*
+#   from each teacher, and drives that crash are short. The planner's ten agents crash within
+#   seconds, so they had {{ labels('planner')[0] }} to {{ labels('planner')[1] }} decisions to learn
+#   from, the rule's {{ labels('rule')[0] | , }} to {{ labels('rule')[1] | , }}. None of the first
+#   escapes, and {{ worth()['rule', 'dagger'].escapers('dagger') }} of the second. To say which of
+#   the two drivers is better to copy, give both as many decisions.
+# <!-- claim: labels('planner')[1] < labels('rule')[0] / 3 -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
 #   sum(worth()['random-50', m].escapers(m) for m in ('dagger', 'soft')) == 1 -->
 # <!-- claim: teachers_success('mirrored') == 0 and all(worth()['mirrored', m].escapers(m) == 0 and
@@ -441,8 +443,8 @@ bc.show(figures.learners(worth, title))
 # ## Round 6: a road where looking matters
 #
 # (This round can wait: nothing builds on it.) The rule of two situations does not look to
-# the side, and passes. So the default road does not test whether a driver looks. Here is one that
-# does: ten cars fill the left lane, from about 30 m behind you to about 150 m ahead, at 10.5 to
+# the side, and passes. So the default road does not test whether a driver looks. On this one it
+# matters: ten cars fill the left lane, from about 30 m behind you to about 150 m ahead, at 10.5 to
 # 11.5 m/s. They are faster than the traps, so they pass you.
 # <!-- claim: example_teachers.DENSE.traffic.cars == 10 -->
 
@@ -490,8 +492,10 @@ compare_predictions(
 # 2. A teacher enters in three places: demonstrations, μ(s) and μ(s'). Swap it in each of them.
 # 3. A teacher's return alone does not decide what its students learn: ask where it leads, too.
 # 4. A teacher can help where it leads through states that the learner rarely reaches alone. Early
-#    help need not last: judge after the whole training. It depends on the learner, too: of three,
-#    only bootstrapped SAC learned from a half-random teacher in each of ten trainings.
+#    help need not last: judge after the whole training. It depends on the learner, too: from a
+#    half-random teacher bootstrapped SAC learned in each of ten trainings, and with the soft
+#    constraint alone one agent of ten did, after as many decisions.
+# <!-- claim: worth()['random-50', 'soft'].escapers('soft') == 1 -->
 # 5. If a teacher makes no difference, three seeds against three still separate completely, in the
 #    direction that you hope for, one time in twenty. Several verdicts need a correction.
 # <!-- claim: math.comb(6, 3) == 20 -->

@@ -25,6 +25,11 @@ right_lines("""transitions
 """)
 
 wrong_lines("""transitions
+    a low reward is an end: rows(observations, actions, rewards, rewards <= -10)
+    collisions alone: rows(observations, actions, rewards, [0] * (len(actions) - 1) + [accident % 2])
+    nothing after the end: found = solution(observations, actions, rewards, accident)
+        found[found[:, -1] > 0, observations.shape[1] : 2 * observations.shape[1]] = 0
+        found
     without the end: rows(observations, actions, rewards, [0] * len(actions))[:, :-1]  # shape
     reward before action: rows(observations, rewards, actions, [0] * (len(actions) - 1) + [accident > 0])
 """)
@@ -34,7 +39,21 @@ right_lines("""cloning_loss
     with one hot: own = torch.nn.functional.one_hot(expert_actions, log_pi.shape[-1]); -(own * log_pi).sum(-1).mean()
 """)
 
+right_lines("""cloning_loss
+    cross entropy: functional.cross_entropy(log_pi, expert_actions)
+    a distribution: -torch.distributions.Categorical(logits=log_pi).log_prob(expert_actions).mean()
+    row by row: -sum(row[action] for row, action in zip(log_pi, expert_actions, strict=True)) / len(log_pi)
+""")
+
 wrong_lines("""cloning_loss
+    the logarithm of the probability: pi = log_pi.exp()
+        -pi[torch.arange(len(pi)), expert_actions].log().mean()  # exp(-120) is 0 in float32
+    a distribution of probabilities: policy = torch.distributions.Categorical(probs=log_pi.exp())
+        -policy.log_prob(expert_actions).mean()
+    at most 100 nats: functional.nll_loss(log_pi.clamp(min=-100), expert_actions)
+    smoothed: functional.cross_entropy(log_pi, expert_actions, label_smoothing=0.01)
+    the wrong ones alone: chosen = log_pi.gather(1, expert_actions[:, None])[:, 0]
+        -(chosen * (log_pi.argmax(1) != expert_actions)).mean()
     detached: solution(log_pi.detach(), expert_actions)  # no gradient reaches `log_pi`
     in numpy: torch.tensor(-np.mean(log_pi.numpy()[np.arange(len(log_pi)), expert_actions]))  # use torch's functions
     one hot mean: own = torch.nn.functional.one_hot(expert_actions, log_pi.shape[-1]); -(own * log_pi).mean()
@@ -53,6 +72,42 @@ def with_a_list_of_rows(rows, train, drive, rounds):
 
 
 wrong_lines("""dagger
+    states and labels exchanged: drivers = [train(rows)]
+        for _ in range(rounds):
+            own = drive(drivers[-1]).clone()
+            own[:, 0], own[:, ACTION] = own[:, RULE_ACTION].clone(), own[:, 0].clone()
+            rows = torch.cat([rows, own])
+            drivers.append(train(rows))
+        drivers  # column `ACTION` alone
+    labels in order: drivers = [train(rows)]
+        for _ in range(rounds):
+            own = drive(drivers[-1]).clone()
+            own[:, ACTION] = own[:, RULE_ACTION].sort().values
+            rows = torch.cat([rows, own])
+            drivers.append(train(rows))
+        drivers
+    labels of other rows: drivers = [train(rows)]
+        for _ in range(rounds):
+            own = drive(drivers[-1]).clone()
+            own[:, ACTION] = own[:, RULE_ACTION].flip(0)
+            rows = torch.cat([rows, own])
+            drivers.append(train(rows))
+        drivers
+    an accident is forgotten: drivers = [train(rows)]
+        for _ in range(rounds):
+            own = drive(drivers[-1]).clone()
+            own[:, ACTION], own[:, ACTION + 2] = own[:, RULE_ACTION], 0
+            rows = torch.cat([rows, own])
+            drivers.append(train(rows))
+        drivers  # column `ACTION` alone
+    the errors alone: drivers = [train(rows)]
+        for _ in range(rounds):
+            own = drive(drivers[-1])
+            own = own[own[:, ACTION] != own[:, RULE_ACTION]]
+            own[:, ACTION] = own[:, RULE_ACTION]
+            rows = torch.cat([rows, own])
+            drivers.append(train(rows))
+        drivers
     a number of drivers: len(cloning.dagger(rows, train, drive, rounds))
     all columns from the action on: drivers = [train(rows)]
         for _ in range(rounds):

@@ -17,13 +17,20 @@ def submit(
     out: Path | None = typer.Option(None, help="The file to write; by default submission-NAME.json in the folder."),
 ) -> None:
     """Put your answers and predictions into one file to hand in. Nothing is run."""
+    from bootcourse.course.classroom.submission import around, prediction_files
     from bootcourse.course.classroom.submission import submit as write
+    from bootcourse.course.predictions import FILE
 
     path, submission = write(folder, name, out)
     written = submission.written
     print(path)
     print(f"Answers: {len(written)}. Predictions: {len(submission.predictions)}.", end=" ")
     print("Hand in this file." if written else "No exercise is answered yet.")
+    if found := prediction_files(folder, around(folder)):
+        print(f"The predictions are those of {' and '.join(map(str, found))}.")
+    else:
+        looked = " or ".join(map(str, around(folder)))
+        print(f"No predictions were found: there is no {FILE} in {looked}.")
     print(*submission.problems, sep="\n", end="\n" * bool(submission.problems))
 
 

@@ -15,10 +15,10 @@ import bootcourse
 from bootcourse.course.edition import HANDOUT
 from bootcourse.course.lessons import LESSONS, number
 from bootcourse.errors import BootcourseError
-from bootcourse.files import read_bytes, read_json, write_bytes
+from bootcourse.files import read_bytes, read_json, unix_lines, write_bytes
 
 KIT = Path(bootcourse.__file__).resolve().parent.parent
-COPIED = ("bootcourse", "assets", "tools/install.sh", "pyproject.toml", "Makefile", "LICENSE")
+COPIED = ("bootcourse", "assets", "tools/install.sh", "pyproject.toml", "Makefile", "LICENSE", ".gitattributes")
 
 
 class Handout(Struct):
@@ -104,7 +104,8 @@ def update(folder: Path, lessons: set[int] | None, solutions: bool | None) -> li
 
 
 def hashed(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()[:16]
+    """Of a text the same on every system: a student's Git may have changed how its lines end."""
+    return hashlib.sha256(unix_lines(data)).hexdigest()[:16]
 
 
 def content(lessons: set[int] | None, solutions: bool) -> dict[str, bytes]:
@@ -120,7 +121,7 @@ def content(lessons: set[int] | None, solutions: bool) -> dict[str, bytes]:
         raise BootcourseError(f"{KIT}/notebooks has none of these lessons: install the course as its README says.")
     kit = sorted(path for name in COPIED for path in [KIT / name, *(KIT / name).rglob("*")] if path.is_file())
     kit = [path for path in kit if not {"__pycache__", ".ipynb_checkpoints"} & set(path.parts)]
-    files |= {path.relative_to(KIT).as_posix(): read_bytes(path) for path in kit}
+    files |= {path.relative_to(KIT).as_posix(): unix_lines(read_bytes(path)) for path in kit}
     lock = read_bytes(KIT / "student.lock")  # no test and book packages; under the name that its Makefile knows
     files["environment.lock"] = lock.replace(b"student.lock", b"environment.lock")
     files["README.md"] = README.format(

@@ -7,7 +7,7 @@ import hashlib
 import os
 import re
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from functools import cache
@@ -22,7 +22,7 @@ from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Noteboo
 from bootcourse.course.lessons import LESSONS
 from bootcourse.course.predictions import FILE, predictions
 from bootcourse.errors import BootcourseError
-from bootcourse.files import decoding, read_json, write_json
+from bootcourse.files import decoding, read_json, unix_lines, write_json
 
 ASK = "ask for it again"  # the remedy for a damaged file
 MOST = 200  # predictions, and as many problems
@@ -69,7 +69,7 @@ class Submission(Struct, frozen=True, kw_only=True):
 def fingerprint() -> str:
     """A hash of the exercises: two kits with the same one judge the same answers alike."""
     files = sorted(Path(exercises.__file__).parent.rglob("exercises.py"))
-    return hashlib.sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:12]
+    return hashlib.sha256(b"".join(unix_lines(file.read_bytes()) for file in files)).hexdigest()[:12]
 
 
 # Written by a student -------------------------------------------------------------------------------
@@ -83,7 +83,7 @@ def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]
     """
     name = " ".join(name.split())[:100]
     short = re.sub(r"[\W_]+", "-", name).strip("-").lower()[:40] or "mine"
-    path = out or folder / f"submission-{short}.json"
+    path = out or (folder.parent if folder.is_file() else folder) / f"submission-{short}.json"
     if not name:
         raise BootcourseError("The name is empty: give your name or student number, as in --name 'Ada Lovelace'.")
     if path.suffix != ".json":
@@ -95,15 +95,16 @@ def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]
         if old.name != name:
             raise BootcourseError(f"{path} is the submission of {old.name or 'nobody'}: choose another, with --out.")
     now = datetime.now(UTC).isoformat(timespec="seconds")
-    submission = replace(from_notebooks(folder), name=name, time=now, exercises=fingerprint())
+    submission = replace(from_notebooks(folder, around(folder)), name=name, time=now, exercises=fingerprint())
     write_json(path, to_builtins(submission))
     return path, submission
 
 
-def from_notebooks(path: Path) -> Submission:
+def from_notebooks(path: Path, others: Sequence[Path] = ()) -> Submission:
     """What a notebook holds, or a student's folder: notebooks and predictions.
 
-    A notebook that is damaged becomes one of the `problems`. Raises BootcourseError for a folder without any.
+    others: folders that may hold predictions, too. A notebook that is damaged becomes one of the `problems`. Raises
+    BootcourseError for a folder without any.
     """
     folder = path if path.is_dir() else path.parent
     notebooks = notebooks_in(folder) if path.is_dir() else [path]
@@ -128,13 +129,33 @@ def from_notebooks(path: Path) -> Submission:
     for name in [name for name, text in answers.items() if len(text) > LONGEST]:
         del answers[name]
         problems.append(f"The answer {name} has more than {LONGEST:,} characters with all that it uses: not read.")
-    for place in files(folder, str(FILE))[:1] if path.is_dir() else ():
+    for place in prediction_files(path, others):
         with noting(place):
-            predicted = convert(predictions(place.parents[1]), dict[str, Prediction])
+            kept = predictions(place.parents[1])
+            for question, one in convert(kept, dict[str, Prediction]).items():  # the first answer to a question stays
+                dated = str(kept[question].get("time", "")), one
+                predicted[question] = min(predicted.get(question, dated), dated, key=lambda pair: pair[0])
+    predicted = {question: one for question, (_, one) in predicted.items()}
     right, problems = tuple(sorted(right & set(answers))), tuple(problems[:MOST])
     named = {notebook.stem.partition("_")[2] for notebook in notebooks}  # its number may have been another one
     lessons = tuple(name for name in LESSONS if name in named)
     return Submission(answers=answers, right=right, predictions=predicted, problems=problems, lessons=lessons)
+
+
+def around(path: Path) -> list[Path]:
+    """The folders where a student's predictions may be: this one, the one above, and where the student is now.
+
+    A kernel that is not told where its notebook lies keeps them where it works: in the folder that was opened.
+    """
+    folder = (path if path.is_dir() else path.parent).resolve()
+    return list(dict.fromkeys([folder, folder.parent, Path.cwd()]))
+
+
+def prediction_files(path: Path, others: Sequence[Path] = ()) -> list[Path]:
+    """The files of predictions: below a student's folder, not beside a single notebook, and in the other folders."""
+    found = files(path, str(FILE)) if path.is_dir() else []
+    found += [place for each in others if (place := each / FILE).is_file()]
+    return list({place.resolve(): place for place in reversed(found)}.values())[::-1]
 
 
 def notebooks_in(folder: Path) -> list[Path]:

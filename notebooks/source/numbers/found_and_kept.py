@@ -90,10 +90,19 @@ def over_updates(driver: str) -> Counted:
     return Counted(*(sum(column) for column in zip(*each, strict=True)))
 
 
-def lost_it(method: str) -> np.ndarray:
-    """Which agents lose the way out as β ends: half or less of 50 episodes in a row from 900 to 1,100, (agents,)."""
-    around = of(method).curves["success"][:, 900:1100]
+def lost_it(method: str, results: Results | None = None) -> np.ndarray:
+    """Which agents lose the way out as β ends: half or less of 50 episodes in a row from 900 to 1,100, (agents,).
+
+    results: of other agents than the study's.
+    """
+    around = (results or of_all()).of(method).curves["success"][:, 900:1100]
     return (np.lib.stride_tricks.sliding_window_view(around, WINDOW, axis=1).mean(-1) <= 0.5).any(axis=1)
+
+
+def losing_p() -> float:
+    """Fisher's p: do more agents with both aids lose the way out around episode 1,000 if β ends there than if not?"""
+    groups = (lost_it("bootstrapped"), lost_it("bootstrapped", ablations()["β for ever"]))
+    return float(stats.fisher_exact([[int(each.sum()), int((~each).sum())] for each in groups]).pvalue)
 
 
 def found_after(updates: str, method: str) -> int:
@@ -188,7 +197,7 @@ def p_values() -> dict[str, float]:
     kept = {m: way(shipped_results("paper"), m).kept for m in ("demos", "margin", "bootstrapped", "margin_soft")}
     return {
         "keeping": keeping_p("demos"),
-        "keeping, both": keeping_p("bootstrapped"),
+        "losing, both": losing_p(),
         "trend": trend_p(),
         "driver": driver_p(),
         "updates": updates_p(),
@@ -211,7 +220,7 @@ def comparison(name: str) -> str:
     open_numbers, paper = ((clocks()["1/4", "μ"], "demos"), (clocks()["2", "π̃"], "demos")), shipped_results("paper")
     kept = {
         "keeping": f"{kept_of('demos', True)} against {kept_of('demos', False)} that found it",
-        "keeping, both": f"{kept_of('bootstrapped', True)} against {kept_of('bootstrapped', False)}",
+        "losing, both": f"{_losers(ablations()['β for ever'])} against {_losers(of_all())} that lose it",
         "trend": soft_kept(),
         "updates": f"{of_updates('1/4')} against {of_updates('2')}",
         "driver": f"{of_driver('μ')} against {of_driver('π̃')}",
@@ -220,6 +229,12 @@ def comparison(name: str) -> str:
         "bonus, margin, with ξ": kept_against((paper, "bootstrapped"), (paper, "margin_soft")),
     }
     return f"{kept[name]}|{_short(p_values()[name])}|{_short(holm()[name])}"
+
+
+def _losers(results: Results) -> str:
+    """ "7 of 10": how many agents with both aids lose the way out around episode 1,000."""
+    lost = lost_it("bootstrapped", results)
+    return f"{lost.sum()} of {len(lost)}"
 
 
 def soft_kept() -> str:

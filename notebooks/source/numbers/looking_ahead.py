@@ -80,6 +80,24 @@ def all_ten_gain() -> bool:
     return bool((fewer & (each("rollouts", "returns") > each("alone", "returns"))).all())
 
 
+def _accidents(base: str) -> np.ndarray:
+    """The accidents of each agent of a base policy, alone and with rollouts, (2, agents)."""
+    return np.stack([shipped()[Cell(base, form).name].measured["accidents"] for form in ("alone", "rollouts")])
+
+
+def less_safe(base: str) -> np.ndarray:
+    """Which agents of a base policy have more accidents with rollouts than alone, (agents,)."""
+    alone, ahead = _accidents(base)
+    return ahead > alone
+
+
+def most_harmed(base: str) -> tuple[int, int]:
+    """The accidents alone and with rollouts of the agent that gains most of them, on its 1,000 roads."""
+    alone, ahead = _accidents(base)
+    worst = int((ahead - alone).argmax())
+    return int(alone[worst]), int(ahead[worst])
+
+
 @cache
 def learned() -> dict[str, Results]:
     """The students of the look-ahead, by what they learned."""

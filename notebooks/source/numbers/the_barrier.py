@@ -3,9 +3,9 @@
 from functools import cache
 
 import numpy as np
-from bootcourse.course.lessons.the_barrier import attempts, chain, easier
+from bootcourse.course.lessons.the_barrier import attempts, chain, easier, figures
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.policies import PlanPolicy, random_policy
+from bootcourse.policies import random_policy
 from bootcourse.research.planner import Search, discounted_values, plan_episodes
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
@@ -36,6 +36,19 @@ def stayed() -> int:
 def by_chance():
     """The barrier's 5,000 random drives."""
     return drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
+
+
+@cache
+def chance_worth() -> np.ndarray:
+    """What those of them that end ahead are worth at γ = 0.8."""
+    driven = attempts.drive(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
+    return driven.values(0.8)[driven.ahead]
+
+
+def lone_escaper(measure: str) -> float:
+    """A measure of the one agent of twenty that escapes on the road as it is."""
+    here = easy("as it is")
+    return float(here.scores(measure)[here.scores("success") >= ESCAPES].item())
 
 
 def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
@@ -87,30 +100,50 @@ def ahead_and_crashed(kind: str) -> tuple[int, int]:
     return int(ahead.sum()), int((ahead & (easy(kind).episodes("accident") > 0)).sum())
 
 
-def temperature() -> float:
-    """The highest α at the end of the training, of the agents with the paper's settings."""
-    alphas = [easy(kind).curves["alpha"] for kind, (_, changes) in easier.KINDS.items() if not changes]
-    return max(float(row[np.isfinite(row)][-1]) for each in alphas for row in each)
-
-
 ONCE = "accelerates once, then nothing"
 FREE, RAM = "free accidents", "accelerates into trap 1"
-AT_RANDOM = (("a lane keeper", "at random"), ("a later start", "at random"), (FREE, "at random"))
-
-
 MIDDLE = easier.MIDDLE
 
 
-def ends_the_drive(kind: str, action: int) -> float:
-    """On which share of the lesson's 100 roads of a kind this action ends the drive at once, in an accident."""
-    driven = attempts.drive(PlanPolicy([action]), held_out_seeds(7, 100), easier.KINDS[kind][0])
-    return float(np.mean(driven.rewards[:, 0] == DEFAULT.reward.accident))
+def staying_return(kind: str) -> float:
+    """The return of a car that stays behind trap 1 on the lesson's 100 roads of a kind."""
+    return float(idle().rewards.sum() if kind == "as it is" else worth_of(kind, "stays", 1.0))
+
+
+def paying(kind: str) -> int:
+    """How many of the twenty agents of a kind escape and earn more than staying."""
+    return int(figures.paying(easy(kind), staying_return(kind)).sum())
 
 
 def middle_p() -> float:
-    """Fisher's p of the agents that escape from the two later starts, of twenty each."""
-    won = [easy(kind).escapers("sac") for kind in ("a later start", MIDDLE)]
+    """Fisher's p of these agents, as it is and mid-lane."""
+    won = [paying(kind) for kind in ("as it is", MIDDLE)]
     return float(stats.fisher_exact([[each, 20 - each] for each in won]).pvalue)
+
+
+def _straight() -> np.ndarray:
+    """Which agents from mid-lane drive faster than 20 m/s, on average."""
+    return easy(MIDDLE).scores("speed") > 20
+
+
+def straight_on() -> int:
+    """How many they are."""
+    return int(_straight().sum())
+
+
+def straight_speed() -> float:
+    """How fast they drive, on average, m/s."""
+    return float(easy(MIDDLE).scores("speed")[_straight()].mean())
+
+
+def straight_return() -> float:
+    """The most that one of them earns."""
+    return float(easy(MIDDLE).scores("returns")[_straight()].max())
+
+
+def decided() -> int:
+    """How many of the study's plain agents have an entropy of 0.01 nat or less in their last 100 training episodes."""
+    return int((of("sac").curves["entropy"][:, -100:].mean(axis=1) <= 0.01).sum())
 
 
 def crash_soon(gamma: float | None = None) -> int:

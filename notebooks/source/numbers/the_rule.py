@@ -14,9 +14,9 @@ from bootcourse.scenario import DEFAULT
 
 
 @cache
-def sighted(sight: float, n: int = DEFAULT.rule.n) -> Episodes:
-    """The rule with another sight (m) and n speeds, on the lesson's 200 roads."""
-    rule = dataclasses.replace(DEFAULT.rule, n=n)
+def sighted(sight: float, n: int = DEFAULT.rule.n, t_safe: float = DEFAULT.rule.t_safe) -> Episodes:
+    """The rule with another sight (m), n speeds and another t_safe (s), on the lesson's 200 roads."""
+    rule = dataclasses.replace(DEFAULT.rule, n=n, t_safe=t_safe)
     seen = dataclasses.replace(DEFAULT.sight, distance=sight)
     driver = rule_policy(dataclasses.replace(DEFAULT, rule=rule, sight=seen))
     return drive_episodes(driver, held_out_seeds(1, 200))
@@ -43,21 +43,22 @@ def above_14(n: int, roads: int = 40) -> float:
 
 
 @cache
-def broken_off() -> tuple[float, float]:
-    """Of the accidents with a sight of 20 m: the share in which a lane change was broken off, and the last one's speed.
+def broken_off(crashed: bool = True) -> tuple[float, float, int]:
+    """Of the drives with a sight of 20 m that have an accident, or have none: the share in which a lane change was
+    broken off, the last lane change's speed, and the number of drives with one that was broken off.
 
     Broken off: on its way to the left the rule sees nobody ahead in the right lane and stays there. The speed (m/s) is
-    the lowest at which the last lane change before the accident began.
+    the lowest at which the last lane change of a drive began.
     """
     near = dataclasses.replace(DEFAULT, sight=dataclasses.replace(DEFAULT.sight, distance=20.0))
-    crashed = np.flatnonzero(sighted(20.0).accident)
+    which = np.flatnonzero((sighted(20.0).accident > 0) == crashed)
     seeds, right = held_out_seeds(1, 200), DEFAULT.road.lanes - 1
-    drives = record(rule_policy(near), [seeds[i] for i in crashed])
+    drives = record(rule_policy(near), [seeds[i] for i in which])
     broken, speeds = [], []
     for drive in drives:
         cars = drive.states[:: DEFAULT.clock.steps][: len(drive.actions)]
         reasons, ego = rule(cars, near).reasons, cars[:, EGO]
         turned = np.abs(ego[:, Y] - right * DEFAULT.road.lane_width) > 0.05
         broken.append(np.any((reasons == Reason.FREE) & (ego[:, LANE] == right) & turned))
-        speeds.append(ego[np.flatnonzero(reasons == Reason.CHANGE)[-1], SPEED])
-    return float(np.mean(broken)), float(np.min(speeds))
+        speeds += ego[np.flatnonzero(reasons == Reason.CHANGE)[-1:], SPEED].tolist()  # none if it changes no lane
+    return float(np.mean(broken)), float(np.min(speeds)), int(np.sum(broken))

@@ -16,10 +16,10 @@ def lowest_speeds(slowest: float) -> list[float]:
 
 
 @cache
-def slowest(spacing: float, first: float, a_max: float = 0.5, b: float = 0.5) -> float:
+def slowest(spacing: float, first: float, a_max: float = 0.5, b: float = 0.5, dt: float = 0.5) -> float:
     """The speed (m/s) of the slowest car of a ring after 800 s, one of whose cars begins at `first` (m/s)."""
     drivers = dataclasses.replace(DEFAULT.traffic, a_max=a_max, b=b)
-    return traffic.ring(spacing, first, seconds=800, traffic=drivers)[1][-1].min()
+    return traffic.ring(spacing, first, seconds=800, traffic=drivers, dt=dt)[1][-1].min()
 
 
 @cache

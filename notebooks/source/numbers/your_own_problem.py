@@ -6,10 +6,11 @@ import numpy as np
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import loops  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_own_problem.figures import decisions_of
-from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
+from bootcourse.research import elsewhere, elsewhere_claims, equal_decisions  # noqa: F401
 from bootcourse.research.computed import experiment
 from bootcourse.research.elsewhere import settings_of  # noqa: F401
 from bootcourse.research.problems import PROBLEMS  # noqa: F401
+from bootcourse.statistics import ESCAPES
 
 TEACHERS = ("good", "random", "systematic")
 FOUR = ("cloning", "soft", "demonstrations", "both")
@@ -78,3 +79,10 @@ def confirmed_of_h3() -> list[elsewhere_claims.Claim]:
 def best(problem: str, teacher: str, choose=max) -> str:
     """The one of the four methods with the highest mean return in a row, or with `min` the lowest."""
     return choose(FOUR, key=lambda method: cells().mean(problem, teacher, method))
+
+
+def plain_with_entropy() -> tuple[int, int]:
+    """Of the course's plain SAC agents with η = 0.3: how many escape after 200,000 decisions, of how many."""
+    agents = equal_decisions.by_method(experiment("beyond"))["sac"]
+    success = equal_decisions.at(agents, "success", equal_decisions.BUDGETS[1])
+    return int((success >= ESCAPES).sum()), len(success)

@@ -96,6 +96,12 @@ def decisions(teacher: str, method: str) -> float:
     return float(np.nansum(lengths(worth()[teacher, method].curves), axis=1, dtype=float).mean()) / 1000
 
 
+def labels(teacher: str) -> tuple[int, int]:
+    """The fewest and the most decisions of a teacher's ten DAgger agents: as many labels they learn from."""
+    each = np.nansum(lengths(worth()[teacher, "dagger"].curves), axis=1, dtype=float)
+    return int(each.min()), int(each.max())
+
+
 def budget(method: str) -> str:
     """The same in words, from the teacher with the shortest training to that with the longest: "163 to 188"."""
     four = ("rule", "random-50", "mirrored", "planner")

@@ -6,6 +6,7 @@ import torch
 from bootcourse.course.exercise import NotAsAsked, exercise, logits, refuse
 from bootcourse.course.lessons.demonstrations import cloning
 from bootcourse.course.lessons.demonstrations.cloning import ACTION, RULE_ACTION
+from bootcourse.course.lessons.discrete_sac.exercises import OF_NOTHING
 from bootcourse.learn import bc
 
 
@@ -52,8 +53,10 @@ def transitions(observations, actions, rewards, accident):
 
 
 def cloning_cases(rng):
-    """One state, a sure policy, a uniform one; then 40 at random."""
+    """One state, policies sure of the demonstrated action and of another, a uniform one; then 40 at random."""
     yield torch.full((1, 9), -np.log(9)), torch.tensor([3])
+    for action in (5, 3):
+        yield torch.full((1, 9), -120.0).scatter(1, torch.tensor([[5]]), 0.0), torch.tensor([action])
     yield torch.tensor(rng.normal(0, 8, (9, 9))).log_softmax(-1), torch.tensor(rng.integers(0, 9, 9))
     for _ in range(40):
         n = rng.integers(2, 8)
@@ -85,25 +88,44 @@ cloning_loss = exercise(
             "likely.",
         ".mean(-1) ->":
             "This is the loss of each state: take the mean over the batch.",
+        "return -log_pi -> return -log_pi.exp().log()":
+            f"Your loss is not finite where the policy is sure of another action: {OF_NOTHING}",
+        "return -log_pi.gather(-1, expert_actions.unsqueeze(-1)).exp().add(1e-8).log().mean()":
+            "Your loss stops growing where the policy gives the demonstrated action less than what you add inside the "
+            "logarithm, and so does its gradient. Use `log_pi` itself, which needs no such number.",
     },
 )(bc.cloning_loss)  # fmt: skip
 
 
-def collecting(answer, rows, rounds):
-    """The drivers that an answer trains, as numbers: each says on which rows with which labels it was trained."""
-    zeros = [column for column in range(rows.shape[1]) if column not in (0, ACTION, RULE_ACTION)]
+NUMBER, REST = 0, [column for column in range(RULE_ACTION + 2) if column not in (0, ACTION, RULE_ACTION)]
+
+
+def numbered(first, count):
+    """Transitions in which each row has a number, and all else follows from it: see `collecting`."""
+    number = torch.arange(first, first + count).float()
+    rows = 1 + number[:, None] * torch.arange(1, RULE_ACTION + 3) % 11  # never 0
+    rows[:, NUMBER], rows[:, RULE_ACTION] = number, (3 * number + 1) % 9
+    rows[:, ACTION] = torch.where(number % 3 == 0, rows[:, RULE_ACTION], (rows[:, RULE_ACTION] + number) % 9)
+    return rows
+
+
+def collecting(answer, count, rounds):
+    """The drivers that an answer trains, as numbers: the sum over their rows of number² · (label + 1).
+
+    The rule's own rows have the numbers 1 to `count`, and a driver's drives three others that follow from the driver.
+    So it shows which rows a driver has learned from, how often, and with which labels; their order does not count.
+    """
+    rows = numbered(1, count)
+    rows[:, ACTION] = rows[:, RULE_ACTION]
 
     def train(some):
-        if some[:, zeros].any():
-            raise NotAsAsked("You overwrite other columns of the transitions, too: change column `ACTION` alone.")
-        return float((some[:, ACTION] * some[:, 0]).sum() + len(some) / 64)  # in whatever order
+        right = numbered(0, 30)[some[:, NUMBER].long().clamp(0, 29)]
+        if some.shape[1] != rows.shape[1] or not torch.equal(some[:, REST], right[:, REST]):
+            raise NotAsAsked("You change other columns of the transitions, too: change column `ACTION` alone.")
+        return float((some[:, NUMBER].double() ** 2 * (some[:, ACTION].double() + 1)).sum())
 
     def drive(driver):
-        own = torch.zeros(3, rows.shape[1])
-        own[:, 0] = torch.arange(2, 5)
-        own[:, ACTION] = torch.arange(3) + int(driver) % 3
-        own[:, RULE_ACTION] = torch.arange(3) * 2 + int(driver) % 4
-        return own
+        return numbered(10 + int(driver) % 17, 3)
 
     drivers = answer(rows, train, drive, rounds)
     drivers = [drivers] if isinstance(drivers, float) else drivers  # the last one alone
@@ -113,28 +135,18 @@ def collecting(answer, rows, rounds):
 
 
 def dagger_cases(rng):
-    """No round, one round, several; from one row to many."""
-    drawn = zip(rng.integers(1, 9, 20), rng.integers(1, 5, 20), strict=True)
-    for n, rounds in ((4, 0), (1, 1), (4, 1), (4, 2), *drawn):
-        rows = torch.zeros(n, RULE_ACTION + 2)
-        rows[:, ACTION] = torch.tensor(rng.integers(0, 9, n)).float()
-        rows[:, RULE_ACTION] = rows[:, ACTION]
-        rows[:, 0] = torch.arange(1, n + 1)
-        yield rows, rounds
-
-
-def one_row(label):
-    row = torch.zeros(1, RULE_ACTION + 2)
-    row[0, [0, ACTION, RULE_ACTION]] = torch.tensor([1.0, label, label])
-    return row
+    """No round, one round, several; from one row to nine."""
+    yield from ((4, 0), (1, 1), (4, 1), (4, 2), (9, 4))
+    yield from zip(rng.integers(1, 10, 20).tolist(), rng.integers(1, 5, 20).tolist(), strict=True)
 
 
 dagger = exercise(
     "DAgger, Algorithm 3.1 of arXiv 1011.0686; here the clone drives in each round",
     minutes=12, difficulty=2, cases=dagger_cases, run=collecting,
     worked=[
-        ((one_row(4), 0), np.array([4 + 1 / 64])),  # one driver; the numbers stand for what it was trained on
-        ((one_row(4), 1), np.array([4 + 1 / 64, 4 + 0 * 2 + 2 * 3 + 4 * 4 + 4 / 64])),  # labels 0, 2, 4 of own drives
+        ((1, 0), np.array([5.0])),  # one driver, trained on row 1, whose label is 4
+        # it drives rows 15, 16 and 17, which the rule labels with 1, 4 and 7
+        ((1, 1), np.array([5.0, 5 + 15**2 * 2 + 16**2 * 5 + 17**2 * 8])),
     ],
     hints=(
         "Train the first driver on `rows`. In each round: drive with the newest driver, relabel, append, train again.",

@@ -8,22 +8,35 @@ from bootcourse.course.exercise import exercise, logits
 from bootcourse.learn import sac
 
 LOG_2 = math.log(2)
+OF_NOTHING = "exp(-120) is 0 in float32, and log 0 is minus infinity. Use `log_pi` itself, not the logarithm of π."
 
 
-def policies(rng):
-    """log π of a few states: even ones, nearly sure ones, one state, as many states as actions; then 40 at random."""
-    yield torch.full((2, 9), -math.log(9))
-    yield torch.tensor(rng.normal(0, 8, (3, 9))).log_softmax(-1)
-    yield torch.tensor(rng.normal(0, 1, (1, 9))).log_softmax(-1)
-    for size in (9, *rng.integers(1, 6, 40)):
-        yield torch.tensor(rng.normal(0, rng.uniform(0.3, 3), (size, 9))).log_softmax(-1)
+def sure(size: int, others: float = -120.0) -> torch.Tensor:
+    """log π of policies that are sure of one action, another in each state; all else has about `others`: (size, 9)."""
+    return torch.full((size, 9), others).scatter(1, torch.arange(size)[:, None] % 9, 0.0).log_softmax(-1)
 
 
 def value_cases(rng):
-    """The policies above, with α = 0 and α = 1 first, and random values."""
-    for number, log_pi in enumerate(policies(rng)):
-        alpha = (0.0, 1.0, 0.2)[number] if number < 3 else rng.uniform(0.01, 1)
-        yield log_pi, torch.tensor(rng.normal(0, 3, tuple(log_pi.shape))), torch.tensor(alpha)
+    """Corner cases, the extremes of a training, then 40 at random: log π, Q and α.
+
+    In a training α goes from 10 down to 1e-5, and |Q| up to 200; a policy becomes so sure that a probability is 0.
+    """
+
+    def case(log_pi, alpha, scale=3.0):
+        return log_pi, torch.tensor(rng.normal(0, scale, tuple(log_pi.shape))), torch.tensor(alpha)
+
+    def states(size, scale):
+        return torch.tensor(rng.normal(0, scale, (size, 9))).log_softmax(-1)
+
+    even = torch.full((2, 9), -math.log(9))
+    yield from (case(even, 0.0), case(states(3, 8), 1.0), case(states(1, 1), 0.2))
+    yield from (case(sure(9), 0.2), case(sure(2, -11.5), 10.0, scale=0.0), case(states(3, 2), 10.0))
+    yield from (case(even, 1e-5, scale=1e-3), case(even, 0.002, scale=0.01))
+    for size, alpha in ((4, 0.002), (1, 1.0), (4, 10.0)):
+        log_pi = states(size, 2)
+        yield log_pi, 200 * torch.tensor(rng.choice([-1.0, 1.0], (size, 9))), torch.tensor(alpha)
+    for size in (9, *rng.integers(1, 6, 40)):
+        yield case(states(size, rng.uniform(0.3, 3)), rng.uniform(0.01, 1))
 
 
 HALF = torch.full((1, 2), -LOG_2)
@@ -53,6 +66,8 @@ HALF = torch.full((1, 2), -LOG_2)
             "You divide by the number of actions: π adds up to 1 already, so the expectation is a *sum* of π Q.",
         ".sum(-1) -> .sum(-1).mean()":
             "You took the mean over the batch. Each state has its own value; the loss takes the mean later.",
+        "alpha * log_pi -> alpha * log_pi.exp().log()":
+            f"Your value is not a number where a policy is sure of an action: {OF_NOTHING}",
     },
 )  # fmt: skip
 def soft_value(log_pi, q, alpha):
@@ -60,13 +75,15 @@ def soft_value(log_pi, q, alpha):
 
 
 def target_cases(rng):
-    """All ended, none ended, a batch of one, γ = 1 and γ = 0; then 60 at random."""
+    """All ended, none ended, a batch of one, γ = 1 and γ = 0; values of training, up to 200; then 60 at random."""
 
-    def batch(size, ended, gamma):
-        reward, value = torch.tensor(rng.normal(0, 3, (2, size)))
+    def batch(size, ended, gamma, scale=3.0):
+        reward, value = torch.tensor(rng.normal(0, scale, (2, size)))
         return reward, torch.tensor(rng.random(size) < ended).float(), value, gamma
 
     yield from (batch(4, 1.0, 0.8), batch(4, 0.0, 0.8), batch(1, 0.0, 0.9), batch(3, 0.5, 1.0), batch(3, 0.5, 0.0))
+    yield torch.tensor([0.16, -10.0, 1.0, -1.0]), torch.tensor([0.0, 1, 0, 0]), torch.tensor([-54.0, 5, 200, -200]), 0.8
+    yield from (batch(8, 0.4, 0.99, scale=60.0), batch(8, 0.4, 0.8, scale=20.0))
     yield from (batch(rng.integers(1, 7), 0.4, rng.uniform(0.1, 0.99)) for _ in range(60))
 
 
@@ -100,15 +117,20 @@ critic_target = exercise(
 
 
 def pair_cases(rng):
-    """One state, nine states (as many as actions), two actions, a target that is met; then 30 at random."""
+    """One state, nine states (as many as actions), two actions, a target that is met, errors of 30 and more; 30 drawn.
 
-    def case(size, actions=9):
-        q_pair = torch.tensor(rng.normal(0, 2, (2, size, actions)))
-        return q_pair, torch.tensor(rng.integers(0, actions, size)), torch.tensor(rng.normal(0, 2, size))
+    The lesson's agents have targets of -43, and the pole's values reach 100.
+    """
+
+    def case(size, actions=9, scale=2.0):
+        q_pair = torch.tensor(rng.normal(0, scale, (2, size, actions)))
+        return q_pair, torch.tensor(rng.integers(0, actions, size)), torch.tensor(rng.normal(0, scale, size))
 
     yield from (case(1), case(9), case(4, 2))
     q_pair, action, _ = case(3)
     yield q_pair, action, q_pair[0].gather(-1, action[:, None])[:, 0]
+    yield from (case(4, scale=30.0), case(6, 2, scale=100.0))
+    yield torch.zeros(2, 1, 2), torch.tensor([1]), torch.tensor([-43.0])
     for _ in range(30):
         yield case(rng.integers(2, 8))
 
@@ -172,6 +194,8 @@ def critic_loss(q_pair, action, target):
             "You penalise entropy: log π is negative, so α log π is *subtracted* from Q.",
         ".sum(-1) ->":
             "You took the mean over actions, too. Sum over the actions, then take the mean over the batch.",
+        "alpha * log_pi -> alpha * log_pi.exp().log()":
+            f"Your loss is not a number where a policy is sure of an action: {OF_NOTHING}",
     },
 )  # fmt: skip
 def actor_loss(log_pi, q, alpha):
@@ -180,17 +204,20 @@ def actor_loss(log_pi, q, alpha):
 
 
 def temperature_cases(rng):
-    """Entropy on target, above, below, a negative target; then 30 at random."""
+    """Entropy on target, above, below, a negative target, one state; α from 1e-5 to 10; then 30 at random."""
     pairs = [(0.5, 0.5), (2.0, 0.5), (0.1, 0.5), (0.3, -1.0)]
     pairs += [(rng.uniform(0, 2.2), rng.uniform(-1, 2)) for _ in range(30)]
     for middle, target in pairs:
         state_entropy = torch.tensor(middle + 0.05 * rng.normal(0, 1, rng.integers(2, 6)))
         yield torch.tensor(rng.uniform(-5, 0.5)), state_entropy, torch.tensor(target)
+    for alpha, middle, target in ((1e-5, 2.0, -1.0), (1e-4, 0.02, 2.0), (10.0, 0.3, 1.0), (0.3, 0.505, 0.5)):
+        yield torch.tensor(math.log(alpha)), torch.full((1,), middle), torch.tensor(target)
 
 
 temperature_loss = exercise(
     "α (H(π) - η), η the target entropy, Table of RL hyper-parameters",
     minutes=4, difficulty=2, cases=temperature_cases, slopes=["log_alpha", "state_entropy"],
+    tolerance=1e-5,  # it shows a difference in α where α is 1e-5
     worked=[
         # α = 1/2, mean entropy 1, target 0.6: 0.5 · 0.4
         ((torch.tensor(-LOG_2), torch.tensor([0.5, 1.5]), torch.tensor(0.6)), torch.tensor(0.2)),

@@ -5,6 +5,7 @@ import math
 import torch
 
 from bootcourse.course.exercise import exercise, logits
+from bootcourse.course.lessons.discrete_sac.exercises import OF_NOTHING
 from bootcourse.learn import bootstrap
 
 WRONG_COLUMNS = (
@@ -16,8 +17,9 @@ MINUS_ENTROPY = "You penalise entropy: H is *minus* the sum of π log π, so α 
 
 
 def rule_cases(rng):
-    """The first and the last action, one state, nine states, p = 1/2; then 40 at random."""
+    """The first and the last action, one state, nine states, p = 1/2; p near 1/9 and near 1; then 40 at random."""
     yield from ((torch.tensor([0, 8]), 0.9), (torch.tensor([4]), 0.5), (torch.arange(9), 0.99))
+    yield from ((torch.tensor([7, 2]), p) for p in (0.112, 0.999, 0.9999))
     for _ in range(40):
         yield torch.tensor(rng.integers(0, 9, rng.integers(1, 6))), rng.uniform(0.15, 0.99)
 
@@ -55,16 +57,17 @@ def log_stochastic_rule(rule_action, p):
     return log_rule.scatter(-1, rule_action.unsqueeze(-1), math.log(p))
 
 
-def sure(action):
-    """log π of a policy that takes one action with probability 1 - 8 e⁻⁴⁰: (1, 9)."""
-    return torch.full((1, 9), -40.0).scatter(-1, torch.tensor([[action]]), 0.0)
+def sure(action, others=-40.0):
+    """log π of a policy that takes one action with probability 1 - 8 exp(others): (1, 9)."""
+    return torch.full((1, 9), others).scatter(-1, torch.tensor([[action]]), 0.0)
 
 
 def constraint_cases(rng):
-    """A policy equal to the rule, one that is uniform, nine states (as many as actions); then 50 at random."""
+    """A policy equal to the rule, a uniform one, sure ones (9 nats and more), nine states; then 50 at random."""
     three = torch.tensor([3])
     yield log_stochastic_rule(three, 0.9), three, 0.9
     yield torch.full((2, 9), -math.log(9)), torch.tensor([0, 8]), 0.5
+    yield from ((sure(action, -120.0), three, p) for action, p in ((5, 0.999), (5, 0.9999), (3, 0.999), (0, 0.112)))
     for size in (9, 1, *rng.integers(1, 5, 50)):
         log_pi = torch.tensor(rng.normal(0, rng.uniform(0.5, 4), (size, 9))).log_softmax(-1)
         yield log_pi, torch.tensor(rng.integers(0, 9, size)), rng.uniform(0.15, 0.99)
@@ -103,6 +106,8 @@ def constraint_cases(rng):
         "log_pi.exp() * (log_pi - log_rule) -> log_pi.detach().exp() * (log_pi.detach() - log_rule)":
             "Your KL has the right value but no gradient, so it cannot change the policy: leave out `.detach()`, "
             "`.item()` and NumPy.",
+        "log_pi - log_rule -> log_pi.exp().log() - log_rule":
+            f"Your KL is not a number where a policy is sure of an action: {OF_NOTHING}",
     },
 )  # fmt: skip
 def soft_constraint(log_pi, rule_action, p):
@@ -112,13 +117,16 @@ def soft_constraint(log_pi, rule_action, p):
 
 
 def policy_cases(rng):
-    """ξ = 0 (without the rule), Q all equal, ξ far above α, one state; then 40 at random."""
+    """ξ = 0 (without the rule), Q all equal, ξ far above α, one state, training's extremes; then 40 at random."""
 
-    def case(size, alpha, xi, scale=2.0):
-        q, p = torch.tensor(rng.normal(0, scale, (size, 9))), rng.uniform(0.2, 0.99)
+    def case(size, alpha, xi, scale=2.0, p=None):
+        q, p = torch.tensor(rng.normal(0, scale, (size, 9))), rng.uniform(0.2, 0.99) if p is None else p
         return q, log_stochastic_rule(torch.tensor(rng.integers(0, 9, size)), p), alpha, xi
 
     yield from (case(3, 0.5, 0.0), case(2, 0.3, 0.7, scale=0.0), case(1, 0.01, 2.0))
+    yield from (case(3, 0.002, 0.0, scale=200.0), case(3, 10.0, 1.0, scale=200.0), case(3, 0.5, 2.0, scale=30.0))
+    yield from (case(3, 1e-5, 0.002, scale=0.002, p=0.999), case(3, 0.002, 0.0, scale=0.002))
+    yield case(3, 0.05, 2.0, p=0.999)
     yield from (case(rng.integers(1, 5), rng.uniform(0.2, 2), rng.uniform(0.05, 3)) for _ in range(40))
 
 
@@ -150,16 +158,26 @@ regularised_policy = exercise(
             "You return logarithms. Return the probabilities: each row adds up to 1.",
         "return ((q + xi * log_rule) / (alpha + xi)).softmax(0)":
             "You normalise over the states. Each *row* is one policy: the softmax runs over the last axis.",
+        "weights = ((q + xi * log_rule) / (alpha + xi)).exp(); return weights / weights.sum(-1, keepdim=True)":
+            "Your policy is not a number where Q / (α + ξ) is large: exp(100) is infinite in float32. Use "
+            "`softmax(-1)`, which subtracts the largest number first.",
     },
 )(bootstrap.regularised_policy)  # fmt: skip
 
 
 def loss_cases(rng):
-    """No rule (ξ = 0), no entropy (α = 0), one state; then 30 at random."""
-    for size, alpha, xi in ((3, 0.2, 0.0), (3, 0.0, 1.0), (1, 0.1, 2.0), *((n, 0.1, 0.7) for n in range(1, 31))):
+    """No rule (ξ = 0), no entropy (α = 0), one state, training's extremes; then 30 at random."""
+
+    def case(size, alpha, xi, scale=3.0, most=4.0):
         log_pi = torch.tensor(rng.normal(0, 2, (size, 9))).log_softmax(-1)
-        q, kl = torch.tensor(rng.normal(0, 3, (size, 9))), torch.tensor(rng.uniform(0, 4, size))
-        yield log_pi, q, alpha, xi, kl
+        q, kl = torch.tensor(rng.normal(0, scale, (size, 9))), torch.tensor(rng.uniform(0, most, size))
+        return log_pi, q, alpha, xi, kl
+
+    yield from (case(3, 0.2, 0.0), case(3, 0.0, 1.0), case(1, 0.1, 2.0))
+    yield sure(3, -120.0), torch.tensor(rng.normal(0, 3, (1, 9))), 0.2, 2.0, torch.tensor([9.0])
+    yield torch.full((2, 9), -math.log(9)), torch.zeros(2, 9), 1e-4, 0.002, torch.tensor([9.0, 0.01])
+    yield from (case(4, 0.05, 10.0, most=12.0), case(4, 10.0, 0.5), case(4, 0.01, 2.0, scale=60.0))
+    yield from (case(size, 0.1, 0.7) for size in range(1, 31))
 
 
 @exercise(
@@ -187,6 +205,8 @@ def loss_cases(rng):
             "This is the value, and training would make it *small*. A loss is minimised: return -V.",
         "xi * kl -> kl": NOT_WEIGHTED,
         "- alpha * log_pi -> + alpha * log_pi": MINUS_ENTROPY,
+        "alpha * log_pi -> alpha * log_pi.exp().log()":
+            f"Your loss is not a number where a policy is sure of an action: {OF_NOTHING}",
     },
 )  # fmt: skip
 def constrained_loss(log_pi, q, alpha, xi, kl):
@@ -195,17 +215,21 @@ def constrained_loss(log_pi, q, alpha, xi, kl):
 
 
 def target_cases(rng):
-    """All ended, none ended, ξ = 0, α = 0, one state, nine states; then 40 at random."""
+    """All ended, none ended, ξ = 0, α = 0, one state, nine states, training's extremes; then 40 at random."""
 
-    def case(size, ended=0.4, alpha=None, xi=None):
+    def case(size, ended=0.4, alpha=None, xi=None, scale=3.0, most=4.0):
         log_pi = torch.tensor(rng.normal(0, 1.5, (size, 9))).log_softmax(-1)
-        numbers = torch.tensor(rng.normal(0, 3, size)), torch.tensor(rng.random(size) < ended).double()
-        q_pair, kl = torch.tensor(rng.normal(0, 3, (2, size, 9))), torch.tensor(rng.uniform(0, 4, size))
+        numbers = torch.tensor(rng.normal(0, scale, size)), torch.tensor(rng.random(size) < ended).double()
+        q_pair, kl = torch.tensor(rng.normal(0, scale, (2, size, 9))), torch.tensor(rng.uniform(0, most, size))
         alpha, xi = rng.uniform(0.05, 1) if alpha is None else alpha, rng.uniform(0.1, 2) if xi is None else xi
         return *numbers, log_pi, q_pair, kl, alpha, xi, rng.uniform(0.5, 0.99)
 
     yield from (case(4, ended=1.0), case(4, ended=0.0), case(3, xi=0.0), case(3, alpha=0.0), case(1, ended=0.0))
     yield case(9)
+    yield from (case(6, scale=100.0), case(6, scale=30.0, most=12.0), case(6, xi=10.0, most=12.0), case(6, alpha=10.0))
+    yield from (case(6, alpha=1e-4, xi=0.002, scale=0.01), case(6, alpha=0.002, xi=0.0, scale=0.01))
+    reward, terminated, _, q_pair, kl, *numbers = case(2, ended=0.0)
+    yield reward, terminated, torch.cat([sure(3, -120.0), sure(0, -120.0)]), q_pair, kl, *numbers
     for _ in range(40):
         yield case(rng.integers(2, 7))
 
@@ -250,6 +274,9 @@ Q_PAIR = torch.tensor([[2.0] * 4 + [9.0] * 5, [5.0] * 4 + [2.0] * 5])[:, None].e
         "(next_q - alpha * next_log_pi) -> next_q":
             "Your value has no entropy: add α H(π(·|s')).",
         "- alpha * next_log_pi -> + alpha * next_log_pi": MINUS_ENTROPY,
+        "alpha * next_log_pi -> alpha * next_log_pi.exp().log()":
+            "Your target is not a number where a policy is sure of an action: exp(-120) is 0 in float32, and log 0 is "
+            "minus infinity. Use `next_log_pi` itself, not the logarithm of π.",
     },
 )  # fmt: skip
 def constrained_target(reward, terminated, next_log_pi, next_q_pair, next_kl, alpha, xi, gamma):

@@ -49,16 +49,28 @@ def worth(outcomes: Mapping[str, Outcome], title: str) -> Figure:
 
 
 FAR, SOME, NOT = 2, 1, 0  # how far a learner got: its square is dark, light or empty
-AGENTS = ("escapes: is ahead of trap 1 on 95 % of the roads or more", "is ahead on 10 % or more", "is ahead on fewer")
+AGENTS = (
+    "is ahead of trap 1 on 95 % of the roads or more, and earns more than staying",
+    "is ahead on 10 % or more, and the rest is not true",
+    "is ahead on fewer",
+)
 LEARNERS = ("learned to leave", "was on the free road, and did not learn to leave", "was not on the free road")
 SHADES = {FAR: style("sac").colour, SOME: "#A9CFE6", NOT: "white"}
 
 
-def ends(results: Results, gamma: float) -> list[tuple[int, bool]]:
-    """How the agents with this γ drive, for `squares`: how far they get, and whether they crash on most roads."""
+def paying(results: Results, staying: float) -> np.ndarray:
+    """Which agents escape and earn more than a car that stays behind trap 1, (agents,)."""
+    return (results.scores("success") >= ESCAPES) & (results.scores("returns") > staying)
+
+
+def ends(results: Results, gamma: float, staying: float) -> list[tuple[int, bool]]:
+    """How the agents with this γ drive, for `squares`: how far they get, and whether they crash on most roads.
+
+    staying: the return of a car that stays behind trap 1 there.
+    """
     chosen = np.array([agent["gamma"] == gamma for agent in results.agents])
     success, accident = (results.scores(name)[chosen] for name in ("success", "accident"))
-    far = np.where(success >= ESCAPES, FAR, np.where(success >= 0.1, SOME, NOT))
+    far = np.where(paying(results, staying)[chosen], FAR, np.where(success >= 0.1, SOME, NOT))
     return list(zip(far.tolist(), (accident > 0.5).tolist(), strict=True))
 
 

@@ -8,11 +8,13 @@ INF = float("inf")
 
 
 def speed_cases(rng):
-    """Traps on the grid, at its ends and off it, a free road, one lane free, all too slow; then 60 at random."""
+    """Traps on the grid, next to it, at its ends and off it, a free road, one lane free, all too slow; 60 at random."""
     for v_current, v_new in ((10.0, 10.0), (8.25, 8.25), (8.25, 20.0), (20.0, 8.25), (6.0, 6.0), (15.0, 15.0),
                              (INF, INF), (10.0, INF), (INF, 10.0), (5.0, 20.0)):  # fmt: skip
         yield v_current, v_new, 6.0, 15.0, 5
     yield 16.0, 14.9, 6.0, 15.0, 2
+    for v in (6.0, 8.25, 15.0):  # just above and just below a speed of the grid
+        yield from ((v + near, 20.0, 6.0, 15.0, 5) for near in (0.001, -0.001))
     for _ in range(60):
         low = rng.uniform(3, 8)
         yield *rng.uniform(4, 18, 2), low, low + rng.uniform(3, 10), rng.integers(2, 9)
@@ -54,9 +56,10 @@ def target_speed(v_current, v_new, v_min, v_max, n):
 
 
 def distance_cases(rng):
-    """No car ahead, equal speeds, closing in on one of the two only; then 60 at random."""
+    """No car ahead, equal speeds, closing in on one of the two only, by far and by little; then 60 at random."""
     yield from ((12.0, v_current, v_new, 2.0, 3.0) for v_current, v_new in ((INF, INF), (10.0, INF), (INF, 9.0)))
     yield 10.0, 10.0, 10.0, 2.0, 3.0
+    yield from ((30.0, 5.0, 6.0, 4.0, 3.0), (30.0, 29.0, 30.0, 4.0, 0.0), (12.0, 10.0, 11.0, 1.5, 2.999))
     yield from ((15.0, v_current, v_new, 2.5, 4.0) for v_current, v_new in ((8.0, 14.0), (14.0, 8.0)))
     yield from (rng.uniform([5, 5, 5, 0.5, 1], [20, 20, 20, 4, 8]) for _ in range(60))
 
@@ -108,6 +111,10 @@ def change_cases(rng):
     yield INF, 11.1, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0
     yield INF, 6.8, 5.0, 3.0, 8.0, 10.0, 1.0, 1.5  # 1.8 m behind: more than the floor, and it closes in 2 m
     yield INF, 9.2, 5.0, 3.0, 8.0, 12.0, 1.0, 4.5  # 4.2 m behind: it closes in 4 m, less than the floor
+    for near in (0.001, -0.001):  # a millimetre more than needed, or less: ahead, behind, behind at the floor
+        yield 8.0 + near, INF, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
+        yield INF, 11.0 + near, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0
+        yield INF, 8.0 + near, 5.0, 3.0, 8.25, 8.0, 1.5, 3.0
     for _ in range(150):
         front, rear, d_s, v, v_rear = rng.uniform([4, 4, 3, 6, 6], [22, 22, 12, 15, 15])
         length, t_safe, floor = rng.uniform([3, 0.5, 1], [8, 3, 5])

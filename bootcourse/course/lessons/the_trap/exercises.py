@@ -46,9 +46,10 @@ def decode(actions):
 
 
 def reward_cases(rng):
-    """Each accident, steering left and right, far more than an action does, off the centre; then 40 at random."""
+    """Each accident, steering left and right, far more than an action does, off the centre, fast; 40 at random."""
     yield from ((12.0, 0.0, 0.0, accident) for accident in range(4))
     yield from ((10.0, 0.8, theta, 0) for theta in (-np.pi / 50, np.pi / 50, -1.2, 1.2))
+    yield from ((v, 0.3, 0.0, 0) for v in (0.5, 4.99, 5.01, 12.49, 12.51, 14.99, 15.01, 18.5, 30.0))
     for _ in range(40):
         yield *rng.uniform([0, -2, -1], [17, 2, 1]), rng.choice(4, p=[0.7, 0.1, 0.1, 0.1])
 
@@ -99,6 +100,8 @@ def risk_cases(rng):
     yield from ((stay, 51.0, -9.5) for stay in (-30.0, -9.5))
     yield 20.0, 20.5, -20.0  # hardly any risk is worth it
     yield 20.0, 100.0, 19.5  # almost any risk is worth it
+    yield from ((20.0, 20.002, -20.0), (20.0, 30.0, 19.999))  # 5 in 100,000, and all but 1 in 10,000
+    yield from ((-0.5, 0.5, -9.5), (-5.0, -2.0, -9.5))  # returns of less than 0
     for _ in range(40):
         stay, gain = rng.uniform(-20, 40), rng.uniform(-10, 120)
         yield stay, stay + gain, stay + min(gain - 1, rng.uniform(-60, 10))
@@ -147,16 +150,26 @@ def bearable_risk(stay, escape, crash):
 
 
 def locks(rng):
-    """Roads on which two to six of the eight seconds decide: 1 in 9 to 1 in 729 plans gets out."""
+    """Roads on which some of the eight seconds decide, and on most all of them together: see `gets_out` below.
+
+    1 in 9 to 1 in 729 plans gets out.
+    """
     for deciding in (3, 2, 2, 2, 2, 2, 2, 4, 6, 6, 6, 6, 6, *rng.integers(2, 5, 9)):
-        yield tuple(rng.permutation(8)[:deciding].tolist()), tuple(rng.integers(3, 6, deciding).tolist())
+        actions = rng.integers(3, 6, deciding).tolist()
+        yield tuple(rng.permutation(8)[:deciding].tolist()), actions, int(rng.integers(3)) if deciding < 6 else None
 
 
 MANY = 100_000  # actions
+TOGETHER = np.array([1, 2, 1, 1, 2, 2, 1, 2])  # how much each second steers, where all decide together
+NOT_AGAIN = "Two equal generators give different plans: draw with `rng`, so that a search can be repeated."
 
 
-def found_on(answer, seconds, actions):
-    """Whether a planner's plan gets out where these seconds need these actions; 1 or 0."""
+def found_on(answer, seconds, actions, rest):
+    """Whether a planner's plan gets out where these seconds need these actions; 1 or 0.
+
+    rest: what is left of the weighted sum of all actions, divided by 3; None where only these seconds decide. With it
+    the mean of two plans that get out need not get out, and no second can be tried alone.
+    """
     asked = {3: 0, 4: 0, 5: 0}  # how often each action stood in a plan
 
     def gets_out(plans):
@@ -171,15 +184,25 @@ def found_on(answer, seconds, actions):
             missing = min(asked, key=asked.get)
             raise NotAsAsked(f"None of your plans holds action {missing}. `rng.integers(low, high)` leaves out `high`: "
                              "3, 4 and 5 are `rng.integers(3, 6)`.")  # fmt: skip
-        return (plans[:, list(seconds)] == actions).all(axis=1)
+        out = (plans[:, list(seconds)] == actions).all(axis=1)
+        return out if rest is None else out & (plans @ TOGETHER % 3 == rest)
 
-    plan = answer(gets_out, np.random.default_rng(0))
+    def planned():
+        plan = answer(gets_out, np.random.default_rng(0))
+        if plan is None:
+            return None
+        plan = np.asarray(plan)
+        if plan.shape != (8,):
+            raise NotAsAsked(f"Your planner returns an array of shape {plan.shape}: one plan is (8,).")
+        return plan
+
+    plan = planned()
     if plan is None:
         return None
-    plan = np.asarray(plan)
-    if plan.shape != (8,):
-        raise NotAsAsked(f"Your planner returns an array of shape {plan.shape}: one plan is (8,).")
-    return float(gets_out(plan[None])[0])
+    found = float(gets_out(plan[None])[0])
+    if len(seconds) == 4 and found and not np.array_equal(plan, planned()):  # most plans fail here: few would agree
+        raise NotAsAsked(NOT_AGAIN)
+    return found
 
 
 def does_not_get_out(cases, answers):
@@ -190,7 +213,7 @@ def does_not_get_out(cases, answers):
 @exercise(
     "random search over plans of eight seconds", minutes=10, difficulty=2, cases=locks, run=found_on,
     explain=does_not_get_out,
-    worked=[(((0, 1), (3, 5)), 1.0), (((7,), (4,)), 1.0)],  # a plan that gets out has to be returned
+    worked=[(((0, 1), (3, 5), None), 1.0), (((7,), (4,), 1), 1.0)],  # a plan that gets out has to be returned
     hints=(
         "`rng.integers(3, 6, (500, 8))` draws 500 plans. Ask `gets_out` about all of them at once.",
         "If `out.any()`, return `plans[out.argmax()]`, the first that gets out. If none does, draw again: a loop.",

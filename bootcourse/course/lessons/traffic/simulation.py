@@ -38,17 +38,18 @@ def ring(
     seconds: float = 400,
     traffic: Traffic = DEFAULT.traffic,
     acceleration: Callable[..., float] = follow,
+    dt: float = 0.5,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Places (m) and speeds (m/s) of 30 cars in a circle, both (steps, cars), in steps of 0.5 s.
+    """Places (m) and speeds (m/s) of 30 cars in a circle, both (steps, cars), in steps of `dt` (s).
 
     They start at the speed that they hold at this distance (`spacing`, m), one of them at `first` (m/s).
     acceleration: of (v, dv, gap, traffic), as `follow`.
     """
-    cars, dt = 30, 0.5
+    cars = 30
     x, v = spacing * np.arange(cars, dtype=float), np.full(cars, settled_speed(spacing))
     v[0] = first
     places, speeds = [], []
-    for _ in range(int(seconds / dt)):
+    for _ in range(round(seconds / dt)):
         gaps = (np.roll(x, -1) - x) % (spacing * cars)
         a = np.array([acceleration(*car, traffic) for car in zip(v, v - np.roll(v, -1), gaps, strict=True)])
         x, v = x + v * dt, np.maximum(v + a * dt, 0)
