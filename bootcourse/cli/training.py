@@ -64,11 +64,9 @@ def train(
         method = own or method
         given = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
         changes = {name: value for name, value in given.items() if value is not None}
-        settings, road = (
-            with_seeds(settings_for(method, setting, **changes), seeds, first_seed),
-            scenario_from(scenario),
-        )
-        asked, rule = (settings, episodes or METHODS[method].episodes, road), teacher_from(teacher)
+        settings = with_seeds(settings_for(method, setting, **changes), seeds, first_seed)
+        asked = settings, episodes or METHODS[method].episodes, scenario_from(scenario)
+        rule = teacher_from(teacher)
         if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
             with locked(out / UNFINISHED, "training"):  # removes what a training left that was killed at its very end
                 print(f"{out} is finished: there is nothing to resume.")
