@@ -11,7 +11,7 @@ from gymnasium.vector import VectorEnv
 from bootcourse.road.state import EGO, SPEED, X, Y
 from bootcourse.scenario import DEFAULT, Scenario
 
-TRAP = "Trap-v0"  # the id of the course's environment
+TRAP_ID = "Trap-v0"  # the id of the course's environment
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Place:
     """The trap with one of its scenarios, or another environment."""
 
     scenario: Scenario | None = DEFAULT  # None off the trap
-    name: str = TRAP  # under which gymnasium knows the environment; its class where it is not registered
+    name: str = TRAP_ID  # under which gymnasium knows the environment; its class where it is not registered
 
     @property
     def is_trap(self) -> bool:

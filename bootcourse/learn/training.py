@@ -22,7 +22,7 @@ from gymnasium.vector import VectorEnv
 from torch import Tensor
 
 from bootcourse.episodes.driving import copies_of, reached_observations
-from bootcourse.episodes.place import TRAP, place_of
+from bootcourse.episodes.place import TRAP_ID, place_of
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, whole
 from bootcourse.learn.agent import Agent, sample_actions
@@ -55,7 +55,7 @@ class Result:
     interrupted: bool
     stopped: dict[int, int] = field(default_factory=dict)  # {agent: the decision at which its loss was not finite}
     teacher: str = "rule"  # see `teachers.teacher_name`
-    environment: str = TRAP  # the name of a `Place`
+    environment: str = TRAP_ID  # the name of a `Place`
 
     def __repr__(self) -> str:
         counts = Counter(display_name(agent.settings.method) for agent in self.agents)

@@ -21,7 +21,7 @@ from msgspec import Meta, Struct, convert
 from safetensors.torch import save
 from torch import Tensor
 
-from bootcourse.episodes.place import TRAP, Place
+from bootcourse.episodes.place import TRAP_ID, Place
 from bootcourse.errors import BootcourseError
 from bootcourse.files import (
     TEMPORARY,
@@ -59,7 +59,7 @@ class Config(Struct, forbid_unknown_fields=True):
     scenario: Scenario | None  # None off the trap
     episodes: Annotated[int, Meta(ge=1)]
     alpha: Annotated[float, Meta(ge=0)]
-    environment: str = TRAP  # the name of a `Place`
+    environment: str = TRAP_ID  # the name of a `Place`
 
 
 class Provenance(Struct):
@@ -140,7 +140,7 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
         raise
 
 
-def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -> Run:
+def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP_ID) -> Run:
     """Read and check a run. teacher: its teacher in training, which the agents of some methods need to drive.
 
     environment: the id of the environment that it trained in. Raises BootcourseError, with the file and the remedy, if
