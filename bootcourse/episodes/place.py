@@ -31,6 +31,10 @@ class Place:
         """What a rule is given beside the state."""
         return (self.scenario,) if self.is_trap else ()
 
+    def seconds(self, decisions: np.ndarray) -> np.ndarray:
+        """How long so many decisions take; off the trap a second each."""
+        return decisions / (self.scenario or DEFAULT).clock.decision_rate
+
     def state(self, env: VectorEnv, observations: np.ndarray) -> np.ndarray:
         """What a teacher sees now: the cars (roads, vehicles, 10), which the environment will change; observations."""
         return env.cars if self.is_trap else observations
