@@ -23,8 +23,8 @@ others             the road for other people's code: one fast car, and adapters 
 comparison         some trainings side by side, in any environment: curves, intervals, a table
 one_per_cell       a notebook cell that runs again replaces what it showed
 replay3d           drives in 3D: in a notebook, in a browser, as one file
-web                the page that drives: the compiled road in a browser, one file without a network
-panels             widgets for notebooks: drive, train, look into one decision
+web                the road to look at and to drive: in a notebook, and as a page without a network
+panels             widgets for notebooks: train, look into one decision
 doctor             what is wrong with an installation, and what to do about it
 cli                the command line
 research           the paper's experiments and ours: jobs, tables, planner, checks against published figures
@@ -81,6 +81,7 @@ NAMES = added("NAMES") | {  # name -> where it is defined
     "save_runs": "bootcourse.storage.runs",
     "load_run": "bootcourse.storage.runs",
     # to look at it
+    "world": "bootcourse.web.widget",
     "show": "bootcourse.plots.figure",
     "top_view_over_time": "bootcourse.plots.top_view",
     "traces": "bootcourse.plots.traces",
@@ -90,7 +91,7 @@ NAMES = added("NAMES") | {  # name -> where it is defined
     "display_name": "bootcourse.methods",
     "BootcourseError": "bootcourse.errors",
 }
-MODULES = {  # name -> module; `bc.panels.drive_panel()`
+MODULES = {  # name -> module; `bc.panels.train_panel()`
     "formulas": "bootcourse.road.formulas",
     "state": "bootcourse.road.state",
     "rule": "bootcourse.rule",

@@ -19,6 +19,7 @@ from bootcourse.learn.training import Result, Training
 from bootcourse.markup import html
 from bootcourse.plots.training_curves import training_curves
 from bootcourse.statistics import bracketed, interval
+from bootcourse.terminal import printable
 
 Entry = Settings | Callable[[int], Training]
 
@@ -58,7 +59,7 @@ class Comparison:
 
     def __str__(self) -> str:
         widths = [max(map(len, column)) for column in zip(*self.rows(), strict=True)]
-        return "\n".join("  ".join(map(str.ljust, row, widths)).rstrip() for row in self.rows())
+        return printable("\n".join("  ".join(map(str.ljust, row, widths)).rstrip() for row in self.rows()))
 
     def _repr_html_(self) -> str:
         head, *rows = ["".join(html("<td>{}</td>", cell) for cell in row) for row in self.rows()]

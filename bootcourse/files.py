@@ -69,8 +69,15 @@ def remove_temporary(folder: Path) -> None:
 
 
 def write_json(path: Path, value) -> None:
-    """Write a value as JSON. Raises BootcourseError if the file cannot be written."""
-    write_bytes(path, (json.dumps(value, indent=2, sort_keys=True) + "\n").encode())
+    """Write a value as JSON. Raises BootcourseError if the file cannot be written.
+
+    What is no Unicode in its texts, as in a name from a terminal of another encoding, becomes "?": JSON cannot hold it.
+    """
+    text = json.dumps(value, indent=2, sort_keys=True)
+    if "\\ud" in text:  # half a letter, perhaps
+        value = json.loads(json.dumps(value, ensure_ascii=False).encode("utf-8", "replace"))
+        text = json.dumps(value, indent=2, sort_keys=True)
+    write_bytes(path, (text + "\n").encode())
 
 
 def check_replaceable(path: Path, *endings: str) -> Path:
@@ -147,6 +154,8 @@ def parse(text: str | bytes, kind: type[Kind], path: Path, remedy: str = COPY) -
     Raises BootcourseError that names the file, the field and the remedy.
     """
     with decoding(path, remedy):
+        if isinstance(text, bytes) and json.detect_encoding(text) != "utf-8":  # a Windows editor has saved it
+            text = text.decode(json.detect_encoding(text))
         value, wanted = msgspec.json.decode(text), getattr(kind, "FORMAT", None)
         if wanted and isinstance(value, dict) and value.get("format") != wanted:
             raise BootcourseError(

@@ -14,6 +14,14 @@ def this_cell() -> str | None:
     return str(parent.get("metadata", {}).get("cellId", ""))
 
 
+def replace_with(shown: object) -> None:
+    """Register what the running cell shows, and close what of its kind this cell showed before."""
+    cell = this_cell()
+    place = None if cell is None else (cell, type(shown).__name__)
+    close_shown_by(place)
+    note(place, shown)
+
+
 def close_shown_by(cell: object) -> None:
     """Close the replay or panel that this cell (or this place in a cell with several) showed when it last ran."""
     if (before := _shown.pop(cell, None)) is not None:

@@ -2,12 +2,14 @@
 
 policy(observations (roads, 26), cars (roads, vehicles, 10)) -> PolicyOutput. A trained agent uses the observations,
 the rule uses the cars, which are the true state (off the trap, the observations again). A policy with internal state
-also has a method `reset(roads)`, which `episodes/driving.py` calls before each episode.
+also has a method `reset(roads)`, which `episodes/driving.py` calls before each episode. Those of this library can be
+copied and pickled, so that another process drives with them.
 """
 
 import inspect
 import itertools
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -53,7 +55,20 @@ def idle_policy(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
 
 def rule_policy(scenario: Scenario) -> Policy:
     """The rule controller μ (Section III-D, Algorithm 1) as a policy for roads of a scenario."""
-    return lambda observations, cars: PolicyOutput(rule(cars, scenario).actions)
+    return policy_of(partial(_rule_actions, scenario))
+
+
+def _rule_actions(scenario: Scenario, cars: np.ndarray) -> np.ndarray:
+    return rule(cars, scenario).actions
+
+
+def _decided(decide: Callable[[np.ndarray], np.ndarray], observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+    return PolicyOutput(decide(cars))
+
+
+def policy_of(decide: Callable[[np.ndarray], np.ndarray]) -> Policy:
+    """A rule for all roads as a policy: decide, cars (roads, vehicles, 10) -> actions (roads,)."""
+    return partial(_decided, decide)
 
 
 def stochastic_rule_policy(scenario: Scenario, rng: np.random.Generator, p: float = RULE_P) -> Policy:
@@ -62,27 +77,30 @@ def stochastic_rule_policy(scenario: Scenario, rng: np.random.Generator, p: floa
     p: the probability of the rule's action; each other has (1 - p) / 8. The policy raises BootcourseError, when
     called, if p is outside [1/9, 1).
     """
-    return stochastic_policy(lambda cars: rule(cars, scenario).actions, rng, p)
+    return stochastic_policy(partial(_rule_actions, scenario), rng, p)
 
 
 def stochastic_policy(
     decide: Callable[[np.ndarray], np.ndarray], rng: np.random.Generator, p: float = RULE_P, n_actions: int = N_ACTIONS
 ) -> Policy:
     """The same for any rule: decide, cars (roads, vehicles, 10) -> actions (roads,)."""
+    return partial(_drawn, decide, rng, p, n_actions)
 
-    def drive(observations, cars):
-        actions = decide(cars)
-        drawn = sample_stochastic_rule(actions, p, rng, n_actions)
-        return PolicyOutput(drawn, stochastic_rule(actions, p, n_actions))
 
-    return drive
+def _drawn(decide, rng, p, n_actions, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+    actions = decide(cars)
+    drawn = sample_stochastic_rule(actions, p, rng, n_actions)
+    return PolicyOutput(drawn, stochastic_rule(actions, p, n_actions))
 
 
 def random_policy(rng: np.random.Generator, n_actions: int = N_ACTIONS) -> Policy:
     """The uniformly random policy: each of the nine actions has probability 1/9, drawn with `rng`."""
-    return lambda observations, cars: PolicyOutput(
-        rng.integers(n_actions, size=len(observations)), np.full((len(observations), n_actions), 1 / n_actions)
-    )
+    return partial(_uniform, rng, n_actions)
+
+
+def _uniform(rng, n_actions, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+    shape = len(observations), n_actions
+    return PolicyOutput(rng.integers(n_actions, size=len(observations)), np.full(shape, 1 / n_actions))
 
 
 class PlanPolicy:

@@ -1,10 +1,13 @@
 """The static book, as a reader without a server and without the network sees it."""
 
+import contextlib
 import re
 import shutil
 
+import nbformat
 import pytest
 
+import bootcourse as bc
 from bootcourse.course.lessons import LESSONS, stem
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
@@ -126,6 +129,18 @@ def test_a_replay_plays_in_the_book(made, new_page):
     picture = page.page.locator("iframe").first.screenshot(path=ARTEFACTS / "book-replay.png")
     assert not is_blank(picture) and page.errors == []
     page.page.close()
+
+
+def test_a_world_in_a_lesson_is_the_live_page_in_the_book(tmp_path):
+    cell = nbformat.v4.new_code_cell("bc.world(7)")
+    with contextlib.closing(bc.world(7, ghosts=["sac", bc.idle_policy])) as world:
+        data, _ = world._repr_mimebundle_()
+    cell.outputs = [nbformat.v4.new_output("display_data", data)]
+    nbformat.write(nbformat.v4.new_notebook(cells=[cell]), tmp_path / "lesson.ipynb")
+    book.with_live_worlds(tmp_path / "lesson.ipynb", tmp_path / "page.ipynb")
+    [output] = nbformat.read(tmp_path / "page.ipynb", 4).cells[0].outputs
+    assert 'src="../trap.html#road=7&amp;ghost=sac&amp;driver=you' in output.data["text/html"]
+    assert set(output.data) == {"text/html", "text/plain"}
 
 
 @needs_browser

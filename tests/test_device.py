@@ -33,6 +33,19 @@ def test_a_device_that_torch_does_not_find_is_named_and_a_checkpoint_is_not_call
     assert not isinstance(refused.value, DamagedCheckpoint)
 
 
+@pytest.mark.parametrize("method", METHODS)
+def test_a_default_type_that_somebody_gave_torch_changes_nothing(method):
+    usual = updated(method)
+    torch.set_default_dtype(torch.float64)
+    try:
+        other = updated(method)
+    finally:
+        torch.set_default_dtype(torch.float32)
+    assert usual.updates == other.updates > 0 and usual.losses
+    for name, loss in usual.losses.items():
+        assert other.losses[name].dtype == loss.dtype and torch.equal(other.losses[name], loss), name
+
+
 @pytest.mark.skipif(not torch.cuda.is_available(), reason="there is no CUDA device")
 def test_every_method_learns_on_a_gpu_and_goes_on_there(tmp_path):
     for method in METHODS:

@@ -21,6 +21,25 @@ CHANGED = """(number, act) => new Promise(done => {
   (new Function('panel', act))(panel);
 })"""
 
+WORLD = ".jp-OutputArea [data-lm-suppress-shortcuts]"
+FRAMES = """async host => {  // pictures from a key to its arrow, with a clock that waits for decisions
+    const pad = host.shadowRoot.getElementById('pad'), shell = host.shadowRoot.getElementById('shell'), took = [];
+    const send = (kind, key) => shell.dispatchEvent(new KeyboardEvent(kind, { key, bubbles: true, composed: true }));
+    const frame = () => new Promise(requestAnimationFrame);
+    for (const key of ['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight']) {
+        await new Promise(rest => setTimeout(rest, 2500));
+        await frame();
+        send('keydown', key);
+        let frames = 0;
+        while (!pad.querySelector('.coming') && frames < 100) { await frame(); frames++; }
+        took.push(frames);
+        send('keyup', key);
+    }
+    return took;
+}"""
+TRAINED = """from bootcourse.storage.assets import FOLDER
+agent = bc.load_run(FOLDER / "runs/bootstrapped-4").agent
+"""
 THINKING = """from bootcourse.learn.settings import settings_for
 from bootcourse.learn.training import Training
 from bootcourse.panels import policy_panel
@@ -60,13 +79,117 @@ def test_a_live_replay_plays_in_its_cell(open_notebook):  # a recording in a pag
         assert until(lambda: not is_blank(element.screenshot(path=path)))
 
 
+# Worlds
+
+
+@pytest.fixture(scope="module")
+def worlds(open_notebook):
+    cells = (
+        "import bootcourse as bc\nmine = bc.world(road=3, ghosts=[])\nmine",
+        TRAINED + "learned = bc.world(4, driver=agent, ghosts={'the same': agent})\nlearned",
+        "def my_rule(cars, scenario):\n    return 1 if cars[0, 3] > 8 else 4\n"
+        "ruled = bc.world(5, driver=my_rule, ghosts=[bc.rule_policy(bc.DEFAULT)], details=True)\nruled",
+        "def broken(cars, scenario):\n    return 9\nwrong = bc.world(5, driver=broken)\nwrong",
+    )
+    with open_notebook(*cells) as it:
+        it.page.set_default_timeout(20_000)
+        it.run_all()
+        it.page.wait_for_function(f"() => document.querySelectorAll('{WORLD}').length === 4")
+        yield it
+
+
+def world(worlds, number):
+    shown = worlds.page.locator(WORLD).nth(number)
+    shown.scroll_into_view_if_needed()
+    return shown
+
+
+def answer(worlds, code):
+    """What the kernel prints."""
+    return worlds.page.evaluate(
+        """async code => {
+            const kernel = jupyterapp.shell.currentWidget.context.sessionContext.session.kernel;
+            const run = kernel.requestExecute({ code }), said = [];
+            run.onIOPub = ({ content }) => said.push(content.text ?? content.evalue ?? "");
+            await run.done;
+            return said.join("").trim();
+        }""",
+        code,
+    )
+
+
+def test_the_arrow_keys_drive_where_the_focus_is_and_leave_the_notebook_alone(worlds):
+    shown, keys = world(worlds, 0), worlds.page.keyboard
+    shown.get_by_role("button", name="step").click()
+    shown.locator("#road").click()
+    place = "[jupyterapp.shell.currentWidget.content.activeCellIndex, document.querySelectorAll('.jp-Cell').length]"
+    before, high = worlds.page.evaluate(place), shown.bounding_box()["y"]
+    for time, together in enumerate((["ArrowUp"], ["ArrowDown"], ["ArrowDown", "ArrowLeft"]), start=1):
+        for key in together:
+            keys.down(key)
+        for key in together:
+            keys.up(key)
+        assert until(lambda time=time: shown.locator("#clock").inner_text() == f"{time} of 150 s")
+    for key in ("d", "d", "b", "x"):  # the notebook's: delete the cell, a new one below, cut
+        keys.press(key)
+    assert worlds.page.evaluate(place) == before and shown.bounding_box()["y"] == high, "nothing scrolls"
+    shown.screenshot(path=str(ARTEFACTS / "world.png"))
+    assert until(lambda: answer(worlds, "print(mine.drive.actions.tolist()[:3])") == "[7, 1, 0]")
+
+
+@pytest.mark.parametrize("number, name", [(1, "learned"), (2, "ruled")])
+def test_an_agent_drives_in_the_page_and_a_rule_of_the_readers_in_python(worlds, number, name):
+    shown = world(worlds, number)
+    shown.get_by_role("button", name="5×").click()
+    shown.get_by_role("button", name="Start").click()
+    assert until(
+        lambda: answer(worlds, f"print({name}.drive is not None and len({name}.drive.actions) > 2)") == "True", 60
+    )
+    shown.screenshot(path=str(ARTEFACTS / f"world-{name}.png"))
+    driver = "agent.as_policy()" if name == "learned" else "bc.teacher_policy(my_rule)"
+    again = f"[again] = bc.record({driver}, [{name}.drive.seed])\ndriven = {name}.drive.actions\n"
+    assert answer(worlds, again + "print((again.actions[:len(driven)] == driven).all())") == "True"
+
+
+def test_a_rule_that_fails_is_one_sentence_on_the_road(worlds):
+    shown = world(worlds, 3)
+    assert until(lambda: "Your rule 'broken' failed" in shown.locator("#message").inner_text())
+    assert worlds.shown.errors == []
+
+
+def test_a_key_is_seen_two_pictures_later_and_the_module_is_there_once(worlds):
+    took = worlds.page.locator(WORLD).nth(0).evaluate(FRAMES)
+    assert max(took) <= 2, took  # 33 ms at 60 pictures a second
+    assert answer(worlds, "print(len({id(each.library) for each in (mine, learned, ruled)}))") == "1"
+
+
+def test_a_training_is_watched_in_its_cell_and_the_road_s_button_stops_it(open_notebook):
+    cells = (
+        "from bootcourse.learn.settings import settings_for\nfrom bootcourse.learn.training import Training\n"
+        "result = Training([settings_for('bootstrapped', learning_starts=64)], 20_000).run()",
+        "print('interrupted' if result.interrupted else 'whole', len(result.agents))",
+    )
+    with open_notebook(*cells) as it:
+        it.page.set_default_timeout(60_000)
+        it.page.evaluate("() => { jupyterapp.commands.execute('notebook:run-all-cells'); }")
+        road = it.page.locator(WORLD)
+        clock = lambda: road.locator("#clock").inner_text()  # noqa: E731
+        assert until(lambda: clock() not in ("", "0 of 150 s"), 60), "the present agent drives"
+        assert until(lambda: "the agent now" in road.locator("#driver").inner_text())
+        it.page.locator(".jp-OutputArea svg circle").first.wait_for()
+        it.page.locator(".jp-OutputArea-output").first.screenshot(path=str(ARTEFACTS / "watched.png"))
+        it.page.get_by_role("button", name="Stop, and keep what was learned").click()
+        it.page.get_by_text("interrupted 1").wait_for()
+        assert "Stopped after" in it.page.locator(".jp-OutputArea").first.inner_text() and it.shown.errors == []
+
+
 # Panels
 
 
 @pytest.fixture(scope="module")
 def notebook(open_notebook):
     cells = (
-        "from bootcourse.panels import drive_panel, train_panel\nmine = drive_panel(seed=3)\nmine",
+        "from bootcourse.panels import train_panel\n"
         "trainer = train_panel('bootstrapped', seeds=2, episodes=5000)\ntrainer",
         THINKING + "weighed = policy_panel(drive)\nweighed",
         "from bootcourse.panels import bonus_panel\nbonus = bonus_panel()\nbonus",
@@ -77,7 +200,7 @@ def notebook(open_notebook):
     with open_notebook(*cells) as it:
         it.page.set_default_timeout(20_000)
         it.run_all()
-        it.page.wait_for_selector(".bc-drive[data-bc-keys]")
+        it.page.wait_for_selector(".bc-panel[data-bc-named]")
         yield it
 
 
@@ -106,65 +229,39 @@ def waits_for(notebook, number, words):
     )
 
 
-def test_the_arrow_keys_drive_and_two_at_once_are_one_action(notebook):
-    shown, active = panel(notebook, 0), "jupyterapp.shell.currentWidget.content.activeCellIndex"
-    shown.locator(".bc-keys").click()
-    keys, cell = notebook.page.keyboard, notebook.page.evaluate(active)
-    for seconds, together in enumerate((["ArrowUp"], ["ArrowDown"], ["ArrowDown", "ArrowLeft"], [" "]), start=1):
-        for key in together:
-            keys.down(key)
-        for key in together:
-            keys.up(key)
-        waits_for(notebook, 0, f">{seconds} s<")
-    assert notebook.page.evaluate(active) == cell, "the arrows do not go from cell to cell"
-    shown.screenshot(path=str(ARTEFACTS / "drive-panel.png"))
-    notebook.page.evaluate(
-        "jupyterapp.shell.currentWidget.context.sessionContext.session.kernel.requestExecute("
-        "{code: 'mine.say(str(mine.rollout.actions.tolist()))'})"
-    )
-    waits_for(notebook, 0, "[7, 1, 0, 4]")
-
-
-def test_a_press_and_a_slider_show_their_effect_within_a_tenth_of_a_second(notebook):
-    button(notebook, 0, "Drive again").click()
-    took = [changed(notebook, 0, "panel.querySelector('.bc-pad-4').click()") for _ in range(8)]
-    assert statistics.median(took) < 100, took
+def test_a_slider_shows_its_effect_within_a_tenth_of_a_second(notebook):
     took = []
     for key in ("ArrowLeft", "ArrowRight") * 4:
-        panel(notebook, 2).locator(".noUi-handle").nth(1).focus()
+        panel(notebook, 1).locator(".noUi-handle").nth(1).focus()
         down = f"new KeyboardEvent('keydown', {{key: '{key}', bubbles: true, cancelable: true}})"
-        took.append(changed(notebook, 2, f"panel.querySelectorAll('.noUi-handle')[1].dispatchEvent({down});"))
-    panel(notebook, 2).screenshot(path=str(ARTEFACTS / "policy-panel.png"))
+        took.append(changed(notebook, 1, f"panel.querySelectorAll('.noUi-handle')[1].dispatchEvent({down});"))
+    panel(notebook, 1).screenshot(path=str(ARTEFACTS / "policy-panel.png"))
     assert statistics.median(took) < 100, took
 
 
-def test_a_training_grows_on_the_page_stops_and_is_watched(notebook):
-    shown = panel(notebook, 1)
-    button(notebook, 1, "Train").press("Enter")
-    waits_for(notebook, 1, "<circle")
+def test_a_training_grows_on_the_page_and_stops(notebook):
+    shown = panel(notebook, 0)
+    button(notebook, 0, "Train").press("Enter")
+    waits_for(notebook, 0, "<circle")
     notebook.page.wait_for_function("document.activeElement.getAttribute('aria-label') === 'Stop'")
-    waits_for(notebook, 1, "decisions/s")
-    took = [changed(notebook, 0, "panel.querySelector('.bc-pad-4').click()") for _ in range(4)]
+    waits_for(notebook, 0, "decisions/s")
+    assert until(lambda: shown.locator("#clock").inner_text() not in ("", "0 of 150 s")), "the present agent drives"
     shown.screenshot(path=str(ARTEFACTS / "train-panel.png"))
-    button(notebook, 1, "Stop").click()
-    waits_for(notebook, 1, "Stopped: ")
-    button(notebook, 1, "Watch").click()
-    frame = shown.locator("iframe").element_handle().content_frame()
-    frame.wait_for_selector("canvas")
-    assert statistics.median(took) < 200, took  # another panel answers while it trains
+    button(notebook, 0, "Stop").first.click()
+    waits_for(notebook, 0, "Stopped: ")
 
 
 def test_the_keyboard_commits_a_prediction(notebook):
-    shown = panel(notebook, 4)
+    shown = panel(notebook, 3)
     shown.locator("input[type=radio]").first.focus()
     for key in ("ArrowDown", "Tab", "Enter"):  # the arrow chooses, and one Tab leaves all three choices
         notebook.page.keyboard.press(key)
-    waits_for(notebook, 4, "You predict: no.")
+    waits_for(notebook, 3, "You predict: no.")
     assert "<i>yes</i>" in shown.inner_text()  # a choice is text; the question stands above the form
-    panel(notebook, 5).locator("input").focus()
+    panel(notebook, 4).locator("input").focus()
     notebook.page.keyboard.type("12")
     notebook.page.keyboard.press("Enter")
-    waits_for(notebook, 5, "You predict: 12 s.")
+    waits_for(notebook, 4, "You predict: 12 s.")
     kept = json.loads((notebook.folder / FILE).read_text())
     assert (kept["the_barrier.1"]["answer"], kept["the_barrier.2"]["answer"]) == ("no", 12)
 
@@ -172,15 +269,15 @@ def test_the_keyboard_commits_a_prediction(notebook):
 def test_each_control_of_a_panel_has_a_name_in_letters(notebook):
     controls = ".bc-panel [role=slider], .bc-panel input:not([type=radio], [type=checkbox]), .bc-panel button"
     names = notebook.page.locator(controls).evaluate_all(
-        "each => each.map(one => one.getAttribute('aria-label') ?? '')"
+        "each => each.filter(one => one.getRootNode() === document).map(one => one.getAttribute('aria-label') ?? '')"
     )
-    assert len(names) > 30 and all(re.search("[a-z]{3}", name) for name in names), names
-    assert "accelerate left" in names and "Prediction 4.2" in names
+    assert len(names) > 20 and all(re.search("[a-z]{3}", name) for name in names), names
+    assert "Prediction 4.2" in names
 
 
 def test_the_panels_fit_their_column_and_the_console_has_no_error(notebook):
     widths = notebook.page.evaluate(
         "[...document.querySelectorAll('.bc-panel')].map(p => [p.scrollWidth, p.clientWidth])"
     )
-    assert len(widths) == 6 and all(scroll <= client for scroll, client in widths)
+    assert len(widths) == 5 and all(scroll <= client for scroll, client in widths)
     assert not [error for error in notebook.shown.errors if "WebGL" not in error]

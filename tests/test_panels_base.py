@@ -11,7 +11,7 @@ import pytest
 
 from bootcourse import one_per_cell, panels
 from bootcourse.errors import BootcourseError
-from bootcourse.panels import drive_panel, policy_panel, train_panel
+from bootcourse.panels import policy_panel, train_panel
 from bootcourse.panels.bonus import targets
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel
@@ -102,8 +102,6 @@ REFUSED = [
     (lambda _: train_panel(gama=0.5), "'gama' is unknown"),
     (lambda _: train_panel(seeds=0), "seeds = 0"),
     (lambda _: train_panel(episodes=1.5), "episodes = 1.5"),
-    (lambda _: drive_panel(seed=2.5), "seed = 2.5"),
-    (lambda drive: drive_panel(seed=2, ghost=drive), "cannot drive: give a function of"),
 ]  # fmt: skip
 
 

@@ -1,14 +1,18 @@
 """The training panel: train, look, stop, watch, and what goes wrong on the way."""
 
-import socket
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from bootcourse import one_per_cell
+from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.panels import train_panel
+from bootcourse.panels.watch import LEFT, WIDE, Watch
+from bootcourse.web.packing import EXACT, packed_network
 from tests.panels import from_page, raise_in_callbacks, words  # noqa: F401
 from tests.waiting import until
 
@@ -33,34 +37,118 @@ def trained(panel):
     return panel
 
 
-def test_train_trains_with_what_the_sliders_show_and_the_best_agent_is_watched():
+def test_train_trains_with_what_the_sliders_show_and_the_present_agent_is_on_the_road():
     panel = small()
-    assert panel.stop.disabled and panel.watch.disabled
+    assert panel.stop.disabled
     panel.numbers["rule_p"].value = 0.5
     trained(panel)
     assert np.isfinite(panel.result.curves["return"]).all() and len(panel.result.agents) == 2
     assert panel.result.agents[0].settings.rule_p == 0.5 and "Done: 6 of 6 episodes" in words(panel)
-    panel.watch.click()
-    port = panel.replay.port
-    assert f":{port}" in panel.stage.value and "which no agent has seen" in words(panel)
-    order = panel.children
-    assert order.index(panel.stage) < order.index(panel.chart), "the replay opens in sight of its button"
-    panel.close()
-    with socket.socket() as probe:
-        assert probe.connect_ex(("127.0.0.1", port)) != 0
+    now, before = panel.watch.drivers
+    assert (now["id"], before["id"]) == ("now", "before") and now["network"]["sizes"] == [26, 16, 16, 9]
+    assert panel.watch in panel.stage.children and not panel.watch.running
 
 
 def test_the_curves_grow_while_it_trains_and_stop_stops_within_a_second():
     panel = small(seeds=4, episodes=20_000)
     panel.train.click()
-    assert until(lambda: "decisions/s" in words(panel) and "<circle" in panel.chart.value)
-    shown = panel.chart.value
-    assert until(lambda: panel.chart.value != shown)
+    assert until(lambda: "decisions/s" in words(panel) and panel.watch and "<circle" in panel.watch.chart)
+    shown, driving = panel.watch.chart, panel.watch.drivers
+    assert until(lambda: panel.watch.chart != shown and panel.watch.drivers != driving)
     started = time.monotonic()
     panel.stop.click()
     panel.thread.join(10)
     assert time.monotonic() - started < 1.0
-    assert panel.result.interrupted and "Stopped: " in words(panel) and not panel.watch.disabled
+    assert panel.result.interrupted and "Stopped: " in words(panel)
+
+
+def test_a_slider_acts_on_the_running_training_and_is_marked_in_its_curves():
+    panel = small("bootstrapped", seeds=2, episodes=20_000)
+    panel.train.click()
+    assert until(lambda: panel.watch and panel.watch.training.updates > 5)
+    training = panel.watch.training
+    panel.numbers["rule_p"].value = 0.6
+    panel.numbers["xi_multiplier"].value = 50.0
+    panel.numbers["beta_start"].value = 0.25
+    done = training.updates
+    assert until(lambda: training.updates > done + 3)
+    panel.stop.click()
+    panel.thread.join(10)
+    learner = training.learner
+    assert learner.rule_p.tolist() == [[pytest.approx(0.6)]] * 2 and (training.beta == 0.25).all()
+    assert np.allclose(learner.coefficients()["xi"], 50 * learner.coefficients()["alpha"])
+    assert {settings.xi_multiplier for settings in training.settings} == {50.0}
+    assert [words for _, words in panel.watch.marks] == ["p 0.6", "ξ 50", "β 0.25"]
+    assert all(f">{words}<" in panel.watch.chart for _, words in panel.watch.marks)
+    assert panel.result.agents[0].settings.rule_p == 0.6, "what is saved says how it was trained"
+
+
+def test_what_cannot_change_while_it_trains_is_refused_in_one_sentence():
+    training = Training(with_seeds(settings_for("soft", **SMALL), 1), 1)
+    for values, sentence in (
+        ({"gamma": 0.9}, "the setting 'gamma' is unknown"),
+        ({"rule_p": 1.5}, "p = 1.5 is outside"),
+    ):
+        with pytest.raises(BootcourseError, match=sentence):
+            training.change(**values)
+    cloning = Training(with_seeds(settings_for("bc", **SMALL), 1), 1)
+    with pytest.raises(BootcourseError, match="'bc' does not use rule_p"):
+        cloning.change(rule_p=0.5)
+    with pytest.raises(BootcourseError, match="bonus = 1.0, but method 'bc' is defined by doing without"):
+        cloning.change(bonus=1.0)
+
+
+def test_a_click_on_the_curves_puts_the_agent_of_that_moment_at_the_wheel(monkeypatch):
+    monkeypatch.setattr("bootcourse.panels.watch.KEEP", 2)
+    training = Training(with_seeds(settings_for("soft", **SMALL), 1), 40)
+    shown = Watch(training)
+    training.run(progress=False, callback=shown.look)
+    weights = {updates: agent.actor[0] for updates, _, agent in shown.kept}
+    assert len(weights) > 3
+    updates, episodes, agent = shown.kept[2]
+    x = LEFT + (episodes + 0.01) / training.episodes * WIDE
+    shown._heard(None, {"kind": "choose", "x": x}, [])
+    now, before = shown.drivers
+    assert now["name"] == f"after {updates:,} updates" and before["name"] == "after 0 updates"
+    assert now["network"] == packed_network(agent.actor, 0, EXACT)
+    shown._heard(None, {"kind": "stop"}, [])
+    assert shown.stopping
+    shown.close()
+
+
+def test_watching_takes_at_most_a_twentieth_of_the_trainings_time():
+    training = Training(with_seeds(settings_for("bootstrapped"), 2), 1000)
+    shown = Watch(training)
+    started = time.monotonic()
+    training.run(progress=False, callback=shown.look, updates=400)
+    assert training.updates == 400 and shown.spent < 0.05 * (time.monotonic() - started)
+    shown.close()
+
+
+def test_a_notebooks_cell_shows_its_training_and_closes_what_it_showed_when_it_last_ran(monkeypatch):
+    displayed, cell = [], SimpleNamespace(execution_count=1)
+    monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell")
+    monkeypatch.setattr("bootcourse.learn.training.this_cell", lambda: "cell")
+    monkeypatch.setattr("IPython.get_ipython", lambda: cell)
+    monkeypatch.setattr("IPython.display.display", lambda shown, display_id: displayed.append(shown) or Shown())
+
+    def train():
+        return Training(with_seeds(settings_for("soft", **SMALL), 1), 2).run()
+
+    first, second = train(), train()
+    assert not first.interrupted and not second.interrupted
+    assert [watch.closed for watch in displayed] == [False, False] and not displayed[0].running
+    assert "Done after" in displayed[1].words
+    cell.execution_count = 2
+    train()
+    assert [watch.closed for watch in displayed] == [True, True, False]
+
+
+class Shown:
+    """What IPython returns for a display that can be updated."""
+
+    def update(self, shown):
+        pass
 
 
 @pytest.mark.parametrize("prepared", [True, False])

@@ -12,6 +12,7 @@ import pytest
 from highway_env.utils import are_polygons_intersecting
 from highway_env.vehicle.kinematics import Vehicle
 
+from bootcourse.road import compiled
 from bootcourse.road.compiled import PACKAGE, cache_folder, sources
 from bootcourse.road.formulas import (
     bicycle_step,
@@ -166,6 +167,37 @@ def test_a_changed_formula_anywhere_in_the_package_is_compiled_again(tmp_path):
         folders.append(cache_folder(tmp_path, [tmp_path]))
     assert len(set(folders[:3])) == 3, "a change of the road, or of a compiled function elsewhere, was not noticed"
     assert folders[3] == folders[2], "a drawing's colour had the road compiled again"
+
+
+def one_more(x):
+    return x + 1
+
+
+def test_a_damaged_file_of_compiled_code_is_compiled_again_and_kept(tmp_path, monkeypatch):
+    def hits() -> int:
+        """Call the function as a new process would; how many of its versions were found compiled."""
+        function = compiled.compiled(one_more)
+        assert function(1) == 2
+        return sum(function.stats.cache_hits.values())
+
+    monkeypatch.setattr(compiled, "CACHE_FOLDER", tmp_path)
+    assert (hits(), hits()) == (0, 1)
+    for kind in ("*.nbi", "*.nbc"):
+        (file,) = tmp_path.rglob(kind)
+        whole = file.read_bytes()
+        for damaged in (b"", whole[: len(whole) // 2], bytes(len(whole))):  # as a power cut leaves it
+            file.write_bytes(damaged)
+            assert (hits(), hits()) == (0, 1), kind
+
+
+def test_code_that_a_full_disk_cannot_keep_runs_all_the_same(tmp_path, monkeypatch, capsys):
+    def full(*arguments):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(compiled, "CACHE_FOLDER", tmp_path)
+    monkeypatch.setattr("numba.core.caching.IndexDataCacheFile.save", full)
+    assert compiled.compiled(one_more)(1) == 2
+    assert "is not kept in" in capsys.readouterr().err
 
 
 WITHOUT_A_PLACE = """

@@ -1,6 +1,7 @@
 """Runs on disk: whole or not at all. (test_hostile_files.py has the damages, test_behaviour.py what is read back.)"""
 
 import shutil
+import subprocess
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
+from bootcourse.storage import runs
 from bootcourse.storage.runs import find_runs, load_run, save_runs
 
 
@@ -19,6 +21,23 @@ def small_training(method: str = "bootstrapped", episodes: int = 12) -> Training
 @pytest.fixture(scope="module")
 def result():
     return small_training().run(progress=False)
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="there is no Git")
+def test_the_commit_is_the_kit_s_own_and_unknown_inside_somebody_else_s_repository(tmp_path, monkeypatch):
+    thesis, kit = tmp_path / "thesis", tmp_path / "thesis/kit"
+    kit.mkdir(parents=True)
+    git = ("git", "-c", "user.name=x", "-c", "user.email=x@x")
+    for repository in (thesis, kit):
+        monkeypatch.setenv("GIT_DIR", str(thesis / ".git"))  # as in a hook of that repository
+        assert runs._commit(kit) == "unknown"
+        monkeypatch.delenv("GIT_DIR")
+        assert runs._commit(kit) == "unknown"
+        for command in (["init", "-q"], ["commit", "-q", "--allow-empty", "-m", f"of {repository.name}"]):
+            subprocess.run([*git, "-C", str(repository), *command], check=True)
+    own = subprocess.run(["git", "-C", kit, "rev-parse", "--short=12", "HEAD"], capture_output=True, text=True).stdout
+    monkeypatch.setenv("GIT_DIR", str(thesis / ".git"))
+    assert runs._commit(kit) == own.strip()
 
 
 def test_what_cannot_be_saved_or_asked_is_refused_with_a_sentence(result, tmp_path):

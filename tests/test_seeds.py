@@ -8,7 +8,6 @@ import bootcourse as bc
 from bootcourse.episodes.interactive import InteractiveEpisode
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.training import Training
-from bootcourse.panels.drive import drive_panel
 
 SHORT = bc.Scenario(clock=bc.DEFAULT.clock.__class__(decisions=3))
 PLACES = {
@@ -19,7 +18,7 @@ PLACES = {
     "record, without a list": lambda seed: bc.record(bc.idle_policy, seed, SHORT),
     "evaluate": lambda seed: bc.evaluate(bc.idle_policy, 2, SHORT, seed),
     "a drive by hand": lambda seed: InteractiveEpisode(seed),
-    "the drive panel": lambda seed: drive_panel(seed),
+    "the world": lambda seed: bc.world(seed),
     "settings": lambda seed: bc.settings_for("sac", seed=seed),
     "settings of several agents": lambda seed: bc.with_seeds(bc.settings_for("sac"), 2, seed),
     "a training's roads": lambda seed: Training([bc.settings_for("sac")], 1, first_seed=seed),

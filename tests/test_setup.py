@@ -14,6 +14,9 @@ from pathlib import Path
 import pytest
 
 from bootcourse import __version__, doctor
+from bootcourse.course import board
+from bootcourse.course.verdict import Verdict
+from bootcourse.statistics import Estimate
 from bootcourse.storage import assets
 from tests.jupyterlab import CALM
 
@@ -215,6 +218,19 @@ def test_help_can_be_printed_in_windows_usual_encoding(command, bootcourse, monk
     assert bootcourse(*command.split(), "--help").status == 0
     print("of p, ξ and c → ✓", file=printed, flush=True)
     assert b"--help" in printed.buffer.getvalue() and b"of p, xi and c ? ?" in printed.buffer.getvalue()
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252"])
+def test_what_a_notebook_shows_can_be_printed_on_every_terminal(encoding, monkeypatch):
+    shown = [
+        board.Board((board.Row("ξ = 200 α – mine", Estimate(1.0, 0.0, 2.0), own=True),)),
+        Verdict("passed", "Right: α…"),
+    ]
+    printed = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
+    monkeypatch.setattr(sys, "stdout", printed)
+    print(*shown, sep="\n", flush=True)
+    text = printed.buffer.getvalue().decode(encoding)
+    assert "xi = 200 alpha" in text and ("alpha..." in text) == (encoding == "ascii")
 
 
 def test_the_version_is_the_packages_own(bootcourse):

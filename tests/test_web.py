@@ -20,7 +20,7 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE, Clock, Road, Scenario, Sight, Traffic
 from bootcourse.storage.runs import load_run
-from bootcourse.web import build, wasm
+from bootcourse.web import build, bundle, wasm
 from bootcourse.web.entries import ENTRIES
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tests.drive_page import drive_in_page, opened
@@ -197,7 +197,7 @@ def test_the_nine_futures_are_worth_as_much_as_in_python(page):
 
 
 def test_the_page_is_one_file_that_asks_for_nothing_and_without_3d_is_under_250_kb(path, page):
-    in_depth = json.dumps(build.scene_data()) + "".join(map(build.script, build.IN_DEPTH))
+    in_depth = json.dumps(build.scene_data()) + "".join(map(bundle.script, bundle.IN_DEPTH))
     assert path.stat().st_size - len(in_depth) < 250_000
     assert page.requests == [path.as_uri()]
     assert page.errors == []

@@ -22,6 +22,7 @@ DRIVEN = {  # lesson -> where its page in the book begins: the address of trap.h
     "the_rule": "driver=rule&ghost=none&pace=0",
     "soft_constraint": "road=10&driver=soft&ghost=sac",
 }
+WORLD = re.compile(r'<img [^>]*data-world="([^"]*)"[^>]*>')  # the picture that a world leaves where no kernel runs
 SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 
 
@@ -47,7 +48,7 @@ def gather(to: Path, edition: str = "student") -> None:
         page.write_text(resolved(fill_in(text), folder), encoding="utf-8")
     (to / "lessons/instructor").mkdir(parents=True)
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
-        shutil.copy(notebook, to / "lessons")
+        with_live_worlds(notebook, to / "lessons" / notebook.name)
         if (lesson := notebook.stem.partition("_")[2]) in DRIVEN:
             add_drive(to / "lessons" / notebook.name, DRIVEN[lesson])
         if edition != "instructor":
@@ -59,11 +60,27 @@ def gather(to: Path, edition: str = "student") -> None:
     (to / "claims.md").write_text(claims_page(), encoding="utf-8")
 
 
+def frame(address: str) -> str:
+    """The page that drives, within a lesson's page."""
+    page = f'<iframe src="../trap.html#{address}" title="Drive the trap" loading="lazy"'
+    return f'{page} style="width: 100%; height: 880px; border: 0"></iframe>'
+
+
+def with_live_worlds(notebook: Path, to: Path) -> None:
+    """Copy a notebook, with the page that drives in the place of each world, which needs a kernel."""
+    content = json.loads(notebook.read_text(encoding="utf-8"))
+    for cell in content["cells"]:
+        for output in cell.get("outputs", []):
+            shown = output.get("data", {})
+            if address := WORLD.search("".join(shown.get("text/html", ""))):
+                output["data"] = {"text/html": frame(address[1]), "text/plain": shown["text/plain"]}
+    to.write_text(json.dumps(content), encoding="utf-8")
+
+
 def add_drive(notebook: Path, address: str) -> None:
     """Let a lesson's page in the book show the page that drives, below the lesson's first cell."""
     content = json.loads(notebook.read_text(encoding="utf-8"))
-    frame = f'<iframe src="../trap.html#{address}" title="Drive the trap" loading="lazy"'
-    text = f'{frame} style="width: 100%; height: 880px; border: 0"></iframe>'
+    text = frame(address)
     content["cells"].insert(1, {"cell_type": "markdown", "id": "trap", "metadata": {}, "source": [text]})
     notebook.write_text(json.dumps(content), encoding="utf-8")
 

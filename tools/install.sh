@@ -35,3 +35,4 @@ JSON
 
 echo "Now the road is compiled, once."
 "$python" -c "from bootcourse.doctor import road; print(next(road()).what)"
+"$python" -c "from bootcourse.web.bundle import content; content()"

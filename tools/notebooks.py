@@ -16,6 +16,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))  # so that `tools.course` is found
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # or two kernels with two torches fight over the cores
 
+from bootcourse.processes import usable_processors
 from tools.course import products
 from tools.course.numbering import refresh_kept
 from tools.course.problems import problems
@@ -30,7 +31,7 @@ def make(path: Path, prose: bool) -> list[Path]:
 def make_all(paths: list[Path], prose: bool) -> bool:
     """Make the files of these sources, the longest first. Returns whether all were made."""
     fine = True
-    with ProcessPoolExecutor() as workers:
+    with ProcessPoolExecutor(usable_processors()) as workers:
         paths = sorted(paths, key=lambda path: -path.stat().st_size)
         running = {workers.submit(make, path, prose): path for path in paths}
         for done in as_completed(running):

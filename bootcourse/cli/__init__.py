@@ -3,9 +3,7 @@
 Commands import their modules themselves, so that `bootcourse --help` is fast.
 """
 
-import codecs
 import sys
-import unicodedata
 from pkgutil import resolve_name
 
 import typer
@@ -13,9 +11,11 @@ from typer.core import TyperGroup
 from typer.main import get_command
 
 from bootcourse.cli.driving import drive, evaluate, replay
+from bootcourse.cli.places import with_home
 from bootcourse.cli.training import train
 from bootcourse.errors import BootcourseError
 from bootcourse.rooms import added
+from bootcourse.terminal import SPELL
 
 PLAIN = {"add_completion": False, "rich_markup_mode": None, "pretty_exceptions_enable": False}  # on every terminal
 
@@ -46,11 +46,11 @@ app = typer.Typer(
 
 def main() -> None:
     """Run a command. Exit status: 2, after one sentence, for a user mistake; 130 for Ctrl-C."""
-    codecs.register_error("spell", spell)
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="spell")
+            stream.reconfigure(errors=SPELL)
     try:
+        sys.argv = [sys.argv[0], *map(with_home, sys.argv[1:])]
         app(prog_name="bootcourse")
     except BootcourseError as error:
         print(error, file=sys.stderr)
@@ -58,12 +58,6 @@ def main() -> None:
     except OSError as error:  # a name that is too long, a folder without permission, a disk that is gone ...
         print(f"{error.filename or 'A file'}: {error.strerror or error}.", file=sys.stderr)
         sys.exit(2)
-
-
-def spell(error: UnicodeError) -> tuple[str, int]:
-    """Print what the terminal's encoding lacks, such as Windows' cp1252: Greek letters by name, others as "?"."""
-    names = [unicodedata.name(letter, "").split() for letter in error.object[error.start : error.end]]
-    return "".join(name[-1].lower() if name[:1] == ["GREEK"] else "?" for name in names), error.end
 
 
 def show_version(wanted: bool) -> None:

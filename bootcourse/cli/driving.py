@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import typer
 
+from bootcourse.cli.places import ask_for
 from bootcourse.errors import BootcourseError, did_you_mean
 
 BUILT_IN = ("rule", "idle", "random")  # drivers that need no training
@@ -157,6 +158,7 @@ def drive(
     for path, ending in ((png, ".png"), (out, ".npz")):
         if path is not None:
             check_replaceable(path, ending)
+    ask_for(out, png)
     with learner_from(learner):
         drivers = drivers_of(who, scenario, seed, teacher, lookahead)
         if len(drivers) > 1:
@@ -182,7 +184,12 @@ def replay(
 ) -> None:
     """Show drives in 3D in the browser until Ctrl-C, or write them to a file, or print them in words."""
     from bootcourse.episodes.rollout import Rollout
+    from bootcourse.files import check_replaceable
 
+    for path, ending in ((export, ".html"), (gif, ".gif"), (png, ".png")):
+        if path is not None:
+            check_replaceable(path, ending)
+    ask_for(export, gif, png)
     rollouts = [Rollout.load(file) for file in files]
     if not (export or gif or png or text):
         from bootcourse.replay3d import viewer

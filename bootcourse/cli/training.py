@@ -8,7 +8,6 @@
 A training that is stopped by Ctrl-C (exit status 130) or killed goes on with --resume.
 """
 
-import importlib.util
 import os
 import shlex
 import shutil
@@ -21,8 +20,10 @@ from pkgutil import resolve_name
 
 import typer
 
+from bootcourse.cli.own_files import loaded
+from bootcourse.cli.places import ask_for
 from bootcourse.colours import OTHER
-from bootcourse.errors import BootcourseError, check_known, described, did_you_mean
+from bootcourse.errors import BootcourseError, check_known, did_you_mean
 from bootcourse.methods import METHODS, Method, own_method
 from bootcourse.rooms import added
 
@@ -72,6 +73,7 @@ def train(
                 print(f"{out} is finished: there is nothing to resume.")
             return
         check_folder(out, resume)
+        ask_for(out)
         training = None if resume else begun(asked, rule, device, quiet)
         with locked(out / UNFINISHED, "training"):
             check_folder(out, resume)  # another training may have ended before this one had the lock
@@ -209,24 +211,6 @@ def teacher_from(place: str):
             raise BootcourseError(f"Teacher {did_you_mean(place, teachers)}, {own}.")
         return teachers[place].rule
     return loaded(place, "--teacher", "function")
-
-
-def loaded(place: str, option: str, what: str):
-    """The function or class of "FILE.py:NAME". Raises BootcourseError if it is not there or does not load."""
-    file, _, name = place.rpartition(":")
-    if Path(file).suffix != ".py":
-        raise BootcourseError(f"{option} {place}: give a file and a {what} in it, such as mine.py:mine.")
-    if not Path(file).is_file():
-        raise BootcourseError(f"{option} {place}: there is no file {file}.")
-    spec = importlib.util.spec_from_file_location(Path(file).stem, file)
-    module = importlib.util.module_from_spec(spec)
-    try:
-        spec.loader.exec_module(module)
-    except (Exception, SystemExit) as error:  # whatever the user's file does
-        raise BootcourseError(f"{file} cannot be loaded: {described(error)}.") from error
-    if not callable(getattr(module, name, None)):
-        raise BootcourseError(f"{file} has no {what} '{name}': write it there, or give another name.")
-    return getattr(module, name)
 
 
 def finish_training(training, out: Path, progress: bool) -> int:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pkgutil import resolve_name
 
 from bootcourse.course.predictions import compare_predictions, predict
+from bootcourse.terminal import printable
 
 __all__ = ["compare_predictions", "predict", "source", "table"]
 
@@ -44,4 +45,4 @@ class Folded:
         return self.html
 
     def __repr__(self) -> str:
-        return self.text
+        return printable(self.text)

@@ -7,6 +7,7 @@ import ast
 import builtins
 import importlib.util
 import linecache
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType, ModuleType
@@ -87,10 +88,12 @@ def read(name: str) -> Callable:
     """Run the file of an answer and return its function or class. Raises BootcourseError if it cannot be run."""
     path = file_of(name)
     spec = importlib.util.spec_from_file_location(f"answers_{name}", path)
-    module = importlib.util.module_from_spec(spec)
+    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)  # while it runs: dataclasses look there
     try:
         exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), vars(module))
         return getattr(module, name)
     except Exception as error:  # whatever the student's file does
         remedy = "Write it again in its lesson, or delete the file."
         raise BootcourseError(f"{path} does not run ({described(error)}). {remedy}") from None
+    finally:
+        del sys.modules[spec.name]

@@ -30,8 +30,9 @@ from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, interval, mean, rate
-from bootcourse.storage.assets import FOLDER
+from bootcourse.storage.assets import shipped
 from bootcourse.storage.runs import find_runs, load_run
+from bootcourse.terminal import printable
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
 HEADINGS = ("method", "return", "success %", "accidents %")
@@ -79,7 +80,7 @@ class Board:
         text = [
             f"{mark:2}{name:{LONGEST}}" + "".join(f"{cell:>20}" for cell in cells) for mark, (name, *cells) in lines
         ]
-        return "\n".join([*text, "", *BELOW])
+        return printable("\n".join([*text, "", *BELOW]))
 
     def _repr_html_(self) -> str:
         lines = [html("<tr>{}</tr>", joined(html("<th>{}</th>", heading) for heading in HEADINGS))]
@@ -116,7 +117,7 @@ def row_of(name: str, agents: Sequence[Episodes], own: bool = False) -> Row:
 @cache
 def shipped_rows() -> tuple[Row, ...]:
     """The rows of what ships, and of the drivers that are not trained."""
-    study = in_assets(FOLDER)
+    study = in_assets(shipped())
     drivers = {"rule": rule_policy(DEFAULT), "idle": idle_policy, "random": random_policy(np.random.default_rng(0))}
     rows = [row_of(display_name(name), [drive_episodes(policy, ROADS)]) for name, policy in drivers.items()]
     rows.append(row_of("gap acceptance (rule)", [drive_episodes(teacher_policy(gap_rule), ROADS)]))

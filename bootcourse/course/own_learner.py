@@ -90,6 +90,11 @@ class OwnSAC(Own, SACLearner):
         if "margin_loss" in own and (self.margin * (1 - self.paper_q_filter)).any():
             raise BootcourseError("Your `margin_loss` has the printed Q-filter: leave paper_q_filter at True.")
 
+    def change(self, settings: Sequence[Settings], names: Sequence[str]) -> None:
+        if "bonus" in names and any(name in self.own for name in BUFFER):
+            raise BootcourseError("Your own buffer adds the bonus c: it stays as it is while the agents train.")
+        super().change(settings, names)
+
     def make_buffer(self, observation_size: int, demonstrations: Tensor | None):
         if not any(name in self.own for name in BUFFER):
             return super().make_buffer(observation_size, demonstrations)

@@ -20,6 +20,7 @@ from bootcourse.course.notebook import beside_the_notebook
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import read_json, write_json
 from bootcourse.markup import html
+from bootcourse.terminal import printable
 
 FILE = Path("answers/predictions.json")  # in the folder of the notebooks
 LONGEST = 2000  # characters of an answer
@@ -185,7 +186,7 @@ class Note:
     sentence: str
 
     def __repr__(self) -> str:
-        return self.sentence
+        return printable(self.sentence)
 
     def _repr_html_(self) -> str:
         return str(html('<div role="status">{}</div>', self.sentence))

@@ -10,7 +10,7 @@ from bootcourse.learn.agent import Agent
 from bootcourse.research.computed import experiment, load_bound
 from bootcourse.research.experiments.teacher_worth import Cells, by_teacher
 from bootcourse.research.results import Results, load_results
-from bootcourse.storage.assets import FOLDER
+from bootcourse.storage.assets import FOLDER, shipped
 from bootcourse.storage.runs import Run, find_runs, load_run
 
 
@@ -20,7 +20,7 @@ def shipped_results(study: str = "default") -> Results:
     `.of(method).scores("success")` is (agents,), their share of held-out roads with success.
     Raises BootcourseError if that part does not ship.
     """
-    files = {path.stem.removeprefix("study-"): path for path in sorted(FOLDER.glob("study-*.npz"))}
+    files = {path.stem.removeprefix("study-"): path for path in sorted(shipped().glob("study-*.npz"))}
     if study not in files:
         raise BootcourseError(f"No results of the study '{study}' ship: there are {', '.join(files) or 'none'}.")
     return load_results(files[study])
@@ -28,7 +28,7 @@ def shipped_results(study: str = "default") -> Results:
 
 def shipped_runs(method: str) -> list[Run]:
     """The trained agents of a method with their training curves, by seed. Raises BootcourseError if there are none."""
-    paths = [path for path in find_runs(FOLDER / "runs") if path.name.rpartition("-")[0] == method]
+    paths = [path for path in find_runs(shipped("runs")) if path.name.rpartition("-")[0] == method]
     if not paths:
         raise BootcourseError(f"No agents of the method '{method}' ship in {FOLDER.name}/runs.")
     return sorted(map(load_run, paths), key=lambda run: run.agent.settings.seed)
@@ -44,6 +44,7 @@ def shipped_experiment(name: str) -> dict[str, Results]:
 
     Raises BootcourseError if it does not ship.
     """
+    shipped()
     results = experiment(name)
     if not results:
         raise BootcourseError(f"No results of the experiment '{name}' ship: copy {FOLDER.name} from the course again.")
@@ -57,7 +58,7 @@ def shipped_teachers() -> Cells:
 
 def shipped_bound(scenario: str = "default") -> np.ndarray:
     """The best return that the planner found on each held-out road of the study, (episodes,)."""
-    return load_bound(FOLDER / f"bound-{scenario}.npz")
+    return load_bound(shipped(f"bound-{scenario}.npz"))
 
 
 def shipped_drive(name: str) -> Rollout:
@@ -65,7 +66,7 @@ def shipped_drive(name: str) -> Rollout:
 
     Raises BootcourseError for any other name.
     """
-    return Rollout.load(FOLDER / "rollouts" / f"{name}.npz")
+    return Rollout.load(shipped("rollouts") / f"{name}.npz")
 
 
 def beginning(drive: Rollout, seconds: int) -> Rollout:

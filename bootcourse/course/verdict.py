@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from bootcourse.markup import Markup, html, joined
+from bootcourse.terminal import printable
 
 if TYPE_CHECKING:
     from bootcourse.course.exercise import Mistake
@@ -33,7 +34,7 @@ class Verdict:
 
     def __repr__(self) -> str:
         lines = [f"{MARKS[self.kind]} {self.sentence}", *(f"    {line}" for line in self.details), self.footer]
-        return "\n".join(line for line in lines if line)
+        return printable("\n".join(line for line in lines if line))
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict[str, str]:
         numbers = joined(html("<div>{}</div>", line) for line in self.details)

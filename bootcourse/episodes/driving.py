@@ -100,7 +100,7 @@ def copies_of(make_env: Callable[[int], VectorEnv], n: int) -> VectorEnv:
         env = SyncVectorEnv(env.env_fns, autoreset_mode=AutoresetMode.SAME_STEP)
     require(
         env.metadata.get("autoreset_mode") is AutoresetMode.SAME_STEP,
-        f"{name} does not restart an episode in the step that ends it: make it with vectorization_mode='sync', or "
-        "with vector_kwargs={'autoreset_mode': 'SameStep'}.",
+        f"{name} does not restart an episode in the step that ends it: make it with vectorization_mode='sync'. "
+        "(With vectorization_mode='async', add vector_kwargs={'autoreset_mode': 'SameStep'}.)",
     )
     return env

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import torch
@@ -67,13 +68,12 @@ class Agent:
         """
         if self.needs_teacher and self.teach is None:
             raise BootcourseError(f"Method '{self.settings.method}' drives with its teacher: give it by `taught_by`.")
+        return partial(self._drive, rng, with_q)
 
-        def drive(observations, cars):
-            pi = self.probabilities(observations, self.teach(cars) if self.needs_teacher else None)
-            actions = pi.argmax(-1) if rng is None else sample_actions(pi, rng.random(len(pi)))
-            return PolicyOutput(actions, pi, self.q_values(observations) if with_q else None)
-
-        return drive
+    def _drive(self, rng, with_q: bool, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        pi = self.probabilities(observations, self.teach(cars) if self.needs_teacher else None)
+        actions = pi.argmax(-1) if rng is None else sample_actions(pi, rng.random(len(pi)))
+        return PolicyOutput(actions, pi, self.q_values(observations) if with_q else None)
 
 
 def _tensor(values: np.ndarray, kind: torch.dtype) -> Tensor:

@@ -62,7 +62,7 @@ def large_margin_loss(q: Tensor, expert_actions: Tensor, margin: float = 1.0) ->
     """J_E(Q) = max_a [Q(s,a) + l(a_E,a)] - Q(s,a_E), l = 0 for a_E, else `margin` (Equations 17, 18): (..., batch)."""
     is_expert = torch.arange(q.shape[-1], device=q.device) == expert_actions.unsqueeze(-1)
     q_expert = q.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1)
-    return (q + margin * (~is_expert)).amax(-1) - q_expert
+    return (q + margin * (~is_expert).to(q.dtype)).amax(-1) - q_expert
 
 
 def paper_q_filter(q: Tensor, expert_actions: Tensor) -> Tensor:

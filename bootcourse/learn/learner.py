@@ -41,7 +41,7 @@ class SACLearner(Learner):
         each = [init_mlp(sizes, generators) for _ in range(self.n_critics(shared))]
         self.critics = [torch.cat(parts) for parts in zip(*each, strict=True)]  # (2 x agents, ...), first critics first
         self.target_critics = [parameter.clone() for parameter in self.critics]
-        self.log_alpha = torch.tensor([s.alpha_init for s in settings]).log()  # (agents,)
+        self.log_alpha = torch.tensor([s.alpha_init for s in settings], dtype=torch.float32).log()  # (agents,)
         self.optimiser = adam(
             (self.actor, shared.actor_lr), (self.critics, shared.critic_lr), ([self.log_alpha], shared.alpha_lr)
         )

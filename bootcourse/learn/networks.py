@@ -17,7 +17,7 @@ def init_mlp(sizes: Sequence[int], generators: Sequence[torch.Generator]) -> lis
     parameters = []
     for n_in, n_out in zip(sizes, sizes[1:], strict=False):
         for rows in (n_in, 1):
-            draws = [torch.rand(rows, n_out, generator=generator) for generator in generators]
+            draws = [torch.rand(rows, n_out, generator=generator, dtype=torch.float32) for generator in generators]
             parameters.append((torch.stack(draws) * 2 - 1) / n_in**0.5)
     return parameters
 

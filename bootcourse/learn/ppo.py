@@ -85,8 +85,8 @@ class RolloutBuffer:
     def __init__(
         self, agents: int, roads: int, horizon: int, observation_size: int, device: torch.device | None = None
     ):
-        self.table = torch.zeros(horizon, agents, roads, 2 * observation_size + 5, device=device)
-        self.ended = torch.zeros(horizon, agents, roads, device=device)
+        self.table = torch.zeros(horizon, agents, roads, 2 * observation_size + 5, dtype=torch.float32, device=device)
+        self.ended = torch.zeros(horizon, agents, roads, dtype=torch.float32, device=device)
         self.observation_size, self.filled, self.drawn = observation_size, 0, 0
         self.columns: Minibatch | None = None  # all decisions, each (agents, horizon x roads, ...)
         self.order = np.zeros((agents, horizon * roads), dtype=np.int64)  # in which this epoch draws them

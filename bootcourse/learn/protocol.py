@@ -41,6 +41,14 @@ class Learner:
         """The buffer that the training fills and samples; demonstrations: rows (transitions, row), or None."""
         return ReplayBuffer(self.agents, self.settings[0].buffer_size, observation_size, demonstrations, self.device)
 
+    def change(self, settings: Sequence[Settings], names: Sequence[str]) -> None:
+        """Take other values of these settings from the next update on. Raises BootcourseError for one without use."""
+        for name in names:
+            if not hasattr(self, name):
+                raise BootcourseError(f"Method '{self.settings[0].method}' does not use {name}: leave it as it is.")
+            setattr(self, name, per_agent(settings, name).to(self.device))
+        self.settings = list(settings)
+
     def updates_due(self, replay: Any, decisions: int) -> int:
         """How many updates follow a decision on every road; decisions: of each agent so far."""
         return self.settings[0].updates if decisions >= self.settings[0].learning_starts else 0
@@ -109,7 +117,8 @@ def generators_of(settings: Sequence[Settings], offset: int = 0) -> list[torch.G
 def per_agent(settings: Sequence[Settings], name: str) -> Tensor:
     """The agents' values of a setting, (agents, 1); NaN for None."""
     values = [getattr(s, name) for s in settings]
-    return torch.tensor([[float("nan") if value is None else float(value)] for value in values])
+    rows = [[float("nan") if value is None else float(value)] for value in values]
+    return torch.tensor(rows, dtype=torch.float32)
 
 
 def adam(*groups: tuple[list[Tensor], float]) -> torch.optim.Adam:

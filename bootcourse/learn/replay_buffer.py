@@ -44,7 +44,8 @@ class ReplayBuffer:
     ):
         self.agents, self.buffer_size, self.observation_size = agents, buffer_size, observation_size
         self.demonstrations = 0 if demonstrations is None else len(demonstrations)
-        self.table = torch.zeros(self.demonstrations + agents * buffer_size, 2 * observation_size + 5, device=device)
+        shape = self.demonstrations + agents * buffer_size, 2 * observation_size + 5
+        self.table = torch.zeros(shape, dtype=torch.float32, device=device)
         if demonstrations is not None:
             self.table[: self.demonstrations] = demonstrations
         self.first = self.demonstrations + np.arange(agents) * buffer_size  # each agent's first row

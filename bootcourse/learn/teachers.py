@@ -14,6 +14,7 @@ it is a function of one observation, `my_rule(observation)`, that returns one of
 import hashlib
 import inspect
 import math
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -21,7 +22,7 @@ import numpy as np
 
 from bootcourse.episodes.place import Place
 from bootcourse.errors import BootcourseError, RuleFailed, described
-from bootcourse.policies import Policy, PolicyOutput
+from bootcourse.policies import Policy, policy_of
 from bootcourse.road.constants import constants
 from bootcourse.road.state import EGO, LANE, SPEED, X
 from bootcourse.rule import rule, track
@@ -63,9 +64,16 @@ class MarkedRule:
     def __post_init__(self):
         object.__setattr__(self, "__wrapped__", self.rule)  # `inspect` reads its source and its arguments there
         object.__setattr__(self, "__name__", getattr(self.rule, "__name__", type(self.rule).__name__))
+        object.__setattr__(self, "__module__", getattr(self.rule, "__module__", type(self).__module__))
 
     def __call__(self, *state):
         return self.rule(*state)
+
+    def __reduce__(self):
+        """A rule that a module holds under its own name is copied and pickled as that name, as functions are."""
+        if getattr(sys.modules.get(self.__module__), self.__name__, None) is self:
+            return self.__name__
+        return MarkedRule, (self.rule, self.answers_all_roads, self.is_slow, self.name)
 
 
 def marked(rule: Rule) -> MarkedRule:
@@ -163,8 +171,7 @@ def is_action(action, n_actions: int = N_ACTIONS) -> bool:
 
 def teacher_policy(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: int = N_ACTIONS) -> Policy:
     """The rule as a policy; scenario: None off the trap. The policy raises RuleFailed as `teacher_of` says."""
-    teacher = teacher_of(my_rule, scenario, n_actions)
-    return lambda observations, cars: PolicyOutput(teacher(cars))
+    return policy_of(teacher_of(my_rule, scenario, n_actions))
 
 
 def teacher_name(my_rule: Rule) -> str:

@@ -27,7 +27,7 @@ def mlp(inputs: int, outputs: int, hidden: tuple[int, int]) -> nn.Sequential:
     """A network with two hidden layers: (batch, inputs) -> (batch, outputs)."""
     first, second = hidden
     layers = nn.Linear(inputs, first), nn.ReLU(), nn.Linear(first, second), nn.ReLU(), nn.Linear(second, outputs)
-    return nn.Sequential(*layers)
+    return nn.Sequential(*layers).float()
 
 
 class TextbookSAC:
@@ -38,7 +38,7 @@ class TextbookSAC:
         self.actor = mlp(observation_size, n_actions, settings.hidden)  # (batch, 26) -> logits (batch, 9)
         self.critics = [mlp(observation_size, n_actions, settings.hidden) for _ in range(2)]  # -> Q(s, .) (batch, 9)
         self.targets = [copy.deepcopy(critic) for critic in self.critics]
-        self.log_alpha = nn.Parameter(torch.tensor(settings.alpha_init).log())
+        self.log_alpha = nn.Parameter(torch.tensor(settings.alpha_init, dtype=torch.float32).log())
         self.actor_optimiser = torch.optim.Adam(self.actor.parameters(), lr=settings.actor_lr)
         both = [*self.critics[0].parameters(), *self.critics[1].parameters()]
         self.critic_optimiser = torch.optim.Adam(both, lr=settings.critic_lr)

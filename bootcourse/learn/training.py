@@ -14,7 +14,7 @@ import time
 import warnings
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import torch
@@ -24,7 +24,7 @@ from torch import Tensor
 from bootcourse.episodes.driving import copies_of, reached_observations
 from bootcourse.episodes.place import TRAP_ID, place_of
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError, whole
+from bootcourse.errors import BootcourseError, check_known, whole
 from bootcourse.learn.agent import Agent, sample_actions
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.curves import Curves
@@ -36,10 +36,13 @@ from bootcourse.learn.running import device_named, interrupt_after_step, one_tor
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import Rule, default_teacher, marked, teacher_name, teacher_of
 from bootcourse.methods import display_name
+from bootcourse.one_per_cell import this_cell
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario, check_p
+from bootcourse.terminal import printable
 
 SNAPSHOT_EVERY = 200  # updates between snapshots; an agent with a non-finite loss is frozen at its last finite one
+CHANGEABLE = ("rule_p", "xi_multiplier", "bonus", "beta_start")  # while a training runs: see `Training.change`
 MOST_EPISODES = 100_000  # of each agent, whose curves take 8 MB then
 FIRST_SEED = 2**33  # seed of the first training road; demonstrations start at 2**34, held-out roads are below 2**32
 
@@ -64,7 +67,7 @@ class Result:
         ends = np.isfinite(self.curves["return"]).sum(1)  # (agents,) episodes
         returns = [values[:n][-100:].mean() for values, n in zip(self.curves["return"], ends, strict=True) if n]
         each = ", ".join(f"{value:.1f}" for value in returns[:10]) + " …" * (len(returns) > 10)
-        return (
+        return printable(
             f"{agents} on {where}, teacher: {self.teacher}\n"
             f"{ends.sum():,} episodes in {self.seconds:.0f} s{', not finished' * self.interrupted}\n"
             f"mean return of each agent's last 100 episodes: {each or 'no episode has ended'}"
@@ -166,6 +169,21 @@ class Training:
             return np.zeros(self.env.num_envs, dtype=np.int64)
         return self._teach(self.place.state(self.env, self.states))
 
+    def change(self, **values) -> None:
+        """Change settings of all agents from the next update on: rule_p, xi_multiplier, bonus or beta_start.
+
+        A share of demonstrations that is set here no longer fades. Raises BootcourseError for another setting, for a
+        value out of range, and for a setting that the method does not use.
+        """
+        for name in values:
+            check_known("While it trains, the setting", name, CHANGEABLE)
+        changed = [replace(settings, **values) for settings in self.settings]
+        self.learner.change(changed, [name for name in values if name != "beta_start"])
+        self.settings = changed
+        if "beta_start" in values:
+            self.beta_start = np.array([s.beta_start for s in changed])
+            self.beta_episodes = np.full(self.n_agents, np.inf)
+
     def step(self) -> None:
         """One decision in every environment, and the updates that follow it."""
         shape = (self.n_agents, self.envs_per_agent)
@@ -223,24 +241,36 @@ class Training:
         """Train until all agents have finished, until so many updates, until an interrupt, or until stop() is true.
 
         progress: show a bar with the success rate of the last 100 episodes; it counts updates if their number is given.
+        In a notebook, the curves and the present agent on the road take its place (see panels/watch.py).
         callback: called with this training after every decision.
         """
+        watch = None
+        if progress and this_cell() is not None:
+            from bootcourse.panels.watch import watched
+
+            watch = watched(self)
+        calls = [call for call in (callback, watch and watch.look) if call]
         started, before = time.perf_counter(), self.seconds
-        with one_torch_thread(), _Bar(self, progress, updates) as bar, interrupt_after_step() as interrupted:
+        bar = _Bar(self, progress and watch is None, updates)
+        with one_torch_thread(), bar, interrupt_after_step() as interrupted:
             try:
                 while not (self.done or interrupted.is_set()):
-                    if (stop is not None and stop()) or (updates is not None and self.updates >= updates):
+                    stopped = (stop is not None and stop()) or (watch is not None and watch.stopping)
+                    if stopped or (updates is not None and self.updates >= updates):
                         break
                     self.step()
                     self.seconds = before + time.perf_counter() - started
-                    if callback is not None:
-                        callback(self)
+                    for call in calls:
+                        call(self)
                     bar.show()
                 if not interrupted.is_set():
                     bar.end()
             except KeyboardInterrupt:
                 interrupted.set()
-        return self.result(interrupted=interrupted.is_set() or not self.done)
+        result = self.result(interrupted=interrupted.is_set() or not self.done)
+        if watch is not None:
+            watch.ended(result)
+        return result
 
     def result(self, interrupted: bool = False) -> Result:
         """The agents and curves so far."""

@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable
 
 import ipywidgets as widgets
+import numpy as np
 import traitlets
 
 from bootcourse.errors import BootcourseError
@@ -14,20 +15,23 @@ class Number(widgets.VBox):
     """`value` has been accepted by `check`; a refused number changes nothing but the sentence below it.
 
     check: raises BootcourseError for a number that the library refuses. low, high, step: of the slider; a typed number
-    may lie beyond them if `check` accepts it.
+    may lie beyond them if `check` accepts it. logarithmic: of a slider whose step is that of the number's exponent.
     """
 
     value = traitlets.Float()
 
     def __init__(
         self, symbol: str, value: float, low: float, high: float, step: float, help: str, unit: str = "",
-        check: Callable[[float], object] = lambda value: None,
+        check: Callable[[float], object] = lambda value: None, logarithmic: bool = False,
     ):  # fmt: skip
         self.check, self.symbol, self.purpose, self.sentence = check, symbol, help, help
         self._showing = False  # what `show` writes into the controls is not an entry
-        self.slider = widgets.FloatSlider(
-            value=value, min=low, max=high, step=step, readout=False, tooltip=f"{symbol}: {help}"
-        )
+        self.low, self.high = low, high
+        kind = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
+        least, most = map(float, np.log10([low, high])) if logarithmic else (low, high)
+        shown = min(max(value, low), high)
+        words = f"{symbol}: {help}"
+        self.slider = kind(value=shown, min=least, max=most, step=step, readout=False, tooltip=words)
         self.field = widgets.FloatText(value=value, step=step, tooltip=f"{symbol}, typed: {help}")
         self.help = widgets.HTML()
         label = widgets.HTML(html("<b>{}</b>{}", symbol, f" ({unit})" if unit else ""))
@@ -58,7 +62,7 @@ class Number(widgets.VBox):
         """Show the value, in place of a refused number; one beyond the slider's range puts the slider at its end."""
         self.help.value = html('<div class="bc-quiet">{}</div>', self.sentence)
         self._showing = True
-        self.slider.value = min(max(self.value, self.slider.min), self.slider.max)
+        self.slider.value = min(max(self.value, self.low), self.high)
         self.field.value = self.value
         self._showing = False
 

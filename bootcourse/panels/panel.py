@@ -28,7 +28,6 @@ STYLE = """<style>
 @media (max-width: 640px) {  /* a drawing keeps a size that can be read, and its box scrolls */
   .bc-panel .widget-html-content {overflow-x: auto}
   .bc-panel .widget-html-content > svg {max-width: none; width: 720px}
-  .bc-panel .bc-road .widget-html-content > svg {width: 500px}  /* the ego is in sight */
 }
 .bc-panel :focus-visible {outline: 2px solid var(--jp-brand-color1, #1976D2); outline-offset: 2px}
 .bc-panel .widget-html, .bc-panel .widget-html-content {line-height: normal; height: auto}
@@ -49,10 +48,7 @@ class Panel(widgets.VBox):
         head = widgets.HTML(Markup(STYLE) + html("<h3>{}</h3>", title) + for_everybody())
         super().__init__([head, *parts, self.says])
         self.add_class("bc-panel")
-        cell = one_per_cell.this_cell()
-        place = None if cell is None else (cell, type(self).__name__)
-        one_per_cell.close_shown_by(place)
-        one_per_cell.note(place, self)
+        one_per_cell.replace_with(self)
 
     def say(self, sentence: str = "", wrong: bool = False) -> None:
         """Show a message in the panel; an empty one removes it."""

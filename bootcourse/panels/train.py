@@ -1,52 +1,44 @@
-"""Train while you watch: choose a method, p, ξ and c, start, stop, and see in 3D what the best agent drives.
+"""Train while you watch: choose a method, start, and move p, ξ, c and β while the agents learn (see watch.py).
 
 trainer = train_panel()
 trainer.result                                  # of the last training: bc.save_runs(trainer.result, "runs/mine")
-train_panel(drives=mine.demonstrations)         # bootstrap from your own drives (see drive_panel)
+train_panel(drives=world.attempts)              # bootstrap from your own drives (see `bc.world`)
 """
 
-import math
+import functools
 import threading
 import time
 from collections.abc import Callable, Sequence
 
 import ipywidgets as widgets
-import numpy as np
 import torch
 
-from bootcourse.episodes.evaluate import held_out_seeds
-from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, described
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Result, Training, one_torch_thread
 from bootcourse.markup import html
-from bootcourse.methods import METHODS, display_name, style
+from bootcourse.methods import METHODS, display_name
 from bootcourse.panels.number import Number, whole_number
 from bootcourse.panels.panel import Panel, beside
-from bootcourse.plots.svg import INK, QUIET, Drawing, SvgAxes, drawing, span, text
-from bootcourse.plots.training_curves import MEASURES, draw_training, finished, window_of
+from bootcourse.panels.watch import Watch, training_chart
 from bootcourse.scenario import DEFAULT, Scenario
-from bootcourse.statistics import rolling_means
 
 SLIDERS = {  # setting: symbol, low, high, step, help, unit
     "rule_p": ("p", 0.12, 0.999, 0.001, "How sure the stochastic rule π̃ is of its own action.", ""),
-    "xi_multiplier": ("ξ", 0, 2000, 10, "Strength of the pull towards the rule.", "× α"),
+    "xi_multiplier": ("ξ", 0.1, 10_000, 0.05, "Strength of the pull towards the rule.", "× α"),
     "bonus": ("c", 0, 10, 0.1, "Bonus on a demonstrated action's reward.", ""),
+    "beta_start": ("β", 0, 1, 0.01, "Share of demonstrations in a batch; moved while they learn, it stays.", ""),
 }
+LOGARITHMIC = ("xi_multiplier",)
 SEEDS, EPISODES = 64, 20_000  # at most, of one training
-LOOKS, SHARE = 5.0, 0.15  # drawings a second, and their share of the thread's time, at most
-SHOWN = ("success", "return", "speed", "entropy", "alpha", "xi")  # of the measures
-WIDTH, HEIGHT, COLUMNS = 1040, 398, 3
-NOTHING = np.full((1, 1), np.nan)  # the curve of an agent before its first episode
-HELD_OUT = 1  # the block of roads that no agent has trained on
 
 
 class TrainPanel(Panel):
     """`.result` is what the last training learned, None before its end. The training runs in a thread of its own."""
 
     thread: threading.Thread | None = None
-    replay = None
+    watch: Watch | None = None
 
     def __init__(self, method: str, seeds: int, episodes: int, scenario: Scenario, drives, changes: dict):
         self.scenario, self.drives = scenario, drives
@@ -59,7 +51,9 @@ class TrainPanel(Panel):
         self.numbers = {}
         for name, (symbol, low, high, step, help, unit) in SLIDERS.items():
             start = changes.get(name, getattr(Settings(), name))
-            self.numbers[name] = Number(symbol, start, low, high, step, help, unit, check_of(name))
+            self.numbers[name] = Number(symbol, start, low, high, step, help, unit, check_of(name),
+                                        logarithmic=name in LOGARITHMIC)  # fmt: skip
+            self.numbers[name].observe(functools.partial(self._slid, name), "value")
         self.seeds = Number("seeds", seeds, 1, 10, 1, "Agents that learn side by side, each with its own seed.",
                             check=whole_number("seeds", 1, SEEDS))  # fmt: skip
         self.episodes = Number("episodes", episodes or METHODS[method].episodes, 50, EPISODES, 50,
@@ -67,16 +61,13 @@ class TrainPanel(Panel):
                                check=whole_number("episodes", 1, EPISODES))  # fmt: skip
         self.train = self.make_button("Train", "play", "Train for real, in the background", self._train, "primary")
         self.stop = self.make_button("Stop", "stop", "Stop, and keep what was learned", self._stopping.set)
-        help = "Replay in 3D how the best agent drives a road that it was not trained on"
-        self.watch = self.make_button("Watch", "eye", help, self._watch)
-        self.progress, self.chart, self.stage = widgets.HTML(), widgets.HTML(), widgets.HTML()
-        buttons = widgets.HBox([self.train, self.stop, self.watch])
+        self.progress, self.stage = widgets.HTML(), widgets.VBox()
+        buttons = widgets.HBox([self.train, self.stop, self.progress])
         numbers = beside(*self.numbers.values(), self.seeds, self.episodes)
-        shown = (self.progress, self.stage, self.chart)  # the replay opens below its button, where you look
-        super().__init__("Train while you watch", self.method, numbers, buttons, *shown)
+        super().__init__("Train while you watch", self.method, numbers, buttons, self.stage)
         self.method.observe(self._choose, "value")
         self._lock_unused()
-        self._draw(method, {}, 1000)
+        self.svg = training_chart([method], {}, 1000)
         self._buttons(running=False)
 
     def settings(self) -> Settings:
@@ -85,11 +76,10 @@ class TrainPanel(Panel):
         return settings_for(self.method.value, **(self.others | chosen))
 
     def close(self) -> None:
-        """Stop the training and the replay, and remove the panel."""
+        """Stop the training, and remove the panel."""
         if self.thread is not None and not self.closed:
             self._stopping.set()
             self.thread.join(5.0)
-        self._close_replay()
         super().close()
 
     def _choose(self, change=None) -> None:
@@ -101,16 +91,23 @@ class TrainPanel(Panel):
         own = METHODS[self.method.value].settings
         without_kl, without_demonstrations = own.get("xi_multiplier") == 0, own.get("beta_start") == 0
         unused = {"rule_p", "xi_multiplier"} if without_kl else set()
-        unused |= {"bonus"} if without_demonstrations or own.get("bonus") == 0 else set()
+        unused |= {"bonus", "beta_start"} if without_demonstrations else {"bonus"} if own.get("bonus") == 0 else set()
         for name, number in self.numbers.items():
             number.lock(f"Without use in {display_name(self.method.value)}." if name in unused else "")
+
+    def _slid(self, name: str, change) -> None:
+        """A slider was moved while the agents train: they go on with its value, and the curves say when."""
+        if self.watch is None or not self.watch.running:
+            return
+        with self.saying_what_is_wrong():
+            self.say()
+            self.watch.change(SLIDERS[name][0], name, change["new"])
 
     def _train(self) -> None:
         settings = self.settings()
         agents, episodes = with_seeds(settings, int(self.seeds.value)), int(self.episodes.value)
         drives = list(self.drives or ()) if settings.needs_demonstrations else []
         self._stopping.clear()
-        self._close_replay()
         self._buttons(running=True)
         self.progress.value = progress("Preparing: roads, networks, demonstrations …", 0.0)
         arguments = (agents, episodes, drives or None, begun := threading.Event())
@@ -125,9 +122,15 @@ class TrainPanel(Panel):
         begun.set()
         try:
             training = Training(agents, episodes, self.scenario, demonstrations=drives)
-            self._next_look = 0.0
-            self.result = training.run(progress=False, callback=self._look, stop=self._stopping.is_set)
-            self._show(training, "Stopped" if self.result.interrupted else "Done")
+            before, self.watch = self.watch, Watch(training, button=False)
+            self.stage.children = [self.watch]
+            if before is not None:
+                before.close()
+            self._due = 0.0
+            self.result = training.run(progress=False, callback=self._look, stop=self._stopped)
+            self.watch.ended(self.result)
+            self._tell(training, "Stopped" if self.result.interrupted else "Done")
+            self.svg = self.watch.svg
             if self.result.stopped:
                 seeds = ", ".join(str(agents[i].seed) for i in sorted(self.result.stopped))
                 self.say(f"Diverged, and kept as last finite: seed {seeds}.", wrong=True)
@@ -137,15 +140,17 @@ class TrainPanel(Panel):
         finally:
             self._buttons(running=False)
 
-    def _look(self, training: Training) -> None:
-        """In the training's thread, after each decision: now and then, show how far it is."""
-        started = time.monotonic()
-        if started >= self._next_look and not self._stopping.is_set():
-            self._show(training, "Training")
-            ended = time.monotonic()
-            self._next_look = ended + max(1 / LOOKS, (ended - started) * (1 / SHARE - 1))
+    def _stopped(self) -> bool:
+        return self._stopping.is_set() or self.watch.stopping
 
-    def _show(self, training: Training, how: str) -> None:
+    def _look(self, training: Training) -> None:
+        """In the training's thread, after each decision."""
+        self.watch.look(training)
+        if time.monotonic() >= self._due and not self._stopped():
+            self._tell(training, "Training")
+            self._due = time.monotonic() + 1
+
+    def _tell(self, training: Training, how: str) -> None:
         driven = int(training.curves.finished.clip(max=training.episodes).sum())
         total, seconds = training.n_agents * training.episodes, training.seconds
         words = f"{how}: {driven:,} of {total:,} episodes in {seconds:.0f} s, "
@@ -153,33 +158,9 @@ class TrainPanel(Panel):
         if how == "Training" and driven:
             words += f", about {seconds * (total - driven) / driven:.0f} s left"
         self.progress.value = progress(words, driven / total)
-        self._draw(training.settings[0].method, training.curves.values, training.episodes)
-
-    def _draw(self, method: str, curves: dict[str, np.ndarray], episodes: int) -> None:
-        self.svg = self.chart.value = training_chart(method, curves, episodes)
-
-    def _watch(self) -> None:
-        from bootcourse.replay3d.viewer import Replay
-
-        returns = self.result.curves["return"]
-        last = [agent[np.isfinite(agent)][-50:] for agent in returns]
-        best = max(range(len(last)), key=lambda i: last[i].mean() if last[i].size else -math.inf)
-        agent, road = self.result.agents[best], held_out_seeds(HELD_OUT, 1)[0]
-        label = f"{agent.settings.method}, seed {agent.settings.seed}"
-        drive = record(agent.as_policy(with_q=True), [road], self.scenario, label)[0]
-        self._close_replay()
-        self.replay = Replay([drive], height=560)  # the panel closes it, not the notebook's cell
-        self.stage.value = self.replay._repr_mimebundle_()["text/html"]
-        self.say(f"The best of {len(last)}, {display_name(label)}, on road {road}, which no agent has seen.")
-
-    def _close_replay(self) -> None:
-        if self.replay is not None:
-            self.replay.close()
-            self.replay, self.stage.value = None, ""
 
     def _buttons(self, running: bool) -> None:
         self.train.disabled, self.stop.disabled = running, not running
-        self.watch.disabled = running or self.result is None
 
 
 def check_of(setting: str) -> Callable[[float], Settings]:
@@ -193,32 +174,6 @@ def progress(words: str, share: float) -> str:
     return html('<div class="bc-quiet" role="status">{}&ensp;{}</div>', bar, words)
 
 
-def training_chart(method: str, curves: dict[str, np.ndarray], episodes: int) -> Drawing:
-    """Six small charts of a training, always of the same size: thin lines are agents, the thick one their mean.
-
-    curves: as `Result.curves`, each (agents, episodes), NaN where still to come; empty before the training.
-    """
-    name, done, window = display_name(method), finished(curves), window_of([curves])
-    words = f"{name}: means of {window} episodes. Thin: an agent. Thick: the agents' interquartile mean."
-    parts = [text(12, 18, words if done else "No episode has ended yet.", fill=QUIET)]
-    ends = []
-    for i, measure in enumerate(MEASURES[each] for each in SHOWN):
-        at, means = (
-            rolling_means(curves[SHOWN[i]] * measure.factor, window) if done else (np.zeros(0), np.zeros((0, 0)))
-        )
-        left, top = 50 + (i % COLUMNS) * 340, 62 + (i // COLUMNS) * 180
-        axes = SvgAxes(left, top, 280, 112, (0, max(episodes, 1)), measure.limits or span(means.ravel(), measure.least))
-        axes.frame(measure.label, "episode")
-        end = draw_training(axes, at, means, style(method))
-        if np.isfinite(end):
-            axes.dot(at[np.isfinite(means).all(axis=0)][-1], end, style(method).colour)
-            parts.append(text(left + 280, top - 8, f"{end:.3g}", "end", INK, 12, bold=True))
-            ends.append(f"{measure.label} {end:.3g}")
-        parts += axes.parts
-    ends = f" {name}, after {done} episodes: {', '.join(ends)}." if ends else " No episode has ended yet."
-    return drawing(WIDTH, HEIGHT, parts, f"Training curves.{ends}")
-
-
 def train_panel(
     method: str = "bootstrapped",
     seeds: int = 4,
@@ -227,7 +182,7 @@ def train_panel(
     drives: Sequence[Rollout] | None = None,
     **changes,
 ) -> TrainPanel:
-    """Choose a method, p, ξ and c, train for real, watch the curves grow, stop, and replay the best agent in 3D.
+    """Choose a method, train for real, watch the present agent drive, and move p, ξ, c and β while it learns.
 
     episodes: of each agent; 0: the method's own number. drives: demonstrations to learn from instead of the rule's, if
     there is at least one when Train is pressed. changes: values of any settings (see

@@ -7,6 +7,7 @@ from bootcourse.colours import INK
 from bootcourse.markup import html
 from bootcourse.plots.figure import Picture
 from bootcourse.plots.svg import FONT
+from bootcourse.terminal import printable
 
 TINTS = {"world": "#009E73", "learned": "#0072B2", "stored": "#E69F00"}  # of a box's border and, faintly, of its inside
 TIP = 9  # length of an arrow's head, pixels
@@ -24,7 +25,7 @@ class Diagram:
         return Picture(self)._repr_mimebundle_()
 
     def __repr__(self) -> str:
-        return self.alt
+        return printable(self.alt)
 
 
 def box(x: float, y: float, width: float, height: float, lines: Sequence[str], tint: str) -> str:

@@ -21,6 +21,7 @@ from bootcourse.colours import GRID, INK, QUIET, STRANGERS, Style
 from bootcourse.files import check_replaceable, write_bytes
 from bootcourse.markup import html
 from bootcourse.methods import has_style, style
+from bootcourse.terminal import printable
 
 DPI = 110
 WIDTH = 7.0  # inches
@@ -203,7 +204,7 @@ class Picture:
         return {"text/html": f"{DARK}{img}", "text/plain": self.figure.alt}
 
     def __repr__(self) -> str:
-        return self.figure.alt
+        return printable(self.figure.alt)
 
 
 def show(figure: "Figure | Diagram") -> None:  # noqa: F821

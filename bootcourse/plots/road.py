@@ -36,7 +36,7 @@ def draw_road(canvas: Canvas, scenario: Scenario, left: float, right: float, ori
         canvas.line(dashes, np.full(len(dashes), top + lane * scenario.road.lane_width), PAINT, 1.2)
 
 
-def draw_car(canvas: Canvas, x: float, y: float, heading: float, colour: str, car: Car, name: str = "car", opacity=1.0):
+def draw_car(canvas: Canvas, x: float, y: float, heading: float, colour: str, car: Car, name: str = "car") -> None:
     """One car, to scale, its windscreen towards its nose; `name` marks the body in tests and SVG files."""
     size, radius = np.array([car.length, car.width]), 0.22 * car.width
     turns = np.linspace(0, 2 * np.pi, 16, endpoint=False) + np.pi / 16
@@ -47,21 +47,19 @@ def draw_car(canvas: Canvas, x: float, y: float, heading: float, colour: str, ca
     cos, sin = np.cos(heading), np.sin(heading)
     for outline, paint, clear in ((body, colour, 1.0), (windscreen, "white", 0.6), (rear, "white", 0.6)):
         xs, ys = (outline @ [[cos, sin], [-sin, cos]] + [x, y]).T
-        canvas.fill(xs, ys, paint, clear * opacity, *(("white", name) if outline is body else ()))
+        canvas.fill(xs, ys, paint, clear, *(("white", name) if outline is body else ()))
 
 
 def draw_cars(
     canvas: Canvas, cars: np.ndarray, scenario: Scenario, colour: str, left: float, right: float, origin: float,
-    ghosts: Sequence[tuple[np.ndarray, str]] = (), names: bool = True, trail: np.ndarray = NO_TRAIL,
+    names: bool = True, trail: np.ndarray = NO_TRAIL,
 ) -> None:  # fmt: skip
     """All cars between `left` and `right`, the ego last; the traps' names, or how far away they are.
 
-    cars: (vehicles, 10), columns of bootcourse.road.state; colour: of the ego; ghosts: (state (10,), colour)
-    of egos of other drives, drawn translucent. trail: places (n, 2) on the road, m, where no name should lie.
+    cars: (vehicles, 10), columns of bootcourse.road.state; colour: of the ego. trail: places (n, 2) on the road, m,
+    where no name should lie.
     """
     half = scenario.car.length / 2
-    for state, look in ghosts:
-        draw_car(canvas, state[X] - origin, state[Y], state[HEADING], look, scenario.car, "ghost", 0.45)
     for i in reversed(range(len(cars))):
         x, kind = cars[i, X] - origin, {EGO: "ego", TRAP_1: "trap 1", TRAP_2: "trap 2"}.get(i, f"traffic {i - TRAP_2}")
         if left - half < x < right + half:
@@ -102,7 +100,7 @@ def _name_trap(
 
 def road_svg(
     cars: np.ndarray, scenario: Scenario, colour: str, width: float, scale: float,
-    ghosts: Sequence[tuple[np.ndarray, str]] = (), trails: Sequence = (),
+    trails: Sequence = (),
 ) -> tuple[list[str], float]:  # fmt: skip
     """The SVG parts of one moment around the ego, and their height in pixels.
 
@@ -111,7 +109,7 @@ def road_svg(
     left, right, (top, bottom) = -BEHIND * width / scale, (1 - BEHIND) * width / scale, edges_of(scenario.road)
     canvas = SvgAxes(0, 0, width, (bottom - top) * scale, (left, right), (bottom, top))
     draw_road(canvas, scenario, left, right, cars[EGO, X])
-    draw_cars(canvas, cars, scenario, colour, left, right, cars[EGO, X], ghosts)
+    draw_cars(canvas, cars, scenario, colour, left, right, cars[EGO, X])
     for trail in trails:
         x = np.where(trail.x - cars[EGO, X] <= right, trail.x - cars[EGO, X], np.nan)
         canvas.line(x, trail.y, trail.colour, 2.6 if trail.chosen else 1.1)

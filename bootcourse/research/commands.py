@@ -34,7 +34,7 @@ def study(
     ),
     backend: str = typer.Option("loky", help="loky (this machine) or dask."),
     scheduler: str = typer.Option("", help="The address of a dask cluster that you have."),
-    workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core."),
+    workers: int = typer.Option(0, min=0, help="Jobs at once; 0: one for each core that may be used."),
 ) -> None:
     """Train and test methods with many seeds; write tables, figures and the fidelity report.
 

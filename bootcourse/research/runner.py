@@ -1,6 +1,5 @@
 """Compute jobs on this machine's cores, or on a dask cluster, through joblib."""
 
-import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,6 +9,7 @@ import numpy as np
 
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import write_json
+from bootcourse.processes import check_semaphores, usable_processors
 from bootcourse.research.jobs import Job, finished, run_job
 from bootcourse.research.results import Results, load_job, load_results
 from bootcourse.storage.assets import FOLDER
@@ -30,13 +30,16 @@ def run_jobs(
     """Compute the jobs that are not done yet. Returns what went wrong, a sentence each.
 
     backend: one of `BACKENDS`; loky uses this machine's cores. scheduler: the address of a dask scheduler; without one,
-    dask starts its own on this machine. workers: processes, by default one for each core. after: called with what went
-    wrong, while the folder is still locked. Raises BootcourseError, before anything is computed, for a mistyped
-    argument, a folder in use or with the runs of a training, and a damaged job.
+    dask starts its own on this machine. workers: processes, by default one for each core that may be used. after:
+    called with what went wrong, while the folder is still locked. Raises BootcourseError, before anything is computed,
+    for a mistyped argument, where processes cannot work together, for a folder in use or with the runs of a training,
+    and for a damaged job.
     """
     check_known("Backend", backend, BACKENDS)
     if scheduler and backend == "loky":
         raise BootcourseError("--scheduler needs --backend dask: loky uses this machine's cores.")
+    if backend == "loky":
+        check_semaphores()
     if any(root.glob("*/provenance.json")):
         raise BootcourseError(f"{root} holds runs of `bootcourse train`: choose another folder for a study.")
     with locked(root):
@@ -70,7 +73,7 @@ def _compute(waiting: list, root: Path) -> list[str]:
 def connected(backend: str, scheduler: str | None, workers: int | None) -> Iterator[None]:
     """joblib's processes: loky's on this machine, or those of a dask cluster."""
     if backend == "loky":
-        with joblib.parallel_config("loky", n_jobs=workers or -1, inner_max_num_threads=1):
+        with joblib.parallel_config("loky", n_jobs=workers or usable_processors(), inner_max_num_threads=1):
             yield
     else:
         with _dask_client(scheduler, workers), joblib.parallel_config("dask", n_jobs=workers or -1):
@@ -83,7 +86,7 @@ def _dask_client(scheduler: str | None, workers: int | None):
     except ModuleNotFoundError:
         raise BootcourseError("dask is not installed: pip install 'bootcourse[dask]'.") from None
     if not scheduler:
-        return Client(n_workers=workers or None, threads_per_worker=1, dashboard_address=None)
+        return Client(n_workers=workers or usable_processors(), threads_per_worker=1, dashboard_address=None)
     try:
         return Client(scheduler, timeout=CONNECT)
     except (OSError, ValueError):
@@ -95,7 +98,7 @@ def time_needed(jobs: Sequence[Job], root: Path, workers: int | None) -> str:
     known = [each for each in (seconds_of(job, root) for job in jobs) if not np.isnan(each)]
     if not known:
         return "No such job has been timed: what is left is shown after the first."
-    cores = min(workers or os.cpu_count() or 1, len(jobs))
+    cores = min(workers or usable_processors(), len(jobs))
     others = len(jobs) - len(known)
     also = f", and {others} that nobody has timed" * (others > 0)
     return f"About {duration(sum(known) / cores)} on {cores} core{'s' * (cores > 1)} without other work{also}."

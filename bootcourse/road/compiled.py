@@ -1,9 +1,10 @@
 """`@compiled`: a function that numba compiles to machine code and caches on disk.
 
 numba's default cache depends only on the file of the called function: after a change in formulas.py, the cached loop
-of twin.py would still contain the old formula. This cache is in a folder whose name is a hash of every file with
-compiled functions, so any change recompiles all of them. Where no lasting folder can be written, the cache lasts as
-long as the process, in a temporary folder that nobody else may open.
+of twin.py would still contain the old formula. This cache is in a folder whose name is a hash of the processor and of
+every file with compiled functions, so any change recompiles all of them, and machines that share a disk do not meet.
+A file in it that is damaged is compiled again. Where no lasting folder can be written, the cache lasts as long as the
+process, in a temporary folder that nobody else may open.
 
 Two settings make the road about three times as fast: small functions are inlined (forceinline), and reference
 counting (_nrt) is on only for functions that allocate arrays, because it costs more than the formulas.
@@ -19,6 +20,8 @@ from contextlib import suppress
 from pathlib import Path
 
 import numba
+from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
+from numba.core.caching import FunctionCache
 from platformdirs import user_cache_dir
 
 PACKAGE = Path(__file__).resolve().parent.parent
@@ -32,13 +35,16 @@ def sources(package: Path) -> list[Path]:
 
 def cache_places() -> list[Path]:
     """Where compiled code may be kept, the best place first: numba's own NUMBA_CACHE_DIR, if it is set, goes first."""
-    chosen = os.environ.get("NUMBA_CACHE_DIR")
-    return [*([Path(chosen)] if chosen else []), PACKAGE / "__pycache__", Path(user_cache_dir("bootcourse"))]
+    chosen, own = os.environ.get("NUMBA_CACHE_DIR"), []
+    with suppress(RuntimeError):  # a user without a home folder
+        own = [Path(user_cache_dir("bootcourse"))]
+    return [*([Path(chosen)] if chosen else []), PACKAGE / "__pycache__", *(each for each in own if each.is_absolute())]
 
 
 def cache_folder(package: Path, places: list[Path]) -> tuple[Path | None, str]:
     """(the cache of this version, "") in the first of these places that can be written, or (None, why none can)."""
     text = b"".join(source.read_bytes() for source in sources(package))
+    text += f"{get_host_cpu_name()} {get_host_cpu_features().flatten()}".encode()
     name, reasons = f"numba-{hashlib.sha256(text).hexdigest()[:12]}", []
     for place in places:
         try:
@@ -71,6 +77,26 @@ if UNWRITABLE:
     CACHE_FOLDER, _ = cache_folder(PACKAGE, cache_places())
 
 
+class Cache(FunctionCache):
+    """numba's cache of a function, which does without a file that cannot be read or written."""
+
+    def load_overload(self, sig, target_context):
+        """The compiled code of a signature; None, and it is compiled again, if a power cut or the like damaged it."""
+        try:
+            return super().load_overload(sig, target_context)
+        except Exception:  # whatever pickle or LLVM raise
+            with suppress(OSError):
+                self.flush()
+            return None
+
+    def save_overload(self, sig, data):
+        """Keep compiled code for later starts, if there is room for it."""
+        try:
+            super().save_overload(sig, data)
+        except OSError as error:
+            print(f"Compiled code is not kept in {self.cache_path}: {error.strerror}.", file=sys.stderr)
+
+
 def compiled(function):
     """Compile a function that allocates no arrays in numba's nopython mode; division by zero as in numpy."""
     return _compile(function, makes_arrays=False)
@@ -85,6 +111,9 @@ def _compile(function, makes_arrays: bool):
     before, cached = numba.config.CACHE_DIR, CACHE_FOLDER is not None
     numba.config.CACHE_DIR = str(CACHE_FOLDER)
     try:
-        return numba.njit(cache=cached, error_model="numpy", nogil=True, forceinline=True, _nrt=makes_arrays)(function)
+        made = numba.njit(cache=cached, error_model="numpy", nogil=True, forceinline=True, _nrt=makes_arrays)(function)
+        if cached:
+            made._cache = Cache(function)
+        return made
     finally:
         numba.config.CACHE_DIR = before

@@ -144,6 +144,10 @@ class TrapEnv(OneCar):
             return self.viewer.get_image()
         self.viewer.handle_events()
 
+    def __getstate__(self) -> dict:
+        """What a copy gets, also in another process: all but the window, for which it opens its own."""
+        return self.__dict__ | {"viewer": None}
+
     def close(self) -> None:
         """Close the viewer."""
         if self.viewer is not None:

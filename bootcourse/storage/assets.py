@@ -33,11 +33,23 @@ class Manifest(TypedDict):
     files: list[Entry]
 
 
+def shipped(name: str = "", folder: Path | None = None) -> Path:
+    """The place of something that ships, such as "runs". Raises BootcourseError where no results ship.
+
+    folder: by default `FOLDER`, which an installed package lacks.
+    """
+    folder = folder or FOLDER
+    if not (folder / MANIFEST).exists():
+        raise BootcourseError(
+            f"{folder} holds no shipped results, as an installed package does not: work in a clone of the course's "
+            "repository, installed with `pip install -e .`."
+        )
+    return folder / name
+
+
 def read_manifest(folder: Path) -> Manifest:
     """The manifest of an assets folder. Raises BootcourseError if it is damaged, or not there."""
-    path = folder / MANIFEST
-    if not path.exists():
-        raise BootcourseError(f"{folder} holds no shipped results: work in a whole copy of the course's repository.")
+    path = shipped(MANIFEST, folder)
     content = read_sealed(path, FORMAT)
     with decoding(path):
         return convert(content, Manifest)

@@ -47,6 +47,7 @@ from bootcourse.storage.sealed import amiss, read_sealed, write_sealed
 
 UNFINISHED = "unfinished"  # the folder of a training that is not over, beside the runs
 HASHED = ("config.json", "weights.safetensors", "curves.npz")
+KIT = Path(__file__).resolve().parents[2]  # of a clone the top folder
 TRAIN_AGAIN = "train this run again, or restore it from a copy"
 
 
@@ -215,9 +216,10 @@ def find_runs(folder: Path) -> list[Path]:
     raise BootcourseError(f"{folder} holds no run: train one with `bootcourse train --out {folder}`.")
 
 
-def _commit() -> str:
-    """The git commit of this code, "unknown" outside a clone."""
-    command = ["git", "-C", str(Path(__file__).parent), "describe", "--always", "--dirty", "--abbrev=12"]
+def _commit(kit: Path = KIT) -> str:
+    """The git commit of this code, "unknown" where its folder is no clone, also inside somebody else's repository."""
+    here = [f"--git-dir={kit / '.git'}", f"--work-tree={kit}"]
+    command = ["git", *here, "describe", "--always", "--dirty", "--abbrev=12"]
     try:
         return subprocess.run(command, capture_output=True, text=True, timeout=5, check=True).stdout.strip()
     except (OSError, subprocess.SubprocessError):

@@ -5,10 +5,7 @@ folder one after the other. It asks for nothing else, so it also opens from a me
 """
 
 import argparse
-import base64
-import gzip
 import json
-import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,26 +19,24 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import read_tensors, write_bytes
 from bootcourse.learn.agent import Agent
 from bootcourse.methods import DRIVERS, style
+from bootcourse.plots.road import road_svg
+from bootcourse.plots.svg import drawing, printed
 from bootcourse.policies import Policy, rule_policy
 from bootcourse.replay3d import camera
 from bootcourse.replay3d import road as stage
 from bootcourse.replay3d.car import DARK, LAMPS, LIGHT, car_parts
 from bootcourse.road import state
 from bootcourse.road.branching import future_worth
-from bootcourse.road.constants import constants
-from bootcourse.road.twin import uniforms_needed
+from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import SENTENCES
-from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS, RULE_P, Scenario
-from bootcourse.storage.assets import FOLDER
+from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS, RULE_P
+from bootcourse.storage.assets import FOLDER, shipped
 from bootcourse.storage.runs import load_run
-from bootcourse.web.wasm import FREE, road_module
+from bootcourse.web import bundle
+from bootcourse.web.bundle import HERE, module, script, text_of
+from bootcourse.web.packing import EXACT, SHORT, packed, packed_network, scenario_data
+from bootcourse.web.wasm import road_module
 
-HERE = Path(__file__).resolve().parent
-IN_DEPTH = ("shaders", "webgl", "scene")  # the view in 3D
-SCRIPTS = (
-    "random", "road", "minds", "drive", "drivers", "seat", "words", "address", "view", *IN_DEPTH, "thoughts", "summary",
-    "controls", "main", "mount",
-)  # fmt: skip
 # The agents in the page; of plain SAC also the critics, which the compromise between Q and the rule needs.
 AGENTS = {
     "sac": FOLDER / "runs/sac-2",
@@ -52,42 +47,8 @@ PPO = HERE / "ppo_cloned.safetensors"  # the actor of `bootcourse train --method
 ROADS = 100  # the first of them, on which each driver is measured
 # What a driver's name in the page says of it: it gets out on more roads than this, and has fewer, or more, accidents.
 ESCAPING, SAFE, CRASHING, STAYING = 90, 10, 50, 10
+FIRST_ROAD = 10  # of the page
 PARTS = ("paint", "dark", "light", "lamps")  # of a car, in the order that shaders.js knows
-EXACT, SHORT = 4, 3  # bytes of a float32 that are kept: all for actors; without the last for critics (error 2^-16)
-
-
-def packed(data: bytes) -> str:
-    """Bytes as compressed text, for `unpack` in minds.js."""
-    return base64.b64encode(gzip.compress(data, 9, mtime=0)).decode()
-
-
-def packed_network(parameters: list[torch.Tensor], member: int, precision: int) -> dict:
-    """One network of some that are trained together: the sizes of its layers, and its weights for minds.js.
-
-    The weights are sorted by bytes (all first bytes, all second ...), because those with the exponents compress well.
-    """
-    arrays = [parameter[member].numpy() for parameter in parameters]
-    weights = np.concatenate([array.ravel() for array in arrays]).astype("<f4")
-    planes = weights.view(np.uint8).reshape(-1, 4)[:, 4 - precision :].T
-    return {"sizes": [len(arrays[0]), *(array.shape[1] for array in arrays[::2])], "weights": packed(planes.tobytes())}
-
-
-def scenario_data(scenario: Scenario) -> dict:
-    """What the page needs of a scenario: the record that the compiled code reads, and what the picture shows."""
-    return {
-        "record": base64.b64encode(constants(scenario).tobytes()).decode(),
-        "vehicles": scenario.vehicles,
-        "uniforms": uniforms_needed(scenario.vehicles),
-        "observation": scenario.observation_size,
-        "lanes": scenario.road.lanes,
-        "laneWidth": scenario.road.lane_width,
-        "steps": scenario.clock.steps,
-        "dt": scenario.clock.dt,
-        "decisions": scenario.clock.decisions,
-        "length": scenario.car.length,
-        "width": scenario.car.width,
-        "free": FREE,
-    }
 
 
 def names() -> str:
@@ -146,7 +107,8 @@ def scene_data() -> dict:
 
 
 def page_data() -> dict:
-    """All that the scripts read, as JSON."""
+    """All that the scripts read, as JSON. Raises BootcourseError where the agents do not ship."""
+    shipped()
     agents: dict[str, Agent] = {name: load_run(path).agent for name, path in AGENTS.items()}
     networks = {name: packed_network(agent.actor, 0, EXACT) for name, agent in agents.items()}
     clone = read_tensors(PPO)
@@ -182,28 +144,25 @@ def page_data() -> dict:
     }
 
 
-def script(name: str) -> str:
-    """A script of this folder without indentation, and without the lines that are comments or empty."""
-    return re.sub(r"^[ \t]*(//.*)?\n?", "", (HERE / f"{name}.js").read_text(encoding="utf-8"), flags=re.M)
+def picture() -> str:
+    """The road from above as it begins, as SVG: what a reader sees where no kernel runs."""
+    env = TrapVectorEnv(1)
+    env.reset(seed=[FIRST_ROAD])
+    road, height = road_svg(env.cars[0], DEFAULT, OTHER.colour, 1000, 8.0)
+    words = "A road of three lanes from above: one slow car ahead of the ego, another one beside it."
+    return printed(drawing(1000, height, road, words)).decode()
 
 
-def text_of(name: str) -> str:
-    """A file of this folder without indentation."""
-    return re.sub(r"^[ \t]+", "", (HERE / name).read_text(encoding="utf-8"), flags=re.M)
-
-
-def module() -> str:
-    """The scripts that make a world, whose door is `mount`, with the style and the elements of its shadow root."""
-    own = {"STYLE": text_of("theme.css") + text_of("style.css"), "WORLD": text_of("world.html")}
-    texts = [f"const {name} = `{text}`;" for name, text in own.items()]
-    return "\n".join([names(), *texts, *map(script, SCRIPTS)])
+def content() -> dict[str, str]:
+    """See `bundle.content`, which keeps it."""
+    data = json.dumps(page_data(), separators=(",", ":")).replace("<", "\\u003c")
+    return {"names": names(), "data": data, "picture": picture()}
 
 
 def page() -> str:
     """The whole page as text."""
-    data = json.dumps(page_data(), separators=(",", ":")).replace("<", "\\u003c")
     text = (HERE / "page.html").read_text(encoding="utf-8")
-    parts = {"style": text_of("theme.css") + text_of("page.css"), "data": data}
+    parts = {"style": text_of("theme.css") + text_of("page.css"), "data": bundle.content()["data"]}
     parts["script"] = "\n".join([module(), script("page")])
     for name, part in parts.items():
         text = text.replace("{{ " + name + " }}", part)

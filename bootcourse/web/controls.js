@@ -57,6 +57,7 @@ class Controls {
 
   tap(wish) {
     Object.assign(this.tapped, wish);
+    this.touched();
     clearTimeout(this.waiting);
     this.waiting = setTimeout(() => this.pressed(), TOGETHER);
   }

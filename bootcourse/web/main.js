@@ -17,7 +17,7 @@ class Game {
     this.settings = { p: data.p, xi: 0, c: 0 };
     this.failures = this.attempts = 0;
     this.pace = calm.matches ? 0 : 1;
-    this.road = new Road(compiled, data.scenario);
+    this.road = new Road(compiled, options.scenario ?? data.scenario);
     this.drivers = makeDrivers(data, networks, this.settings);
     for (const driver of options.drivers) this.drivers[driver.id] = driver;
     this.view = new View(this.find("road"), this.road.scenario);
@@ -27,8 +27,10 @@ class Game {
       t: () => this.toggleTheme(), v: () => this.find("view").click(), 0: () => this.setPace(0),
       1: () => this.setPace(1), 2: () => this.setPace(2), 5: () => this.setPace(5),
     });
+    this.controls.touched = () => { this.dirty = true; }; // a key is seen at once, also where the clock waits
     this.controls.pad.forEach((button, action) => button.setAttribute("aria-label", data.actions[action]));
     makeSliders(this.find, this.settings, name => this.tuned(name));
+    if (options.page) this.find("shell").tabIndex = -1; // the keys are the world's wherever the focus is
     this.wire();
     const system = () => this.theme(options.theme ?? (dark.matches ? "dark" : "light"));
     dark.addEventListener("change", system, { signal: this.stop.signal });
@@ -79,7 +81,9 @@ class Game {
     this.seen = new ResizeObserver(() => this.fit());
     this.seen.observe(this.find("road"));
     this.seen.observe(this.host);
-    document.addEventListener("visibilitychange", () => { if (document.hidden) this.run(false); }, { signal });
+    document.addEventListener("visibilitychange", () => {
+      if (document.hidden || this.options.watch) this.run(!document.hidden);
+    }, { signal });
   }
 
   get paces() { return this.root.querySelectorAll("[data-pace]"); }
@@ -115,6 +119,7 @@ class Game {
     this.setPace(Number(pace));
     this.find("futures").checked = Number(futures) === 1;
     this.begin({ number: road, ghost, driver });
+    if (given.run) this.run(true);
     return this.look(view === "3d");
   }
 
@@ -148,7 +153,7 @@ class Game {
   fit() {
     const wide = this.host.clientWidth, plain = !this.options.details;
     const size = wide < NARROW ? "small" : wide < WIDE && !plain ? "middle" : "";
-    this.find("shell").className = `world ${size} ${plain ? "plain" : ""}`;
+    this.find("shell").className = `world ${this.options.watch ? "watch" : `${size} ${plain ? "plain" : ""}`}`;
     this.view.fit();
     if (this.inDepth) this.scene?.fit();
     this.dirty = true;
@@ -160,6 +165,7 @@ class Game {
     if (solved || this.seat && Number(number) !== this.number) this.attempts = 0;
     this.number = valid ? Number(number) : this.number ?? FIRST_ROAD;
     [this.ghostName, this.driverName] = [ghost, driver];
+    this.begun = (this.begun ?? 0) + 1; // drives, so that two of one road can be told apart
     this.find("number").value = this.number;
     this.list();
     const seat = driver => new Seat(this.road, this.number, driver);
@@ -173,7 +179,7 @@ class Game {
     this.run(false);
     this.think();
     const invitation = this.mine ? `Press Start and watch ${this.mine.label} drive.`
-      : "Press ↑ ↓ ← → or the pad: your first decision starts the clock.";
+      : `${this.options.keys ? "Press" : "Click here, then press"} ↑ ↓ ← → or the pad: your first decision starts the clock.`;
     this.say(valid ? invitation : noRoad(number));
     this.tell(`Road ${this.number}. ${stateInWords(this.drive.cars)}`);
     this.event("shown");
@@ -275,6 +281,7 @@ class Game {
 
   // Once for each picture: let the clock run, and draw.
   frame(now) {
+    if (this.stop.signal.aborted) return;
     const waited = this.waited;
     this.waited = this.waiting;
     if (waited && !this.waited) this.think();
@@ -282,7 +289,7 @@ class Game {
     this.last = now;
     if (this.running) this.advance(passed * (this.pace || STEP_PACE));
     if (this.running || this.dirty) this.draw();
-    if (!this.stop.signal.aborted) requestAnimationFrame(next => this.frame(next));
+    requestAnimationFrame(next => this.frame(next));
   }
 
   // Whether a driver elsewhere has not answered yet: the clock waits.
@@ -320,8 +327,9 @@ class Game {
     this.finished = true;
     this.run(false);
     this.event("ended", drive);
+    if (this.options.watch) return setTimeout(() => this.open({ road: this.number + 1, run: true }), 1500);
     for (const ghost of ghosts) await ghost.finish();
-    if (seat !== this.seat) return; // another drive has begun meanwhile
+    if (seat !== this.seat || this.stop.signal.aborted) return; // another drive has begun meanwhile
     const idle = new Drive(this.road, this.number).finish({ decide: () => ({ action: IDLE }) });
     const drives = [...ghosts.map(ghost => ({ drive: ghost.drive, ...ghost.driver, width: 1.8 })), { drive, label, colour, width: 3 }];
     let sentence = verdict(drive, idle, label);

@@ -17,8 +17,9 @@ function prepared(data) {
 }
 
 // options: road, ghost (ids of drivers, with commas between), driver, pace, futures and view, as in the page's address;
-// drivers: more drivers (see `guest` in drivers.js); details: show what the driver thinks; keys: the element whose keys
-// it takes, by default its own; page: it is all that a page shows; theme: "light" or "dark", by default the system's.
+// scenario: as `scenario_data` in packing.py makes it; drivers: more drivers (see `guest` in drivers.js); details: show what the driver thinks; keys: the element whose keys
+// it takes, by default its own; page: it is all that a page shows; theme: "light" or "dark", by default the system's;
+// run: the clock starts at once; watch: nothing but the road, on which one drive follows the other.
 async function mount(element, data, options = {}) {
   const root = element.shadowRoot ?? element.attachShadow({ mode: "open" });
   root.innerHTML = `<style>${STYLE}</style>${WORLD}`;

@@ -105,16 +105,17 @@ table(["200 episodes of", "transitions", "end in an accident"], rows)
 # then lasts {{ 0.9 * 150 / math.log(10) | .0f }} s on average, 0.9 over this risk, and 200 drives
 # give about {{ round(200 * 0.9 * 150 / math.log(10), -2) | ,.0f }} transitions.
 #
-# The third way is to drive yourself. Press **Keep as demonstration**, and the next cell finds your
-# drive. If you keep nothing, it takes the rule's actions on this road instead.
+# The third way is to drive yourself. The next cell takes your drives that get out, also those that
+# you break off when you are out. If there is none, it takes the rule's actions on this road.
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
-(panel := bc.panels.drive_panel(seed=ROAD))
+(world := bc.world(road=ROAD))
 
 # %%
 stand_in = bc.plan_policy(bc.policies.in_words(driven["the rule"][ROAD].actions))
-mine = panel.demonstrations or bc.record(stand_in, [ROAD], label="you")
+out = [drive for drive in world.attempts if drive.success and not drive.accident]
+mine = out or bc.record(stand_in, [ROAD], label="you")
 own_rows = demonstrations.demonstration_rows(mine)
 print(f"drives: {len(mine)}, transitions: {len(own_rows)}, of {own_rows.shape[1]} numbers each")
 print(f"the last one: return {mine[-1].rewards.sum():.1f}, success {mine[-1].success}")

@@ -66,7 +66,7 @@ bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], he
 predict("start.1", "How many attempts until you are ahead of trap 1?", unit="attempts")
 
 # %% tags=["nbval-ignore-output"]
-bc.panels.drive_panel(seed=10)
+bc.world(road=10)
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Open with this page on the wall and let two people drive before you explain anything. Expect

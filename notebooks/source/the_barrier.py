@@ -85,7 +85,7 @@ labels = ["sac, γ = 0.8"] * SEEDS + ["sac, γ = 0.95"] * SEEDS
 training = bc.Training(agents, episodes=20_000)
 doing_nothing = {"idle": {"return": idle.rewards.sum()}}
 live = live_curves.LiveCurves(labels, measures=("return",), constants=doing_nothing)
-alone = training.run(callback=live, stop=lambda: training.updates >= UPDATES)
+alone = training.run(progress=False, callback=live, stop=lambda: training.updates >= UPDATES)
 live.show(training)
 
 

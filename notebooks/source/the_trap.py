@@ -28,7 +28,7 @@ import itertools
 import bootcourse as bc
 import gymnasium as gym
 import numpy as np
-from bootcourse.course import check, compare_predictions, live_curves, own_code, predict, table
+from bootcourse.course import check, compare_predictions, own_code, predict, table
 from bootcourse.course.lessons.the_trap import diagrams, figures
 from bootcourse.research import report, tables
 from bootcourse.road import formulas, observation
@@ -62,7 +62,7 @@ bc.show(bc.top_view_over_time(escape, times=[0, 3, 6, 9, 20, bc.overtaken(escape
 # %% [markdown]
 # ## Round 1: nine actions
 #
-# The nine buttons of the panel are nine **actions**. Each combines an acceleration of
+# The nine buttons beside it are nine **actions**. Each combines an acceleration of
 # {{ -DEFAULT.ego.acceleration }}, 0 or +{{ DEFAULT.ego.acceleration }} m/s² with a steering angle
 # of −π/{{ math.pi / DEFAULT.ego.steering }}, 0 or +π/{{ math.pi / DEFAULT.ego.steering }} rad, and
 # is held for one second. A program knows them by their numbers, 0 to {{ N_ACTIONS - 1 }}.
@@ -142,10 +142,10 @@ table(["plan", "ends with", "after"], rows)
 # ## Round 2: is there another way?
 #
 # The rule brakes for some seconds. Could you also get out without braking? Try it on another road,
-# number 7. The panel's ghost does nothing here.
+# number 7. The ghost beside you does nothing here.
 
 # %% tags=["nbval-ignore-output"]
-bc.panels.drive_panel(seed=7, ghost=bc.idle_policy)
+bc.world(road=7, ghosts="idle")
 
 # %% [markdown]
 # Take the {{ 3 ** 8 | , }} plans that steer left, straight or right in each of eight seconds at the
@@ -414,9 +414,7 @@ agents = bc.with_seeds(bc.settings_for("sac"), 2) + bc.with_seeds(
 )
 training = bc.Training(agents, episodes=5000)
 beginner = training.agent(2).as_policy()
-live = live_curves.LiveCurves(every=2)
-learned = training.run(progress=False, callback=live, stop=lambda: training.updates >= 1500)
-live.show(training)
+learned = training.run(updates=1500)
 
 # %% [markdown]
 # A crash in the first seconds returns about −9.5, doing nothing {{ idle().rewards.sum() | .1f }}.

@@ -6,21 +6,27 @@ that such a text can be judged by itself. IPython's own transformer reads cells 
 """
 
 import ast
+import json
+import os
 import re
 import time
 from bisect import bisect_left
 from collections import defaultdict
 from itertools import accumulate
+from pathlib import Path
 from typing import Any
 
+import msgspec
 from IPython.core.inputtransformer2 import TransformerManager
-from msgspec import Struct
+from msgspec import Raw, Struct
 
 from bootcourse.course.lessons import registry
 from bootcourse.course.names import names_changed, names_made, names_used, root_of
 from bootcourse.course.verdict import MARKS
 from bootcourse.errors import BootcourseError
+from bootcourse.files import decoding, open_regular
 
+LARGEST = 2**28  # bytes of a notebook with its outputs
 LONGEST = 50_000  # characters of a cell, and of an answer
 SECONDS = 10.0  # of the processor, however busy it is with other work, that reading a student's notebooks may take
 NO_PYTHON = (SyntaxError, ValueError, RecursionError, MemoryError, RuntimeError)  # of a text that cannot be parsed
@@ -28,19 +34,23 @@ RUNS_ITS_CELL = re.compile(r"\s*%%(time|capture|prun)\b.*\n")  # other %%magics 
 SURE = (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Import, ast.ImportFrom, ast.Assign, ast.AnnAssign)
 
 
+class Data(Struct, frozen=True, rename={"text": "text/plain"}):
+    text: Any = ""  # a text, or its lines
+
+
 class Output(Struct):
-    data: dict[str, Any] = {}
+    data: Data = Data()
 
     @property
     def says_right(self) -> bool:
-        text = self.data.get("text/plain", "")
+        text = self.data.text
         return "".join(map(str, text) if isinstance(text, list) else str(text)).startswith(MARKS["passed"])
 
 
 class Cell(Struct):
     cell_type: str
     source: str | list[str]  # a text, or its lines
-    outputs: list[Output] = []
+    outputs: Raw = Raw(b"[]")  # whatever they are, and however large: an answer does not depend on them
 
     def __post_init__(self):
         if self.cell_type == "code" and len(self.text) > LONGEST:
@@ -49,6 +59,14 @@ class Cell(Struct):
     @property
     def text(self) -> str:
         return self.source if isinstance(self.source, str) else "".join(self.source)
+
+    @property
+    def says_right(self) -> bool:
+        """Does the check, as its output shows, say that the answer is right?"""
+        try:
+            return any(output.says_right for output in msgspec.json.decode(self.outputs, type=list[Output]))
+        except msgspec.MsgspecError:  # outputs of another kind
+            return False
 
 
 class Notebook(Struct):
@@ -59,6 +77,26 @@ class Notebook(Struct):
     @property
     def code(self) -> list[Cell]:
         return [cell for cell in self.cells if cell.cell_type == "code"]
+
+
+def read_notebook(path: Path, remedy: str) -> Notebook:
+    """The notebook of a file, also of one that an editor saved in UTF-16, or whose outputs are no standard JSON.
+
+    remedy: for a file that is damaged. Raises BootcourseError if it cannot be read.
+    """
+    with open_regular(path) as file, decoding(path, remedy):
+        if (size := os.fstat(file.fileno()).st_size) > LARGEST:
+            most = f"{size:,} bytes, and at most {LARGEST:,} are read"
+            raise BootcourseError(f"{path} has {most}: clear the outputs of all its cells, and save it again.")
+        data = file.read()
+        try:
+            return msgspec.json.decode(data, type=Notebook)
+        except msgspec.ValidationError:
+            raise
+        except (msgspec.DecodeError, UnicodeDecodeError):
+            value = json.loads(data.decode(json.detect_encoding(data), "replace"), parse_constant=str)  # NaN, as a text
+            text = json.dumps(value, ensure_ascii=False).encode("utf-8", "replace")  # half a letter becomes "?"
+            return msgspec.json.decode(text, type=Notebook)
 
 
 class Clock(TransformerManager):
@@ -169,7 +207,7 @@ class Answers:
             mine = statements_of(cell.text, clock)
             checks = [name for one in mine for name in one.checks]
             self.right -= set(checks)
-            if any(output.says_right for output in cell.outputs):
+            if cell.says_right:
                 self.right |= set(checks[-1:])  # a cell shows what its last line says
             self.statements += mine
         self.touched = self._touched()

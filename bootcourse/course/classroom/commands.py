@@ -1,14 +1,15 @@
 """Commands for a class: handout, submit, grade."""
 
-import os
 import re
 import sys
 from pathlib import Path
 
 import typer
 
+from bootcourse.cli.places import ask_for
 from bootcourse.cli.training import INTERRUPTED
 from bootcourse.errors import BootcourseError
+from bootcourse.processes import usable_processors
 
 
 def submit(
@@ -38,7 +39,7 @@ def grade(
     folder: Path = typer.Argument(..., help="A file or a folder for each student: submissions or notebooks."),
     out: Path = typer.Option(Path("grades.csv"), help="The table to write; more is written beside it."),
     lessons: str = typer.Option("", help="Only these lessons, such as 2-7; by default those that were handed out."),
-    workers: int = typer.Option(0, min=0, help="Answers judged at once; 0: one for each core."),
+    workers: int = typer.Option(0, min=0, help="Answers judged at once; 0: one for each core that may be used."),
 ) -> None:
     """Judge every answer of a class again; write tables, a page for each student and one for the class."""
     from bootcourse.course.classroom.grading import Verdicts, graded, handed_out, judge_all, points_of
@@ -46,11 +47,12 @@ def grade(
     from bootcourse.course.classroom.submission import collect
 
     check_places(out, folder)
+    ask_for(out)
     submissions, chosen = collect(folder), read_lessons(lessons)
     worth = points_of(chosen or handed_out(submissions))
     verdicts = Verdicts(out.with_name(f"{out.stem}-verdicts.jsonl"))
     try:
-        holds = judge_all(submissions, list(worth), verdicts, workers or os.cpu_count() or 1)
+        holds = judge_all(submissions, list(worth), verdicts, workers or usable_processors())
     except KeyboardInterrupt:
         print("Interrupted. Verdicts are kept: start the same command again to continue.", file=sys.stderr)
         raise typer.Exit(INTERRUPTED) from None

@@ -34,6 +34,7 @@ from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.errors import BootcourseError
 from bootcourse.files import open_regular
 from bootcourse.policies import rule_policy
+from bootcourse.processes import check_semaphores
 from bootcourse.scenario import DEFAULT
 
 LONGER = 3  # times an exercise's own limit: here the imports count, too, and all cores are busy
@@ -101,6 +102,7 @@ def judge_all(submissions: Sequence[Submission], wanted: Sequence[str], verdicts
     todo = [pair for pair in sorted(answers) if key_of(*pair) not in verdicts.known]
     if not todo:
         return []
+    check_semaphores()
     drive_episodes(rule_policy(DEFAULT), [0])  # compiles the road, if nobody has yet
     # A folder in which somebody works, or whose files were handed in, is not one to start Python in.
     with tempfile.TemporaryDirectory(prefix="bootcourse-judge-", ignore_cleanup_errors=True) as folder, chdir(folder):

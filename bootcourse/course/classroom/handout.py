@@ -4,7 +4,9 @@
 """
 
 import hashlib
+import os
 import shutil
+import tempfile
 from pathlib import Path
 from typing import ClassVar
 
@@ -15,7 +17,7 @@ import bootcourse
 from bootcourse.course.edition import HANDOUT
 from bootcourse.course.lessons import LESSONS, number
 from bootcourse.errors import BootcourseError
-from bootcourse.files import read_bytes, read_json, unix_lines, write_bytes
+from bootcourse.files import TEMPORARY, read_bytes, read_json, unix_lines, write_bytes
 
 KIT = Path(bootcourse.__file__).resolve().parent.parent
 COPIED = ("bootcourse", "assets", "tools/install.sh", "pyproject.toml", "Makefile", "LICENSE", ".gitattributes")
@@ -66,10 +68,17 @@ def write(folder: Path, lessons: set[int] | None, solutions: bool) -> list[str]:
         raise BootcourseError(f"{folder} exists already: choose another folder, or bring it up to date with --update.")
     if archive.exists():
         raise BootcourseError(f"{archive} exists already: choose another folder, or move this file away.")
-    parts = content(lessons, solutions)
-    for name, data in parts.items():
-        write_bytes(folder / name, data)
-    shutil.make_archive(str(archive.with_suffix("")), "zip", archive.parent, archive.stem)
+    parts, parent = content(lessons, solutions), archive.parent
+    parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=parent, prefix=".", suffix=TEMPORARY) as whole:
+        new = Path(whole, archive.stem)
+        for name, data in parts.items():
+            write_bytes(new / name, data)
+        zipped = shutil.make_archive(str(Path(whole, "zipped")), "zip", whole, new.name)
+        folder.mkdir(exist_ok=True)
+        for part in new.iterdir():
+            os.replace(part, folder / part.name)
+        os.replace(zipped, archive)
     count = sum(name.endswith(".ipynb") for name in parts)
     return [f"{folder}: {count} lessons.", f"{archive}: {archive.stat().st_size / 1e6:.0f} MB."]
 

@@ -18,13 +18,14 @@ from msgspec import Meta, Struct, convert, to_builtins
 from msgspec.structs import replace
 
 from bootcourse.course import lessons as exercises
-from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook, unfinished
+from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, read_notebook, unfinished
 from bootcourse.course.lessons import LESSONS
 from bootcourse.course.predictions import FILE, predictions
 from bootcourse.errors import BootcourseError
 from bootcourse.files import decoding, read_json, unix_lines, write_json
 
-ASK = "ask for it again"  # the remedy for a damaged file
+ASK = "ask for it again"  # a lecturer's remedy for a damaged file
+SAVE = "open it in JupyterLab, save it, and submit again"  # a student's
 MOST = 200  # predictions, and as many problems
 KINDS = (".json", ".ipynb")  # of files that a student hands in
 SOLVED = "solved"  # the folder, beside the lessons, with the course's own answers
@@ -81,7 +82,7 @@ def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]
     Raises BootcourseError for an empty name, for no folder or one without notebooks, and for a file that is not this
     student's own submission.
     """
-    name = " ".join(name.split())[:100]
+    name = " ".join(name.encode("utf-8", "replace").decode().split())[:100]
     short = re.sub(r"[\W_]+", "-", name).strip("-").lower()[:40] or "mine"
     path = out or (folder.parent if folder.is_file() else folder) / f"submission-{short}.json"
     if not name:
@@ -95,16 +96,16 @@ def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]
         if old.name != name:
             raise BootcourseError(f"{path} is the submission of {old.name or 'nobody'}: choose another, with --out.")
     now = datetime.now(UTC).isoformat(timespec="seconds")
-    submission = replace(from_notebooks(folder, around(folder)), name=name, time=now, exercises=fingerprint())
+    submission = replace(from_notebooks(folder, around(folder), SAVE), name=name, time=now, exercises=fingerprint())
     write_json(path, to_builtins(submission))
     return path, submission
 
 
-def from_notebooks(path: Path, others: Sequence[Path] = ()) -> Submission:
+def from_notebooks(path: Path, others: Sequence[Path] = (), remedy: str = ASK) -> Submission:
     """What a notebook holds, or a student's folder: notebooks and predictions.
 
-    others: folders that may hold predictions, too. A notebook that is damaged becomes one of the `problems`. Raises
-    BootcourseError for a folder without any.
+    others: folders that may hold predictions, too. A notebook that is damaged becomes one of the `problems`, with the
+    remedy. Raises BootcourseError for a folder without any.
     """
     folder = path if path.is_dir() else path.parent
     notebooks = notebooks_in(folder) if path.is_dir() else [path]
@@ -115,14 +116,14 @@ def from_notebooks(path: Path, others: Sequence[Path] = ()) -> Submission:
     @contextmanager
     def noting(place: Path) -> Iterator[None]:
         try:
-            with decoding(place, ASK), warnings.catch_warnings(action="ignore"):  # Python's, about a student's text
+            with decoding(place, remedy), warnings.catch_warnings(action="ignore"):  # Python's, about a student's text
                 yield
         except BootcourseError as error:
             problems.append(within(folder, error))
 
     for place in notebooks:
         with noting(place):
-            read = Answers(read_json(place, Notebook, ASK), clock)
+            read = Answers(read_notebook(place, remedy), clock)
             texts = read.texts()
             new = {name: text for name, text in texts.items() if name not in answers or not unfinished(text)}
             answers, right = answers | new, right - set(new) | read.right & set(new)

@@ -35,7 +35,7 @@ from bootcourse.research.tables import markdown
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, interval, rate
-from bootcourse.storage.assets import FOLDER
+from bootcourse.storage.assets import FOLDER, shipped
 from bootcourse.storage.runs import find_runs, load_run
 
 NAME, TOGETHER = "look-ahead", 1000  # of the experiment; roads that are driven side by side
@@ -145,7 +145,7 @@ def agents_of(base: str, agents: int, trained: Path) -> list[Agent]:
 
 def shipped_actors(base: str) -> dict[int, Agent]:
     """{seed: the agent that drove the shipped cell of a base policy alone}; without its critics."""
-    path = FOLDER / NAME / f"{folder(Cell(base, 'alone').name)}.npz"
+    path = shipped(NAME) / f"{folder(Cell(base, 'alone').name)}.npz"
     if not path.exists():
         return {}
     results = load_results(path)

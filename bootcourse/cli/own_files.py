@@ -1,0 +1,49 @@
+"""`FILE.py:NAME` on the command line: a function or a class of the user's own file."""
+
+import hashlib
+import importlib.util
+import sys
+from pathlib import Path
+
+from bootcourse.errors import BootcourseError, described
+
+PREFIX = "own file "  # of the name under which Python knows a user's file
+_folders: set[str] = set()  # of the files that were loaded
+
+
+def loaded(place: str, option: str, what: str):
+    """The function or class of "FILE.py:NAME". The file runs as with `python FILE.py`: it can import its neighbours.
+
+    Raises BootcourseError if it is not there or does not load.
+    """
+    file, _, name = place.rpartition(":")
+    if Path(file).suffix != ".py":
+        raise BootcourseError(f"{option} {place}: give a file and a {what} in it, such as mine.py:mine.")
+    if not Path(file).is_file():
+        raise BootcourseError(f"{option} {place}: there is no file {file}.")
+    path = Path(file).resolve()
+    find_neighbours(str(path.parent))
+    # Two files of one name are two modules. Dataclasses look for theirs by its name.
+    own = f"{PREFIX}{path.stem} {hashlib.sha256(str(path).encode('utf-8', 'surrogateescape')).hexdigest()[:12]}"
+    spec = importlib.util.spec_from_file_location(own, path)
+    module = sys.modules[own] = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except (Exception, SystemExit) as error:  # whatever the user's file does
+        del sys.modules[own]
+        raise BootcourseError(f"{file} cannot be loaded: {described(error)}.") from error
+    if not callable(getattr(module, name, None)):
+        raise BootcourseError(f"{file} has no {what} '{name}': write it there, or give another name.")
+    return getattr(module, name)
+
+
+def find_neighbours(folder: str) -> None:
+    """Let the files of a folder be imported by name; those of another user's file, which keeps them, are forgotten."""
+    for name, module in list(sys.modules.items()):
+        at = str(Path(getattr(module, "__file__", None) or "").parent)
+        if at in _folders and at != folder and not name.startswith(PREFIX):
+            del sys.modules[name]
+    if folder in sys.path:
+        sys.path.remove(folder)
+    sys.path.insert(0, folder)
+    _folders.add(folder)

@@ -1,0 +1,84 @@
+"""The text of the world's module: the scripts of this folder one after the other, and what they are given to work on.
+
+The compiled road, the agents and the car take half a minute to make (build.py), so they are kept in a file whose name
+is a hash of everything that they are made of. Nothing here imports what makes them, so a notebook shows its first
+picture at once.
+"""
+
+import hashlib
+import json
+import re
+import sys
+from functools import cache
+from pathlib import Path
+
+from platformdirs import user_cache_dir
+
+from bootcourse.errors import BootcourseError
+from bootcourse.files import write_bytes
+
+HERE = Path(__file__).resolve().parent
+PACKAGE = HERE.parent
+MADE_OF = ("*.py", "road/*.py", "episodes/*.py", "learn/agent.py", "learn/networks.py", "learn/protocol.py",
+           "replay3d/*.py", "plots/road.py", "plots/svg.py", "web/build.py", "web/entries.py", "web/packing.py",
+           "web/wasm.py", "web/*.safetensors")  # fmt: skip
+IN_DEPTH = ("shaders", "webgl", "scene")  # the view in 3D
+SCRIPTS = (
+    "random", "road", "minds", "drive", "drivers", "seat", "words", "address", "view", *IN_DEPTH, "thoughts", "summary",
+    "controls", "main", "mount",
+)  # fmt: skip
+
+
+def text_of(name: str) -> str:
+    """A file of this folder without indentation; of a style also without comments and spaces at its marks."""
+    text = re.sub(r"^[ \t]+", "", (HERE / name).read_text(encoding="utf-8"), flags=re.M)
+    return re.sub(r" ?/\*.*?\*/|(?<=[:;{]) | (?=[{}])", "", text) if name.endswith(".css") else text
+
+
+def script(name: str) -> str:
+    """A script of this folder without indentation, and without the lines that are comments or empty."""
+    return re.sub(r"^[ \t]*(//.*)?\n?", "", (HERE / f"{name}.js").read_text(encoding="utf-8"), flags=re.M)
+
+
+def module() -> str:
+    """The scripts that make a world, whose door is `mount`, with the style and the elements of its shadow root."""
+    own = {"STYLE": text_of("theme.css") + text_of("style.css"), "WORLD": text_of("world.html")}
+    texts = [f"const {name} = `{text}`;" for name, text in own.items()]
+    return "\n".join([content()["names"], *texts, *map(script, SCRIPTS)])
+
+
+def notebook_module() -> str:
+    """The same as an ES module for notebooks, with its data in it."""
+    return "\n".join(
+        [module(), f"const DATA = {content()['data']};", script("widget"), "export { mount, show, DATA };"]
+    )
+
+
+@cache
+def content() -> dict[str, str]:
+    """What build.py makes: "names" and "data" for the scripts, and "picture", an SVG for readers without a kernel."""
+    name, places = f"world-{_hash()}.json", [PACKAGE / "__pycache__", Path(user_cache_dir("bootcourse"))]
+    for place in places:
+        if (place / name).is_file():
+            return json.loads((place / name).read_text(encoding="utf-8"))
+    print("The road is compiled for the browser, once: about half a minute.", file=sys.stderr)
+    from bootcourse.web import build
+
+    made = build.content()
+    for place in places:
+        try:
+            write_bytes(place / name, json.dumps(made).encode())
+            break
+        except BootcourseError:  # a folder that cannot be written: the next one
+            continue
+    return made
+
+
+def _hash() -> str:
+    """Changes with every file that `content` is made of, and with the compiler."""
+    from importlib.metadata import version
+
+    text = hashlib.sha256(f"{version('numba')} {version('llvmlite')}".encode())
+    for path in sorted({path for pattern in MADE_OF for path in PACKAGE.glob(pattern)}):
+        text.update(path.name.encode() + path.read_bytes())
+    return text.hexdigest()[:12]
