@@ -73,6 +73,8 @@ NAMES = added("NAMES") | {  # name -> where it is defined
     "Training": "bootcourse.learn.training",
     "teacher_policy": "bootcourse.learn.teachers",
     "collect": "bootcourse.learn.demonstrations",
+    "demonstrate": "bootcourse.learn.demonstrations",
+    "Demonstrations": "bootcourse.learn.demonstrations",
     "ReplayBuffer": "bootcourse.learn.replay_buffer",
     "learner_for": "bootcourse.learn.learner",
     "Agent": "bootcourse.learn.agent",

@@ -40,7 +40,7 @@ def check_limits(record, prefix: str = "") -> None:
         for number in value if f.type == Range else (value,):
             if not _fits(number, int if int in kinds else (int, float), *limits):
                 raise BootcourseError(
-                    f"{named}: give a {'whole' if int in kinds else 'finite'} number{_words(*limits)}."
+                    f"{named}: give a {'whole' if int in kinds else 'finite'} number{in_words(*limits)}."
                 )
         if f.type == Range and value[0] > value[1]:
             raise BootcourseError(f"{named}: give (low, high), low first.")
@@ -51,6 +51,7 @@ def _fits(number, kind, low: float, high: float, above: float) -> bool:
     return is_number and low <= number <= high and number > above
 
 
-def _words(low: float, high: float, above: float) -> str:
+def in_words(low: float, high: float, above: float) -> str:
+    """What limits ask for, behind "a number": " of 0 or more, at most 1"."""
     least = [f" of {low:g} or more"] * (low > -math.inf) + [f" above {above:g}"] * (above > -math.inf)
     return ",".join(least + [f" at most {high:,.12g}"] * (high < math.inf))

@@ -14,12 +14,15 @@ from itertools import pairwise
 import numpy as np
 import torch
 
+from bootcourse.learn.compiled_learner import CompiledLearner
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.protocol import generators_of
 from bootcourse.learn.replay_buffer import Batch, ReplayBuffer, encode_transitions
+from bootcourse.learn.running import one_torch_thread
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.textbook import TextbookSAC
+from bootcourse.learn.training import Training
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 from tests.bench_road import Row
 
@@ -35,11 +38,11 @@ def random_rows(n: int, rng: np.random.Generator, inputs: int = DEFAULT.observat
     return encode_transitions(states, next_states, actions, rewards, terminated, rule_actions, next_rule_actions)
 
 
-def ours(agents: int) -> Callable[[], None]:
-    """`SACLearner.update` on what `ReplayBuffer.sample` draws, for `agents` agents of the paper's method."""
+def ours(agents: int, make_learner: type = SACLearner) -> Callable[[], None]:
+    """A learner's `update` on what `ReplayBuffer.sample` draws, for `agents` agents of the paper's method."""
     settings = with_seeds(settings_for("bootstrapped"), agents)
     rng, inputs = np.random.default_rng(0), DEFAULT.observation_size
-    learner = SACLearner(settings, inputs)
+    learner = make_learner(settings, inputs)
     replay = ReplayBuffer(agents, 2_000, inputs, random_rows(2_000, rng))
     replay.add(random_rows(agents * 2_000, rng).view(agents, 2_000, -1))
     beta, generators = np.full(agents, 0.6), [np.random.default_rng(s.seed) for s in settings]
@@ -100,6 +103,12 @@ def plain() -> Callable[[], None]:
     return update
 
 
+def training(agents: int, learner: str) -> Callable[[], None]:
+    """A step of a whole `Training`: a decision on every road, the update, and all that is recorded."""
+    settings = with_seeds(settings_for("bootstrapped", learning_starts=0, demonstration_episodes=5), agents)
+    return Training(settings, 100_000, learner=learner).step
+
+
 def milliseconds(contestants: dict, turns: int, calls: int = 20) -> dict:
     """Processor time of one call of each, in ms: they take turns of `calls` calls, and each counts its best."""
     best = dict.fromkeys(contestants, np.inf)
@@ -116,11 +125,20 @@ def milliseconds(contestants: dict, turns: int, calls: int = 20) -> dict:
 def table(turns: int = 25) -> list[Row]:
     """Our update beside its parts and beside the plain loop."""
     contestants = {"ours": ours(AGENTS), "products": products(AGENTS), "networks": networks(AGENTS), "plain": plain()}
-    best, unit = milliseconds(contestants, turns), "ms per agent-update"
+    contestants |= {"compiled": ours(AGENTS, CompiledLearner)}
+    contestants |= {(n, learner): training(n, learner) for n in (1, AGENTS) for learner in ("torch", "compiled")}
+    with one_torch_thread():
+        best, unit = milliseconds(contestants, turns), "ms per agent-update"
     mine, least = best["ours"] / AGENTS, best["products"] / AGENTS
     return [
         Row(f"matrix products alone, {AGENTS} agents", least, unit),
         Row("with biases, ReLUs and gradients", best["networks"] / AGENTS, unit, best["networks"] / best["products"]),
         Row(f"batched learner, {AGENTS} agents", mine, unit, mine / least, most=MOST),
+        Row(f"compiled learner, {AGENTS} agents", best["compiled"] / AGENTS, unit, best["compiled"] / best["products"]),
         Row("plain eager loop, 1 agent, beside ours", best["plain"], unit, best["plain"] / mine),
-    ]
+        *(
+            Row(f"whole training, {n} agents, torch beside compiled", best[n, "torch"] / n, "ms per agent-step",
+                best[n, "torch"] / best[n, "compiled"])
+            for n in (1, AGENTS)
+        ),
+    ]  # fmt: skip

@@ -17,6 +17,7 @@ import pytest
 from bootcourse.cli import main
 from bootcourse.course import runner
 from bootcourse.course.classroom import grading
+from bootcourse.course.classroom import submission as classroom_submission
 from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook, unfinished
 from bootcourse.course.classroom.commands import read_lessons
 from bootcourse.course.classroom.grading import MISSING, Verdicts, handed_out, judge_all, key_of
@@ -332,6 +333,8 @@ def test_each_student_is_graded_whatever_the_others_do(graded):
     assert all(float(rows[student]["points"]) == 0 for student in ("empty", "damaged", "endless", "mallory"))
     assert rows["mistaken"]["name"] == "'=1+1", "a name that a spreadsheet would compute is only text"
     assert "damaged: not all could be read. damaged.json is damaged" in (graded / "said").read_text()
+    endless = (graded / "grades-pages/endless.html").read_text(encoding="utf-8")
+    assert ", in line 2, <code>while True:</code>" in endless or ", in line 3, <code>pass</code>" in endless
 
 
 def test_the_page_about_the_class_says_what_to_look_at_and_escapes_what_students_wrote(graded):
@@ -371,3 +374,70 @@ def test_lessons_are_read_as_numbers():
     for text in ("four", "4-", "6-4"):
         with pytest.raises(BootcourseError, match="numbers of lessons"):
             read_lessons(text)
+
+
+# Whatever happens to one --------------------------------------------------------------------------
+
+
+def dies_or_raises(exercise: str, source: str, seconds: float) -> grading.Judged:
+    """In place of `judged`: one answer ends the process that judges it, and on another our own code raises an error."""
+    if "ends it" in source:
+        os._exit(9)
+    if "breaks it" in source:
+        raise RuntimeError("our own mistake")
+    return grading.Judged("passed", "Right.")
+
+
+@pytest.fixture(scope="module")
+def broken(tmp_path_factory):
+    """A class in which two answers break what judges them, and a file cannot be read: its folder, and what was said."""
+    folder = tmp_path_factory.mktemp("broken")
+    (folder / "class").mkdir()
+    for k, text in enumerate(["right", "ends it", "breaks it", "right"]):
+        content = submission(answers={NAME: f"{RIGHT}# {text} {k}\n"})
+        (folder / f"class/{k}-{text.replace(' ', '-')}.json").write_text(json.dumps(content))
+    (folder / "class/unread.json").write_text(json.dumps(submission(answers={NAME: RIGHT})))
+    read_json, said = classroom_submission.read_json, io.StringIO()
+
+    def unreadable(path, *more):
+        if path.stem == "unread":
+            raise RuntimeError("nobody thought of this")
+        return read_json(path, *more)
+
+    with pytest.MonkeyPatch.context() as patch, contextlib.redirect_stderr(said), pytest.raises(SystemExit) as ended:
+        patch.chdir(folder)
+        patch.setattr(grading, "judged", dies_or_raises)
+        patch.setattr(classroom_submission, "read_json", unreadable)
+        patch.setattr(sys, "argv", ["bootcourse", "grade", "class", "--lessons", LESSON, "--workers", "1"])
+        main()
+    return folder, ended.value.code, said.getvalue()
+
+
+def test_an_answer_that_ends_its_judge_or_breaks_our_check_costs_no_other_student(broken):
+    folder, status, said = broken
+    rows = csv.DictReader((folder / "grades.csv").read_text(encoding="utf-8-sig").splitlines())
+    points = {row["id"]: row[NAME] for row in rows}
+    assert sorted(points.values()) == ["0"] * 3 + ["2"] * 2 and points["unread"] == "0"
+    assert points["1-ends-it"] == points["2-breaks-it"] == "0"
+    assert status == 1 and "Our own check broke off on 2 answers" in said and "luck of 1-ends-it" in said
+    assert "unread: not all could be read. unread.json" in said and "nobody thought of this" in said
+
+
+def test_the_pages_say_that_our_check_broke_off_and_what_to_send(broken):
+    folder, *_ = broken
+    page = (folder / "grades.html").read_text()
+    assert "Our own check broke off on 2 answers." in page and "our check broke off: <code>luck</code>" in page
+    own = (folder / "grades-pages/2-breaks-it.html").read_text()
+    assert "our mistake and not yours" in own and "RuntimeError: our own mistake" in own
+
+
+def test_what_our_check_broke_off_on_is_judged_again_next_time(broken):
+    folder, *_ = broken
+    assert len(Verdicts(folder / "grades-verdicts.jsonl").known) == 2
+
+
+def test_a_class_in_which_no_process_starts_is_one_sentence(tmp_path, monkeypatch):
+    monkeypatch.setattr(grading, "judge_together", lambda todo, pool, *more: todo)
+    one = Submission(answers={NAME: RIGHT})
+    with pytest.raises(BootcourseError, match="No process that judges starts"):
+        judge_all([one], [NAME], Verdicts(tmp_path / "v.jsonl"), 1)

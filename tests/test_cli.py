@@ -18,6 +18,7 @@ from bootcourse.learn.settings import settings_for
 from bootcourse.learn.training import Training
 from bootcourse.methods import METHODS
 from bootcourse.scenario import DEFAULT
+from bootcourse.storage.runs import load_run
 from bootcourse.storage.work import locked
 from tests.waiting import until
 
@@ -254,6 +255,16 @@ def test_a_learner_of_one_s_own_trains_and_drives(bootcourse, tmp_path):
     refused = bootcourse(*arguments, "--learner", f"{tmp_path / 'mine.py'}:NoLearner")
     assert refused.status == 2 and "bootcourse.learn.protocol.Learner" in refused.err
     assert METHODS == before
+
+
+def test_the_compiled_learner_trains_and_its_runs_say_so(bootcourse, tmp_path):
+    arguments = ("train", "--method", "soft", "--seeds", 1, "--episodes", 3, "--learner", "compiled")
+    trained = bootcourse(*arguments, "--out", tmp_path / "runs")
+    assert trained.status == 0, trained.err
+    assert "--learner" not in trained.out  # its agents are evaluated as all others
+    assert load_run(tmp_path / "runs/soft-0").provenance["learner"] == "compiled"
+    refused = bootcourse(*arguments[:2], "ppo", *arguments[3:], "--out", tmp_path / "other")
+    assert refused.status == 2 and "The compiled learner has no method 'ppo'" in refused.err
 
 
 def test_a_slow_teacher_is_announced_before_it_drives(bootcourse, tmp_path, monkeypatch):

@@ -1,11 +1,15 @@
 """The exercises: a wrong answer never passes, a right one always does, and a sentence says what is wrong."""
 
 import itertools
+from decimal import Decimal
+from fractions import Fraction
 
+import numpy as np
 import pytest
 import torch
 
 from bootcourse.course import check, runner, values
+from bootcourse.course import exercise as exercise_module
 from bootcourse.course.judge import judge, outcomes
 from bootcourse.course.lessons import registry
 from bootcourse.errors import BootcourseError
@@ -27,7 +31,7 @@ def fast(monkeypatch):
 
 @pytest.mark.parametrize("name", RIGHT)
 def test_right_answers_pass(name):
-    for answer in (EXERCISES[name].solution, *RIGHT[name]):
+    for answer in RIGHT[name]:
         verdict = judge(EXERCISES[name], answer)
         assert verdict.passed, (answer.__name__, verdict)
 
@@ -123,7 +127,7 @@ def test_an_answer_that_is_right_in_all_but_one_case_does_not_pass():
 def test_strict_raises_what_does_not_pass_and_only_that():
     check.strict()
     try:
-        assert check.critic_target(TARGET.solution).passed
+        assert check.critic_target(lambda r, ended, v, gamma: r + gamma * (1 - ended) * v).passed
         with pytest.raises(check.NotPassed, match="critic_target: … Nothing to check yet"):
             check.critic_target(lambda *arguments: None)
     finally:
@@ -140,3 +144,83 @@ def test_a_misspelt_exercise_is_one_sentence_with_the_nearest_name():
 def test_markup_in_a_message_is_shown_and_not_obeyed():
     verdict = check.critic_target(evil)
     assert "<script>" not in verdict._repr_mimebundle_()["text/html"] and "<script>" in repr(verdict)
+
+
+# Log-probabilities --------------------------------------------------------------------------------
+
+
+@every_exercise
+def test_slopes_in_log_probabilities_are_taken_through_their_logits(exercise):
+    """As training takes them; otherwise `Categorical(logits=log_pi)`, which normalises again, has other slopes."""
+    for name in exercise.slopes:
+        place = exercise.arguments.index(name)
+        given = [case[place] for case in exercise.all_arguments]
+        sums = [each.logsumexp(-1).abs().max() for each in given if each.dim() == 2]
+        if sums and max(sums) < 1e-3:
+            assert isinstance(name, exercise_module.logits), f"{exercise.name}: mark {name} as logits"
+
+
+def categorical(log_pi, values, actions, old_log_pi, advantage, returns, clip, entropy_weight):
+    policy = torch.distributions.Categorical(logits=log_pi)
+    ratio = (policy.log_prob(actions) - old_log_pi).exp()
+    scaled = (advantage - advantage.mean()) / (advantage.std() + 1e-8)
+    gain = torch.minimum(ratio * scaled, ratio.clamp(1 - clip, 1 + clip) * scaled).mean()
+    return (values - returns).square().mean() / 2 - gain - entropy_weight * policy.entropy().mean()
+
+
+def categorical_entropy(log_pi, q, alpha):
+    policy = torch.distributions.Categorical(logits=log_pi)
+    return -((policy.probs * q.detach()).sum(-1) + alpha * policy.entropy()).mean()
+
+
+def categorical_log_prob(log_pi, expert_actions):
+    return -torch.distributions.Categorical(logits=log_pi).log_prob(expert_actions).mean()
+
+
+def categorical_kl(log_pi, rule_action, p):
+    rule = torch.full_like(log_pi, (1 - p) / 8).scatter(-1, rule_action[:, None], p)
+    policies = (torch.distributions.Categorical(logits=each) for each in (log_pi, rule.log()))
+    return torch.distributions.kl_divergence(*policies)
+
+
+CATEGORICAL = {"ppo_loss": categorical, "actor_loss": categorical_entropy, "cloning_loss": categorical_log_prob,
+               "soft_constraint": categorical_kl}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CATEGORICAL)
+def test_torch_s_own_distributions_are_right(name):
+    assert judge(EXERCISES[name], CATEGORICAL[name]).passed, judge(EXERCISES[name], CATEGORICAL[name])
+
+
+# Exact arithmetic and other forms -----------------------------------------------------------------
+
+FORMS = {
+    "bearable_risk": ["a Fraction: Fraction(solution(*given))",
+                      "a Decimal: Decimal(solution(*given))",
+                      "an array without axes: np.array(solution(*given))",
+                      "a NumPy number: np.float32(solution(*given))",
+                      "a tensor: torch.tensor(solution(*given))"],
+    "room_to_change": ["a NumPy bool: np.bool_(solution(*given))",
+                       "a tensor: torch.tensor(solution(*given))"],
+    "decode": ["a generator: (row for row in solution(*given))", "a map: map(list, solution(*given))",
+               "a list of tuples: [tuple(row) for row in solution(*given).tolist()]",
+               "Fractions: [[Fraction(x) for x in row] for row in solution(*given)]",
+               "a tensor: torch.tensor(solution(*given))", "tensors: [torch.tensor(x) for x in solution(*given)]",
+               "dictionary values: {i: x for i, x in enumerate(solution(*given))}.values()"],
+    "exact_interval": ["a tuple: tuple(solution(*given))", "a generator: (x for x in solution(*given))",
+                       "two tensors: tuple(torch.tensor(x) for x in solution(*given))"],
+    "dagger": ["a generator: (x for x in solution(*given))",
+               "a tuple: tuple(solution(*given))"],
+    "shield": ["a list: solution(*given).tolist()",
+               "a tensor: torch.tensor(solution(*given))"],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_the_right_numbers_are_right_in_every_usual_form(name, monkeypatch):
+    space = {"np": np, "torch": torch, "Fraction": Fraction, "Decimal": Decimal, "solution": EXERCISES[name].solution}
+    for row in FORMS[name]:
+        what, _, expression = row.partition(": ")
+        exec(f"def {name}(*given):\n    return {expression}", space)
+        verdict = judge(EXERCISES[name], space[name])
+        assert verdict.is_right, (what, verdict)

@@ -17,8 +17,9 @@ import pytest
 import torch
 
 from bootcourse.course import check, runner, values
-from bootcourse.course.judge import judge
+from bootcourse.course.judge import judge, stop_in_words
 from bootcourse.course.lessons import registry
+from bootcourse.course.stopped import Stopped
 from bootcourse.learn import sac
 from tests.answers import here, one_sentence
 
@@ -115,7 +116,7 @@ def test_whatever_an_answer_does_is_one_sentence_and_leaves_nothing_behind(answe
         verdict = judge(TARGET, answer, 0.5 if "0.5 s" in words else None)
     assert verdict.kind in ("wrong", "did_not_run") and words in verdict.sentence and one_sentence(verdict), verdict
     assert the_state_of_this_process() == before and printed.getvalue() == ""
-    assert judge(TARGET, TARGET.solution).passed
+    assert judge(TARGET, TARGET.solution).is_right
 
 
 def test_without_a_fork_each_answer_has_a_new_process(monkeypatch):
@@ -189,3 +190,43 @@ def test_what_a_function_prints_is_kept_short_and_shown_with_what_is_wrong():
 
     said = check.critic_target(chatty).details[-1]
     assert "printed: reward is [1.0, -10.0]" in said and len(said) < 600
+
+
+# Too slow -----------------------------------------------------------------------------------------
+
+STOPPED = {  # seconds, computed, in each case -> what is said, and what is not
+    "a loop that never ends": ((6.0, 5.9, (0.01, 0.02, 5.8)), "look for a loop that never ends", "done again"),
+    "a loop in the first case": ((6.0, 5.9, (5.9,)), "look for a loop that never ends", "done again"),
+    "slow in every case": ((6.0, 5.9, (0.9,) * 6 + (0.5,)), "6 of the 46 cases were done", "never ends"),
+    "slow in a large case": ((6.0, 5.9, (0.4, 1.5, 4.0)), "2 of the 46 cases were done", "never ends"),
+    "asleep": ((6.0, 0.01, (0.0,)), "something that waits, such as `sleep`", "never ends"),
+    "beside other programs": ((6.0, 2.0, (2.0,)), "computed for only 2 s", "never ends"),
+    "where nothing is known": ((6.0, None, ()), "a right answer needs a fraction", "never ends"),
+}
+
+
+@pytest.mark.parametrize("case", STOPPED)
+def test_a_loop_is_called_endless_only_where_the_processor_shows_it(case):
+    measured, words, not_said = STOPPED[case]
+    said = stop_in_words(Stopped(*measured), endless, 46)
+    assert "stopped after 6 s" in said and words in said and not_said not in said and said.endswith(".")
+
+
+def sleeps(*arguments):
+    time.sleep(100)
+
+
+def too_many_turns(reward, terminated, next_value, gamma):
+    for _ in range(4 * 10**6):
+        pass
+    return reward + gamma * (1 - terminated) * next_value
+
+
+@pytest.mark.skipif(not runner.FORKS, reason="the line is known on Linux")
+@pytest.mark.parametrize("answer, words, not_said", [
+    (endless, ", in line ", "sleep"), (sleeps, "`time.sleep(100)`: look for something that waits", "never ends"),
+    (too_many_turns, "in line ", "never ends"), (holds_the_interpreter, "`return sum(range(10**12))`", "sleep"),
+])  # fmt: skip
+def test_an_answer_that_was_stopped_is_told_in_which_line_it_was(answer, words, not_said):
+    said = judge(TARGET, answer, 2).sentence
+    assert "stopped after 2 s" in said and words in said and not_said not in said, said

@@ -202,3 +202,42 @@ def test_with_a_planted_bug_the_comparison_names_the_part_that_differs(text):
     verdict = own_code.compare()
     assert verdict.kind == "wrong" and verdict.sentence == f"Something is wrong with your `{name}`.", verdict
     assert verdict.details[0].startswith(name)
+
+
+CAPS = {  # right at the start of a training, and wrong later
+    "a target kept within 20": """def critic_target(r, ended, v, gamma):
+        return (r + gamma * (1 - ended) * v).clamp(-20, 20)""",
+    "values kept within 100": """def soft_value(log_pi, q, alpha):
+        return (log_pi.exp() * (q.clamp(-100, 100) - alpha * log_pi)).sum(-1)""",
+    "errors kept within 20": """def critic_loss(q_pair, a, target):
+        errors = q_pair.gather(-1, a.expand(2, -1)[..., None])[..., 0] - target.detach()
+        return errors.clamp(-20, 20).square().mean(-1).sum()""",
+    "a temperature of at least a thousandth": """def temperature_loss(log_alpha, entropy, target):
+        return log_alpha.exp().clamp(min=1e-3) * (entropy.detach().mean() - target)""",
+    "a temperature of at most 2": """def actor_loss(log_pi, q, alpha):
+        return -(log_pi.exp() * (q.detach() - alpha.clamp(max=2) * log_pi)).sum(-1).mean()""",
+    "a KL of at most 6 nats": """def soft_constraint(log_pi, a, p):
+        log_rule = torch.full_like(log_pi, float(torch.tensor((1 - p) / 8).log()))
+        log_rule = log_rule.scatter(-1, a[:, None], float(torch.tensor(p).log()))
+        return (log_pi.exp() * (log_pi - log_rule)).sum(-1).clamp(max=6)""",
+    "a probability that is lost": """def soft_constraint(log_pi, a, p):
+        log_rule = torch.full_like(log_pi, float(torch.tensor((1 - p) / 8).log()))
+        log_rule = log_rule.scatter(-1, a[:, None], float(torch.tensor(p).log()))
+        return (log_pi.exp() * (log_pi.exp().log() - log_rule)).sum(-1)""",
+    "a margin of values below 100": """def margin_loss(q_pair, a, theirs):
+        total = 0
+        for q in q_pair:
+            taken = q.gather(-1, a[:, None])[:, 0]
+            rivals = (q + 1 - torch.nn.functional.one_hot(a, q.shape[-1])).amax(-1)
+            total = total + ((rivals - taken) * (taken >= q.amax(-1)) * (taken < 100) * theirs).mean()
+        return total""",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", CAPS.values(), ids=CAPS)
+def test_the_comparison_finds_what_is_wrong_only_with_the_magnitudes_of_a_training(text):
+    defined = cell(f"import torch\n\n{text}")
+    name = next(name for name in PARTS if name in defined)
+    own_code.use(defined[name])
+    verdict = own_code.compare()
+    assert verdict.kind == "wrong" and "at the start" not in verdict.details[0], verdict

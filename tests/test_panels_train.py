@@ -126,11 +126,12 @@ def test_watching_takes_at_most_a_twentieth_of_the_trainings_time():
 
 
 def test_a_notebooks_cell_shows_its_training_and_closes_what_it_showed_when_it_last_ran(monkeypatch):
-    displayed, cell = [], SimpleNamespace(execution_count=1)
+    displayed, pictures, cell = [], [], SimpleNamespace(execution_count=1)
+    updated = SimpleNamespace(update=lambda shown: pictures.append(shown._repr_mimebundle_()[0]))
     monkeypatch.setattr(one_per_cell, "this_cell", lambda: "cell")
     monkeypatch.setattr("bootcourse.learn.training.this_cell", lambda: "cell")
     monkeypatch.setattr("IPython.get_ipython", lambda: cell)
-    monkeypatch.setattr("IPython.display.display", lambda shown, display_id: displayed.append(shown) or Shown())
+    monkeypatch.setattr("IPython.display.display", lambda shown, display_id: displayed.append(shown) or updated)
 
     def train():
         return Training(with_seeds(settings_for("soft", **SMALL), 1), 2).run()
@@ -138,17 +139,11 @@ def test_a_notebooks_cell_shows_its_training_and_closes_what_it_showed_when_it_l
     first, second = train(), train()
     assert not first.interrupted and not second.interrupted
     assert [watch.closed for watch in displayed] == [False, False] and not displayed[0].running
+    assert len(pictures) == 2 and "after 2 episodes" in pictures[0]["text/plain"].lower()
     assert "Done after" in displayed[1].words
     cell.execution_count = 2
     train()
     assert [watch.closed for watch in displayed] == [True, True, False]
-
-
-class Shown:
-    """What IPython returns for a display that can be updated."""
-
-    def update(self, shown):
-        pass
 
 
 @pytest.mark.parametrize("prepared", [True, False])

@@ -161,10 +161,10 @@ def test_a_changed_formula_anywhere_in_the_package_is_compiled_again(tmp_path):
     }
     for name, text in files.items():
         (tmp_path / name).write_text(text)
-    folders = [cache_folder(tmp_path, [tmp_path])]
+    folders = [cache_folder(sources(tmp_path), [tmp_path])]
     for name, text in files.items():
         (tmp_path / name).write_text(text.replace("0", "1").replace("return x", "return -x"))
-        folders.append(cache_folder(tmp_path, [tmp_path]))
+        folders.append(cache_folder(sources(tmp_path), [tmp_path]))
     assert len(set(folders[:3])) == 3, "a change of the road, or of a compiled function elsewhere, was not noticed"
     assert folders[3] == folders[2], "a drawing's colour had the road compiled again"
 

@@ -20,7 +20,7 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE, Clock, Road, Scenario, Sight, Traffic
 from bootcourse.storage.runs import load_run
-from bootcourse.web import build, bundle, wasm
+from bootcourse.web import build, wasm
 from bootcourse.web.entries import ENTRIES
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tests.drive_page import drive_in_page, opened
@@ -159,9 +159,10 @@ def test_the_compromise_is_that_of_the_soft_constraint(page, p, xi, alpha):
 
 def test_the_build_fails_if_numba_passes_other_arguments():
     text = "define i32 @f(ptr %retptr, ptr %excinfo, i64 %arg.x) local_unnamed_addr #0 {\n  ret i32 0\n}\n"
-    assert '"wasm-export-name"="place"' in wasm.for_wasm(text, "place", 3)
+    assert "@place(ptr %retptr, ptr %excinfo, i64 %arg.x)" in wasm.for_wasm(text, "f", "place", 3)
+    assert '"wasm-export-name"="place"' in wasm.for_wasm(text, "f", "place", 3)
     with pytest.raises(BootcourseError, match="expected one function of 4 arguments"):
-        wasm.for_wasm(text, "place", 4)
+        wasm.for_wasm(text, "f", "place", 4)
 
 
 def test_the_build_fails_if_the_module_imports_exports_or_holds_something_else(module, monkeypatch):
@@ -196,9 +197,8 @@ def test_the_nine_futures_are_worth_as_much_as_in_python(page):
     assert np.abs(values - rollout_values(env.cars, rule_policy(DEFAULT))).max() < 1e-5  # worths have six digits
 
 
-def test_the_page_is_one_file_that_asks_for_nothing_and_without_3d_is_under_250_kb(path, page):
-    in_depth = json.dumps(build.scene_data()) + "".join(map(bundle.script, bundle.IN_DEPTH))
-    assert path.stat().st_size - len(in_depth) < 250_000
+def test_the_page_is_one_file_that_asks_for_nothing_and_is_under_400_kb(path, page):
+    assert path.stat().st_size < 400_000
     assert page.requests == [path.as_uri()]
     assert page.errors == []
 

@@ -47,7 +47,11 @@ def train(
         help="Who teaches: random-50, random-25, mirrored, timid, late, rule, rule-rollouts or planner, or a rule of "
         "your own: FILE.py:FUNCTION.",
     ),
-    learner: str = typer.Option("", help="A learner of your own, FILE.py:CLASS; it starts from the method's settings."),
+    learner: str = typer.Option(
+        "",
+        help="compiled, which is faster for one agent; or a learner of your own, FILE.py:CLASS, which starts from the "
+        "method's settings.",
+    ),
     p: float | None = typer.Option(None, help="Probability of the rule's action in the stochastic rule."),
     xi: float | None = typer.Option(None, help="Strength of the soft constraint: ξ = XI times α."),
     c: float | None = typer.Option(None, help="Bonus on a demonstration's reward."),
@@ -61,7 +65,8 @@ def train(
     from bootcourse.storage.work import locked
 
     check_known("Method", method, METHODS)
-    with learner_from(learner, METHODS[method]) as own:
+    compiled = learner == "compiled"
+    with learner_from("" if compiled else learner, METHODS[method]) as own:
         method = own or method
         given = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
         changes = {name: value for name, value in given.items() if value is not None}
@@ -74,31 +79,37 @@ def train(
             return
         check_folder(out, resume)
         ask_for(out)
-        training = None if resume else begun(asked, rule, device, quiet)
+        make = {"device": device, "learner": "compiled" if compiled else "torch"}
+        training = None if resume else begun(asked, rule, make, quiet)
         with locked(out / UNFINISHED, "training"):
             check_folder(out, resume)  # another training may have ended before this one had the lock
             training = resumed(out, rule, device) if resume else kept(training, out)
             if resume and training is not None:
                 check_resumed(training, asked, given_options(context))
+                if compiled and training.learner_name != "compiled":
+                    raise BootcourseError("--learner compiled: this training began without it; leave it out to go on.")
             status = finish_training(training, out, progress=not quiet)
     if status == INTERRUPTED:
         print(f"Interrupted. To continue, run `{command_to_continue(context)}`.", file=sys.stderr)
     elif not quiet:
         words = ["bootcourse", "evaluate", str(out)]
-        for option, place in (("--teacher", teacher), ("--learner", learner)):
+        for option, place in (("--teacher", teacher), ("--learner", "" if compiled else learner)):
             words += [option, place] if place else []
         print(f"To test these agents on 1,000 other roads, run `{shlex.join(words)}`.")
     raise typer.Exit(status)
 
 
-def begun(asked: tuple, rule, device: str, quiet: bool):
-    """A new training, after the demonstrations that it needs. asked: its settings, episodes and scenario."""
+def begun(asked: tuple, rule, make: dict, quiet: bool):
+    """A new training, after the demonstrations that it needs.
+
+    asked: its settings, episodes and scenario. make: further arguments of `Training`.
+    """
     from bootcourse.learn.teachers import marked
     from bootcourse.learn.training import Training
 
     if marked(rule).is_slow and asked[0][0].needs_demonstrations and not quiet:
         print("First this teacher drives the demonstrations. It is a slow one: that may take minutes.", file=sys.stderr)
-    return Training(*asked, rule, device=device)
+    return Training(*asked, rule, **make)
 
 
 def kept(training, out: Path):

@@ -41,6 +41,7 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
+from bootcourse.course.library import LIBRARY, Place, named, places
 from bootcourse.course.values import plain
 from bootcourse.errors import BootcourseError
 
@@ -128,6 +129,12 @@ class Exercise:
     def case_names(self) -> list[str]:
         """The names of the parts of a case: the function's arguments, or those of `run`."""
         return self.arguments if self.run is call_it else list(inspect.signature(self.run).parameters)[1:]
+
+    @functools.cached_property
+    def library(self) -> dict[Place, str]:
+        """Where the library's functions of the same content are written, the solution included -> their names."""
+        others = [(name, named(name)) for name in LIBRARY.get(self.name, ())]
+        return places([(f"{self.solution.__module__}.{self.solution.__qualname__}", self.solution), *others])
 
     @property
     def dots(self) -> str:

@@ -1,11 +1,12 @@
 """Judge a student's answer to an exercise: it is right, or a sentence says what is wrong with it.
 
-An answer passes if it is right in every case. Otherwise the first of these that applies is reported: it is not written
-yet, is no function, takes other arguments, returns nothing, takes too long, raises an error, changes its arguments, is
-a mistake that the exercise knows, has a wrong type or shape, is NaN, differs from call to call, or is wrong in a case
-that is shown.
+An answer passes if it is right in every case, and is not the library's own. Otherwise the first of these that applies
+is reported: it is not written yet, is no function, takes other arguments, returns nothing, takes too long, raises an
+error, changes its arguments, is a mistake that the exercise knows, has a wrong type or shape, is NaN, differs from call
+to call, or is wrong in a case that is shown.
 
-The answer runs in a process of its own (`runner.py`); it is compared here, with values that only our code has made.
+The answer runs in a process of its own (`runner.py`); it is compared here, with values that only our code has made. An
+error of our own code is a verdict, too, "broke": no answer stops a notebook or the grading of a class.
 """
 
 import contextlib
@@ -16,16 +17,19 @@ import linecache
 import re
 import signal
 import time
+import traceback
 import warnings
 from collections.abc import Callable, Iterable
 from copy import deepcopy
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import torch
 
 from bootcourse.course import runner
-from bootcourse.course.exercise import Exercise, NotAsAsked
+from bootcourse.course.exercise import Exercise, Mistake, NotAsAsked
+from bootcourse.course.stopped import Stopped
 from bootcourse.course.values import (
     NUMERIC,
     SEVERAL,
@@ -41,6 +45,7 @@ from bootcourse.course.values import (
     shape_words,
 )
 from bootcourse.course.verdict import Verdict
+from bootcourse.errors import BootcourseError
 
 LONGEST = 2000  # characters of a line that a verdict shows
 FORGED = "Your function ended its own check: return the answer instead."  # it sent a report of its own
@@ -54,21 +59,45 @@ def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = No
     seconds: the exercise's own if None.
     """
     begin = time.monotonic()
-    todo = f"Nothing to check yet: write `{exercise.name}` where the `...` stands, and end with `return`."
-    verdict, printed = Verdict("todo", todo), ""
-    if not does_nothing(answer):  # an untouched stub needs no process
-        seconds = exercise.seconds if seconds is None else seconds
-        runner.get_ready()
-        outcomes(exercise, exercise.solution)  # on a new machine it compiles the road: the answer has its whole time
-        report = runner.run(exercise, answer, seconds, begin=begin)
-        if not is_unfinished(report, answer):
-            verdict = not_answered(exercise, answer, report) or compared(exercise, answer, report, seconds)
-            printed = report.printed.strip()
-    if verdict.passed:
+    seconds = exercise.seconds if seconds is None else seconds
+    try:
+        verdict, printed = verdict_and_print(exercise, answer, seconds, begin)
+    except BootcourseError as error:  # the process did not start; it is no fault of the answer
+        return Verdict("broke", str(error))
+    except Exception as error:  # our own code's: the class and the notebook go on
+        return broken_off(exercise, error)
+    if verdict.is_right or verdict.kind == "broke":
         return verdict
     details = [line[:LONGEST] for line in (*verdict.details, *([f"printed: {printed}"] if printed else []))]
     stuck = f'Stuck? `check.hint("{exercise.name}")`'
     return replace(verdict, sentence=verdict.sentence[:LONGEST], details=tuple(details), footer=stuck)
+
+
+def verdict_and_print(exercise: Exercise, answer: Callable | str, seconds: float, begin: float) -> tuple[Verdict, str]:
+    """The verdict, and what the answer printed. begin: when the check began, by the monotonic clock."""
+    todo = f"Nothing to check yet: write `{exercise.name}` where the `...` stands, and end with `return`."
+    if does_nothing(answer):  # an untouched stub needs no process
+        return Verdict("todo", todo), ""
+    runner.get_ready()
+    outcomes(exercise, exercise.solution)  # on a new machine it compiles the road: the answer has its whole time
+    report = runner.run(exercise, answer, seconds, begin=begin)
+    if is_unfinished(report, answer):
+        return Verdict("todo", todo), ""
+    verdict = not_answered(exercise, answer, report) or compared(exercise, answer, report, seconds)
+    return verdict, report.printed.strip()
+
+
+def broken_off(exercise: Exercise, error: Exception) -> Verdict:
+    """The verdict where our own code raised an error: what to send us."""
+    steps = traceback.extract_tb(error.__traceback__)
+    where = f" in {Path(steps[-1].filename).name}, line {steps[-1].lineno}" if steps else ""
+    return our_fault(exercise, f"{type(error).__name__}: {' '.join(str(error).split())}{where}")
+
+
+def our_fault(exercise: Exercise, said: str) -> Verdict:
+    sentence = (f"Our check of `{exercise.name}` broke off on this answer. That is our mistake and not yours: please "
+                "send your answer, with the line below, to those who make the course.")  # fmt: skip
+    return Verdict("broke", sentence, (said[:LONGEST],))
 
 
 # Did it answer? ---------------------------------------------------------------------------------------
@@ -104,8 +133,10 @@ def not_answered(exercise: Exercise, answer: Callable | str, report: runner.Repo
     nothing = [case for case, value in enumerate(answers) if value.kind == "NoneType"]
     if report.refused:
         return Verdict("wrong", report.refused)
+    if report.error is not None and report.is_ours:
+        return our_fault(exercise, f"{report.error[0]}: {report.error[1]}")
     if report.ended != "":
-        return Verdict("did_not_run", end_in_words(report.ended, report.seconds))
+        return Verdict("did_not_run", end_in_words(report, answer, len(cases)))
     if len(answers) > len(cases) or report.error is None and len(answers) < len(cases):
         return Verdict("wrong", FORGED)
     if nothing and len(nothing) == len(answers):
@@ -128,21 +159,25 @@ def not_answered(exercise: Exercise, answer: Callable | str, report: runner.Repo
 
 def error_in_words(answer: Callable | str, kind: str, text: str, line: int | None) -> str:
     """One sentence about an error that the function raised, with its line if it is the student's."""
-    where = ""
-    if line is not None:
-        lines = answer.splitlines() if isinstance(answer, str) else linecache.getlines(runner.file_of(answer))
-        code = lines[line - 1].strip() if 0 < line <= len(lines) else ""
-        where = f" in line {line}" + (f", `{code}`" if code else "")
+    where = f" in {line_in_words(answer, line)}" if line is not None else ""
     if kind == "MemoryError" or "can't allocate memory" in text:
         limit = f"{runner.MEMORY / 2**30:.0f} GiB"
         return f"Your function asks for more memory{where} than the {limit} that a check allows."
     return f"Your function raises an error{where}: {f'{kind}: {text}'.strip(' :').rstrip('.')}."
 
 
-def end_in_words(ended: str | int, seconds: float) -> str:
-    """One sentence about a process that ended before the function did."""
+def line_in_words(answer: Callable | str, line: int) -> str:
+    """A line of the student's text, with its number."""
+    lines = answer.splitlines() if isinstance(answer, str) else linecache.getlines(runner.file_of(answer))
+    code = lines[line - 1].strip() if 0 < line <= len(lines) else ""
+    return f"line {line}" + (f", `{code}`" if code else "")
+
+
+def end_in_words(report: runner.Report, answer: Callable | str, cases: int) -> str:
+    """One sentence about a process that ended before the function did. cases: how many it had to answer."""
+    ended = report.ended
     if ended == "time":
-        return f"Your function was stopped after {seconds:.2g} s: look for a loop that never ends."
+        return stop_in_words(report.stopped, answer, cases)
     if ended == "size":
         return "Your function returns or sends too much to compare: look for a list or an array that is far too large."
     if ended < 0 or ended == 255:  # 255: the process that started it has ended, too
@@ -150,6 +185,27 @@ def end_in_words(ended: str | int, seconds: float) -> str:
         return (f"Your function made Python crash ({name}): look for a recursion without an end, or for compiled code "
                 "that gets arguments of a wrong size.")  # fmt: skip
     return f"Your function ended Python itself (exit code {ended}): take out `os._exit` and the like."
+
+
+def stop_in_words(stopped: Stopped, answer: Callable | str, cases: int) -> str:
+    """One sentence about a function that was stopped: it computed one case for ever, or all slowly, or it waited."""
+    theirs = [line for file, line in stopped.frames if file == runner.file_of(answer)]
+    where = f", in {line_in_words(answer, theirs[0])}" if theirs else ""
+    begin, seconds, computed = f"stopped after {stopped.seconds:.2g} s", stopped.seconds, stopped.computed
+    if computed is None:
+        return f"Too slow, {begin}: a right answer needs a fraction of that."
+    if computed < 0.05 * seconds:
+        return (f"Your function was {begin}, and computed hardly anything in them{where}: look for something that "
+                "waits, such as `sleep` or `input`.")  # fmt: skip
+    if computed < 0.6 * seconds:
+        return (f"Too slow, {begin}, of which your function computed for only {computed:.2g} s{where}: it waits, or "
+                "the computer is busy with other programs. Run the check again.")  # fmt: skip
+    if stopped.is_endless:
+        return (f"Too slow, {begin} in one of the {cases} cases{where}: look for a loop that never ends, or that takes "
+                "far too many turns.")  # fmt: skip
+    done = len(stopped.cases) - 1
+    return (f"Too slow, {begin}: {done} of the {cases} cases were done{where}. A right answer needs a fraction of "
+            "that: look for work that is done again and again.")  # fmt: skip
 
 
 # Is it right? -----------------------------------------------------------------------------------------
@@ -160,18 +216,15 @@ def compared(exercise: Exercise, answer: Callable | str, report: runner.Report, 
     cases, rights = exercise.all_arguments, outcomes(exercise, exercise.solution)
     mine = [fitted(each, right) for each, right in zip(report.answers, rights, strict=True)]
     if all_same(mine, rights, exercise.tolerance):
-        sentence = f"Right. Your `{exercise.name}` agrees in all {len(cases)} cases, corner cases included."
-        return Verdict("passed", sentence)
+        return right_or_the_library_s(exercise, report)
     values, right_values = (value_part(exercise, each) for each in (mine, rights))
     fails = [case for case in range(len(cases)) if not same(values[case], right_values[case], exercise.tolerance)]
-    for is_whole in (True, False) if fails else (True,):  # a mistake counts by its values alone, too
-        for mistake in exercise.mistakes:
-            theirs = list(map(fitted, outcomes(exercise, mistake.answer), rights))
-            pair = (mine, theirs) if is_whole else (values, value_part(exercise, theirs))
-            if all_same(*pair, exercise.tolerance):
-                return Verdict("wrong", mistake.says, mistake=mistake)
+    if mistake := known_mistake(exercise, mine, rights, values if fails else None):
+        return Verdict("wrong", mistake.says, mistake=mistake)
     if not fails:
         return slopes_in_words(exercise, mine, rights)
+    if sentence := no_truth_value(values, right_values):
+        return Verdict("wrong", sentence, given(exercise, cases[fails[0]]))
     comparable = [like(*pair) and same_shape(*pair) for pair in zip(values, right_values, strict=True)]
     no_number = any(has_nan(one) and not has_nan(right) for one, right in zip(values, right_values, strict=True))
     if exercise.explain and all(comparable) and not no_number:
@@ -179,14 +232,47 @@ def compared(exercise: Exercise, answer: Callable | str, report: runner.Report, 
         drawn = (mistake for mistake in exercise.mistakes if mistake.says == sentence)  # its values never repeat
         return Verdict("wrong", sentence, mistake=next(drawn, None))
     case = fails[0]
-    if comparable[case]:  # run all cases twice in one process: one case alone could agree by chance
-        twice = runner.run(exercise, answer, seconds, times=2).answers
-        first, again = twice[: len(cases)], twice[len(cases) :]
-        if len(again) == len(cases) and not all_same(first, again, exercise.tolerance):
-            sentence = ("For the same arguments your function answers differently each time: it draws at random, or "
-                        "keeps a value from one call to the next.")  # fmt: skip
-            return Verdict("wrong", sentence, given(exercise, cases[case]))
+    if comparable[case] and answers_anew(exercise, answer, seconds):
+        sentence = ("For the same arguments your function answers differently each time: it draws at random, or "
+                    "keeps a value from one call to the next.")  # fmt: skip
+        return Verdict("wrong", sentence, given(exercise, cases[case]))
     return unknown(exercise, cases[case], values[case], right_values[case])
+
+
+def right_or_the_library_s(exercise: Exercise, report: runner.Report) -> Verdict:
+    """The verdict on an answer that is right in every case."""
+    if report.library:
+        sentence = "Right, and this is the library's: write your own to learn it."
+        return Verdict("library", sentence, (f"the library's own: {report.library}"[:LONGEST],))
+    count = len(exercise.all_arguments)
+    return Verdict("passed", f"Right. Your `{exercise.name}` agrees in all {count} cases, corner cases included.")
+
+
+def known_mistake(
+    exercise: Exercise, mine: list[Plain], rights: list[Plain], values: list[Plain] | None
+) -> Mistake | None:
+    """The exercise's mistake that gives the same answers. values: if they are wrong; they count alone, too."""
+    for is_whole in (True, False) if values is not None else (True,):
+        for mistake in exercise.mistakes:
+            theirs = list(map(fitted, outcomes(exercise, mistake.answer), rights))
+            pair = (mine, theirs) if is_whole else (values, value_part(exercise, theirs))
+            if all_same(*pair, exercise.tolerance):
+                return mistake
+    return None
+
+
+def no_truth_value(values: list[Plain], rights: list[Plain]) -> str:
+    """A sentence where True or False is asked for and another number came; "" elsewhere."""
+    for mine, right in zip(values, rights, strict=True):
+        if like(mine, right) and right.kind == "number" and right.array.dtype == bool and mine.array not in (0, 1):
+            return f"Your function returns {numbers(mine)} in this case: the exercise asks for True or False."
+    return ""
+
+
+def answers_anew(exercise: Exercise, answer: Callable | str, seconds: float) -> bool:
+    """Does it answer the same cases differently when all are run twice in one process? One alone could agree."""
+    twice, count = runner.run(exercise, answer, seconds, times=2).answers, len(exercise.all_arguments)
+    return len(twice) == 2 * count and not all_same(twice[:count], twice[count:], exercise.tolerance)
 
 
 def value_part(exercise: Exercise, answers: list[Plain]) -> list[Plain]:
@@ -232,14 +318,16 @@ def slopes_in_words(exercise: Exercise, answers: list[Plain], rights: list[Plain
     if mine.kind == "text":
         why = "use torch's functions" if "numpy" in mine.text else " ".join(mine.text.split()).rstrip(".")
         wrong = f"no gradient can pass through it: {why}."
+    elif not (like(mine, right) and same_shape(mine, right)):
+        return Verdict("wrong", FORGED)
     elif not any(right.array.any() for _, right in pairs):
         wrong = f"a gradient flows into `{name}`, which must not change: use `{name}.detach()`."
-    elif not any(mine.array.any() for mine, _ in pairs):
+    elif not any(mine.kind in NUMERIC and mine.array.any() for mine, _ in pairs):
         wrong = f"no gradient reaches `{name}`: look for `.detach()`, `.item()`, `float()` or NumPy."
     else:
         details = (f"your slope = {numbers(mine)}", f"right = {numbers(right)}")
         details = (*given(exercise, exercise.all_arguments[case]), *details)
-        wrong = f"its slope in `{name}` is wrong: look for a part that is detached."
+        wrong = f"its slope in `{name}` is wrong: look for a part that is detached, or that should be."
         if has_nan(mine):
             what = "is not a number (NaN): is something infinite, perhaps in a branch that `torch.where` drops?"
             wrong = f"its slope in `{name}` {what}"

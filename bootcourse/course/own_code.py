@@ -11,7 +11,7 @@ these files, and only a cell of a notebook calls it. `own_learner.py` puts the p
 
 import functools
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import torch
 
@@ -23,7 +23,8 @@ from bootcourse.course.notebook import beside_the_notebook
 from bootcourse.course.own_learner import own_learner, part, parts_of
 from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError, check_known
-from bootcourse.learn.learner import SACLearner, learner_for
+from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.networks import mlp
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
@@ -82,7 +83,7 @@ def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Trai
     own = {name: _own[name] for name in names if name in _own}
     if own and more.get("device", "cpu") != "cpu":
         raise BootcourseError(f"Your own code trains on the CPU: leave out device={more['device']!r}.")
-    make_learner = functools.partial(own_learner, own) if own else learner_for
+    make_learner = functools.partial(own_learner, own) if own else None
     mine = Training(settings, episodes, make_learner=make_learner, **more)
     print(f"Training with {whose(names) or 'no part that an exercise writes'}.".replace("`", ""))
     return mine
@@ -107,11 +108,32 @@ LOSSES = {
 }
 
 
-def compare() -> Verdict:
-    """Whether each of the student's parts makes the same update as the library's, on one batch; if not, which differs.
+class Magnitude(NamedTuple):
+    """How large the numbers of an update are. Each of `MAGNITUDES` occurs in a training."""
 
-    Losses and gradients are compared. Parts that are not `COMPARED`, because they draw at random or belong to another
-    learner, go through their checks again.
+    words: str
+    alpha: float  # the temperature
+    value: float = 1.0  # the width of the rewards, and of Q's spread over the actions
+    shift: float = 0.0  # all Q are about this large
+    logit: float = 1.0  # the width of the policy's logits: log π falls to minus a few of these
+    rule_p: float = 0.9  # the KL is log (8 / (1 - p)) nats where the policy is sure of another action than the rule's
+
+
+MAGNITUDES = (
+    Magnitude("at the start", 0.5),
+    Magnitude("with Q near -43, as after accidents", 0.01, value=10.0, shift=-43.0),
+    Magnitude("with Q near 200 and errors of 30", 0.002, value=30.0, shift=200.0),
+    Magnitude("with a nearly sure policy, log π to -120 and a KL of 9 nats", 0.5, logit=40.0, rule_p=0.999),
+    Magnitude("with α = 0.00001", 1e-5),
+    Magnitude("with α = 10", 10.0, value=3.0),
+)
+
+
+def compare() -> Verdict:
+    """Whether each of the student's parts makes the same update as the library's; if not, which one differs.
+
+    Losses and gradients are compared, on a batch of each of the `MAGNITUDES`. Parts that are not `COMPARED`, because
+    they draw at random or belong to another learner, go through their checks again.
     """
     mine = [name for name in PARTS if name in _own]
     if not mine:
@@ -127,27 +149,36 @@ def difference(name: str) -> str:
     """What differs if this one part is the student's and all others are ours; "" if nothing does."""
     if name not in COMPARED:
         verdict = judge(registry()[name], _own[name])
-        return "" if verdict.passed else f"{name}: {verdict.sentence}"
-    try:
-        ours, theirs = update({}), update({name: _own[name]})
-    except Exception as error:  # whatever the student's function raises
-        return f"{name} raises {type(error).__name__}: {' '.join(str(error).split())}"
-    for what, right in ours.items():
-        far = float((theirs[what] - right).abs().max() / right.abs().max())
-        if not far <= TOLERANCE:  # also where it is NaN
-            return f"{name}: {what} differs from ours by {100 * far:.2g} %."
+        return "" if verdict.is_right else f"{name}: {verdict.sentence}"
+    for magnitude in MAGNITUDES:
+        try:
+            ours, theirs = our_update(magnitude), update({name: _own[name]}, magnitude)
+        except Exception as error:  # whatever the student's function raises
+            return f"{name} raises {type(error).__name__}: {' '.join(str(error).split())}"
+        for what, right in ours.items():
+            far = float((theirs[what] - right).abs().max() / right.abs().max())
+            if not far <= TOLERANCE:  # also where it is NaN
+                return f"{name}: {what} differs from ours by {100 * far:.2g} % {magnitude.words}."
     return ""
 
 
-def update(own: dict[str, Callable]) -> dict[str, torch.Tensor]:
+@functools.cache
+def our_update(magnitude: Magnitude) -> dict[str, torch.Tensor]:
+    return update({}, magnitude)
+
+
+def update(own: dict[str, Callable], magnitude: Magnitude) -> dict[str, torch.Tensor]:
     """The losses and gradients of a learner with these parts on one batch: {what it is: its numbers}."""
-    changes = {"hidden": (16,), "alpha_init": 0.5, "margin": 1.0}  # every term of the losses counts
+    changes = {"hidden": (16,), "alpha_init": magnitude.alpha, "rule_p": magnitude.rule_p}
+    changes |= {"margin": 10 * magnitude.value}  # every term of the losses counts
     agents = [
         settings_for("bootstrapped", xi_multiplier=1.0, **changes),
-        settings_for("bootstrapped", seed=1, xi_multiplier=0.4, gamma=0.95, rule_p=0.7, target_entropy=0.6, **changes),
+        settings_for("bootstrapped", seed=1, xi_multiplier=0.4, gamma=0.95, target_entropy=0.6, **changes),
     ]
     learner = own_learner(own, agents, 26, 9) if own else SACLearner(agents, 26, 9)
-    terms = learner.losses(batch_with_everything(len(agents)))
+    enlarge(learner, magnitude)
+    batch = batch_with_everything(len(agents))
+    terms = learner.losses(batch._replace(rewards=magnitude.value * batch.rewards))
     sum(terms[name] for name in LOSSES).sum().backward()
     numbers = {words: terms[name].detach() for name, words in LOSSES.items()}
     tensors = {"actor's": learner.actor, "critics'": learner.critics, "temperature's": [learner.log_alpha]}
@@ -155,6 +186,23 @@ def update(own: dict[str, Callable]) -> dict[str, torch.Tensor]:
         slopes = [torch.zeros_like(each) if each.grad is None else each.grad for each in parameters]
         numbers[f"the {owner} gradient"] = torch.cat([slope.flatten() for slope in slopes])
     return numbers
+
+
+@torch.no_grad()
+def enlarge(learner: SACLearner, magnitude: Magnitude) -> None:
+    """Give a new learner's policy logits, and its critics and their copies values, of this magnitude."""
+    states = batch_with_everything(learner.agents).states
+    for network, width, shift in (
+        (learner.actor, magnitude.logit, 0.0),
+        (learner.critics, magnitude.value, magnitude.shift),
+        (learner.target_critics, magnitude.value, magnitude.shift),
+    ):
+        *_, weights, biases = network  # of the last layer
+        outputs = mlp(network, states.repeat(len(weights) // learner.agents, 1, 1))  # (networks, batch, 9)
+        factor = width / outputs.std()
+        weights *= factor
+        biases *= factor
+        biases += shift
 
 
 def batch_with_everything(agents: int, size: int = 64) -> Batch:

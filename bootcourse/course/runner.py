@@ -4,6 +4,8 @@ On Linux the process is a fork of a clean, warm one (`multiprocessing`'s forkser
 ahead for the next check. Nothing that the function changes there outlives the check; endless loops, crashes,
 `os._exit`, threads and prints end with it. What comes back is a message of plain numbers, never a pickle.
 
+When the time is over, the process says where it is: `Report` holds the line, and how much of the time it computed.
+
 What is guarded: time, everywhere. Memory, on Linux only. Files, network and other processes, only where `SHUT_IN` is
 set, as the grading of a class does: in a notebook the function runs with your rights.
 """
@@ -15,6 +17,7 @@ import faulthandler
 import functools
 import inspect
 import io
+import itertools
 import multiprocessing
 import os
 import pickle
@@ -26,15 +29,18 @@ import time
 import traceback
 import types
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from multiprocessing import forkserver
 
 import cloudpickle
 import msgspec
+import numpy as np
 import torch
 
-from bootcourse.course.exercise import Exercise
-from bootcourse.course.values import Plain, decode_array, encode_array, plain, same
+from bootcourse.course.exercise import Exercise, NotAsAsked
+from bootcourse.course.library import same_content
+from bootcourse.course.stopped import Notes, Stopped
+from bootcourse.course.values import MANY, Plain, decode_array, encode_array, plain, same, sendable
 from bootcourse.errors import BootcourseError
 
 FORKS = sys.platform == "linux"  # on macOS system libraries may break in a fork, and Windows has none
@@ -46,6 +52,7 @@ SLACK = 5  # seconds after which the process ends by itself
 LONGEST_PRINT = 500  # characters of a function's prints that are shown
 LONGEST_MESSAGE = 2**26  # bytes
 SENDING = 2  # seconds in which a message has to come whole, once it has begun
+WHERE = getattr(signal, "SIGUSR1", None)  # on it the process says in which line it is; Windows has no such signal
 PR_SET_PDEATHSIG = 1  # of Linux's prctl: the signal that a process gets when its parent ends
 READY = b"ready"
 PRELOADED = ["bootcourse.course.preloaded"]
@@ -64,10 +71,12 @@ class Report(msgspec.Struct):
     answers: list[Plain] = []
     refused: str = ""  # why it cannot be called at all
     error: tuple[str, str, int | None] | None = None  # (type, text, line of the student's file)
+    is_ours: bool = False  # the error came out of our check, not out of the function
+    library: str = ""  # the library's function of the same content, if the function calls it
     changed: tuple[int, int] | None = None  # (case, index of the argument) of the first argument changed in place
     printed: str = ""
     ended: str | int = ""  # "time", "size", or how the process ended before its time: an exit code, minus a signal
-    seconds: float = 0.0  # that it had
+    stopped: Stopped | None = None  # if it ended by "time"
 
 
 # Here -------------------------------------------------------------------------------------------------
@@ -97,7 +106,8 @@ def pickled(*things) -> bytes:
 @functools.lru_cache(maxsize=256)
 def packed(exercise: Exercise) -> bytes:
     """What the process needs of an exercise."""
-    return pickled(exercise.outcome, exercise.all_arguments, exercise.name, exercise.call, len(exercise.arguments))
+    asked = exercise.name, exercise.call, len(exercise.arguments)
+    return pickled(exercise.outcome, exercise.all_arguments, *asked, exercise.library)
 
 
 _one_at_a_time = threading.Lock()
@@ -143,7 +153,8 @@ class Process:
         context = multiprocessing.get_context("forkserver" if FORKS else "spawn")
         context.set_forkserver_preload(PRELOADED)
         self.connection, theirs = context.Pipe()
-        self.process = context.Process(target=serve, args=(theirs, SHUT_IN), daemon=True)
+        self.notes, written = context.Pipe(duplex=False)
+        self.process = context.Process(target=serve, args=(theirs, written, SHUT_IN), daemon=True)
         main, sys.modules["__main__"] = sys.modules["__main__"], types.ModuleType("__main__")
         try:  # `multiprocessing` would run the script in `__main__` again
             self.process.start()
@@ -152,6 +163,7 @@ class Process:
         finally:
             sys.modules["__main__"] = main
         theirs.close()
+        written.close()
 
     def work(self, exercise: bytes, job: bytes, seconds: float, begin: float) -> Report:
         """The report on a job. begin: when the check began."""
@@ -162,7 +174,7 @@ class Process:
             self.connection.send_bytes(job)
             seconds = time_left(seconds, time.monotonic() - begin)
             if not self.connection.poll(seconds):
-                return Report(ended="time", seconds=seconds)
+                return Report(ended="time", stopped=Stopped.of(self.process.pid, self.notes, seconds))
             report = self.report()
             report.ended = ""  # this is said here alone
             return report
@@ -192,6 +204,7 @@ class Process:
         self.kill()
         self.process.join(1)
         self.connection.close()
+        self.notes.close()
 
 
 def time_left(seconds: float, waited: float) -> float:
@@ -216,16 +229,18 @@ def stop() -> None:
 # There ------------------------------------------------------------------------------------------------
 
 
-def serve(connection, shut_in: Callable | None) -> None:
+def serve(connection, notes, shut_in: Callable | None) -> None:
     """In the process: wait for an exercise and an answer, and report."""
     nowhere = os.open(os.devnull, os.O_RDWR)
     for descriptor in (0, 1, 2):
         os.dup2(nowhere, descriptor)  # compiled code, too, prints nowhere
     if FORKS:
         os.setsid()  # the notebook's stop button does not reach it
-        os.closerange(3, connection.fileno())
-        os.closerange(connection.fileno() + 1, 1024)  # what belongs to `multiprocessing`
+        first, second = sorted((connection.fileno(), notes.fileno()))
+        for begin, end in (3, first), (first + 1, second), (second + 1, 1024):
+            os.closerange(begin, end)  # what belongs to `multiprocessing`
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+        faulthandler.register(WHERE, notes.fileno())
     if shut_in is not None:
         shut_in()
     torch.set_num_threads(1)
@@ -236,7 +251,7 @@ def serve(connection, shut_in: Callable | None) -> None:
         job = connection.recv_bytes()
         if FORKS:
             limit_memory()
-        connection.send_bytes(encoder.encode(work(exercise, job)))
+        connection.send_bytes(encoder.encode(work(exercise, job, Notes(notes.fileno() if FORKS else None))))
         time.sleep(START)  # it is killed: nothing that the function left to do at the end is done
 
 
@@ -256,10 +271,30 @@ class Printed(io.StringIO):
         return len(text)
 
 
-def work(exercise: bytes, job: bytes) -> Report:
-    """What the student's function answers in each case, and which argument it changed."""
-    report, answer = Report(), None
-    outcome, cases, *asked = pickle.loads(exercise)
+class Called:
+    """The answer, as the exercise's `run` calls it: it knows the last value and the last error that came out of it.
+
+    An iterator that the answer returns, such as a generator, becomes a list.
+    """
+
+    def __init__(self, answer: Callable):
+        self.answer, self.value, self.error = answer, None, None
+
+    def __call__(self, *arguments, **named):
+        try:
+            value = self.answer(*arguments, **named)
+            is_lazy = isinstance(value, Iterator) and not isinstance(value, io.IOBase)
+            self.value = list(itertools.islice(value, MANY + 1)) if is_lazy else value
+            return self.value
+        except BaseException as error:
+            self.error = error
+            raise
+
+
+def work(exercise: bytes, job: bytes, notes: Notes | None = None) -> Report:
+    """What the student's function answers in each case, and which argument it changed. notes: of its progress."""
+    report, answer, called = Report(), None, None
+    outcome, cases, *asked, library = pickle.loads(exercise)
     sys.stdout = sys.stderr = printed = Printed()
     try:
         answer, times, seconds = pickle.loads(job)
@@ -267,17 +302,38 @@ def work(exercise: bytes, job: bytes) -> Report:
         warnings.simplefilter("ignore")
         if isinstance(answer, str):
             answer = defined_in(answer, asked[0])
-        report.refused = why_not_called(answer, *asked)
+        report.refused, called = why_not_called(answer, *asked), Called(answer)
+        if not report.refused:
+            report.library = same_content(answer, library)
         copies = [case for _ in range(times) for case in pickle.loads(exercise)[1]]
         for number, (case, copy) in enumerate(zip(cases * times, copies, strict=True) if not report.refused else ()):
-            report.answers.append(plain(outcome(answer, *copy)))
+            if notes is not None:
+                notes.begin_case()
+            report.answers.append(plain(outcome(called, *copy)))
             pairs = enumerate(zip(map(plain, copy), map(plain, case), strict=True))
             changed = next(((number, place) for place, pair in pairs if not same(*pair, nan_too=True)), None)
             report.changed = report.changed or changed
     except BaseException as error:  # also SystemExit and KeyboardInterrupt
         report.error = in_words(error, answer)
-    report.printed = PATH.sub(r"\1", printed.getvalue())
+        if called is not None and error is not called.error and is_ours(error, report.error):
+            report.is_ours, report.refused = True, why_no_array(called.value)
+    report.printed = PATH.sub(r"\1", sendable(printed.getvalue()))
     return report
+
+
+def is_ours(error: BaseException, said: tuple[str, str, int | None]) -> bool:
+    """Did our own code raise this error, which did not come out of the answer, on what the answer had returned?"""
+    theirs = (NotAsAsked, NotImplementedError, MemoryError, SystemExit, KeyboardInterrupt)
+    return said[2] is None and not isinstance(error, theirs) and "can't allocate memory" not in said[1]
+
+
+def why_no_array(value) -> str:
+    """Why NumPy can make no array of what the answer returned; "" if it can, and our own code is to blame."""
+    try:
+        np.asarray(value)
+    except Exception as error:  # whatever an object's own methods raise
+        return f"Your function returns {plain(value).words}, of which NumPy makes no array ({type(error).__name__})."
+    return ""
 
 
 def defined_in(source: str, name: str):
@@ -305,13 +361,13 @@ def why_not_called(answer, name: str, call: str, arguments: int) -> str:
 def in_words(error: BaseException, answer) -> tuple[str, str, int | None]:
     """An error's type, its text without paths of this machine, and the last line of the student's file it passed."""
     try:
-        text = PATH.sub(r"\1", " ".join(str(error).split()))[:LONGEST_PRINT]
+        text = PATH.sub(r"\1", sendable(" ".join(str(error).split())))[:LONGEST_PRINT]
     except BaseException:  # an error may come with a text that cannot be made
         text = ""
     if isinstance(error, SyntaxError) and error.filename == SOURCE:
         return type(error).__name__, error.msg, error.lineno
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == file_of(answer)]
-    return type(error).__name__[:80], text, lines[-1] if lines else None
+    return sendable(type(error).__name__)[:80], text, lines[-1] if lines else None
 
 
 def file_of(answer) -> str:

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import array
+import io
+import itertools
+from collections import deque
+from collections.abc import Iterator, MappingView, Sized
+from decimal import Decimal
+from numbers import Rational
+
 import msgspec
 import numpy as np
 
 NUMERIC, SEVERAL = ("tensor", "array", "number"), ("tuple", "list")
+LIKE_A_LIST = (list, range, deque, array.array, Iterator, MappingView)  # a generator is an Iterator
 LARGEST = 2**20  # numbers in an array that is compared
-MOST = 10**308  # about the largest number that a float holds
+MANY, DEEPEST = 2**16, 8  # values in a list with all lists in it, and lists in each other
 
 
 class Plain(msgspec.Struct, frozen=True, eq=False):
@@ -45,27 +54,68 @@ class Plain(msgspec.Struct, frozen=True, eq=False):
 
 def plain(value) -> Plain:
     """A copy of the value as a `Plain`: nothing that a student's function does later changes it."""
-    name = type(value).__name__[:80]
+    return copied(value, DEEPEST, itertools.count(1))
+
+
+def copied(value, deeper: int, count: Iterator[int]) -> Plain:
+    """`plain` of a value that may hold lists to a depth of `deeper`. count: numbers all values that are in a list."""
+    name = sendable(type(value).__name__)[:80]
     if isinstance(value, str):
-        return Plain("text", text=str(value))
-    if isinstance(value, (tuple, list)):
-        return Plain("tuple" if isinstance(value, tuple) else "list", parts=tuple(map(plain, value)))
-    if isinstance(value, (bool, int, float, np.number, np.bool_)):
-        kind = "number"
+        return Plain("text", text=sendable(str.__str__(value)))
+    if isinstance(value, (tuple, *LIKE_A_LIST)) and not isinstance(value, io.IOBase):
+        if deeper == 0:
+            return Plain(f"{name} with more than {DEEPEST} lists in each other")
+        many, parts = Plain(f"{name} of more than {MANY:,} values"), []
+        if isinstance(value, Sized) and len(value) > MANY:
+            return many
+        for part in value:
+            parts.append(copied(part, deeper - 1, count))
+            if next(count) > MANY:
+                return many
+        return Plain("tuple" if isinstance(value, tuple) else "list", parts=tuple(parts))
+    if isinstance(value, (bool, int, float, np.number, np.bool_, Rational, Decimal)):
+        kind, value = "number", as_float(value)
     elif isinstance(value, np.ndarray):
         kind = "array"
     elif type(value).__module__.partition(".")[0] == "torch" and hasattr(value, "detach"):
-        kind, value = "tensor", value.detach().cpu().numpy()
+        kind, value = "tensor", as_array(value)
     else:
-        return Plain(name if name not in (*NUMERIC, *SEVERAL) else f"{name} of yours")
-    if isinstance(value, int) and abs(value) > MOST:
-        value = float("inf") if value > 0 else -float("inf")
-    array = np.asarray(value)
-    if array.dtype.kind not in "biuf":  # complex numbers, objects, texts
-        return Plain(f"{name} of {array.dtype}")
-    if array.size > LARGEST:
-        return Plain(f"{name} of {array.size:,} numbers")
-    return Plain(kind, np.array(array, dtype=bool if array.dtype.kind == "b" else np.float64))
+        return Plain(name if name not in (*NUMERIC, *SEVERAL, "text") else f"{name} of yours")
+    numbers = np.asarray(value)
+    if numbers.dtype.kind not in "biuf":  # complex numbers, objects, texts
+        return Plain(f"{name} of {numbers.dtype}")
+    if numbers.size > LARGEST:
+        return Plain(f"{name} of {numbers.size:,} numbers")
+    return Plain(kind, np.array(numbers, dtype=bool if numbers.dtype.kind == "b" else np.float64))
+
+
+def as_float(number):
+    """A number of exact arithmetic as a float, infinite where no float is as large; others as they are."""
+    if isinstance(number, (bool, float, np.generic)):
+        return number
+    try:
+        return float(number)
+    except OverflowError:
+        return float("inf") if number > 0 else -float("inf")
+    except ValueError:  # a signalling NaN of `decimal`
+        return float("nan")
+
+
+def as_array(tensor) -> np.ndarray:
+    """The numbers of a torch tensor; where it has none (it is quantised, or on no device), an array of its type's name.
+
+    Sparse tensors, and those in bfloat16, which NumPy does not know, have numbers, too.
+    """
+    try:
+        dense = tensor.detach().to_dense().cpu().resolve_conj().resolve_neg()
+        return (dense.double() if dense.is_floating_point() else dense).numpy()
+    except (RuntimeError, TypeError, AttributeError):  # NotImplementedError is a RuntimeError
+        return np.array(str(tensor.dtype))
+
+
+def sendable(text: str) -> str:
+    """The text, with half characters written out: no message can hold them."""
+    return text.encode("utf-8", "backslashreplace").decode()
 
 
 def encode_array(array: np.ndarray) -> tuple[bool, tuple, bytes]:
@@ -91,13 +141,15 @@ def fitted(answer: Plain, right: Plain) -> Plain:
         parts = [fitted(part, right) for part in answer.parts]
         if parts and all(part.kind in NUMERIC and part.shape == parts[0].shape for part in parts):
             return Plain("array", np.array([part.array for part in parts]))
+        if not parts and right.shape[:1] == (0,):
+            return Plain("array", np.empty(right.shape))
     if right.kind == "array" and answer.kind == "tensor":
         return Plain("array", answer.array)
-    if right.kind == "tuple":
-        if answer.kind in ("array", "tensor") and answer.shape:
+    if right.kind in SEVERAL:
+        if answer.kind in ("array", "tensor") and answer.shape[:1] == (len(right.parts),):
             answer = Plain("tuple", parts=tuple(Plain(answer.kind, np.asarray(part)) for part in answer.array))
         if answer.kind in SEVERAL and len(answer.parts) == len(right.parts):
-            return Plain("tuple", parts=tuple(map(fitted, answer.parts, right.parts)))
+            return Plain(right.kind, parts=tuple(map(fitted, answer.parts, right.parts)))
     return answer
 
 

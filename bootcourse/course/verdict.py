@@ -12,10 +12,13 @@ from bootcourse.terminal import printable
 if TYPE_CHECKING:
     from bootcourse.course.exercise import Mistake
 
-# wrong: it ran; did_not_run: it raised an error, took too long, or ended its process; todo: nothing to judge yet
-Kind = Literal["passed", "wrong", "did_not_run", "todo", "hint"]
-MARKS = {"passed": "✓", "wrong": "✗", "did_not_run": "✗", "todo": "…", "hint": "?"}  # for readers who see no colour
-COLOURS = {"passed": "#009E73", "wrong": "#D55E00", "did_not_run": "#D55E00", "todo": "#777777", "hint": "#0072B2"}
+# library: right, and the library's own; wrong: it ran; did_not_run: it raised an error, took too long, or ended its
+# process; broke: our check broke off, whatever the answer is; todo: nothing to judge yet
+Kind = Literal["passed", "library", "wrong", "did_not_run", "broke", "todo", "hint"]
+MARKS = {"passed": "✓", "library": "≈", "wrong": "✗", "did_not_run": "✗", "broke": "!", "todo": "…",
+         "hint": "?"}  # for readers who see no colour  # fmt: skip
+COLOURS = {"passed": "#009E73", "library": "#0072B2", "wrong": "#D55E00", "did_not_run": "#D55E00",
+           "broke": "#777777", "todo": "#777777", "hint": "#0072B2"}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,12 @@ class Verdict:
 
     @property
     def passed(self) -> bool:
+        """Is it right, and the student's own?"""
         return self.kind == "passed"
+
+    @property
+    def is_right(self) -> bool:
+        return self.kind in ("passed", "library")
 
     def __repr__(self) -> str:
         lines = [f"{MARKS[self.kind]} {self.sentence}", *(f"    {line}" for line in self.details), self.footer]

@@ -1,6 +1,8 @@
-"""Demonstrations: a teacher's transitions as rows for a `ReplayBuffer` (Section IV-B)."""
+"""Demonstrations: a teacher's drives (Section IV-B), by name and as rows for a `ReplayBuffer`."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields
+from itertools import pairwise
 
 import numpy as np
 import torch
@@ -19,6 +21,86 @@ from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 FIRST_SEED = 2**34  # seed of the first demonstration's road; training and held-out roads have other seeds
 
 
+@dataclass(frozen=True)
+class Demonstrations:
+    """Whole drives by name, one after the other. Every array has a row for each of the n transitions."""
+
+    observations: np.ndarray  # (n, observation) float32, s
+    actions: np.ndarray  # (n,) int64, a
+    rewards: np.ndarray  # (n,) float64, r
+    next_observations: np.ndarray  # (n, observation) float32, s'; of a drive's last transition, what it ended with
+    terminated: np.ndarray  # (n,) bool: the drive ended here in an accident or another terminal state
+    truncated: np.ndarray  # (n,) bool: its time was over here
+    rule_actions: np.ndarray  # (n,) int64, the teacher's μ(s); zeros without a teacher
+    next_rule_actions: np.ndarray  # (n,) int64, μ(s')
+    seeds: tuple[int, ...] = ()  # of each drive's road; () where they are not known
+
+    def __post_init__(self):
+        sizes = {field.name: len(getattr(self, field.name)) for field in fields(self) if field.name != "seeds"}
+        require(len({*sizes.values()}) == 1, f"These arrays differ in length, {sizes}: give as many of each.")
+        require(len(self) > 0 and self.is_end[-1], "The last drive has no end: give whole drives, at least one.")
+
+    def __len__(self) -> int:
+        return len(self.actions)
+
+    @property
+    def is_end(self) -> np.ndarray:
+        """Whether a drive ends with a transition, (n,) bool."""
+        return self.terminated | self.truncated
+
+    @property
+    def drives(self) -> list[slice]:
+        """The transitions of each drive."""
+        ends = np.flatnonzero(self.is_end) + 1
+        return [slice(int(begin), int(end)) for begin, end in pairwise([0, *ends])]
+
+    def rows(self) -> Tensor:
+        """As rows for a `ReplayBuffer`, (n, row): what learners use."""
+        return encode_transitions(
+            self.observations, self.next_observations, self.actions, self.rewards, self.terminated,
+            self.rule_actions, self.next_rule_actions,
+        )  # fmt: skip
+
+
+def demonstrate(
+    episodes: int = 200,
+    scenario: Scenario | None = DEFAULT,
+    policy: Policy | None = None,
+    teacher: Rule | None = course_rule,
+    make_env: Callable[[int], VectorEnv] | None = None,
+    first_seed: int = FIRST_SEED,
+) -> Demonstrations:
+    """Drive whole episodes: `Demonstrations`, one drive after the other, on the roads first_seed, first_seed + 1 ...
+
+    policy: the driver, by default the teacher; teacher: the rule whose actions are μ(s) and μ(s'), zeros for None.
+    make_env: makes a vector environment of n copies, by default the trap; with another, scenario is None.
+    The default driver is deterministic. (The paper runs the 0.9-stochastic rule and says that every demonstration
+    escapes; at one decision per second both cannot be true, because its random steering takes the car off the road.
+    For the stochastic rule give `stochastic_rule_policy`.)
+    """
+    env, mu = one_episode_each(episodes, scenario, make_env), None
+    teach = teacher_of(teacher or no_teacher, scenario, int(env.single_action_space.n))
+
+    def follow_teacher(observations, cars):
+        return PolicyOutput(teach(cars) if mu is None else mu)  # mu was computed after the last step
+
+    decisions, roads = [], []
+    for step in steps(policy or follow_teacher, env, first_seed):
+        if mu is None:
+            mu = teach(step.cars)
+        next_mu = teach(step.next_cars)
+        columns = (
+            step.observations, step.output.actions, step.rewards, step.next_observations,
+            step.terminated, step.truncated, mu, next_mu,
+        )  # fmt: skip
+        decisions.append([np.asarray(column)[step.running] for column in columns])
+        roads.append(np.flatnonzero(step.running))
+        mu = next_mu
+    by_drive = np.argsort(np.concatenate(roads), kind="stable")
+    columns = (np.concatenate(column)[by_drive] for column in zip(*decisions, strict=True))
+    return Demonstrations(*columns, seeds=tuple(range(first_seed, first_seed + episodes)))
+
+
 def collect(
     episodes: int = 200,
     scenario: Scenario | None = DEFAULT,
@@ -27,30 +109,13 @@ def collect(
     make_env: Callable[[int], VectorEnv] | None = None,
     first_seed: int = FIRST_SEED,
 ) -> Tensor:
-    """Rows for a `ReplayBuffer` from whole episodes: (transitions, row).
+    """What `demonstrate` drives with these arguments, as rows for a `ReplayBuffer`: (transitions, row).
 
-    policy: the driver, by default the teacher; teacher: the rule whose actions are μ(s) and μ(s') in the rows, zeros
-    for None. make_env: makes a vector environment of n copies, by default the trap; with another, scenario is None.
-    The default driver is deterministic. (The paper runs the 0.9-stochastic rule and says that every demonstration
-    escapes; at one decision per second both cannot be true, because its random steering takes the car off the road.
-    For the stochastic rule give `stochastic_rule_policy`.)
+    In the order of the decisions: the first of every drive, then the second of those that go on, and so forth.
     """
-    env = one_episode_each(episodes, scenario, make_env)
-    rows, mu = [], None
-    teach = teacher_of(teacher or no_teacher, scenario, int(env.single_action_space.n))
-
-    def follow_teacher(observations, cars):
-        return PolicyOutput(teach(cars) if mu is None else mu)  # mu was computed after the last step
-
-    for step in steps(policy or follow_teacher, env, first_seed):
-        if mu is None:
-            mu = teach(step.cars)
-        next_mu = teach(step.next_cars)
-        seen = step.observations, step.next_observations
-        each = encode_transitions(*seen, step.output.actions, step.rewards, step.terminated, mu, next_mu)
-        rows.append(each[step.running])
-        mu = next_mu
-    return torch.cat(rows)
+    driven = demonstrate(episodes, scenario, policy, teacher, make_env, first_seed)
+    decision = np.concatenate([np.arange(drive.stop - drive.start) for drive in driven.drives])
+    return driven.rows()[np.argsort(decision, kind="stable")]
 
 
 @all_roads
@@ -84,7 +149,7 @@ def _rows(rollout: Rollout, teacher: Rule) -> Tensor:
 
 def demonstrations_for(
     settings: Sequence[Settings],
-    given: Sequence[Rollout] | Tensor | None,
+    given: Sequence[Rollout] | Demonstrations | Tensor | None,
     teacher: Rule | None,
     scenario: Scenario | None = DEFAULT,
     make_env: Callable[[int], VectorEnv] | None = None,
@@ -92,13 +157,15 @@ def demonstrations_for(
 ) -> Tensor | None:
     """The rows that agents with these settings train with, (transitions, row); None if no agent needs any.
 
-    given: recorded drives, or rows, instead of the teacher's. Raises BootcourseError if no agent uses them, if they are
-    of another scenario, and if the teacher is missing.
+    given: recorded drives, `Demonstrations` or rows, instead of the teacher's. Raises BootcourseError if no agent uses
+    them, if they are of another scenario, and if the teacher is missing.
     """
     shared = settings[0]
     if not any(s.needs_demonstrations for s in settings):
         require(given is None, f"Method '{shared.method}' uses no demonstrations: choose one that does.")
         return None
+    if isinstance(given, Demonstrations):
+        return given.rows()
     if isinstance(given, Tensor):
         return given
     if given is not None:

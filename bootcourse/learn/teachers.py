@@ -14,6 +14,7 @@ it is a function of one observation, `my_rule(observation)`, that returns one of
 import hashlib
 import inspect
 import math
+import operator
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -164,9 +165,13 @@ class _Questions:
 
 
 def is_action(action, n_actions: int = N_ACTIONS) -> bool:
-    """Whether it is a whole number in 0..n_actions - 1, Python's or NumPy's."""
-    is_whole = isinstance(action, (int, np.integer)) and not isinstance(action, (bool, np.bool_))
-    return is_whole and 0 <= action < n_actions
+    """Whether it is one whole number in 0..n_actions - 1: Python's, or a 0-dimensional array of NumPy's or torch's."""
+    if isinstance(action, (bool, np.bool_)) or not hasattr(action, "__index__") or np.ndim(action) > 0:
+        return False
+    try:
+        return 0 <= operator.index(action) < n_actions
+    except TypeError:  # an array of other numbers
+        return False
 
 
 def teacher_policy(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: int = N_ACTIONS) -> Policy:

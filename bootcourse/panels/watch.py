@@ -40,6 +40,7 @@ class Watch(World):
     chart = traitlets.Unicode().tag(sync=True)
     words = traitlets.Unicode().tag(sync=True)
     running = traitlets.Bool(True).tag(sync=True)
+    handle = None  # of its display in a notebook's cell
 
     def __init__(self, training: Training, button: bool = True):
         self.training, self.stopping, self.marks = training, False, []
@@ -76,6 +77,8 @@ class Watch(World):
         self._keep(self.training)
         self.running = False
         self.show_now(f"{'Stopped' if result.interrupted else 'Done'} after {self.training.updates:,} updates")
+        if self.handle is not None:
+            self.handle.update(self)  # so that the notebook's file holds the whole curves
 
     def change(self, symbol: str, setting: str, value: float) -> None:
         """Let the agents go on with another value, and mark the moment in the curves."""

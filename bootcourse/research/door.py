@@ -10,6 +10,7 @@ EXPERIMENTS = {  # in the order of the report
     "longer-view": f"{_HERE}.experiments.longer_view",
     "beyond": f"{_HERE}.experiments.beyond",
     "beyond-search": f"{_HERE}.experiments.beyond_search",
+    "others": f"{_HERE}.experiments.others",
     "teachers": f"{_HERE}.experiments.teacher_worth",
     "look-ahead": f"{_HERE}.experiments.lookahead",
     "distil": f"{_HERE}.experiments.distil",

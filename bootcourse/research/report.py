@@ -7,7 +7,7 @@ import numpy as np
 
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
-from bootcourse.files import write_bytes
+from bootcourse.files import write_bytes, write_json
 from bootcourse.plots.figure import save
 from bootcourse.policies import rule_policy
 from bootcourse.research import figures as training_figures
@@ -16,11 +16,13 @@ from bootcourse.research.computed import StudyResults
 from bootcourse.research.experiment import experiment_named
 from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity, fidelity_table
 from bootcourse.research.jobs import HELD_OUT
-from bootcourse.research.paper import COLUMNS, PRINTED, ROWS, TABLES, arithmetic
+from bootcourse.research.paper import COLUMNS, INTEGRATED, PRINTED, ROWS, TABLES, arithmetic
 from bootcourse.research.results import KINDS, Results, join
 from bootcourse.research.studies import STUDIES
 from bootcourse.scenario import Scenario
 from bootcourse.statistics import ESCAPES, IN_A_ROW, Estimate, mean
+
+ABLATION = "ablation.json"
 
 
 def rule_results(scenario: Scenario, tests: int) -> Results:
@@ -46,9 +48,23 @@ def write_report(study: StudyResults, folder: Path) -> Path:
     for name, computed in study.experiments.items():
         if computed and (section := experiment_named(name).section):
             text += section(study.experiments, folder)
+    if "default" in study.results:
+        write_json(folder / ABLATION, ablation(study.results["default"]))
     path = folder / "report.md"
     write_bytes(path, "\n".join(text).encode())
     return path
+
+
+def ablation(results: Results) -> dict:
+    """The paper's ablation in numbers, ours beside the paper's, for the page that learns (web/ablation.js)."""
+    methods = {}
+    for method in TABLES[INTEGRATED]:
+        printed, returns = PRINTED[method], results.of(method).scores("returns")
+        methods[method] = {
+            "ours": {"escaped": results.escapers(method), "agents": len(returns), "returns": round(returns.mean(), 2)},
+            "paper": {name: printed[name].mean for name in ("success", "returns")},
+        }
+    return {"escapes": ESCAPES, "heldOut": held_out_seeds(HELD_OUT, 1)[0], "methods": methods}
 
 
 def study_part(study: StudyResults, name: str, rule: Results, everyone: Results, folder: Path) -> list[str]:

@@ -41,11 +41,11 @@ def cache_places() -> list[Path]:
     return [*([Path(chosen)] if chosen else []), PACKAGE / "__pycache__", *(each for each in own if each.is_absolute())]
 
 
-def cache_folder(package: Path, places: list[Path]) -> tuple[Path | None, str]:
-    """(the cache of this version, "") in the first of these places that can be written, or (None, why none can)."""
-    text = b"".join(source.read_bytes() for source in sources(package))
+def cache_folder(files: list[Path], places: list[Path], kind: str = "numba") -> tuple[Path | None, str]:
+    """(the cache for these files, "") in the first of these places that can be written, or (None, why none can)."""
+    text = b"".join(file.read_bytes() for file in files)
     text += f"{get_host_cpu_name()} {get_host_cpu_features().flatten()}".encode()
-    name, reasons = f"numba-{hashlib.sha256(text).hexdigest()[:12]}", []
+    name, reasons = f"{kind}-{hashlib.sha256(text).hexdigest()[:12]}", []
     for place in places:
         try:
             (place / name).mkdir(parents=True, exist_ok=True)
@@ -67,14 +67,14 @@ def make_temporary_place() -> None:
         atexit.register(lambda: os.getpid() == owner and shutil.rmtree(folder, ignore_errors=True))
 
 
-CACHE_FOLDER, UNWRITABLE = cache_folder(PACKAGE, cache_places())
+CACHE_FOLDER, UNWRITABLE = cache_folder(sources(PACKAGE), cache_places())
 ADVICE = "Make one of them writable, or set NUMBA_CACHE_DIR to a folder of yours that can be written."
 if UNWRITABLE:
     print(
         f"Every start compiles the road again, because nothing can be kept in {UNWRITABLE}. {ADVICE}", file=sys.stderr
     )
     make_temporary_place()
-    CACHE_FOLDER, _ = cache_folder(PACKAGE, cache_places())
+    CACHE_FOLDER, _ = cache_folder(sources(PACKAGE), cache_places())
 
 
 class Cache(FunctionCache):
@@ -99,20 +99,21 @@ class Cache(FunctionCache):
 
 def compiled(function):
     """Compile a function that allocates no arrays in numba's nopython mode; division by zero as in numpy."""
-    return _compile(function, makes_arrays=False)
+    return compile_into(CACHE_FOLDER, function, forceinline=True, _nrt=False)
 
 
 def compiled_loop(function):
     """Compile a function that may allocate arrays, such as a loop over many roads."""
-    return _compile(function, makes_arrays=True)
+    return compile_into(CACHE_FOLDER, function, forceinline=True, _nrt=True)
 
 
-def _compile(function, makes_arrays: bool):
-    before, cached = numba.config.CACHE_DIR, CACHE_FOLDER is not None
-    numba.config.CACHE_DIR = str(CACHE_FOLDER)
+def compile_into(folder: Path | None, function, **options):
+    """The function compiled with these options of numba, cached in a folder; None: not cached."""
+    before = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = str(folder)
     try:
-        made = numba.njit(cache=cached, error_model="numpy", nogil=True, forceinline=True, _nrt=makes_arrays)(function)
-        if cached:
+        made = numba.njit(cache=folder is not None, error_model="numpy", nogil=True, **options)(function)
+        if folder is not None:
             made._cache = Cache(function)
         return made
     finally:

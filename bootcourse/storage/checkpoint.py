@@ -18,7 +18,6 @@ from torch import Tensor
 from bootcourse.errors import BootcourseError, RuleFailed
 from bootcourse.files import decoding, parse, read_arrays, write_arrays
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.learner import learner_for
 from bootcourse.learn.running import device_named
 from bootcourse.learn.settings import stored_settings
 from bootcourse.learn.teachers import Rule, course_rule, teacher_name
@@ -49,6 +48,7 @@ class Header(Struct, forbid_unknown_fields=True):
     seconds: Annotated[float, Meta(ge=0)]
     snapshots: dict[Literal["finished", "last_finite"], list[Count]]  # the agents that have one
     stopped: list[tuple[Count, Count]]  # (agent, the decision at which its loss was not finite)
+    learner: Literal["torch", "compiled"] = "torch"  # a name of `training.LEARNERS`
 
 
 def save_checkpoint(training: Training, path: Path) -> None:
@@ -58,7 +58,7 @@ def save_checkpoint(training: Training, path: Path) -> None:
     """
     if not training.place.is_trap:
         raise BootcourseError("Only a training on the trap can be saved and resumed: let this one run to its end.")
-    if training.make_learner is not learner_for:
+    if training.learner_name is None:
         raise BootcourseError("A training with a learner of your own cannot be saved: let this one run to its end.")
     header = {
         "format": Header.FORMAT,
@@ -66,6 +66,7 @@ def save_checkpoint(training: Training, path: Path) -> None:
         "scenario": asdict(training.scenario),
         "episodes": training.episodes,
         "teacher": teacher_name(training.teacher),
+        "learner": training.learner_name,
         "rngs": [rng.bit_generator.state for rng in _generators(training)],
         "decisions": training.decisions,
         "updates": training.updates,
@@ -75,7 +76,7 @@ def save_checkpoint(training: Training, path: Path) -> None:
     }
     arrays = {name: _numpy(values) for name, values in _in_place(training).items()}
     arrays |= {f"replay.{name}": values for name, values in training.replay.state().items()}
-    for i, moments in training.learner.optimiser.state_dict()["state"].items():
+    for i, moments in _moments(training).items():
         arrays |= {f"optimiser.{i}.{name}": _numpy(values) for name, values in moments.items()}
     for name, agents in _snapshots(training).items():
         for i, agent in agents.items():
@@ -103,7 +104,15 @@ def load_checkpoint(path: Path, teacher: Rule = course_rule, device: str = "cpu"
         settings = [stored_settings(stored) for stored in header.settings]
         rows = torch.from_numpy(arrays["replay.demonstrations"])
         demonstrations = rows if len(rows) else None
-        training = Training(settings, header.episodes, header.scenario, teacher, demonstrations, device=device)
+        training = Training(
+            settings,
+            header.episodes,
+            header.scenario,
+            teacher,
+            demonstrations,
+            device=device,
+            learner=header.learner,
+        )
         _restore(training, header, arrays)
     return training
 
@@ -130,8 +139,9 @@ def _restore(training: Training, header: Header, arrays: dict[str, np.ndarray]) 
         if name.startswith("optimiser."):
             _, i, moment = name.split(".")
             moments.setdefault(int(i), {})[moment] = torch.from_numpy(values)
-    optimiser = training.learner.optimiser
-    optimiser.load_state_dict(optimiser.state_dict() | {"state": moments})
+    if moments:
+        optimiser = training.learner.optimiser
+        optimiser.load_state_dict(optimiser.state_dict() | {"state": moments})
     for rng, state in zip(_generators(training), header.rngs, strict=True):
         rng.bit_generator.state = state
     training.decisions, training.updates, training.seconds = header.decisions, header.updates, header.seconds
@@ -162,6 +172,11 @@ def _snapshots(training: Training) -> dict[str, dict[int, Agent]]:
 
 def _generators(training: Training) -> list[np.random.Generator]:
     return [*training.act_rngs, *training.sample_rngs, *training.env._generators]
+
+
+def _moments(training: Training) -> dict[int, dict[str, Tensor]]:
+    """Adam's moving averages by parameter; none for the compiled learner, whose tensors contain them."""
+    return {} if training.learner_name == "compiled" else training.learner.optimiser.state_dict()["state"]
 
 
 def _numpy(values: Tensor | np.ndarray) -> np.ndarray:

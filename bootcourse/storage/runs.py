@@ -131,6 +131,7 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
             commit=_commit(),
             stopped_at_decision=stopped,  # the decision at which its loss was not finite, or None
             teacher=result.teacher,
+            learner=result.learner,
             sha256={name: sha256(temporary / name) for name in HASHED},
         )
         write_sealed(temporary / "provenance.json", record)
@@ -142,12 +143,17 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
 
 
 def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP_ID) -> Run:
-    """Read and check a run. teacher: its teacher in training, which the agents of some methods need to drive.
+    """Read and check a run: its folder, or the file that the page that learns saved of an agent.
 
-    environment: the id of the environment that it trained in. Raises BootcourseError, with the file and the remedy, if
-    a file is missing or damaged, or for another teacher or environment.
+    teacher: its teacher in training, which the agents of some methods need to drive. environment: the id of the
+    environment that it trained in. Raises BootcourseError, with the file and the remedy, if a file is missing or
+    damaged, or for another teacher or environment.
     """
     path = Path(path)
+    if path.is_file() and path.suffix == ".safetensors":
+        from bootcourse.storage.page_run import read_page_run
+
+        return read_page_run(path)
     if not (path / "provenance.json").is_file():
         raise BootcourseError(f"{path} is not a run: train one with `bootcourse train --out {path}`.")
     record = read_sealed(path / "provenance.json", remedy=TRAIN_AGAIN)
@@ -169,7 +175,8 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP_ID
     curves = read_arrays(path / "curves.npz", TRAIN_AGAIN)
     shapes = dict.fromkeys(curves.keys() & set(NAMES), (config.episodes,))
     check_arrays(curves, shapes, path / "curves.npz", TRAIN_AGAIN)
-    actor, critics = _read_weights(path / "weights.safetensors", settings, config.scenario)
+    weights = path / "weights.safetensors"
+    actor, critics = networks_of(read_tensors(weights, TRAIN_AGAIN), settings, config.scenario, weights)
     teacher = default_teacher(Place(config.scenario)) if teacher is None else teacher
     taught = None if teacher is None else teacher_of(teacher, config.scenario, actor[-1].shape[2])
     agent = Agent(settings, actor, critics, config.alpha, taught)
@@ -180,10 +187,15 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP_ID
     return Run(agent, curves, config.scenario, record)
 
 
-def _read_weights(path: Path, settings: Settings, scenario: Scenario | None) -> tuple[list[Tensor], list[Tensor]]:
+def networks_of(
+    weights: dict[str, np.ndarray],
+    settings: Settings,
+    scenario: Scenario | None,
+    path: Path,
+    remedy: str = TRAIN_AGAIN,
+) -> tuple[list[Tensor], list[Tensor]]:
     """The actor and the critics of a file, of the shapes of networks.py. Raises BootcourseError for others."""
-    weights = read_tensors(path, TRAIN_AGAIN)
-    with decoding(path, TRAIN_AGAIN):
+    with decoding(path, remedy):
         inputs, outputs = weights["actor.0"].shape[1], weights[f"actor.{2 * len(settings.hidden)}"].shape[2]
     if scenario:
         inputs, outputs = scenario.observation_size, N_ACTIONS
@@ -191,9 +203,9 @@ def _read_weights(path: Path, settings: Settings, scenario: Scenario | None) -> 
     rows = [(inputs, outputs) for n_in, outputs in layers for inputs in (n_in, 1)]
     networks = (("actor", 1), ("critics", METHODS[settings.method].learner_class().n_critics(settings)))
     shapes = {f"{name}.{i}": (n, *row) for name, n in networks if n for i, row in enumerate(rows)}
-    check_arrays(weights, shapes, path, TRAIN_AGAIN)
+    check_arrays(weights, shapes, path, remedy)
     if not all(np.isfinite(values).all() for values in weights.values()):
-        raise BootcourseError(f"{path} holds NaN or infinity: {TRAIN_AGAIN}.")
+        raise BootcourseError(f"{path} holds NaN or infinity: {remedy}.")
     tensors = {name: torch.from_numpy(weights[name]) for name in shapes}
     return tuple([tensor for key, tensor in tensors.items() if key.startswith(name)] for name, _ in networks)
 

@@ -34,6 +34,7 @@ from bootcourse.storage.assets import FOLDER, shipped
 from bootcourse.storage.runs import load_run
 from bootcourse.web import bundle
 from bootcourse.web.bundle import HERE, module, script, text_of
+from bootcourse.web.learning import LEARNABLE, learning_data, worker_as_text
 from bootcourse.web.packing import EXACT, SHORT, packed, packed_network, scenario_data
 from bootcourse.web.wasm import road_module
 
@@ -48,6 +49,8 @@ ROADS = 100  # the first of them, on which each driver is measured
 # What a driver's name in the page says of it: it gets out on more roads than this, and has fewer, or more, accidents.
 ESCAPING, SAFE, CRASHING, STAYING = 90, 10, 50, 10
 FIRST_ROAD = 10  # of the page
+# The scripts with which agents learn in the page.
+LEARNING = ("run_file", "learner", "learn_words", "learn_charts", "learn_view", "ablation")
 PARTS = ("paint", "dark", "light", "lamps")  # of a car, in the order that shaders.js knows
 
 
@@ -123,6 +126,7 @@ def page_data() -> dict:
         "module": packed(road_module()),
         "scenario": scenario_data(DEFAULT),
         "networks": networks,
+        "learning": learning_data(),
         "scene": scene_data(),
         "results": {"roads": ROADS, **measured(drivers)},
         "worth": {"speed": float(speeds[1]), "values": [round(float(value), 6) for value in worth]},
@@ -162,8 +166,13 @@ def content() -> dict[str, str]:
 def page() -> str:
     """The whole page as text."""
     text = (HERE / "page.html").read_text(encoding="utf-8")
-    parts = {"style": text_of("theme.css") + text_of("page.css"), "data": bundle.content()["data"]}
-    parts["script"] = "\n".join([module(), script("page")])
+    styles = "".join(map(text_of, ("theme.css", "controls.css", "page.css", "learn.css")))
+    numbers = json.loads((FOLDER / "report/ablation.json").read_text(encoding="utf-8"))  # ours and the paper's
+    numbers["colours"] = {method: style(method).colour for method in LEARNABLE}
+    data = bundle.content()["data"].removesuffix("}") + f',"ablation":{json.dumps(numbers)}}}'
+    parts = {"style": styles, "learn": text_of("learn.html"), "data": data}
+    worker = worker_as_text(script("imports") + script("learn_worker"))
+    parts["script"] = "\n".join([module(), worker, *map(script, LEARNING), script("page")])
     for name, part in parts.items():
         text = text.replace("{{ " + name + " }}", part)
     return text

@@ -19,13 +19,16 @@ from bootcourse.files import write_bytes
 
 HERE = Path(__file__).resolve().parent
 PACKAGE = HERE.parent
-MADE_OF = ("*.py", "road/*.py", "episodes/*.py", "learn/agent.py", "learn/networks.py", "learn/protocol.py",
-           "replay3d/*.py", "plots/road.py", "plots/svg.py", "web/build.py", "web/entries.py", "web/packing.py",
-           "web/wasm.py", "web/*.safetensors")  # fmt: skip
+MADE_OF = (
+    "*.py", "road/*.py", "episodes/*.py", "learn/agent.py", "learn/networks.py", "learn/protocol.py",
+    "learn/compiled*.py", "learn/records.py", "learn/settings.py", "learn/vectorised.py", "replay3d/*.py",
+    "plots/road.py", "plots/svg.py", "web/build.py", "web/entries.py", "web/learning.py", "web/packing.py",
+    "web/wasm.py", "web/*.safetensors",
+)  # fmt: skip
 IN_DEPTH = ("shaders", "webgl", "scene")  # the view in 3D
 SCRIPTS = (
-    "random", "road", "minds", "drive", "drivers", "seat", "words", "address", "view", *IN_DEPTH, "thoughts", "summary",
-    "controls", "main", "mount",
+    "imports", "random", "road", "minds", "drive", "drivers", "seat", "words", "address", "view", *IN_DEPTH,
+    "thoughts", "summary", "controls", "main", "mount",
 )  # fmt: skip
 
 
@@ -42,7 +45,8 @@ def script(name: str) -> str:
 
 def module() -> str:
     """The scripts that make a world, whose door is `mount`, with the style and the elements of its shadow root."""
-    own = {"STYLE": text_of("theme.css") + text_of("style.css"), "WORLD": text_of("world.html")}
+    style = "".join(map(text_of, ("theme.css", "controls.css", "style.css")))
+    own = {"STYLE": style, "WORLD": text_of("world.html")}
     texts = [f"const {name} = `{text}`;" for name, text in own.items()]
     return "\n".join([content()["names"], *texts, *map(script, SCRIPTS)])
 

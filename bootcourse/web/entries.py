@@ -1,12 +1,13 @@
-"""The functions of the compiled road that the page calls, with their types: `wasm.py` compiles them to WebAssembly.
+"""The compiled functions that the page calls, with their types: `wasm.py` compiles them to WebAssembly.
 
-Two are the library's own as they are. The other two work on one road in given memory, since the library's loops over
-many roads allocate arrays, which WebAssembly without numba's runtime cannot. All they call is the library's.
+Most are the library's own as they are. `decide` and `rule` work on one road in given memory, since the library's loops
+over many roads allocate arrays, which WebAssembly without numba's runtime cannot. All they call is the library's.
 """
 
 import numba
 from numba import types
 
+from bootcourse.learn import compiled, compiled_training, records
 from bootcourse.road import twin
 from bootcourse.road.constants import constants
 from bootcourse.road.formulas import weighted_reward
@@ -52,14 +53,37 @@ def _array(kind, dimensions: int) -> types.Array:
     return types.Array(kind, dimensions, "C")
 
 
-RECORD = numba.from_dtype(constants(DEFAULT).dtype)
+SCENARIO = numba.from_dtype(constants(DEFAULT).dtype)
 REALS, CARS, TRACE = (_array(types.float64, dimensions) for dimensions in (1, 2, 3))
 ORDER, AROUND = _array(types.int64, 1), _array(types.int64, 3)
 
+# The records of the learner, by their names in the page. The page makes one of each: see learn_worker.js.
+RECORDS = {
+    "agent": records.AGENT,
+    "batch": records.BATCHES,
+    "coefficients": records.COEFFICIENTS,
+    "work": records.WORK,
+    "plan": records.PLAN,
+    "run": records.RUN,
+    "memory": records.MEMORY,
+    "curves": records.CURVES,
+}
+AGENT, BATCH, COEFFICIENTS, WORK, PLAN, RUN, MEMORY, CURVES = map(numba.from_dtype, RECORDS.values())
+
 # The name in the page: the function, and the types of its arguments.
 ENTRIES = {
-    "place": (twin.place.py_func, (REALS, RECORD, CARS)),
-    "observe": (observe.py_func, (CARS, RECORD, _array(types.float32, 1))),
-    "decide": (decide, (CARS, types.int64, RECORD, ORDER, AROUND, CARS, REALS, TRACE)),
-    "rule": (rule, (CARS, RECORD, ORDER, AROUND, REALS)),
+    "place": (twin.place.py_func, (REALS, SCENARIO, CARS)),
+    "observe": (observe.py_func, (CARS, SCENARIO, _array(types.float32, 1))),
+    "decide": (decide, (CARS, types.int64, SCENARIO, ORDER, AROUND, CARS, REALS, TRACE)),
+    "rule": (rule, (CARS, SCENARIO, ORDER, AROUND, REALS)),
+    "update": (compiled.update.py_func, (AGENT, BATCH, COEFFICIENTS, WORK)),
+    "begin": (compiled_training.begin.py_func, (AGENT, PLAN, RUN, types.int64, SCENARIO)),
+    "demonstrate": (
+        compiled_training.demonstrate.py_func,
+        (RUN, MEMORY, COEFFICIENTS, PLAN, SCENARIO, types.int64),
+    ),
+    "advance": (
+        compiled_training.advance.py_func,
+        (AGENT, BATCH, COEFFICIENTS, WORK, PLAN, RUN, MEMORY, CURVES, SCENARIO, types.int64),
+    ),
 }

@@ -8,9 +8,7 @@ const WHOLE = 8n, REAL = 8n, SINGLE = 4n; // bytes of a number
 class Road {
   constructor(compiled, scenario) {
     const memory = new WebAssembly.Memory({ initial: 4 });
-    const { sin, cos, tan, asin, atan, exp, pow } = Math;
-    const env = { __linear_memory: memory, sin, cos, tan, asin, atan, exp, pow, fmod: (a, b) => a % b };
-    this.code = new WebAssembly.Instance(compiled, { env }).exports;
+    this.code = new WebAssembly.Instance(compiled, importsOf(memory, scenario.free)).exports;
     this.scenario = scenario;
     const { vehicles, lanes, steps } = scenario;
     let end = scenario.free; // the module's own constants lie below: wasm.py checks it

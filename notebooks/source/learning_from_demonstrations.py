@@ -323,10 +323,8 @@ predict(
 
 # %%
 for expert in (0, 2):
-    q = torch.tensor([[3.0, 2.4, 0.0]], requires_grad=True)
-    loss = bc.bootstrap.large_margin_loss(q, torch.tensor([expert]))
-    gradient = torch.autograd.grad(loss.sum(), q)[0][0].tolist()
-    print(f"expert took {expert}: loss {loss.item():.1f}, gradient in Q {gradient}")
+    loss, gradient = figures.margin_example([3.0, 2.4, 0.0], expert)
+    print(f"expert took {expert}: loss {loss:.1f}, gradient in Q {gradient}")
 
 # %% [markdown]
 # **Explain.** The loss is 0 once the expert's action leads by the whole margin. Until then it

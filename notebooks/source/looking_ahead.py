@@ -26,10 +26,10 @@ import bootcourse as bc
 import numpy as np
 from bootcourse.course import check, compare_predictions, own_code, predict, source, table
 from bootcourse.course.lessons.looking_ahead import figures, imagined_road
-from bootcourse.course.lessons.looking_ahead.futures_figure import nine_futures
+from bootcourse.course.lessons.looking_ahead.futures_figure import nine_futures, unharmed
 from bootcourse.course.shipped import beginning, shipped_experiment
 from bootcourse.episodes import models
-from bootcourse.episodes.lookahead import NINE, imagine, lookahead_shield
+from bootcourse.episodes.lookahead import lookahead_shield
 from bootcourse.methods import style
 from bootcourse.research.experiments.distil import learned_rows
 from bootcourse.research.experiments.lookahead import Cell, score
@@ -94,9 +94,8 @@ predict(
 # %%
 BEFORE = 6  # seconds
 cars = drive.states[(len(drive.actions) - BEFORE) * bc.DEFAULT.clock.steps]
-futures = imagine(cars[None], NINE[None], agent, horizon=10)
 title = f"{BEFORE} seconds before the accident there are ways to avoid it"
-bc.show(nine_futures(cars, futures, title, colour=style("bootstrapped").colour))
+bc.show(nine_futures(cars, agent, title, colour=style("bootstrapped").colour))
 
 # %% [markdown]
 # **See.** Red drives end in an accident, blue ones go on. They differ in one decision: after it the
@@ -494,7 +493,7 @@ table(*learned_rows(shipped_experiment("distil"), study))
 # ahead('ppo_cloned', 'shield', roads=MANY).drives | , }} with the shield.
 
 # %%
-safe = int((futures.accidents[0] == 0).sum())
+safe = unharmed(cars, agent)
 groups = ("none", "one or two", "one or two", "three to six")
 safer = 0
 for model in (name for name in models.MODELS if name != "exact"):

@@ -36,6 +36,7 @@ from bootcourse.course import (
     shipped,
     table,
 )
+from bootcourse.course.lessons.soft_constraint.examples import kl_of
 
 # %% [markdown]
 # ## Look first
@@ -49,7 +50,8 @@ ROAD = 10
 newborn = bc.Training([bc.settings_for("soft")], episodes=1).agent(0)
 first_drive = bc.record(newborn.as_policy(with_q=True), [ROAD], label="soft")[0]
 does = torch.tensor([int(first_drive.rule_actions[0])])
-rule_tilde = bc.bootstrap.log_stochastic_rule(does, torch.tensor(0.9)).exp()[0].tolist()
+drives_as_rule = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0), 0.9)
+rule_tilde = bc.record(drives_as_rule, [ROAD], label="rule")[0].policy[0].tolist()
 own_pi = newborn.probabilities(first_drive.observations[:1])[0].tolist()
 title = f"The rule would {bc.ACTION_NAMES[does.item()]}; the untrained agent has no preference"
 named = {"the untrained agent, π": own_pi, "the stochastic rule, π̃": rule_tilde}
@@ -150,10 +152,7 @@ sure = torch.full((1, 9), 1e-12).scatter(1, rule_says[:, None], 1.0)
 elsewhere = torch.full((1, 9), 1e-12).scatter(1, torch.tensor([[7]]), 1.0)
 even = torch.full((1, 9), 1 / 9)
 policies = {"keep left": sure, "accelerate straight": elsewhere, "no action: all nine even": even}
-rows = []
-for words, pi in policies.items():
-    kl = bc.bootstrap.kl_to_rule(pi.log(), rule_says, torch.tensor(0.9)).item()
-    rows.append([words, f"{kl:.3f}"])
+rows = [[words, f"{kl_of(pi, rule_says, p=0.9):.3f}"] for words, pi in policies.items()]
 table(["the agent is sure of", "its KL (nats)"], rows)
 
 # %% [markdown]

@@ -62,7 +62,7 @@ bc.show(bc.top_view_over_time(escape, times=[0, 3, 6, 9, 20, bc.overtaken(escape
 # %% [markdown]
 # ## Round 1: nine actions
 #
-# The nine buttons beside it are nine **actions**. Each combines an acceleration of
+# The nine buttons beside the road are nine **actions**. Each combines an acceleration of
 # {{ -DEFAULT.ego.acceleration }}, 0 or +{{ DEFAULT.ego.acceleration }} m/s² with a steering angle
 # of −π/{{ math.pi / DEFAULT.ego.steering }}, 0 or +π/{{ math.pi / DEFAULT.ego.steering }} rad, and
 # is held for one second. A program knows them by their numbers, 0 to {{ N_ACTIONS - 1 }}.

@@ -53,11 +53,7 @@ predict(
 )
 
 # %%
-ours = PROBLEMS["mountain-car"].teachers()["good"]  # it sees the speed in parts of 0.07
-drives = {
-    "always to the right": loops.climbed(lambda position, speed: 2),
-    "a rule of one line": loops.climbed(lambda *seen: ours(np.array([seen]) / (1, 0.07))[0]),
-}
+drives = loops.first_drives()
 longest = max(len(each) for each in drives.values())
 shown = {name: np.r_[x, np.full(longest - len(x), np.nan)] for name, x in drives.items()}
 title = "A rule of one line swings the car up to the flag"

@@ -444,9 +444,11 @@ bc.show(figures.learners(worth, title))
 #
 # (This round can wait: nothing builds on it.) The rule of two situations does not look to
 # the side, and passes. So the default road does not test whether a driver looks. On this one it
-# matters: ten cars fill the left lane, from about 30 m behind you to about 150 m ahead, at 10.5 to
-# 11.5 m/s. They are faster than the traps, so they pass you.
-# <!-- claim: example_teachers.DENSE.traffic.cars == 10 -->
+# matters: ten cars fill the left lane, in a queue of about 180 m, at 10.5 to 11.5 m/s. They are
+# faster than the traps, so they pass you. The last of them begins 25 to 185 m behind you, elsewhere
+# on each road: if it is far away, you cannot wait until all ten have passed.
+# <!-- claim: example_teachers.DENSE.traffic.cars == 10 and all(130 < np.ptp(x) < 235 and
+#   25 < -x.min() < 185 for x in dense_queues()) -->
 
 # %%
 dense = example_teachers.dense_road(1_300_000)
@@ -455,9 +457,10 @@ print("cars in the left lane, m ahead of you:", ", ".join(f"{x:.0f}" for x in le
 
 # %% [markdown]
 # **Exercise (25 min, ●●●).** Write a rule that gets out of the trap on this road, too. The
-# check drives it on 24 such roads: ahead of trap 1 at the end, without an accident, on every one.
-# `careful` does it on fewer than half of the roads; it looks at the gap ahead, and not at the cars
-# that come from behind.
+# check drives it on {{ len(registry()['watchful_rule'].all_arguments) }} such roads: ahead of
+# trap 1 at the end, without an accident, on every one. They are chosen so that a rule that does not
+# look, or that looks too short a way, has an accident on some of them. `careful` gets out on fewer
+# than half of them; it looks at the gap ahead, and not at the cars that come from behind.
 # <!-- claim: 0 < dense_escapes('careful') < 0.5 < 1 == dense_escapes('watchful') -->
 
 

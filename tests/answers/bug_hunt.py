@@ -78,3 +78,38 @@ wrong_lines("""unmasks
     drawn anew each time: rng = np.random.default_rng()
         rng.random() < 0.5  # differently each time
 """)
+
+wrong_lines("""end_error
+    clipped: np.clip(solution(q, actions, rewards, terminated), -20, 20)
+""")
+
+
+def errors_of(target):
+    """By how much a target function misses y, for four transitions."""
+    reward, value = np.array([1.0, -4.0, 2.0, 0.0]), np.array([3.0, 5.0, -2.0, 7.0])
+    demo, end = np.arange(4) // 2, np.arange(4) % 2
+    return np.abs(target(reward, demo, 3.0, end, value, 0.5) - (reward + 3.0 * demo + 0.5 * (1 - end) * value))
+
+
+right_lines("""unmasks
+    any error: (errors_of(target) > 1e-9).any()
+    as a number: int(errors_of(target).max() > 1e-9)
+    at random: rng = np.random.default_rng(5); reward, value = rng.normal(size=(2, 50))
+        demo, end = rng.integers(0, 2, (2, 50))
+        y = [r + 1.7 * d + (0 if e else 0.6 * v) for r, d, e, v in zip(reward, demo, end, value, strict=True)]
+        not np.allclose(target(reward, demo, 1.7, end, value, 0.6), y)
+""")
+
+wrong_lines("""unmasks
+    how many are wrong: int((errors_of(target) > 1e-9).sum())  # True or False
+    each row: errors_of(target) > 1e-9  # a NumPy array
+    the error: float(errors_of(target).max())  # True or False
+    not a number: float("nan")
+    a wide margin: errors_of(target).max() > 2.0
+    bonus of the course: reward, value = np.array([1.0, -4.0, 2.0, 0.0]), np.array([3.0, 5.0, -2.0, 7.0])
+        demo, end = np.arange(4) // 2, np.arange(4) % 2
+        not np.allclose(target(reward, demo, 2.0, end, value, 0.5), reward + 2 * demo + 0.5 * (1 - end) * value)
+    to the last digit: rng = np.random.default_rng(5); reward, value = rng.normal(size=(2, 50))
+        demo, end = rng.integers(0, 2, (2, 50))
+        bool((target(reward, demo, 1.7, end, value, 0.6) != reward + 1.7 * demo + 0.6 * (1 - end) * value).any())
+""")

@@ -38,6 +38,10 @@ right_lines("""interquartile_mean
 """)
 
 wrong_lines("""interquartile_mean
+    each score once: ordered = np.unique(scores); cut = len(ordered) // 4; ordered[cut : len(ordered) - cut].mean()
+    ties removed: ordered = np.sort(scores); cut = len(ordered) // 4
+        outer = set(ordered[:cut]) | set(ordered[len(ordered) - cut :])
+        np.mean([score for score in ordered if score not in outer] or ordered)
     rounded up: cut = min(-(-len(scores) // 4), (len(scores) - 1) // 2); np.sort(scores)[cut : len(scores) - cut].mean()
 """)
 
@@ -47,9 +51,24 @@ right_lines("""bootstrap_interval
         np.percentile(counts @ scores / draws.shape[1], (2.5, 97.5))
 """)
 
+right_lines("""bootstrap_interval
+    counted off in a sorted list: means = sorted(scores[draw].mean() for draw in draws)
+        means[int(0.025 * len(means))], means[int(0.975 * len(means))]
+    the next mean below: np.quantile(scores[draws].mean(1), [0.025, 0.975], method="lower")
+    as other programs do: np.quantile(scores[draws].mean(1), [0.025, 0.975], method="weibull")
+    a tensor: torch.tensor(scores)[torch.tensor(draws)].mean(1).quantile(torch.tensor([0.025, 0.975]).double())
+""")
+
 wrong_lines("""bootstrap_interval
-    from a sorted list: means = sorted(scores[draw].mean() for draw in draws)
-        means[int(0.025 * len(means))], means[int(0.975 * len(means))]  # single means at the two ends
+    two per cent at each end: np.percentile(scores[draws].mean(1), [2, 98])
+    mirrored: low, high = np.percentile(scores[draws].mean(1), [2.5, 97.5])
+        2 * scores.mean() - high, 2 * scores.mean() - low
+    the wrong way round: np.percentile(scores[draws].mean(1), [97.5, 2.5])
+    smallest and largest: means = scores[draws].mean(1); (means.min(), means.max())
+    an object: object()  # an object
+    three numbers: [1.0, 2.0, 3.0]
+    texts: ["low", "high"]
+    rows of two lengths: [[1.0], [1.0, 2.0]]
 """)
 
 MIDDLE = "[..., cut:scores.shape[-1] - cut]"
@@ -73,7 +92,18 @@ right_lines("""difference_interval
 """)
 
 
+right_lines("""difference_interval
+    another interpolation: each = stats.trim_mean(x[draws_x], 0.25, axis=1) - stats.trim_mean(y[draws_y], 0.25, axis=1)
+        middle_mean(x) - middle_mean(y), *np.quantile(each, [0.025, 0.975], method="hazen")
+""")
+
 wrong_lines("""difference_interval
+    the middle of the resamples:
+        each = stats.trim_mean(x[draws_x], 0.25, axis=1) - stats.trim_mean(y[draws_y], 0.25, axis=1)
+        np.median(each), *np.percentile(each, [2.5, 97.5])
+    the difference last:
+        each = stats.trim_mean(x[draws_x], 0.25, axis=1) - stats.trim_mean(y[draws_y], 0.25, axis=1)
+        *np.percentile(each, [2.5, 97.5]), middle_mean(x) - middle_mean(y)
     medians of both: each = np.median(x[draws_x], axis=1) - np.median(y[draws_y], axis=1)
         np.array([np.median(x) - np.median(y), *np.percentile(each, [2.5, 97.5])])
 """)

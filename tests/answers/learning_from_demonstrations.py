@@ -2,7 +2,6 @@
 
 import torch
 
-from bootcourse.learn import bootstrap
 from bootcourse.learn.replay_buffer import REWARD
 from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
@@ -10,10 +9,6 @@ PLACES = "rng.integers(len(demonstrations), size=n)"
 TORCH_PLACES = f"demonstrations[torch.from_numpy({PLACES})]"
 equivalent("mixed_batch", f"{TORCH_PLACES}  ->  demonstrations[{PLACES}]", "either library's numbers index a tensor")
 equivalent("large_margin_loss", "q.shape[-1]  ->  q.detach().shape[-1]", "only its shape")
-
-
-for _name in ("large_margin_loss", "paper_q_filter"):
-    right(_name)(getattr(bootstrap, _name))
 
 
 @right("mixed_batch")
@@ -36,6 +31,24 @@ right_lines("""mixed_batch
 """)
 
 
+def drawn(own, demonstrations, size, bonus, rng, places):
+    """A batch with the demonstrations at these places."""
+    theirs = demonstrations[places].clone()
+    theirs[:, REWARD] += bonus
+    rows = torch.cat([theirs, own.sample(size - len(places), rng)])
+    return rows, (torch.arange(size) < len(places)).float()
+
+
+right_lines("""mixed_batch
+    sorted draws: places = np.sort(rng.integers(len(demonstrations), size=round(beta * size)))
+        drawn(own, demonstrations, size, bonus, rng, places)
+    one by one: m = len(demonstrations)
+        drawn(own, demonstrations, size, bonus, rng, [int(m * rng.random()) for _ in range(round(beta * size))])
+    shuffled: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng); order = rng.permutation(size)
+        rows[order], marks[order].bool()
+""")
+
+
 @wrong("mixed_batch", "changes its argument `demonstrations`")
 def paid_in_the_table(own, demonstrations, size, beta, bonus, rng):
     demonstrations[:, REWARD] += bonus  # again at each call
@@ -52,7 +65,30 @@ wrong_lines("""mixed_batch
     one demonstration for all: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
         n = int(marks.sum())
         rows[:n] = rows[: min(n, 1)]
-        rows, marks  # again and again
+        rows, marks  # depend on each other
+    one draw for a batch: drawn(own, demonstrations, size, bonus, rng, rng.integers(len(demonstrations), size=1)
+        .repeat(round(beta * size)))  # depend on each other
+    without replacement: n = round(beta * size); places = rng.choice(len(demonstrations), n, replace=False)
+        drawn(own, demonstrations, size, bonus, rng, places)  # a row may come twice
+    in steps: n = round(beta * size); first, step = rng.integers(len(demonstrations), size=2)
+        drawn(own, demonstrations, size, bonus, rng, (first + step * np.arange(n)) % len(demonstrations))  # depend
+    each row twice: n = round(beta * size); places = rng.integers(len(demonstrations), size=n)
+        drawn(own, demonstrations, size, bonus, rng, np.repeat(places, 2)[:n])  # depend on each other
+    with neighbours: n = round(beta * size); places = np.repeat(rng.integers(len(demonstrations), size=n), 2)[:n]
+        drawn(own, demonstrations, size, bonus, rng, (places + np.arange(n) % 2) % len(demonstrations))  # depend
+    bonus for gains: rows, marks = with_choice(own, demonstrations, size, beta, 0.0, rng)
+        rows[:, REWARD] += bonus * marks * (rows[:, REWARD] >= 0)
+        rows, marks  # also where its reward is 0 or negative
+    a capped reward: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
+        rows[:, REWARD] = rows[:, REWARD].clamp(max=10)
+        rows, marks  # depends on the reward
+    bonus in two columns: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
+        rows[:, REWARD + 1] += bonus * marks
+        rows, marks  # the other columns stay
+    one own row for all: n = round(beta * size)
+        rows, marks = drawn(own, demonstrations, n, bonus, rng, rng.integers(len(demonstrations), size=n))
+        own_rows = own.sample(1, rng).expand(size - n, -1)
+        torch.cat([rows, own_rows]), torch.cat([marks, torch.zeros(size - n)])  # one row again and again
     the last demonstration left out: with_choice(own, demonstrations[:-1], size, beta, bonus, rng)
         # more often than others
     a coin for each row: marks = torch.from_numpy(rng.random(size) < beta)
@@ -87,6 +123,9 @@ right_lines("""large_margin_loss
 
 wrong_lines("""large_margin_loss
     cross entropy: torch.nn.functional.cross_entropy(q, expert_action, reduction="none")
+    clamped: solution(q, expert_action).clamp(max=50)
+    a softer maximum: margin = 1 - torch.nn.functional.one_hot(expert_action, q.shape[-1])
+        torch.logsumexp(50 * (q + margin), -1) / 50 - of_expert(q, expert_action)
 """)
 
 right_lines("""paper_q_filter
@@ -95,6 +134,8 @@ right_lines("""paper_q_filter
 
 wrong_lines("""paper_q_filter
     the greedy action: (q.argmax(dim=1) == expert_action).float()  # compare the values
+    nearly the largest: (of_expert(q, expert_action) >= q.amax(-1) - 9e-4).float()  # a little below the largest
+    close to the largest: torch.isclose(of_expert(q, expert_action), q.amax(-1)).float()  # a little below the largest
 """)
 
 right_lines("""margin_loss
@@ -114,4 +155,13 @@ wrong_lines("""margin_loss
     strictly ahead: taken = torch.stack([of_expert(q, action) for q in q_pair])
         rivals = q_pair.scatter(-1, action.expand(2, -1)[..., None], float("-inf")).amax(-1)
         (torch.relu(rivals + 1 - taken) * (taken > rivals) * is_demonstration).mean(-1).sum()
+    nearly the largest: losses = [
+            with_one_hot(q, action) * (of_expert(q, action) >= q.amax(-1) - 2e-3) * is_demonstration for q in q_pair]
+        torch.stack(losses).mean(-1).sum()
+    through the filter: losses = []
+        for q in q_pair:
+            lead = of_expert(q, action) - q.amax(-1)
+            on = (lead >= 0).float() + lead.sigmoid() - lead.sigmoid().detach()
+            losses.append((with_one_hot(q, action) * on * is_demonstration).mean())
+        losses[0] + losses[1]  # its slope
 """)

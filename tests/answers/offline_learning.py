@@ -13,11 +13,16 @@ right_lines("""conservative_loss
     as a clone of softmax: functional.cross_entropy(q, actions)
     state by state: total = 0.0
         for row, action in zip(q, actions, strict=True):
-            total = total + torch.log(torch.exp(row).sum()) - row[action]
+            total = total + torch.logsumexp(row, 0) - row[action]
         total / len(q)
 """)
 
 wrong_lines("""conservative_loss
+    the sum of exponentials: total = 0.0
+        for row, action in zip(q, actions, strict=True):
+            total = total + torch.log(torch.exp(row).sum()) - row[action]
+        total / len(q)  # right on paper
+    clamped first: (q.clamp(-50, 50).exp().sum(-1).log() - q.gather(-1, actions[:, None])[:, 0]).mean()
     as a number: functional.cross_entropy(q, actions).item()  # no gradient reaches `q`
     only the others: others = q.masked_fill(functional.one_hot(actions, q.shape[-1]).bool(), -torch.inf)
         (others.logsumexp(-1) - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()
@@ -48,4 +53,17 @@ wrong_lines("""offline_loss
         functional.mse_loss(q.gather(1, actions[:, None])[:, 0], y) + weight * functional.cross_entropy(q, actions)
     with half of it detached: squares = with_no_grad(q, next_q, next_target, actions, rewards, terminated, gamma, 0.0)
         squares + weight * functional.cross_entropy(q.detach(), actions)  # slope in `q` is wrong
+""")
+
+wrong_lines("""offline_loss
+    a capped target: next_value = next_target.gather(-1, next_q.argmax(-1, keepdim=True))[:, 0]
+        target = (rewards + gamma * (1 - terminated) * next_value).clamp(-20, 20).detach()
+        taken = q.gather(-1, actions[:, None])[:, 0]
+        (taken - target).square().mean() + weight * (q.logsumexp(-1) - taken).mean()
+    a softer square: next_value = next_target.gather(-1, next_q.argmax(-1, keepdim=True))[:, 0]
+        target, taken = (rewards + gamma * (1 - terminated) * next_value).detach(), q.gather(-1, actions[:, None])[:, 0]
+        2 * functional.huber_loss(taken, target, delta=25.0) + weight * (q.logsumexp(-1) - taken).mean()
+    the sum of exponentials: taken = q.gather(-1, actions[:, None])[:, 0]
+        solution(q, next_q, next_target, actions, rewards, terminated, gamma, 0.0) + weight * (
+            q.exp().sum(-1).log() - taken).mean()  # right on paper
 """)

@@ -41,3 +41,22 @@ def action_by_action(pi, q, rule_actions):
         for a in range(pi.shape[1]):
             found[i, a if q[i, a] > q[i, rule] else rule] += pi[i, a]
     return found
+
+
+wrong_lines("""smallest_of
+    capped: solution(q, chosen).clamp(-100, 100)
+""")
+
+wrong_lines("""better_of_two
+    ties stay: q_rule = q.gather(-1, rule_actions[:, None]); own = functional.one_hot(rule_actions, q.shape[-1])
+        stays = pi * (q >= q_rule) * (1 - own)
+        stays + own * (1 - stays.sum(-1, keepdim=True))  # They are not better
+    nearly as good: q_rule = q.gather(-1, rule_actions[:, None]); own = functional.one_hot(rule_actions, q.shape[-1])
+        stays = pi * (q > q_rule + 9e-4)
+        stays + own * (1 - stays.sum(-1, keepdim=True))
+""")
+
+wrong_lines("""guide_shrinks
+    with some slack: len(returns) >= window and np.mean(returns[-window:]) >= best - tolerance * abs(best) - 9e-4
+    with a bar: len(returns) >= window and np.mean(returns[-window:]) >= best - tolerance * abs(best) + 9e-4
+""")

@@ -53,13 +53,29 @@ right_lines("""ppo_loss
         policy + 0.5 * torch.nn.functional.mse_loss(values, returns) + entropy_weight * (log_pi.exp() * log_pi).sum(-1).mean()
     as a sum of rows: p = log_pi.exp()
         one_hot = torch.nn.functional.one_hot(actions, log_pi.shape[-1])
-        ratio = torch.exp((one_hot * log_pi).sum(-1)) / torch.exp(old_log_pi)
+        ratio = torch.exp((one_hot * log_pi).sum(-1) - old_log_pi)
         good = (advantage - advantage.mean()) / advantage.std()
         paid = torch.stack([ratio * good, ratio.clamp(1 - clip, 1 + clip) * good]).amin(0)
         (0.5 * (returns - values) ** 2 - paid + entropy_weight * (p * log_pi).sum(-1)).mean()
+    with a distribution: now = torch.distributions.Categorical(logits=log_pi)
+        good = (advantage - advantage.mean()) / (advantage.std() + 1e-5)
+        ratio = (now.log_prob(actions) - old_log_pi).exp()
+        policy_loss = -torch.min(ratio * good, ratio.clamp(1 - clip, 1 + clip) * good).mean()
+        policy_loss + functional.mse_loss(values, returns) / 2 - entropy_weight * now.entropy().mean()
 """)  # noqa: E501
 
 wrong_lines("""ppo_loss
+    a ratio of two probabilities: p = log_pi.exp(); ratio = p.gather(-1, actions[:, None])[:, 0] / old_log_pi.exp()
+        good = (advantage - advantage.mean()) / (advantage.std() + 1e-8)
+        paid = torch.minimum(ratio * good, ratio.clamp(1 - clip, 1 + clip) * good)
+        (0.5 * (returns - values) ** 2 - paid + entropy_weight * (p * log_pi).sum(-1)).mean()  # right on paper
+    an entropy without a slope: ratio = (log_pi.gather(-1, actions[:, None])[:, 0] - old_log_pi).exp()
+        good = (advantage - advantage.mean()) / (advantage.std() + 1e-8)
+        paid = torch.minimum(ratio * good, ratio.clamp(1 - clip, 1 + clip) * good)
+        entropy = torch.special.entr(log_pi.exp()).sum(-1)
+        (0.5 * (returns - values) ** 2 - paid - entropy_weight * entropy).mean()  # NaN
+    a capped error: value_loss = (values - returns).clamp(-10, 10).square().mean() - (values - returns).square().mean()
+        solution(log_pi, values, actions, old_log_pi, advantage, returns, clip, entropy_weight) + value_loss / 2
     nothing clipped: solution(log_pi, values, actions, old_log_pi, advantage, returns, 1e9, entropy_weight)
 """)
 
@@ -72,3 +88,19 @@ for _change, _why in {
     "(:, 0)  ->  (:, -1)": "there is one column",
 }.items():
     equivalent("ppo_loss", _change, _why)
+
+wrong_lines("""advantages
+    capped: solution(rewards, values, next_values, terminated, ended, gamma, lam).clamp(-50, 50)
+    twenty decisions ahead: found = rewards + gamma * (1 - terminated) * next_values - values
+        delta, weight = found.clone(), torch.ones_like(found)
+        for k in range(1, min(20, len(delta))):
+            weight = weight[: len(delta) - k] * gamma * lam * (1 - ended[k - 1 : len(delta) - 1])
+            found[: len(delta) - k] += weight * delta[k:]
+        found
+""")
+
+wrong_lines("""clipped_loss
+    the dual clip: paid = torch.minimum(ratio * advantage, ratio.clamp(1 - clip, 1 + clip) * advantage)
+        -torch.where(advantage < 0, torch.maximum(paid, 10 * advantage), paid).mean()
+    small advantages: solution(ratio, advantage.clamp(-20, 20), clip)
+""")

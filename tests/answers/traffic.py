@@ -56,3 +56,17 @@ right_lines("""heading_errors
 wrong_lines("""heading_errors
     the last one: error * (1 - dt / tau) ** steps  # a NumPy array
 """)
+
+wrong_lines("""desired_gap
+    capped: min(200.0, solution(v, dv, s0, time_gap, a_max, b))
+""")
+
+wrong_lines("""drive_behind
+    never touching: states = [(gap, v)]
+        for ahead in leader:
+            s = s0 + time_gap * v + v * (v - ahead) / (2 * math.sqrt(a_max * b))
+            a = max(-limit, a_max * (1 - (v / v_desired) ** delta - (s / gap) ** 2))
+            gap, v = max(0.01, gap + (ahead - v) * dt), max(0.0, v + a * dt)
+            states.append((gap, v))
+        np.array(states)
+""")

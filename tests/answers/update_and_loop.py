@@ -1,10 +1,13 @@
 """Answers to the exercises of the lesson on SAC's update and loop."""
 
 import collections
+import linecache
 
+import numpy as np
 import torch
 
-from bootcourse.course.lessons.update_and_loop import by_hand
+from bootcourse.course.exercise import source_of
+from bootcourse.course.lessons.update_and_loop import by_hand, exercises
 from tests.answers import equivalent, right, wrong
 
 TARGET = "target = critic_target(batch.rewards, batch.terminated,"
@@ -133,8 +136,9 @@ def without_functions(agent, batch):
     pi, q1, q2 = agent.log_pi(batch.states).exp(), *agent.q(batch.states)
     rows = torch.arange(len(y))
     errors = ((q[rows, batch.actions] - y).square().mean() for q in (q1, q2))
-    actor = (pi * (alpha * pi.log() - torch.minimum(q1, q2).detach())).sum(1).mean()
-    entropy = -(pi * pi.log()).sum(1).mean().item()
+    log_pi = agent.actor(batch.states).log_softmax(1)
+    actor = (pi * (alpha * log_pi - torch.minimum(q1, q2).detach())).sum(1).mean()
+    entropy = -(pi * log_pi).sum(1).mean().item()
     total = sum(errors) + actor + agent.log_alpha.exp() * (entropy - agent.target_entropy)
     for optimiser in agent.optimisers:
         optimiser.zero_grad()
@@ -142,6 +146,27 @@ def without_functions(agent, batch):
     for optimiser in agent.optimisers:
         optimiser.step()
     move_copies(agent)
+
+
+@right("update")
+def with_gradients_of_its_own(agent, batch):
+    policy, y = torch.distributions.Categorical(logits=agent.log_pi(batch.next_states)), batch.rewards.clone()
+    value = (policy.probs * agent.slow_q(batch.next_states).min(0).values).sum(1)
+    value = (value + agent.log_alpha.exp() * policy.entropy()).detach()
+    y += agent.gamma * value * (batch.terminated == 0)
+    log_pi, q = agent.log_pi(batch.states), agent.q(batch.states)
+    errors = q[:, range(len(y)), batch.actions] - y
+    alpha, h = agent.log_alpha.exp(), -(log_pi.exp() * log_pi).sum(1).mean()
+    losses = errors.pow(2).mean(1).sum(), -(log_pi.exp() * q.amin(0).detach()).sum(1).mean() - alpha.item() * h
+    for optimiser, loss in zip(agent.optimisers, (*losses, alpha * (h.item() - agent.target_entropy)), strict=True):
+        optimiser.zero_grad(set_to_none=False)
+        parameters = [each for group in optimiser.param_groups for each in group["params"]]
+        for parameter, slope in zip(parameters, torch.autograd.grad(loss, parameters, retain_graph=True), strict=True):
+            parameter.grad = slope
+    for optimiser in agent.optimisers:
+        optimiser.step()
+    for name, slow in agent.copies.state_dict().items():
+        slow.lerp_(agent.critics.state_dict()[name], agent.tau)
 
 
 @right("train")
@@ -155,10 +180,96 @@ def with_a_while(agent, env, buffer, update, pushes, rng):
         buffer.add(by_hand.row(state, action, reward, float(fell), after))
         state, over, done = after, fell or late, done + 1
         if done > 256 and done % 4 == 0:
-            update(agent, by_hand.batch_of(buffer.sample(64, rng)))
+            update(agent, by_hand.batch_of(buffer.sample(256, rng)))
+    env.close()
 
 
-@wrong("train", "which ends in a fall, s' is not right")
+def changed(exercise, name: str, *changes: tuple[str, str]):
+    """The exercise's own answer with these changes. `inspect` finds its text."""
+    text = source_of(exercise.solution)
+    for old, new in changes:
+        assert old in text, (name, old)
+        text = text.replace(old, new)
+    text, file = text.replace(f"def {exercise.name}", f"def {name}"), f"<{name}, a changed {exercise.name}>"
+    linecache.cache[file] = len(text), None, text.splitlines(keepends=True), file
+    space = vars(exercises) | {"np": np, "torch": torch}
+    exec(compile(text, file, "exec"), space)
+    return space[name]
+
+
+STEP, TARGET = "        optimiser.step()", "next_value, agent.gamma)"
+CLIPPED = "        torch.nn.utils.clip_grad_norm_(optimiser.param_groups[0]['params'], 1.0)"
+for _name, _words, *_changes in (
+    ("targets_of_at_most_20", "the critics", (TARGET, f"{TARGET}.clamp(-20, 20)")),
+    (
+        "values_of_at_most_20",
+        "the critics",
+        (".amin(0)\n        next_value", ".amin(0).clamp(-20, 20)\n        next_value"),
+    ),
+    ("gradients_of_at_most_1", "differ", (STEP, f"{CLIPPED}\n{STEP}")),
+    ("two_steps", "differ", (STEP, f"{STEP}\n{STEP}")),
+    ("the_mean_of_both", "the policy", ("q_pair.amin(0)", "q_pair.mean(0)")),
+    ("a_fixed_temperature", "the critics", ("agent.log_alpha.exp().detach()", "torch.tensor(0.01)")),
+    ("another_tau", "the copies", ("agent.tau *", "0.005 *")),
+    ("no_temperature", "log α", ("agent.target_entropy)", "sac.entropy(log_pi).mean())")),
+    (
+        "the_next_states",
+        "the policy",
+        ("agent.log_pi(batch.states), agent.q", "agent.log_pi(batch.next_states), agent.q"),
+    ),
+):
+    wrong("update", _words)(changed(exercises.update, _name, *_changes))
+
+
+DRAW, SAMPLE, WHEN = "agent.draw(state, rng)", "buffer.sample(256, rng)", "push >= 256 and push % 4 == 0"
+RESET, FIRST, UPDATE = "            state, _ = env.reset()", "state, _ = env.reset(seed=0)", "update(agent, by_hand."
+ROW = "        buffer.add(by_hand.row(state, action, reward, terminated, next_state))"
+AGAIN = f"{UPDATE}batch_of({SAMPLE}))"
+TURNED = """
+    def turned(rows):
+        batch = by_hand.batch_of(rows)
+        return batch._replace(states=batch.next_states, next_states=batch.states)
+
+    for push"""
+
+for _name, _changes in {
+    "arrays_of_no_axis": [(DRAW, f"np.array({DRAW})")],
+    "drawn_seeds": [(RESET, RESET.replace("()", "(seed=int(rng.integers(2**31)))"))],
+    "rows_counted": [(WHEN, "len(buffer.rows) >= 256 and len(buffer.rows) % 4 == 0")],
+    "named_arguments": [(SAMPLE, "buffer.sample(batch=256, rng=rng)")],
+    "the_spaces": [("for push", "assert env.unwrapped.action_space.n == 2\n    for push")],
+}.items():
+    right("train")(changed(exercises.train, _name, *_changes))
+
+for _name, _words, *_changes in (
+    ("the_same_start", "one seed", (RESET, RESET.replace("()", "(seed=0)"))),
+    ("the_old_state", "the last state of the old episode", (RESET, "            env.reset()")),
+    ("a_reset_each_100", "middle", ("terminated or truncated:", "terminated or truncated or push % 100 == 99:")),
+    ("no_first_reset", "begin with", (FIRST, "state = np.zeros(4, dtype=np.float32)")),
+    ("a_quarter_of_the_rows", "256 rows", ("sample(256", "sample(64")),
+    ("the_newest_rows", "drawn anew", (SAMPLE, "torch.stack(buffer.rows[-256:])")),
+    ("another_generator", "with `rng`", (SAMPLE, "buffer.sample(256, np.random.default_rng(0))")),
+    ("its_own_draws", "the generator `rng`", (DRAW, "agent.draw(state, np.random.default_rng(push))")),
+    ("at_random_at_first", "another action", (DRAW, f"{DRAW} if push > 256 else 1")),
+    ("few_rows_are_enough", "too early", ("push >= 256", "push >= 64")),
+    ("it_waits", "after 265 pushes", ("push >= 256", "push >= 264")),
+    ("each_third", "every fourth push", ("% 4", "% 3")),
+    ("two_at_once", "more than one update", (AGAIN, f"{AGAIN}; {AGAIN}")),
+    ("four_of_16", "more than one update", ("% 4 == 0", "% 16 == 0"), (AGAIN, f"[{AGAIN} for _ in range(4)]")),
+    ("it_stops_to_learn", "36 updates", ("push >= 256", "400 > push >= 256")),
+    ("a_reward_of_its_own", "r is not right", ("action, reward,", "action, 1.0,")),
+    ("a_price_for_falls", "r is not right", ("action, reward,", "action, -1.0 if terminated else reward,")),
+    ("nothing_after_a_fall", "s' is not", (", next_state))", ", next_state * (not terminated)))")),
+    ("the_last_is_dropped", "before it has kept the row", (ROW, f"        if not terminated:\n    {ROW}")),
+    ("each_row_twice", "more than one row", (ROW, f"{ROW}\n{ROW}")),
+    ("one_push_more", "were asked for", ("range(pushes)", "range(pushes + 1)")),
+    ("the_other_action", "another action", ("env.step(action)", "env.step(1 - action)")),
+    ("states_exchanged", "drawn anew", (f"{UPDATE}batch_of(", "update(agent, turned("), ("    for push", TURNED)),
+):
+    wrong("train", _words)(changed(exercises.train, _name, *_changes))
+
+
+@wrong("train", "holds the first state of the next one")
 def with_the_state_after_the_reset(agent, env, buffer, update, pushes, rng):
     state, _ = env.reset()
     for push in range(pushes):
@@ -168,10 +279,10 @@ def with_the_state_after_the_reset(agent, env, buffer, update, pushes, rng):
             state, _ = env.reset()
         buffer.add(by_hand.row(before, action, reward, fell, state))
         if push >= 256 and push % 4 == 0:
-            update(agent, by_hand.batch_of(buffer.sample(64, rng)))
+            update(agent, by_hand.batch_of(buffer.sample(256, rng)))
 
 
-@wrong("train", "keeps 0 rows")
+@wrong("train", "before it has kept the row")
 def without_a_memory(agent, env, buffer, update, pushes, rng):
     state, _ = env.reset()
     for _ in range(pushes):

@@ -19,7 +19,7 @@ right_lines("""climb_rule
 
 wrong_lines("""climb_rule
     nothing for the left: 2 if speed >= 0 else None  # returns nothing
-    at random: int(np.random.default_rng().integers(3))  # differently each time
+    at random: int(np.random.default_rng().integers(3))  # asked again
     once up: 2 if position > -0.3 else 0
 """)
 
@@ -48,3 +48,20 @@ def without_discounts(reward, goal, decisions, shown, gamma):
 
 
 equivalent("climb_rule", "2 if speed >= 0 else 0  ->  2 if speed > 0 else 0", "at rest, either side will do")
+
+right_lines("""climb_rule
+    where: np.where(speed >= 0, 2, 0)
+    a tensor: torch.tensor(2 if speed >= 0 else 0)
+    the sign: int(np.sign(speed)) + 1 if speed else 2
+""")
+
+wrong_lines("""climb_rule
+    a float: 2.0 if speed >= 0 else 0.0  # a whole number
+    the truth: speed >= 0
+    an array: np.array([2 if speed >= 0 else 0])  # a NumPy array
+    beyond: np.where(speed >= 0, 3, 0)  # not an action
+""")
+
+wrong_lines("""drowning_bonus
+    capped: min(50.0, solution(reward, goal, decisions, shown, gamma))
+""")

@@ -3,8 +3,10 @@
 import numpy as np
 
 from bootcourse.learn import teachers as teacher
-from bootcourse.road.state import EGO, LANE, X, Y
-from tests.answers import right, wrong, wrong_lines
+from bootcourse.road.state import EGO, LANE, SPEED, X, Y
+from tests.answers import right, right_lines, wrong, wrong_lines
+
+asked = []  # of the rules with a memory
 
 
 @right("my_rule")
@@ -37,18 +39,56 @@ def late_and_slow(cars, scenario):
     return np.int64(teacher.toward(cars, 8.0, lane - free, scenario))
 
 
-@right("watchful_rule")
-def very_patient(cars, scenario):
-    """Waits until the left lane is empty for 30 m on both sides."""
+wrong_lines("""my_rule
+    with a memory: asked.append(1)
+        teacher.toward(cars, 9.0, 2, scenario) if len(asked) < 40 else the_course_s(cars, scenario)  # or remembers
+""")
+
+right_lines("""my_rule
+    an array without axes: np.where(True, the_course_s(cars, scenario), 4)
+""")
+
+
+def queue(cars):
+    """How far ahead of the ego the cars of the next lane on the left are."""
+    return cars[cars[:, LANE] == int(cars[EGO, LANE]) - 1][:, X] - cars[EGO, X]
+
+
+def going_left(cars, scenario, room, speed=15.0, look=40.0, slow=9.0):
+    """Falls back, and changes to the left where there is `room`; in the free lane at most at `speed`."""
     lane = int(cars[EGO, LANE])
-    gap, v = teacher.ahead(cars, lane, scenario)
+    gap, front = teacher.ahead(cars, lane, scenario)
     if lane == 0:
-        return teacher.toward(cars, 14.0 if gap > 50 else min(14.0, v - 1), 0, scenario)
-    near = 30 if lane == 1 else 12
-    apart = cars[cars[:, LANE] == lane - 1][:, X] - cars[EGO, X]
-    free = not (np.abs(apart) < near).any()
+        return teacher.toward(cars, speed if gap > look else min(speed, front - 0.5), 0, scenario)
     late = cars[EGO, Y] - 4 * lane > 0.5  # still on the way into this lane
-    return teacher.toward(cars, 9.0, lane if late or not free else lane - 1, scenario)
+    wait = slow if lane == 2 else min(front - 0.5, 14.0) if gap > 12 else front - 1  # behind trap 2
+    return teacher.toward(cars, wait, lane - 1 if room and not late else lane, scenario)
+
+
+@right("watchful_rule")
+def patient(cars, scenario):
+    """Waits until the lane on the left is empty for 14 m on both sides."""
+    return going_left(cars, scenario, not (np.abs(queue(cars)) < 14).any())
+
+
+@right("watchful_rule")
+def in_seconds(cars, scenario):
+    """Asks whether it touches a car of that lane within 3 s, if both keep their speeds; whole numbers of NumPy's."""
+    left = cars[cars[:, LANE] == int(cars[EGO, LANE]) - 1]
+    apart, closing = left[:, X] - cars[EGO, X], left[:, SPEED] - cars[EGO, SPEED]
+    later = apart + 3 * closing
+    room = ((apart * later > 0) & (np.minimum(np.abs(apart), np.abs(later)) > 8)).all()
+    return np.array(going_left(cars, scenario, room))
+
+
+for _x in (250, 600, 950):
+
+    @wrong("watchful_rule", "Your rule")
+    def left_at_an_x_of_its_own(cars, scenario, x=_x):
+        lane = int(cars[EGO, LANE])
+        if lane == 0:
+            return going_left(cars, scenario, False)
+        return teacher.toward(cars, 9.0, lane - 1 if cars[EGO, X] > x else lane, scenario)
 
 
 wrong_lines("""watchful_rule
@@ -57,4 +97,10 @@ wrong_lines("""watchful_rule
             return teacher.toward(cars, 12.0, 0, scenario)
         free = teacher.ahead(cars, lane - 1, scenario)[0] > 8
         teacher.toward(cars, 9.0, lane - 1 if free else lane, scenario)  # collides
+    looks beside only: going_left(cars, scenario, not (np.abs(queue(cars)) < 6).any())  # collides
+    too fast in the free lane: going_left(cars, scenario, not (np.abs(queue(cars)) < 14).any(), speed=20.0)
+    too near in the free lane: going_left(cars, scenario, not (np.abs(queue(cars)) < 14).any(), look=8.0)  # collides
+    waits for the end of the queue: going_left(cars, scenario, not (queue(cars) < 0).any())  # gets out on 18 of 40
+    with a memory: asked.append(1)
+        going_left(cars, scenario, len(asked) % 150 > 60 and not (np.abs(queue(cars)) < 14).any())  # or remembers
 """)

@@ -11,6 +11,8 @@ from bootcourse.cli.training import INTERRUPTED
 from bootcourse.errors import BootcourseError
 from bootcourse.processes import usable_processors
 
+NOT_ALL = 1  # exit status of a grading in which our own check broke off on an answer
+
 
 def submit(
     name: str = typer.Option(..., prompt="Your name or student number", help="Your name or student number."),
@@ -41,7 +43,10 @@ def grade(
     lessons: str = typer.Option("", help="Only these lessons, such as 2-7; by default those that were handed out."),
     workers: int = typer.Option(0, min=0, help="Answers judged at once; 0: one for each core that may be used."),
 ) -> None:
-    """Judge every answer of a class again; write tables, a page for each student and one for the class."""
+    """Judge every answer of a class again; write tables, a page for each student and one for the class.
+
+    The exit status is 1 if our own check broke off on an answer: the pages say on which.
+    """
     from bootcourse.course.classroom.grading import Verdicts, graded, handed_out, judge_all, points_of
     from bootcourse.course.classroom.pages import check_places, write_report
     from bootcourse.course.classroom.submission import collect
@@ -56,13 +61,20 @@ def grade(
     except KeyboardInterrupt:
         print("Interrupted. Verdicts are kept: start the same command again to continue.", file=sys.stderr)
         raise typer.Exit(INTERRUPTED) from None
-    for path in write_report([graded(one, worth, verdicts) for one in submissions], out, holds):
+    graduates = [graded(one, worth, verdicts) for one in submissions]
+    for path in write_report(graduates, out, holds):
         print(path)
     for one in submissions:
         if one.problems:
             more = f" (and {len(one.problems) - 1} more)" if len(one.problems) > 1 else ""
             words = f"{one.student}: not all could be read. {one.problems[0]}{more}"
             print("".join(each if each.isprintable() else "?" for each in words), file=sys.stderr)
+    broke = [f"{name} of {one.submission.student}" for one in graduates for name in one.of_kind("broke")]
+    if broke:
+        print(f"Our own check broke off on {len(broke)} answers, which have no points and may be right: "
+              f"{', '.join(broke[:5])}{' ...' * (len(broke) > 5)}. {out.with_suffix('.html')} shows what to send us.",
+              file=sys.stderr)  # fmt: skip
+        raise typer.Exit(NOT_ALL)
 
 
 def handout(
@@ -71,7 +83,7 @@ def handout(
     solutions: bool | None = typer.Option(None, help="Let `check.solution` show solutions; by default it does not."),
     update: bool = typer.Option(False, "--update", help="Bring this handout up to date; what was changed stays."),
 ) -> None:
-    """Write what students get: lessons, the kit, a lock and one page, without solutions."""
+    """Write what students get: lessons, the kit, a lock and one page. The kit's checks hold right answers."""
     from bootcourse.course.classroom import handout
 
     chosen = read_lessons(lessons)

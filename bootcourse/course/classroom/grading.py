@@ -1,7 +1,8 @@
 """Judge every answer of a class again, in parallel, and keep each verdict: a grading can be stopped and resumed.
 
 Answers are judged by processes that start in an empty folder; each answer runs in a process of its own again, shut in
-by `sandbox.py`. Two students with the same text get the same verdict from one judging.
+by `sandbox.py`. Two students with the same text get the same verdict from one judging. No answer stops the others: if a
+process that judges ends, the answers that it may have had are judged one by one.
 """
 
 import functools
@@ -28,15 +29,17 @@ import bootcourse
 from bootcourse.course import runner
 from bootcourse.course.classroom.sandbox import shut_in
 from bootcourse.course.classroom.submission import Submission, fingerprint
-from bootcourse.course.judge import judge
+from bootcourse.course.judge import judge, our_fault
 from bootcourse.course.lessons import LESSONS, number, registry
+from bootcourse.course.verdict import Verdict
 from bootcourse.episodes.evaluate import drive_episodes
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, described
 from bootcourse.files import open_regular
 from bootcourse.policies import rule_policy
 from bootcourse.processes import check_semaphores
 from bootcourse.scenario import DEFAULT
 
+ENDED = "the process that judged it has ended"
 LONGER = 3  # times an exercise's own limit: here the imports count, too, and all cores are busy
 PASSED_ON = ("PATH", "LANG", "LC_ALL", "SYSTEMROOT", "PYTHONPATH", "NUMBA_CACHE_DIR")  # of the environment
 
@@ -44,7 +47,7 @@ PASSED_ON = ("PATH", "LANG", "LC_ALL", "SYSTEMROOT", "PYTHONPATH", "NUMBA_CACHE_
 class Judged(msgspec.Struct, frozen=True):
     """What the check says about an answer."""
 
-    kind: str  # of a Verdict: passed, wrong, did_not_run or todo; or missing
+    kind: str  # of a Verdict: passed, library, wrong, did_not_run, broke or todo; or missing
     sentence: str = ""
     details: tuple[str, ...] = ()
     is_known: bool = False  # is it one of the exercise's known mistakes?
@@ -80,7 +83,10 @@ class Verdicts:
             self.known[entry.key] = entry.judged
 
     def add(self, key: str, judged: Judged) -> None:
+        """Keep a verdict; in this run alone, if our check broke off: the next version may judge the answer."""
         self.known[key] = judged
+        if judged.kind == "broke":
+            return
         with self.path.open("ab") as file:
             file.write(msgspec.json.encode(Line(key, judged)) + b"\n")
 
@@ -96,7 +102,7 @@ def check_own(path: Path, mark: str) -> None:
 def judge_all(submissions: Sequence[Submission], wanted: Sequence[str], verdicts: Verdicts, workers: int) -> list[str]:
     """Judge what has no verdict yet. Returns what shut the answers in; [] if there was nothing to judge.
 
-    Raises BootcourseError if a process that judges does not start, or ends.
+    Raises BootcourseError if no process that judges starts.
     """
     answers = {(name, text) for one in submissions for name, text in one.answers.items() if name in wanted}
     todo = [pair for pair in sorted(answers) if key_of(*pair) not in verdicts.known]
@@ -108,18 +114,50 @@ def judge_all(submissions: Sequence[Submission], wanted: Sequence[str], verdicts
     with tempfile.TemporaryDirectory(prefix="bootcourse-judge-", ignore_cleanup_errors=True) as folder, chdir(folder):
         environment = surroundings(folder)
         holds = barriers(folder, environment)
-        pool = ProcessPoolExecutor(
-            min(workers, len(todo), 60), multiprocessing.get_context("spawn"), begin, (folder, environment, bool(holds))
+        processes = functools.partial(
+            ProcessPoolExecutor,
+            mp_context=multiprocessing.get_context("spawn"),
+            initializer=begin,
+            initargs=(folder, environment, bool(holds)),
         )
-        try:
-            asked = {pool.submit(judged, *pair, LONGER * registry()[pair[0]].seconds): pair for pair in todo}
-            for done in tqdm(as_completed(asked), total=len(asked), desc="answers", unit=""):
-                verdicts.add(key_of(*asked[done]), done.result())
-        except BrokenProcessPool:
-            raise BootcourseError("A process that judges has ended: start the same command again to go on.") from None
-        finally:  # also after Ctrl-C: each process finishes its answer
-            pool.shutdown(cancel_futures=True)
+        at_once, before, ended = min(workers, len(todo), 60), len(verdicts.known), []
+        with tqdm(total=len(todo), desc="answers", unit="") as bar:
+            while todo:
+                left = judge_together(todo, processes(at_once), verdicts, bar)
+                for pair in left[:at_once]:  # answers are begun in their order: one of these ended a process
+                    if judge_together([pair], processes(1), verdicts, bar):
+                        ended.append(pair)
+                        verdicts.add(key_of(*pair), said_by(our_fault(registry()[pair[0]], ENDED)))
+                if left and len(verdicts.known) == before + len(ended):
+                    raise BootcourseError("No process that judges starts: `bootcourse doctor` says what is wrong.")
+                todo = left[at_once:]
     return holds
+
+
+def judge_together(
+    todo: list[tuple[str, str]], pool: ProcessPoolExecutor, verdicts: Verdicts, bar: tqdm
+) -> list[tuple[str, str]]:
+    """Judge (exercise, text) pairs by the processes of a pool. Returns those that are left if one of these ends."""
+    left = dict.fromkeys(todo)
+    try:
+        asked = {pool.submit(judged, *pair, LONGER * registry()[pair[0]].seconds): pair for pair in todo}
+        for done in as_completed(asked):
+            error, pair = done.exception(), asked[done]
+            if isinstance(error, BrokenProcessPool):
+                break
+            failed = error and said_by(our_fault(registry()[pair[0]], described(error)))
+            verdicts.add(key_of(*pair), failed or done.result())
+            del left[pair]
+            bar.update()
+    except BrokenProcessPool:  # while answers are handed to it
+        return list(left)
+    finally:  # also after Ctrl-C: each process finishes its answer
+        pool.shutdown(cancel_futures=True)
+    return list(left)
+
+
+def said_by(verdict: Verdict) -> Judged:
+    return Judged(verdict.kind, verdict.sentence, verdict.details, verdict.mistake is not None)
 
 
 def surroundings(folder: str) -> dict[str, str]:
@@ -150,8 +188,7 @@ def begin(folder: str, environment: dict[str, str], is_shut_in: bool) -> None:
 
 def judged(exercise: str, source: str, seconds: float) -> Judged:
     """In a process that judges: the verdict on an answer."""
-    verdict = judge(registry()[exercise], source, seconds)
-    return Judged(verdict.kind, verdict.sentence, verdict.details, verdict.mistake is not None)
+    return said_by(judge(registry()[exercise], source, seconds))
 
 
 # Points ---------------------------------------------------------------------------------------------
@@ -181,6 +218,10 @@ class Graduate:
     def points(self) -> dict[str, int]:
         """Those of each exercise that the student gets."""
         return {name: self.worth[name] * (judged.kind == "passed") for name, judged in self.verdicts.items()}
+
+    def of_kind(self, kind: str) -> list[str]:
+        """The exercises with such a verdict."""
+        return [name for name, judged in self.verdicts.items() if judged.kind == kind]
 
     @property
     def total(self) -> int:

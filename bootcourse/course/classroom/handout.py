@@ -1,5 +1,8 @@
-"""What a lecturer hands out: some lessons with the kit that they need, a lock and one page, and no solutions in reach.
+"""What a lecturer hands out: some lessons with the kit that they need, a lock and one page.
 
+Solved notebooks and the instructor's pages stay behind, and `check.solution` shows nothing unless the lecturer opens
+it. The kit itself holds right answers, because the checks compare with them: `HOLDS_SOLUTIONS` says so wherever a
+handout is written or read.
 `handout.json` says which files were handed out, so that an update knows what a student has changed.
 """
 
@@ -21,6 +24,9 @@ from bootcourse.files import TEMPORARY, read_bytes, read_json, unix_lines, write
 
 KIT = Path(bootcourse.__file__).resolve().parent.parent
 COPIED = ("bootcourse", "assets", "tools/install.sh", "pyproject.toml", "Makefile", "LICENSE", ".gitattributes")
+
+
+HOLDS_SOLUTIONS = "The checks are part of the kit and hold right answers: they stand in `bootcourse/course/lessons`."
 
 
 class Handout(Struct):
@@ -51,7 +57,7 @@ Something is wrong? `make doctor` says what (Windows: `.venv\\Scripts\\bootcours
 {lessons}
 
 Work in the notebooks, and save them. A check tells you whether an answer is right, and `check.hint("NAME")` helps;
-{solutions} Your predictions are kept in `notebooks/answers`.
+{solutions} {holds} Write your own first, and look there afterwards. Your predictions are kept in `notebooks/answers`.
 
 **To hand in**, type `.venv/bin/bootcourse submit notebooks --name "Your Name"` (Windows: `.venv\\Scripts\\bootcourse`).
 It runs nothing, and writes one file: hand in that file.
@@ -80,7 +86,7 @@ def write(folder: Path, lessons: set[int] | None, solutions: bool) -> list[str]:
             os.replace(part, folder / part.name)
         os.replace(zipped, archive)
     count = sum(name.endswith(".ipynb") for name in parts)
-    return [f"{folder}: {count} lessons.", f"{archive}: {archive.stat().st_size / 1e6:.0f} MB."]
+    return [f"{folder}: {count} lessons.", f"{archive}: {archive.stat().st_size / 1e6:.0f} MB.", HOLDS_SOLUTIONS]
 
 
 def update(folder: Path, lessons: set[int] | None, solutions: bool | None) -> list[str]:
@@ -136,6 +142,7 @@ def content(lessons: set[int] | None, solutions: bool) -> dict[str, bytes]:
     files["README.md"] = README.format(
         lessons="\n".join(titles),
         solutions='`check.solution("NAME")` shows a solution.' if solutions else "solutions are closed.",
+        holds=HOLDS_SOLUTIONS,
     ).encode()
     record = Handout(solutions, {name: hashed(data) for name, data in files.items()})
     return files | {HANDOUT: msgspec.json.format(msgspec.json.encode(record), indent=1)}

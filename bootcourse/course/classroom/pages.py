@@ -20,7 +20,7 @@ from bootcourse.course.classroom.submission import fingerprint
 from bootcourse.course.lessons import registry
 from bootcourse.course.predictions import number_of, worded
 from bootcourse.course.verdict import COLOURS, MARKS, marked
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, described
 from bootcourse.files import write_bytes
 from bootcourse.markup import Markup, html, joined
 
@@ -33,6 +33,7 @@ td:last-child {overflow-wrap: anywhere; min-width: 9em} code, pre {font: 13px/1.
 pre {white-space: pre-wrap; margin: 4px 0}</style>"""
 MADE_BY = '<meta name="generator" content="bootcourse">'
 WORDS = {"missing": "not handed in", "todo": "not written"}
+LOOK_AT = {"did_not_run": "did not run", "broke": "our check broke off", "library": "the library's own, not counted"}
 MOST = 12  # different answers to a prediction that are listed
 LONGEST_NAME = 200  # bytes of a student's name in the name of a page; systems allow 255 in all
 
@@ -60,7 +61,7 @@ def write_report(graduates: Sequence[Graduate], out: Path, holds: list[str]) -> 
     for one in graduates:
         student = one.submission.student
         name = f"{page_name(student)}.html"
-        write_bytes(pages / name, feedback(one).encode("utf-8", "replace"))
+        write_bytes(pages / name, page_for(one).encode("utf-8", "replace"))
         link[student] = html('<a href="{}">{}</a>', quote(os.fsencode(f"{pages.name}/{name}")), student)
     write_bytes(index, class_page(graduates, link, holds).encode("utf-8", "replace"))
     return [out, index]
@@ -127,6 +128,15 @@ def by_lesson(exercises: Iterable[str]) -> Iterable[tuple[str, list[str]]]:
 # A student ------------------------------------------------------------------------------------------
 
 
+def page_for(graduate: Graduate) -> Markup:
+    """The student's page; if our own code cannot draw it, one that says so: the others get theirs."""
+    try:
+        return feedback(graduate)
+    except Exception as error:  # our own code's
+        said = html("<p>{:g} points. This page could not be made ({}).</p>", graduate.total, described(error))
+        return page(f"Feedback for {graduate.submission.student}", said)
+
+
 def feedback(graduate: Graduate) -> Markup:
     """What a student gets back: points and the check's words on each answer, lesson by lesson."""
     own, worth, points = graduate.submission, graduate.worth, graduate.points
@@ -168,6 +178,12 @@ def class_page(graduates: Sequence[Graduate], link: dict[str, Markup], holds: li
         "<p>{} submissions, {} exercises, {:g} points. {}</p>", len(graduates), len(worth), most, shut_in(holds)
     )
     students = [(link[one.submission.student], one.submission.name, f"{one.total:g}") for one in graduates]
+    if broke := sum(len(one.of_kind("broke")) for one in graduates):
+        words = (
+            "<p><strong>Our own check broke off on {} answers.</strong> They have no points, and may be right: "
+            "see below. Please send them to those who make the course.</p>"
+        )
+        head = joined([head, html(words, broke)])
     parts = [head, table("Students", ("id", "name", "points"), students)]
     parts.append(bullets("To look at", to_look_at(graduates, link)))
     for heading, names in by_lesson(worth):
@@ -196,6 +212,9 @@ def row_of(exercise: str, graduates: Sequence[Graduate], link: dict[str, Markup]
     mistakes = [html("{} ({})", marked(sentence), count) for sentence, count in known.most_common()]
     if others := len(wrong) - known.total():
         mistakes.append(html("<small>another ({})</small>", others))
+    for kind, words in {"library": "the library's own, not counted", "broke": "our check broke off"}.items():
+        if count := sum(judged.kind == kind for judged in verdicts.values()):
+            mistakes.append(html("<small>{} ({})</small>", words, count))
     students = joined((link[student] for student in wrong), ", ")
     return [
         code([exercise]),
@@ -215,8 +234,9 @@ def to_look_at(graduates: Sequence[Graduate], link: dict[str, Markup]) -> list[M
             sentences.append("made with another version of the exercises.")
         if not own.written:
             sentences.append("no answer written.")
-        if stopped := [name for name, judged in one.verdicts.items() if judged.kind == "did_not_run"]:
-            sentences.append(html("did not run: {}.", code(stopped)))
+        for kind, words in LOOK_AT.items():
+            if names := one.of_kind(kind):
+                sentences.append(html("{}: {}.", words, code(names)))
         elsewhere = [name for name in own.right if one.verdicts.get(name, MISSING).kind not in ("passed", "missing")]
         if elsewhere:
             sentences.append(html("right in the notebook, not here: {}.", code(elsewhere)))

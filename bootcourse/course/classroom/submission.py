@@ -68,8 +68,9 @@ class Submission(Struct, frozen=True, kw_only=True):
 
 @cache
 def fingerprint() -> str:
-    """A hash of the exercises: two kits with the same one judge the same answers alike."""
-    files = sorted(Path(exercises.__file__).parent.rglob("exercises.py"))
+    """A hash of the exercises and of what judges them: two kits with the same one judge the same answers alike."""
+    lessons = Path(exercises.__file__).parent
+    files = sorted([*lessons.rglob("*.py"), *lessons.parent.glob("*.py")])
     return hashlib.sha256(b"".join(unix_lines(file.read_bytes()) for file in files)).hexdigest()[:12]
 
 

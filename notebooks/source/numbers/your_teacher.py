@@ -10,7 +10,7 @@ from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.teachers import teacher_policy, toward
 from bootcourse.research import teachers
 from bootcourse.research.beyond import lengths
-from bootcourse.road.state import EGO, LANE
+from bootcourse.road.state import EGO, LANE, TRAFFIC, X
 from bootcourse.statistics import ESCAPES
 from scipy import stats
 from tools.course.known import SETTINGS, shipped_teachers
@@ -28,6 +28,11 @@ def dense_escapes(name: str) -> float:
     rule = getattr(example_teachers, name)
     roads = registry()["watchful_rule"].all_arguments
     return float(np.mean([drive_out(rule, cars, scenario) == OUT for cars, scenario in roads]))
+
+
+def dense_queues() -> list:
+    """Where the cars of the queue are on these roads as they begin, in metres ahead of the ego."""
+    return [cars[TRAFFIC:, X] - cars[EGO, X] for cars, _ in registry()["watchful_rule"].all_arguments]
 
 
 @cache

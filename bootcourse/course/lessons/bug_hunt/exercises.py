@@ -7,13 +7,16 @@ from bootcourse.course.lessons.bug_hunt import target_probe
 
 
 def end_cases(rng):
-    """No accident at all, only accidents, one row; then 40 at random, half of them on a road with other rewards."""
+    """No accident at all, only accidents, one row; then 40 at random, half of them on a road with other rewards.
+
+    In every fourth case Q is far beyond any return, as without the stop-gradient.
+    """
     shares = [0.0, 1.0, 1.0, *rng.uniform(0.2, 0.8, 40)]
     for number, share in enumerate(shares):
         n = 1 if number == 2 else rng.integers(3, 9)
         terminated = (rng.random(n) < share).astype(float)
         rewards = rng.uniform(-10, 5, n) if number % 2 else np.where(terminated > 0, -10.0, rng.uniform(0, 1, n))
-        yield rng.normal(-10, 6, (n, 9)), rng.integers(0, 9, n), rewards, terminated
+        yield rng.normal(-10, 300 if number % 4 == 3 else 6, (n, 9)), rng.integers(0, 9, n), rewards, terminated
 
 
 @exercise(

@@ -40,7 +40,11 @@ def is_unmasked(answer, name):
 
 
 def explain_probe(cases, answers):
-    """Which target function the probe judged wrongly."""
+    """Which target function the probe judged wrongly, or what it returned that is neither True nor False."""
+    odd = next((answer for answer in answers if answer.shape != () or answer not in (0, 1)), None)
+    if odd is not None:
+        what = f"{float(odd):g}" if odd.shape == () else f"an array of shape {odd.shape}"
+        return f"Your probe returns {what}: return True or False, for all transitions together."
     said = {name: set() for name in TARGETS}
     for (name,), answer in zip(cases, answers, strict=True):
         said[name].add(bool(answer))

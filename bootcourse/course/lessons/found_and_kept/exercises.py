@@ -6,7 +6,10 @@ from bootcourse.course.exercise import exercise
 
 
 def training_curves(rng):
-    """Never, always, found and kept, found and lost, a window as long as the training; then 30 at random."""
+    """Never, always, found and kept, found and lost, a window as long as the training; then 30 at random.
+
+    Then windows of 49 to 101, as in a training, with agents that are ahead in about half of them.
+    """
     yield np.zeros((2, 6)), 3
     yield np.ones((1, 5)), 2
     yield np.array([[0, 0, 1, 1, 1, 1], [0, 1, 1, 1, 0, 0]]), 2
@@ -15,6 +18,11 @@ def training_curves(rng):
     for _ in range(30):
         agents, episodes = rng.integers(1, 4), rng.integers(6, 20)
         yield (rng.random((agents, episodes)) < rng.random((agents, 1))).astype(int), rng.integers(2, 6)
+    for window in (49, 50, 51, 100, 101):
+        half = np.tile([0, 1], (3, window))  # of an even window exactly half
+        half[1, window - 1], half[2, window] = 1, 0  # one more, one fewer
+        yield half, window
+        yield (rng.random((4, 5 * window)) < 0.5).astype(int), window
 
 
 @exercise(
@@ -39,6 +47,8 @@ def training_curves(rng):
         "return np.where(often.any(axis=1)[:, None], ends - 1, 0)":
             "Both numbers are one too small: episodes are counted from 1, so a window of the first `window` episodes "
             "ends with episode `window`.",
+        "means > 0.5 -> means > 0.55":
+            "Your bar is higher than one half: in a window of 50 episodes 26 are more than half.",
         "means > 0.5 -> means >= 0.5":
             "Half is not more than half: an agent that is ahead in every second episode has not found the way out.",
         "window + often.argmax(axis=1), last -> last, window + often.argmax(axis=1)":

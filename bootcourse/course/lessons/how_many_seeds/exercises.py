@@ -4,6 +4,7 @@ import numpy as np
 import scipy
 
 from bootcourse.course.exercise import exercise
+from bootcourse.course.values import NUMERIC, plain
 from bootcourse.statistics import significant
 
 
@@ -94,11 +95,14 @@ def power(first, second, shown):
 
 
 def score_cases(rng):
-    """Two extremes, all equal, three seeds; then 40 at random."""
+    """Two extremes, all equal, many ties, three seeds; then 40 at random, half of them with ties."""
     yield (np.array([128.0, -10.0, 120.0, 125.0, 126.0, 127.0, -6.0, 129.0]),)
+    yield (np.array([1.0, 9.0, 9.0, 1.0, 9.0, 1.0, 5.0, 9.0, 1.0, 9.0]),)
     yield (np.full(10, 23.4375),)
     yield (np.array([3.0, 1.0, 8.0]),)
-    yield from ((rng.exponential(20, rng.integers(2, 21)) - 10,) for _ in range(40))
+    for number in range(40):
+        scores = rng.exponential(20, rng.integers(2, 21)) - 10
+        yield (scores if number % 2 else 15 * np.rint(scores / 15),)
 
 
 @exercise(
@@ -130,6 +134,36 @@ def interquartile_mean(scores):
     return np.sort(scores)[cut : len(scores) - cut].mean()
 
 
+ENDS = np.array([0.025, 0.975])
+METHODS = ("linear", "lower", "higher", "nearest", "midpoint", "inverted_cdf", "averaged_inverted_cdf", "hazen",
+           "closest_observation", "interpolated_inverted_cdf", "weibull", "median_unbiased",
+           "normal_unbiased")  # fmt: skip
+
+
+def in_numbers(value) -> list[float]:
+    """The numbers of a list, a tuple, an array or a tensor; none for all else."""
+    given = plain(value)
+    if given.kind in ("array", "tensor") and given.array.ndim == 1:
+        return given.array.tolist()
+    parts = given.parts or ()
+    alone = all(part.kind in NUMERIC and part.shape == () for part in parts)
+    return [part.array.item() for part in parts] if alone else []
+
+
+def by_usual_interpolation(answer, values: np.ndarray):
+    """An answer that ends with the 95 % interval of `values`: with NumPy's, if it interpolates in another usual way.
+
+    What does not end with such an interval is returned as it is.
+    """
+    numbers, in_order, last = in_numbers(answer), np.sort(values), len(values) - 1
+    low, high = (ENDS * len(values)).astype(int)
+    usual = [np.quantile(values, ENDS, method=method) for method in METHODS]
+    usual += [in_order[[low, high]], in_order[[low, last - low]]]  # counted off in a sorted list
+    if len(numbers) < 2 or not any(np.allclose(numbers[-2:], each, rtol=1e-4) for each in usual):
+        return answer
+    return np.array([*numbers[:-2], *usual[0]])
+
+
 def draw_cases(rng):
     """Two groups, all equal; then 40 at random."""
     for scores in (np.array([0.0] * 8 + [1.0] * 2), np.full(5, 3.0)):
@@ -139,8 +173,13 @@ def draw_cases(rng):
         yield scores, rng.integers(len(scores), size=(rng.integers(50, 300), len(scores)))
 
 
+def interval_of_mean(answer, scores, draws):
+    return by_usual_interpolation(answer(scores, draws), scores[draws].mean(axis=1))
+
+
 @exercise(
     "the percentile bootstrap: Efron (1979); over whole seeds", minutes=7, difficulty=2, cases=draw_cases,
+    run=interval_of_mean,
     worked=[
         ((np.array([0.0, 8.0]), np.array([[0, 0], [0, 1], [1, 1]])), np.array([0.2, 7.8])),  # of the means 0, 4, 8
         ((np.array([2.0, 2.0]), np.array([[0, 1], [1, 1]])), np.array([2.0, 2.0])),
@@ -160,9 +199,6 @@ def draw_cases(rng):
             "You average over the draws. Average within each draw, over its agents: axis 1.",
         "return scores.mean() + 1.96 * np.array([-1, 1]) * means.std()":
             "You replace the draws by a normal distribution. Take the percentiles of the means themselves.",
-        "return np.sort(means)[[int(0.025 * len(means)), int(0.975 * len(means))]]":
-            "You take single means at the two ends. `np.percentile` goes on between two of them, so that yours and "
-            "ours agree: `np.percentile(means, [2.5, 97.5])`.",
         "scores[draws].mean(axis=1) -> np.median(scores[draws], axis=1)":
             "You took the median of each draw. Here you need the interval of the mean.",
     },
@@ -170,6 +206,11 @@ def draw_cases(rng):
 def bootstrap_interval(scores, draws):
     means = scores[draws].mean(axis=1)
     return np.percentile(means, [2.5, 97.5])
+
+
+def interval_of_difference(answer, x, y, draws_x, draws_y):
+    of_x, of_y = (scipy.stats.trim_mean(drawn, 0.25, axis=1) for drawn in (x[draws_x], y[draws_y]))
+    return by_usual_interpolation(answer(x, y, draws_x, draws_y), of_x - of_y)
 
 
 def group_cases(rng):
@@ -184,6 +225,7 @@ def group_cases(rng):
 
 @exercise(
     "the percentile bootstrap of IQM(x) - IQM(y), both groups resampled", minutes=15, difficulty=3, cases=group_cases,
+    run=interval_of_difference,
     worked=[
         ((np.array([0.0, 8.0]), np.array([1.0, 1.0]), np.array([[0, 0], [0, 1], [1, 1]]), np.array([[0, 1]] * 3)),
          np.array([3.0, -0.8, 6.8])),  # means 0, 4, 8, each less 1

@@ -3,7 +3,7 @@
 import numpy as np
 import torch
 
-from bootcourse.course.drawing import drawn_apart, drawn_evenly, in_float32
+from bootcourse.course.drawing import drawn_apart, drawn_evenly, in_float32, independent
 from bootcourse.course.exercise import exercise, refuse
 from bootcourse.learn.replay_buffer import REWARD
 
@@ -19,10 +19,13 @@ class TableBuffer:
 
 
 def numbered(first, count, width=8):
-    """Rows with the numbers first, first + 1, ... in column 0, and rewards that follow from them: (count, width)."""
-    rows = torch.zeros(count, width)
-    rows[:, 0] = torch.arange(first, first + count)
-    rows[:, REWARD] = rows[:, 0] / 10
+    """Rows with the numbers first, first + 1, ... in column 0, from which all else follows: (count, width).
+
+    The rewards are -10 to 10 in steps of a half, 0 among them.
+    """
+    numbers = torch.arange(first, first + count)
+    rows = numbers[:, None] * torch.linspace(1, 0.5, width)
+    rows[:, REWARD] = (7 * numbers % 41 - 20) / 2
     return rows
 
 
@@ -35,9 +38,9 @@ def mixed_many_times(answer, demonstrations, size, beta, bonus):
     """What is in batches that are drawn one after the other from the same tables.
 
     Returns the shapes of the rows and of the marks; how many rows are demonstrations; the share of the marks that are
-    right; what was added to the reward of demonstrations, and of own rows; whether the demonstrations are drawn evenly,
-    and independently of each other; whether the own rows of two batches differ; whether equal generators give equal
-    batches.
+    right; the least and the most that was added to the reward of demonstrations, and of own rows; whether nothing else
+    was changed; whether the demonstrations are drawn evenly, and independently of each other; whether the own rows of
+    two batches differ; whether equal generators give equal batches.
     """
     width = demonstrations.shape[1]
     own, rng = TableBuffer(numbered(OWN, 400, width)), np.random.default_rng(0)
@@ -55,18 +58,23 @@ def mixed_many_times(answer, demonstrations, size, beta, bonus):
             return refuse(pair, f"({size}, {width}) rows and ({size},) marks; yours have the shapes {shapes}")
         in_float32(pair[0])
         pairs.append(pair)
-    rows, marks = pairs[-1]
-    theirs, added = rows[:, 0] < OWN, rows[:, REWARD] - rows[:, 0] / 10
-    paid = [float(added[who].mean()) if who.any() else 0.0 for who in (theirs, ~theirs)]
+    rows, marks = torch.cat([each for each, _ in pairs]), torch.cat([each for _, each in pairs])
+    theirs, known = rows[:, 0] < OWN, numbered(0, OWN + 400, width)[rows[:, 0].long().clamp(0, OWN + 399)]
+    added = rows - known
+    groups = [added[who, REWARD] for who in (theirs, ~theirs)]
+    paid = [end(group).item() if len(group) else 0.0 for group in groups for end in (torch.amin, torch.amax)]
+    added[:, REWARD] = 0
     right = float((marks == theirs).float().mean())
+    count = float(theirs[-size:].sum())
     drawn = [each[:, 0][each[:, 0] < OWN] for each, _ in pairs]
     equal = len({len(each) for each in drawn}) == 1
     even = not (small and equal) or drawn_evenly(torch.stack(drawn), len(demonstrations))
-    apart = not equal or drawn_apart(torch.stack(drawn), len(demonstrations))
+    apart = not equal or (independent if small else drawn_apart)(torch.stack(drawn), len(demonstrations))
     again = [answer(own, demonstrations, size, beta, bonus, np.random.default_rng(1))[0] for _ in range(2)]
-    fresh = differ(*(each[:, 0][each[:, 0] >= OWN] for each, _ in pairs[-2:]))
-    judged = map(float, (even, apart, fresh, torch.equal(*again)))
-    return np.array([*rows.shape, *marks.shape]), float(theirs.sum()), right, *paid, *judged
+    owned = [each[:, 0][each[:, 0] >= OWN] for each, _ in pairs[-2:]]
+    fresh = differ(*owned) and (len(owned[0]) < 4 or 2 * len(owned[0].unique()) > len(owned[0]))
+    judged = map(float, (not added.any(), even, apart, fresh, torch.equal(*again)))
+    return np.array([*pairs[-1][0].shape, *pairs[-1][1].shape]), count, right, *paid, *judged
 
 
 def differ(one, other):
@@ -88,26 +96,39 @@ def batch_cases(rng):
 
 def of_the_batches(cases, answers):
     """A sentence on batches whose size, shares and rewards may be right, but that are not drawn as they should be."""
-    for (_, size, beta, bonus), (shape, theirs, right, paid, own_paid, *drawn) in zip(cases, answers, strict=True):
-        even, apart, fresh, same = (bool(part.data) for part in drawn)
+    for (_, size, beta, bonus), (shape, theirs, right, *paid, kept, even, apart, fresh, same) in zip(
+        cases, [[part.data for part in answer] for answer in answers], strict=True
+    ):
         wanted = round(beta * size)
-        if shape.data[0] != size or theirs.data != wanted:
+        if shape[0] != size or theirs != wanted:
             return (
                 f"A batch of {size} with β = {beta:.3g} has {wanted} demonstrations and {size - wanted} own rows: "
-                f"yours has {theirs.data:.0f} and {shape.data[0] - theirs.data:.0f}."
+                f"yours has {theirs:.0f} and {shape[0] - theirs:.0f}."
             )
-        if abs(right.data - 1) > 1e-6:
+        if abs(right - 1) > 1e-6:
             return "Some of your marks are wrong: each is 1 if *its* row is a demonstration, else 0."
-        if abs(own_paid.data) > 1e-3 or abs(paid.data - (bonus if wanted else 0)) > 1e-3:
+        low, high, own_low, own_high = paid
+        if high - low > 1e-3 or own_high - own_low > 1e-3:
             return (
-                f"With a bonus of {bonus:.3g}, your batch adds {paid.data:.3g} to the rewards of the demonstrations "
-                f"and {own_paid.data:.3g} to those of the own rows."
+                "Your bonus depends on the reward: each demonstration gets all of it, also where its reward is 0 or "
+                "negative, and an own row gets none."
             )
+        if abs(own_low) > 1e-3 or abs(low - (bonus if wanted else 0)) > 1e-3:
+            return (
+                f"With a bonus of {bonus:.3g}, your batch adds {low:.3g} to the rewards of the demonstrations "
+                f"and {own_low:.3g} to those of the own rows."
+            )
+        if not kept:
+            return "Your batch changes more of a row than its reward: the other columns stay as they are."
         if not fresh:
-            return "Your own rows are the same in each batch: ask `own.sample` for new ones."
+            return (
+                "Your own rows are one row again and again, or the same in each batch: ask `own.sample` for as many "
+                "as you need, each time."
+            )
         if not apart:
             return (
-                "The demonstrations of your batch are one row again and again, or neighbours: draw each row for itself."
+                "The demonstrations of your batches depend on each other: draw each row for itself, at random and with "
+                "replacement, so that a row may come twice."
             )
         if not even:
             return "You draw some demonstrations more often than others: each row has the same chance."
@@ -121,7 +142,7 @@ def of_the_batches(cases, answers):
     minutes=20, difficulty=3, cases=batch_cases, run=mixed_many_times, explain=of_the_batches,
     worked=[
         # half of four rows are demonstrations, paid 2 more
-        ((numbered(0, 50), 4, 0.5, 2.0), (np.array([4, 8, 4]), 2.0, 1.0, 2.0, 0.0, 1.0, 1.0, 1.0, 1.0)),
+        ((numbered(0, 50), 4, 0.5, 2.0), (np.array([4, 8, 4]), 2.0, 1.0, 2.0, 2.0, 0.0, 0.0, *[1.0] * 5)),
     ],
     hints=(
         "How many rows come from the demonstrations? Draw that many row numbers with `rng.integers`, and index.",

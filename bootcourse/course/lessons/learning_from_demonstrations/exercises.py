@@ -9,18 +9,20 @@ mixed_batch = batches.mixed_batch
 
 
 def q_cases(rng):
-    """Expert far ahead, ahead by less than the margin, behind, level; three actions; then 40 at random."""
+    """Expert far ahead, ahead by less than the margin, behind, level; three actions; 400 behind; then 40 at random."""
     q = torch.zeros(4, 9)
     q[0, 2], q[1, 2], q[2, 2] = 3.0, 0.4, -1.0
     yield q, torch.full((4,), 2)
     level = torch.zeros(3, 9)
-    level[:, [1, 5]] = torch.tensor([[2.0, 2.0], [2.0, 2.0 - 1e-3], [2.0 - 1e-3, 2.0]])
+    level[:, [1, 5]] = torch.tensor([[2.0, 2.0], [2.0, 2.0 - 1e-5], [2.0 - 1e-5, 2.0]])
     yield level, torch.full((3,), 5)
+    yield level + 198, torch.full((3,), 5)
+    yield torch.tensor([[-200.0, 200.0, 0.0], [-43.0, -12.0, -60.0], [200.0, -200.0, 199.5]]), torch.tensor([0, 0, 0])
     yield torch.tensor([[0.3, -0.2, 0.1]]), torch.tensor([1])
     yield torch.tensor([[-5.0, -7.0, -6.0], [-5.0, -7.0, -6.0]]), torch.tensor([0, 1])
-    for _ in range(40):
+    for number in range(40):
         size = rng.integers(1, 6)
-        yield torch.tensor(rng.normal(0, 1, (size, 9))), torch.tensor(rng.integers(0, 9, size))
+        yield torch.tensor(rng.normal(0, (1, 40)[number % 4 == 3], (size, 9))), torch.tensor(rng.integers(0, 9, size))
 
 
 @exercise(
@@ -75,6 +77,8 @@ def large_margin_loss(q, expert_action):
         "return (q.argmax(-1) == expert_action).to(q.dtype)":
             "Where two actions share the largest Q, `argmax` names the first of them, and your filter is off although "
             "≥ holds: compare the values, not the actions' numbers.",
+        "q_expert >= q.amax(-1) -> q_expert >= q.amax(-1) - 1e-3":
+            "Your filter is on where the expert's Q is a little below the largest. Compare the numbers as they are.",
         "q_expert >= -> q_expert <":
             "Your filter is on where the printed one is off. That would make more sense, but this exercise asks for "
             "the printed one.",
@@ -98,11 +102,15 @@ FEWER = (
 
 
 def margin_cases(rng):
-    """No demonstration, all demonstrations; then 41 at random. Experts lead by about 1, are level, behind."""
+    """No demonstration, all demonstrations; then 41 at random. Experts lead by about 1, are level, behind.
+
+    A third of the critics have a Q of about 60.
+    """
     for number in range(43):
         size = rng.integers(2, 9)
-        q_pair, action = torch.tensor(rng.normal(0, 1, (2, size, 9))), torch.tensor(rng.integers(0, 9, size))
-        lead = torch.tensor(rng.choice([2.0, 1.05, 0.95, 0.4, 0.0, -0.02, -1.0], (2, size, 1)))
+        q_pair = torch.tensor(rng.normal(0, (1, 1, 60)[number % 3], (2, size, 9))).float()
+        action = torch.tensor(rng.integers(0, 9, size))
+        lead = torch.tensor(rng.choice([2.0, 1.05, 0.95, 0.4, 0.0, -1e-3, -0.02, -1.0], (2, size, 1))).float()
         best = q_pair.amax(-1, keepdim=True) + lead
         q_pair = q_pair.scatter(-1, action.expand(2, -1).unsqueeze(-1), best)
         yield q_pair, action, torch.tensor(rng.random(size) < (0.0, 1.1, 0.6)[min(number, 2)]).float()

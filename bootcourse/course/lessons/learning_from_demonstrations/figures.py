@@ -1,13 +1,22 @@
-"""The figure of the lesson on demonstrations: what the margin adds in one state, and why the filter is off there."""
+"""What the lesson on demonstrations shows of the margin in one state: loss, slopes, and why the filter is off there."""
 
 from collections.abc import Sequence
 
 import numpy as np
+import torch
 from matplotlib.figure import Figure
 
+from bootcourse.learn.bootstrap import large_margin_loss
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, one_axes
 from bootcourse.scenario import ACTION_NAMES
+
+
+def margin_example(q: Sequence[float], expert: int) -> tuple[float, list[float]]:
+    """The margin loss of one state with these Q, and its gradient in each of them. expert: the demonstrated action."""
+    values = torch.tensor([q], requires_grad=True)
+    loss = large_margin_loss(values, torch.tensor([expert])).sum()
+    return loss.item(), torch.autograd.grad(loss, values)[0][0].tolist()
 
 
 def margin_bars(q: Sequence[float], expert: int, margin: float = 1.0) -> Figure:

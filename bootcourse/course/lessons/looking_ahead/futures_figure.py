@@ -7,12 +7,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, OTHER, QUIET
-from bootcourse.episodes.lookahead import Imagined
-from bootcourse.errors import BootcourseError
+from bootcourse.episodes.lookahead import NINE, imagine
 from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.figure import INK, SMALL, WIDTH, axes_at, finish, new_figure
 from bootcourse.plots.futures import LEGEND, trails
 from bootcourse.plots.road import draw_cars, draw_road, edges_of
+from bootcourse.policies import Policy
 from bootcourse.road.state import EGO, HEADING, X
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
 
@@ -24,16 +24,24 @@ CAR = 1.5  # a car is drawn so much longer than it is, to be seen
 APART = 8.0, 1.2  # m along and across; drives that end closer to each other share their label
 
 
+def unharmed(cars: np.ndarray, policy: Policy, horizon: int = 10) -> int:
+    """How many of the nine drives that begin at these cars, (vehicles, 10), end without an accident."""
+    return int((imagine(cars[None], NINE[None], policy, horizon=horizon).accidents == 0).sum())
+
+
 def nine_futures(
-    cars: np.ndarray, imagined: Imagined, title: str, scenario: Scenario = DEFAULT, colour: str = OTHER.colour
+    cars: np.ndarray,
+    policy: Policy,
+    title: str,
+    horizon: int = 10,
+    scenario: Scenario = DEFAULT,
+    colour: str = OTHER.colour,
 ) -> Figure:
     """The road at a decision with the nine imagined drives on it; x is in metres from the ego.
 
-    cars (vehicles, 10): the road at the decision; imagined: of this road alone, values (1, 9). colour: the ego's.
-    Raises BootcourseError for several roads.
+    cars (vehicles, 10): the road at the decision; policy: drives on after each of the nine actions. colour: the ego's.
     """
-    if len(imagined.values) != 1:
-        raise BootcourseError(f"There are imagined drives of {len(imagined.values)} roads: give those of one.")
+    imagined = imagine(cars[None], NINE[None], policy, horizon=horizon, scenario=scenario)
     values, hurt, paths = imagined.values[0], imagined.accidents[0] > 0, imagined.paths[0]
     left, right = -BEHIND, float(paths[..., 0].max() - cars[EGO, X]) + AHEAD
     width = WIDTH - 0.4

@@ -7,13 +7,21 @@ import torch
 from bootcourse.course.exercise import exercise
 from bootcourse.learn import sac
 
+FLOAT32 = (
+    "This is right on paper, but not in float32: e²⁰⁰ is infinite and e⁻²⁰⁰ is 0. `q.logsumexp(-1)` takes the largest "
+    "Q out of the sum first."
+)
+
 
 def offline_cases(rng):
-    """All equal, the data's action far ahead, far behind; then 40 at random."""
+    """All equal, the data's action far ahead, far behind, Q of 200 and of -200; then 40 at random."""
     ahead = 8.0 * torch.eye(9)[[2, 5]]
     yield torch.zeros(3, 9), torch.tensor([0, 4, 8])
     yield ahead, torch.tensor([2, 5])
     yield ahead, torch.tensor([5, 2])
+    yield 25 * ahead, torch.tensor([2, 2])  # e^200 is infinite in float32
+    yield 25 * ahead - 200, torch.tensor([2, 5])
+    yield torch.full((1, 9), -200.0), torch.tensor([3])  # and e^-200 is 0
     for _ in range(40):
         n = rng.integers(2, 8)
         yield torch.tensor(rng.normal(0, 2, (n, 9))), torch.tensor(rng.integers(0, 9, n))
@@ -47,6 +55,10 @@ conservative_loss = exercise(
             "You push every Q down and raise none: subtract the Q of the data's action.",
         ".mean(-1) ->":
             "This is the term of each state: take the mean over the batch.",
+        "q.logsumexp(-1) -> q.exp().sum(-1).log()": FLOAT32,
+        "return -q.softmax(-1).log().gather(-1, actions.unsqueeze(-1)).squeeze(-1).mean(-1)":
+            "This is right on paper, but in float32 the softmax of a Q that lies 110 below the largest is 0, and its "
+            "logarithm infinite. Use `q.log_softmax(-1)`, or `q.logsumexp(-1)`.",
         "q.logsumexp(-1) -> q.exp().mean(-1).log()":
             "You took the mean of e^Q over the actions. With the *sum* the term is always above 0; yours can be "
             "negative.",
@@ -55,12 +67,15 @@ conservative_loss = exercise(
 
 
 def critic_cases(rng):
-    """No weight, no next value, both ends; critics that disagree on the best action; then 30 at random."""
+    """No weight, no next value, both ends; critics that disagree on the best action; then 30 at random.
+
+    In every third case Q, targets and errors are as large as in a training, up to 200.
+    """
     for case in range(34):
-        n = rng.integers(2, 7)
-        q, next_q, next_target = (torch.tensor(rng.normal(0, 2, (n, 9))) for _ in range(3))
+        n, size = rng.integers(2, 7), 80 if case % 3 == 2 else 2
+        q, next_q, next_target = (torch.tensor(rng.normal(0, size, (n, 9))) for _ in range(3))
         terminated = torch.tensor((rng.random(n) < (0.0, 1.0, 0.5)[case % 3]).astype(float))
-        actions, rewards = torch.tensor(rng.integers(0, 9, n)), torch.tensor(rng.normal(0, 2, n))
+        actions, rewards = torch.tensor(rng.integers(0, 9, n)), torch.tensor(rng.normal(0, 5, n))
         gamma, weight = rng.choice([0.5, 0.8, 0.99]), (0.0, 1.0, 0.3, 5.0)[case % 4]
         yield q, next_q, next_target, actions, rewards, terminated, gamma, weight
 
@@ -103,6 +118,9 @@ NO_SLOPE = torch.zeros(1, 9)
             "The target is a constant for the gradient: nothing may flow into `next_target`. Use `.detach()`.",
         "weight * ->":
             "The weight of the conservative term is missing.",
+        "q.logsumexp(-1) -> q.exp().sum(-1).log()": FLOAT32,
+        "(taken - target).square().mean() -> 2 * torch.nn.functional.smooth_l1_loss(taken, target)":
+            "This is Huber's loss: a large error counts by its size only. Here the error is squared, however large.",
         "+ weight -> - weight":
             "You subtract the conservative term: this *rewards* high values of actions that nobody tried.",
     },

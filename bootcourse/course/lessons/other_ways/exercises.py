@@ -7,11 +7,12 @@ from bootcourse.course.exercise import exercise
 
 
 def ensemble_cases(rng):
-    """Two of five critics, one of them, all, the same critic lowest everywhere; then 20 at random."""
+    """Two of five critics, one of them, all, the same critic lowest everywhere, Q of ±200; then 20 at random."""
     five = torch.tensor(rng.normal(0, 2, (5, 4, 9)))
     for chosen in ([1, 4], [3], [4, 0, 1, 2, 3]):
         yield five, torch.tensor(chosen)
     yield torch.cat([five[:2] + 10, five[2:] - 10]), torch.tensor([0, 1])
+    yield 100 * five, torch.tensor([2, 0])
     for _ in range(20):
         critics = rng.integers(2, 8)
         chosen = rng.choice(critics, rng.integers(1, critics + 1), replace=False)
@@ -56,15 +57,19 @@ def smallest_of(q, chosen):
 
 
 def two_cases(rng):
-    """The rule best, the rule worst, in the middle, no chance for the better ones; then 30 at random."""
+    """The rule best, worst, in the middle, no chance for the better ones, ties and near ties; then 30 at random."""
     q = torch.arange(9.0)[None]
     for action in (8, 0, 4):
         yield torch.full((1, 9), 1 / 9), q, torch.tensor([action])
     yield torch.tensor([[0.5, 0.5] + [0.0] * 7]), q, torch.tensor([3])
-    for _ in range(30):
-        n = rng.integers(1, 7)
+    near = torch.zeros(3, 9)
+    near[:, [1, 4]] = torch.tensor([[2e-5, 2e-5], [2e-5, 0.0], [0.0, 2e-5]])
+    yield torch.full((3, 9), 1 / 9), near, torch.full((3,), 4)
+    yield torch.full((1, 9), 1 / 9), torch.zeros(1, 9), torch.tensor([4])
+    for number in range(30):
+        n, size = rng.integers(1, 7), 80 if number % 3 == 2 else 2
         pi = torch.tensor(rng.normal(0, 2, (n, 9))).softmax(-1)
-        yield pi, torch.tensor(rng.normal(0, 2, (n, 9))), torch.tensor(rng.integers(0, 9, n))
+        yield pi, torch.tensor(rng.normal(0, size, (n, 9))), torch.tensor(rng.integers(0, 9, n))
 
 
 def one_hot(actions, pi):
@@ -102,6 +107,9 @@ PI, Q = torch.tensor([[0.5, 0.3, 0.2]]), torch.tensor([[1.0, 2.0, 3.0]])
         "return shared / shared.sum(-1, keepdim=True).clamp_min(1e-12)":
             SHARED,
         "stays = pi * (q >= q_rule); return stays / stays.sum(-1, keepdim=True)": SHARED,
+        "stays = pi * (q >= q_rule) * (1 - one_hot(rule_actions, pi)); "
+        "return stays.scatter_add(-1, rule_actions[:, None], 1 - stays.sum(-1, keepdim=True))":
+            "You keep the own actions whose Q *equals* that of the rule's. They are not better: take the rule's.",
         "q > q_rule -> q < q_rule":
             "You keep the own actions that are valued *below* the rule's.",
         "better = (pi * q).sum(-1) > q_rule[:, 0]; "
@@ -131,6 +139,10 @@ def curriculum_cases(rng):
     yield [0.0, 60.0, 60.0, 60.0], 50.0, 3, 0.0
     yield [90.0, 10.0, 10.0, 10.0], 25.0, 3, 0.05
     yield from (([mean, mean], -10.0, 2, 0.05) for mean in (-10.2, -12.0, -9.0))
+    yield from (([mean, mean], 50.0, 2, 0.05) for mean in (47.5, 47.49999, 47.50001))  # the limit is 47.5
+    yield from (([mean, mean], -40.0, 2, 0.25) for mean in (-50.0, -50.00001, -49.99999))
+    yield from (([mean], 0.0, 1, 0.05) for mean in (0.0, -1e-5))
+    yield [40.0] * 60 + [50.0] * 100, 50.0, 100, 0.0
     yield [5.0, 7.0], -np.inf, 2, 0.1
     for _ in range(40):
         window = rng.integers(1, 5)

@@ -3,7 +3,7 @@
 import numpy as np
 import torch
 
-from bootcourse.course.exercise import exercise
+from bootcourse.course.exercise import exercise, logits
 from bootcourse.learn import ppo
 
 
@@ -12,7 +12,10 @@ def rows(*numbers):
 
 
 def advantage_cases(rng):
-    """No ending, an accident, time over, one decision, λ = 0 and 1, both endings on two roads; then 30 at random."""
+    """No ending, an accident, time over, one decision, λ = 0 and 1, both endings on two roads; then 30 at random.
+
+    At last 80 decisions with rewards and values of a training.
+    """
     three, zeros = torch.tensor(rng.normal(0, 2, (3, 3, 2))), torch.zeros(3, 2)
     ends = zeros.clone()
     ends[1, 0] = 1.0
@@ -26,6 +29,10 @@ def advantage_cases(rng):
         terminated = ended & (rng.random(shape) < 0.5)
         marks = (torch.tensor(each.astype(float)) for each in (terminated, ended))
         yield *columns, *marks, rng.choice([0.5, 0.9, 0.99]), rng.uniform(0, 1)
+    ended = torch.tensor((rng.random((80, 2)) < 0.02).astype(float))
+    rewards = torch.where(ended > 0, -10.0, 1.0)
+    values, next_values = (torch.tensor(rng.normal(30, 40, (80, 2))) for _ in range(2))
+    yield rewards, values, next_values, ended, ended, 0.99, 0.97
 
 
 NONE = rows([0.0], [0.0], [0.0])
@@ -74,13 +81,15 @@ advantages = exercise(
 
 
 def clipped_cases(rng):
-    """Inside the limits, above and below them with both signs, another ε; then 30 at random."""
+    """Inside the limits, above and below them with both signs, another ε, far outside; then 30 at random."""
     good, changed = rows(2.0, 1.0), rows(1.5, 0.5)
     yield from ((rows(0.9, 1.1), good, 0.2), (changed, good, 0.2), (changed, -good, 0.2))
     yield changed, rows(3.0, -1.0), 0.6
-    for _ in range(30):
-        n = rng.integers(2, 9)
-        ratio, advantage = torch.tensor(np.exp(rng.normal(0, 0.5, n))), torch.tensor(rng.normal(0, 2, n))
+    yield rows(40.0, 40.0, 0.01, 0.01), rows(25.0, -30.0, 25.0, -30.0), 0.2
+    yield rows(1.3), rows(-2.0), 0.2
+    for number in range(30):
+        n, size = rng.integers(2, 9), 20 if number % 3 == 2 else 2
+        ratio, advantage = torch.tensor(np.exp(rng.normal(0, 0.5, n))), torch.tensor(rng.normal(0, size, n))
         yield ratio, advantage, rng.choice([0.1, 0.2, 0.3])
 
 
@@ -124,17 +133,23 @@ clipped_loss = exercise(
 
 
 def loss_cases(rng):
-    """A policy that has not changed, no entropy, one that has changed much; then 20 at random."""
+    """A policy that has not changed, no entropy, one that has changed much; then 20 at random.
 
-    def case(n, change, entropy_weight):
-        log_pi = torch.tensor(rng.normal(0, 1, (n, 9))).log_softmax(-1)
+    At last policies that are sure: log π down to -250, also of actions that were taken, and returns of a training.
+    """
+
+    def case(n, change, entropy_weight, spread=1.0, size=2.0):
+        log_pi = torch.tensor(rng.normal(0, spread, (n, 9))).log_softmax(-1)
         actions = torch.tensor(rng.integers(0, 9, n))
         old = log_pi.gather(-1, actions[:, None])[:, 0] + torch.tensor(rng.normal(0, change, n))
-        values, advantage, returns = (torch.tensor(rng.normal(0, 2, n)) for _ in range(3))
+        values, returns = (torch.tensor(rng.normal(0, size, n)) for _ in range(2))
+        advantage = torch.tensor(rng.normal(0, 1, n))
+        advantage = size * (advantage / advantage.std() + rng.normal())  # not near 0, where the 1e-8 would count
         return log_pi, values, actions, old, advantage, returns, rng.choice([0.1, 0.2, 0.3]), entropy_weight
 
     yield from (case(6, 0.0, 0.01), case(5, 0.3, 0.0), case(8, 1.0, 0.5))
     yield from (case(rng.integers(3, 9), 0.3, rng.choice([0.0, 0.01, 0.2])) for _ in range(20))
+    yield from (case(6, 0.3, weight, spread, 30.0) for weight, spread in ((0.01, 20.0), (0.2, 60.0), (0.01, 1.0)))
 
 
 EVEN = torch.full((2, 9), 1 / 9).log()
@@ -142,7 +157,7 @@ EVEN = torch.full((2, 9), 1 / 9).log()
 
 @exercise(
     "L + E[(V - R)²]/2 - c E[H], arXiv 1707.06347, Equation 9", minutes=10, difficulty=2, cases=loss_cases,
-    slopes=["log_pi", "values"],
+    slopes=[logits("log_pi"), "values"],
     worked=[
         # nothing has changed: the scaled advantages have mean 0, so only (1² + 3²) / 2 / 2 is left
         ((EVEN, rows(1.0, 0.0), torch.tensor([0, 1]), EVEN[:, 0], rows(1.0, 2.0), rows(2.0, 3.0), 0.2, 0.0), 2.5),
@@ -168,6 +183,12 @@ EVEN = torch.full((2, 9), 1 / 9).log()
             "This is the logarithm of the ratio: take its exponential.",
         "(taken - old_log_pi).exp() -> (old_log_pi - taken).exp()":
             "Your ratio is upside down: the new probability stands above the old one.",
+        "(taken - old_log_pi).exp() -> taken.exp() / old_log_pi.exp()":
+            "This is right on paper, but in float32 e⁻¹²⁰ is 0, and 0 / 0 is not a number. Subtract the logarithms "
+            "first: `(taken - old_log_pi).exp()`.",
+        "log_pi.exp() * log_pi -> log_pi.exp() * log_pi.exp().log()":
+            "This is right on paper, but in float32 e⁻¹²⁰ is 0, and its logarithm is infinite. Use `log_pi` itself "
+            "in the entropy.",
         "- entropy_weight * entropy -> + entropy_weight * entropy":
             "Your sign is wrong: this charges for entropy, and the policy stops trying. A loss falls, so subtract it.",
         "- entropy_weight * entropy ->":

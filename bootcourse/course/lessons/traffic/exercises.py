@@ -8,9 +8,11 @@ from bootcourse.road import formulas
 
 
 def gap_cases(rng):
-    """Same speed, falling back, standing still; a_max and b apart; then 40 at random."""
+    """Same speed, falling back, standing still; a_max and b apart; a jam ahead at full speed; then 40 at random."""
     yield from ((v, dv, 10.0, 1.5, 0.5, 0.5) for v, dv in ((10.0, 0.0), (10.0, -2.0), (0.0, 0.0)))
     yield 12.0, 3.0, 5.0, 1.0, 2.0, 1.0
+    yield 30.0, 30.0, 10.0, 1.5, 0.5, 0.5
+    yield 30.0, -30.0, 10.0, 1.5, 0.5, 0.5
     yield from (rng.uniform([1, -4, 1, 0.5, 0.3, 0.3], [20, 6, 12, 2, 2, 2]) for _ in range(40))
 
 
@@ -47,12 +49,14 @@ desired_gap = exercise(
 
 
 def behind_cases(rng):
-    """A leader at the same speed, one that stops, a free road, hard braking from close by; then 25 at random."""
+    """A leader at the same speed, one that stops, a free road, hard braking, an accident; then 25 at random."""
     usual = (12.5, 10.0, 1.5, 0.5, 0.5, 4.0, 6.0)
     yield np.full(6, 10.0), 10.0, 25.0, 0.5, *usual
     yield np.array([8.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 10.0, 20.0, 0.5, *usual
     yield np.full(5, 15.0), 12.0, 1e6, 0.5, *usual
     yield np.zeros(6), 6.0, 14.0, 0.5, *usual[:-1], 3.0
+    yield np.zeros(5), 12.0, 7.0, 0.5, *usual  # too near to stop: the gap becomes negative
+    yield np.full(3, 30.0), 28.0, 60.0, 0.1, 30.0, *usual[1:]
     yield np.full(4, 12.0), 5.0, 200.0, 0.5, 12.5, 10.0, 1.5, 3.0, 0.5, 4.0, 1.0  # speeds up harder than `limit`
     for _ in range(25):
         leader = np.maximum(rng.uniform(5, 14) + np.cumsum(rng.normal(0, 0.8, 8)), 0)

@@ -1,7 +1,7 @@
 """What stands around a student's `update` and `train`: one agent's networks and optimisers, and rows of its buffer.
 
-`bootcourse.learn.textbook` has the same for the road, with what the paper adds. The two functions at the end say what
-the exercises' answers did.
+`bootcourse.learn.textbook` has the same for the road, with what the paper adds. `after_updates` says what an
+answer to `update` did, `recorded.py` what a loop does.
 """
 
 import copy
@@ -11,7 +11,6 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from bootcourse.course.exercise import NotAsAsked
 from bootcourse.learn import sac
 from bootcourse.learn.textbook import mlp
 from bootcourse.policies import Policy, PolicyOutput
@@ -43,13 +42,14 @@ def batch_of(rows: Tensor) -> Batch:
 class SAC:
     """An actor, two critics, their slow copies and log α, with an optimiser for each of the three.
 
-    rates: of the critics, the actor and log α. The last is three times the paper's: with that the entropy reaches its
-    target within the lesson's 1,936 updates (on four seeds), with the paper's it was still below (on three).
+    The settings solve the pole in 30,000 pushes: batches of 256, faster steps and copies than the road's. They were
+    chosen on the seeds 100 to 105. With the road's (64, rates a third as large, τ = 0.02 or 0.05) most agents still
+    let the cart drift off its track after some 200 pushes. rates: of the critics, the actor and log α.
     """
 
-    gamma, tau, target_entropy = 0.99, 0.05, 0.3 * float(np.log(2))
+    gamma, tau, target_entropy = 0.99, 0.1, 0.3 * float(np.log(2))
 
-    def __init__(self, seed: int = 0, optimiser: type = torch.optim.Adam, rates: tuple = (1e-3, 5e-4, 3e-3)):
+    def __init__(self, seed: int = 0, optimiser: type = torch.optim.Adam, rates: tuple = (3e-3, 2e-3, 3e-3)):
         torch.manual_seed(seed)
         self.actor = mlp(*SIZES, HIDDEN)
         self.critics = nn.ModuleList([mlp(*SIZES, HIDDEN) for _ in range(2)])
@@ -141,109 +141,68 @@ class WithoutEnds:
 
 
 class Descent:
-    """Plain gradient descent, in which each factor of a gradient counts; loading torch's own takes seconds."""
+    """Plain gradient descent, in which each factor of a gradient counts, with the interface of torch's optimisers.
+
+    Torch's own take more than a second to load.
+    """
 
     def __init__(self, parameters: list[Tensor], lr: float):
-        self.parameters, self.lr = parameters, lr
+        self.defaults, self.state, self.param_groups = {"lr": lr}, {}, []
+        self.add_param_group({"params": list(parameters)})
 
-    def zero_grad(self) -> None:
-        for parameter in self.parameters:
-            parameter.grad = None
+    def add_param_group(self, group: dict) -> None:
+        self.param_groups.append(self.defaults | group)
 
-    @torch.no_grad()
-    def step(self) -> None:
-        for parameter in self.parameters:
-            if parameter.grad is not None:
-                parameter -= self.lr * parameter.grad
+    def zero_grad(self, set_to_none: bool = True) -> None:
+        for parameter in (each for group in self.param_groups for each in group["params"]):
+            if set_to_none or parameter.grad is None:
+                parameter.grad = None
+            else:
+                parameter.grad = torch.zeros_like(parameter)
+
+    def step(self, closure=None):
+        loss = None if closure is None else closure()
+        with torch.no_grad():
+            for group in self.param_groups:
+                for parameter in group["params"]:
+                    if parameter.grad is not None:
+                        parameter -= group["lr"] * parameter.grad
+        return loss
+
+    def state_dict(self) -> dict:
+        return {"state": {}, "param_groups": [{"lr": group["lr"]} for group in self.param_groups]}
+
+    def load_state_dict(self, stored: dict) -> None:
+        for group, of_it in zip(self.param_groups, stored["param_groups"], strict=True):
+            group["lr"] = of_it["lr"]
 
 
-def after_updates(update, zeros: bool, times: int, seed: int) -> tuple[np.ndarray, ...]:
+def after_updates(update, kind: str, times: int, seed: int) -> tuple[np.ndarray, ...]:
     """An agent after some updates, each on a batch of its own: log π, Q, Q̄ in a few states, and log α.
 
-    zeros: all networks are 0, and so are the states.
+    kind: "zeros", all networks are 0, and so are the states; "drawn"; "sure", the policy is so sure in some states that
+    exp(log π) is 0 in float32; "large", rewards and Q of 30 and more; "one", batches of one row.
     """
-    agent, draw = SAC(seed, Descent, (0.1, 0.1, 0.1)), torch.Generator().manual_seed(seed)
+    zeros, size = kind == "zeros", 1 if kind == "one" else 16
+    rate = 0.001 if kind == "large" else 0.1
+    agent, draw = SAC(seed, Descent, (rate, rate, 0.1)), torch.Generator().manual_seed(seed)
     with torch.no_grad():
         agent.log_alpha.fill_(np.log(0.5))
         for parameter in agent.copies.parameters():  # copies that lag behind
             parameter.add_(0.1 * torch.randn(parameter.shape, generator=draw))
         for parameter in [*agent.actor.parameters(), *agent.critics.parameters(), *agent.copies.parameters()] * zeros:
             parameter.zero_()
+        if kind == "sure":
+            agent.actor[-1].weight.mul_(300)
+        for critic in [*agent.critics, *agent.copies] * (kind == "large"):
+            critic[-1].weight.mul_(300)
     for _ in range(times):
-        states, next_states = (1 - zeros) * torch.randn(2, 16, 4, generator=draw)
-        actions = torch.randint(2, (16,), generator=draw) * (1 - zeros)
-        ended = torch.ones(16) if zeros else (torch.rand(16, generator=draw) < 0.4).float()
-        rewards = torch.ones(16) if zeros else torch.randn(16, generator=draw)
+        states, next_states = (1 - zeros) * torch.randn(2, size, 4, generator=draw)
+        actions = torch.randint(2, (size,), generator=draw) * (1 - zeros)
+        ended = torch.ones(size) if zeros else (torch.rand(size, generator=draw) < 0.4).float()
+        rewards = torch.ones(size) if zeros else torch.randn(size, generator=draw) * (30 if kind == "large" else 1)
         update(agent, Batch(states, actions, rewards, ended, next_states))
     probe = torch.zeros(1, 4) if zeros else torch.randn(5, 4, generator=draw)
     with torch.no_grad():
         looked_up = agent.log_pi(probe), agent.q(probe), agent.slow_q(probe), agent.log_alpha.detach().reshape(1)
     return tuple(each.detach().double().numpy() for each in looked_up)
-
-
-class Road:
-    """A world of numbered states for the loop: (episode, push, 0, 0).
-
-    asked: the pushes of the training; after many more it raises NotAsAsked. falls, timeouts: pushes that end an
-    episode.
-    """
-
-    def __init__(self, asked: int, falls: tuple[int, ...], timeouts: tuple[int, ...]):
-        self.asked, self.falls, self.timeouts, self.episode, self.push, self.pushes = asked, falls, timeouts, -1, 0, 0
-
-    def state(self) -> np.ndarray:
-        return np.array([self.episode, self.push, 0, 0], dtype=np.float32)
-
-    def reset(self, seed=None):
-        self.episode, self.push = self.episode + 1, 0
-        return self.state(), {}
-
-    def step(self, action):
-        if self.pushes > self.asked + 10:
-            raise NotAsAsked("Your loop goes on after the last push: `pushes` counts single pushes, not episodes.")
-        ends = self.pushes in self.falls, self.pushes in self.timeouts
-        self.push, self.pushes = self.push + 1, self.pushes + 1
-        return self.state(), 1.0, *ends, {}
-
-
-def after_training(train, pushes: int, falls: tuple[int, ...], timeouts: tuple[int, ...]) -> tuple:
-    """What a loop did in a world of numbered states: its rows; episodes begun; whether the updates came as asked.
-
-    Of the updates: whether none came too early, whether about every fourth push had one (else minus their number),
-    whether each got the agent and a batch of 64 rows. Raises NotAsAsked where there is not one row for each push.
-    """
-    stored, updates, road = [], [], Road(pushes, falls, timeouts)
-
-    class Agent(SAC):
-        def draw(self, state, rng):
-            return int(sum(state)) % 2
-
-    drawn, generator = [], np.random.default_rng(0)
-
-    class Buffer:
-        rows, size = stored, 10**6  # as in the notebook's
-
-        def add(self, new):
-            stored.append(new)
-
-        def sample(self, size, rng):
-            drawn.append((rng, torch.stack([stored[i] for i in rng.integers(len(stored), size=size)])))
-            return drawn[-1][1]
-
-    def update(agent, batch):
-        right = agent is mine and isinstance(batch, Batch) and len(batch.states) == 64 and bool(drawn)
-        if right:
-            by, rows = drawn.pop()
-            right = by is generator and torch.equal(batch.next_states, rows[:, 7:])
-        updates.append((len(stored), right))
-
-    mine = Agent(optimiser=Descent)
-    train(mine, road, Buffer(), update, pushes, generator)
-    if len(stored) != pushes:
-        raise NotAsAsked(f"In {pushes} pushes your loop keeps {len(stored)} rows: one transition for each push.")
-    rows = torch.stack(stored).numpy().astype(float)
-    asked = max(0, pushes - 256) / 4
-    early = any(rows < 250 for rows, _ in updates)
-    often = 1 if abs(len(updates) - asked) <= 2 else -len(updates)
-    judged = not early, often, all(right for _, right in updates)
-    return rows, float(road.episode), *map(float, judged)

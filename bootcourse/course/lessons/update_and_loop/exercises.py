@@ -5,18 +5,19 @@ import torch
 
 from bootcourse.course.exercise import exercise
 from bootcourse.course.lessons.discrete_sac import exercises as losses
-from bootcourse.course.lessons.update_and_loop import by_hand, replay_buffer
+from bootcourse.course.lessons.update_and_loop import by_hand, recorded, replay_buffer
 from bootcourse.learn import sac
 
 ReplayBuffer = replay_buffer.ReplayBuffer
 soft_value, critic_target = losses.soft_value.solution, losses.critic_target.solution
 critic_loss, actor_loss = losses.critic_loss.solution, losses.actor_loss.solution
-temperature_loss, LOG_2 = losses.temperature_loss.solution, losses.LOG_2
+temperature_loss, LOG_2, OF_NOTHING = losses.temperature_loss.solution, losses.LOG_2, losses.OF_NOTHING
 
 
 def update_cases(rng):
-    """One update and several, of a few agents."""
-    yield from ((False, times, seed) for times in (1, 2, 4) for seed in range(8))
+    """One update and several, of a few agents, and in training's extremes: see `by_hand.after_updates`."""
+    yield from (("drawn", times, seed) for times in (1, 2, 4) for seed in range(3))
+    yield from ((kind, 1, seed) for kind in ("sure", "large", "one") for seed in range(2))
 
 
 NETWORKS = ("the policy", "the critics", "the copies", "log α")
@@ -42,8 +43,8 @@ def of_the_update(cases, answers):
     minutes=20, difficulty=3, cases=update_cases, run=by_hand.after_updates, explain=of_the_update,
     worked=[
         # all networks 0, y = 1: both biases rise by 0.1 · 2, the copies by τ of that; α H pulls log α down
-        ((True, 1, 0), (np.full((1, 2), -LOG_2), np.array([[[0.2, 0]], [[0.2, 0]]]),
-                        np.array([[[0.01, 0]], [[0.01, 0]]]), np.array([-LOG_2 * (1 + 0.1 * 0.5 * 0.7)]))),
+        (("zeros", 1, 0), (np.full((1, 2), -LOG_2), np.array([[[0.2, 0]], [[0.2, 0]]]),
+                           np.array([[[0.02, 0]], [[0.02, 0]]]), np.array([-LOG_2 * (1 + 0.1 * 0.5 * 0.7)]))),
     ],
     hints=(
         "First the target, inside `with torch.no_grad():`, from `agent.log_pi(batch.next_states)` and the smaller of "
@@ -75,6 +76,13 @@ def of_the_update(cases, answers):
          "agent.optimisers, losses -> agent.optimisers[1:], losses[1:]"):
             "Your actor learns from critics that have already made their step. That works, too, but the box asks for "
             "all three losses before the first step.",
+        "soft_value(agent.log_pi(batch.next_states), -> soft_value(agent.log_pi(batch.next_states).exp().log(),":
+            f"Your critics are no longer numbers after an update with a policy that is sure of an action: {OF_NOTHING}",
+        "actor_loss(log_pi, -> actor_loss(log_pi.exp().log(),":
+            f"Your policy is no longer a number after an update in which it was sure of an action: {OF_NOTHING}",
+        ("actor_loss(log_pi, -> actor_loss(log_pi.exp().log(),",
+         "sac.entropy(log_pi) -> sac.entropy(log_pi.exp().log())"):
+            f"Your policy and α are no longer numbers after an update with a policy that is sure: {OF_NOTHING}",
     },
 )  # fmt: skip
 def update(agent, batch):
@@ -99,69 +107,40 @@ def update(agent, batch):
 
 
 def loop_cases(rng):
-    """No end, falls, timeouts, both; short and long; then 16 at random."""
+    """No end, falls, timeouts, both at once, an end in the last push; short and long; then 5 at random."""
     yield from ((5, (), ()), (6, (2,), ()), (6, (), (2,)), (300, (9, 40), (100,)), (420, (), (200, 399)))
-    for _ in range(16):
+    yield from ((6, (2,), (2,)), (6, (5,), ()), (258, (), (257,)), (700, (30, 31, 500), ()))
+    for _ in range(5):
         ends = rng.permutation(250)[:6].tolist()
         yield int(rng.integers(255, 340)), tuple(ends[:3]), tuple(ends[3:])
 
 
-COLUMNS = {"s": slice(4), "a": slice(4, 5), "r": slice(5, 6), "terminated": slice(6, 7), "s'": slice(7, 11)}
-
-
 def of_the_loop(cases, answers):
-    """A sentence on a loop that keeps other rows or updates at other times."""
-    for (pushes, falls, timeouts), answer in zip(cases, answers, strict=True):
-        rows, episodes, late, often, good = (part.data for part in answer)
-        right = by_hand.after_training(train.solution, pushes, falls, timeouts)
-        if not np.array_equal(rows, right[0]):
-            push = int(np.flatnonzero((np.array(rows) != right[0]).any(1))[0])
-            wrong = [name for name, part in COLUMNS.items() if (np.array(rows) != right[0])[push, part].any()]
-            ending = ", which ends in a fall," * (push in falls) or ", which ends by time," * (push in timeouts)
-            return (f"In the row of push {push}{ending} {' and '.join(wrong)} {'is' if len(wrong) == 1 else 'are'} not "
-                    "right: a row is (s, a, r, terminated, s'), and pushes count from 0.")  # fmt: skip
-        if episodes != right[1]:
-            return "Your loop resets the environment too often or too seldom: once at the start and after each end."
-        if not late:
-            return "Your loop updates too early: let the buffer fill for 256 pushes first."
-        if often != 1:
-            return (f"In {pushes} pushes your loop makes {abs(often):.0f} updates: after the first 256, make one after "
-                    "each fourth push.")  # fmt: skip
-        if not good:
-            return "Hand `update` the agent and `by_hand.batch_of` of 64 rows, drawn anew from your buffer with `rng`."
-    return "Your loop differs from ours."
+    """The sentence on a loop's first departure from the box."""
+    return next(str(answer) for answer in answers if str(answer))
 
 
 @exercise(
     "SAC's loop: decide, step, keep, update; Section III-C",
-    minutes=12, difficulty=3, cases=loop_cases, run=by_hand.after_training, explain=of_the_loop,
-    worked=[
-        # the first push ends an episode; the second begins in state (1, 0, 0, 0), where action 1 is drawn
-        ((2, (0,), ()), (np.array([[0, 0, 0, 0, 0, 1, 1, 0, 1, 0, 0], [1, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0.0]]),
-                         1.0, 1.0, 1.0, 1.0)),
-    ],
+    minutes=12, difficulty=3, cases=loop_cases, run=recorded.departure, explain=of_the_loop,
+    worked=[((2, (0,), ()), ""), ((300, (9,), (40,)), "")],  # no departure from the box
     hints=(
         "For each push: `agent.draw(state, rng)`, `env.step(action)`, `buffer.add(by_hand.row(...))`; then the next "
         "state is the state.",
         "After a fall *or* a timeout: `state, _ = env.reset()`. The row of a timeout has terminated = 0 all the same.",
     ),
     mistakes={
-        "reward, terminated, next_state -> reward, terminated or truncated, next_state":
-            "You keep a timeout as an end. The row holds `terminated` alone: after a timeout the pole still stands.",
-        "state = next_state ->":
-            "Your state does not move on: the next decision is made in `next_state`.",
-        "if terminated or truncated -> if terminated":
-            "You go on after a timeout. The environment has to be reset there, too.",
-        "if terminated or truncated -> if truncated":
-            "You go on after a fall. The environment has to be reset there, too.",
-        "push >= 256 and ->":
-            "Your loop updates too early: let the buffer fill for 256 pushes first.",
+        "reward, terminated, next_state -> reward, terminated or truncated, next_state": recorded.OUT_OF_TIME,
+        "state = next_state ->": recorded.STANDS_STILL,
+        "if terminated or truncated -> if terminated": recorded.GOES_ON.format("timeout"),
+        "if terminated or truncated -> if truncated": recorded.GOES_ON.format("fall"),
+        "state, _ = env.reset() -> state, _ = env.reset(seed=0)": recorded.SAME_START,
+        "state, _ = env.reset() -> env.reset()": recorded.OLD_STATE,
+        "push >= 256 and ->": recorded.EARLY,
         "and push % 4 == 0 ->":
             "Your loop makes about four times as many updates as asked for: here it is one after each fourth push.",
-        "(state, action, reward -> (next_state, action, reward":
-            "Your row begins with the state that came after the push. It begins with the one in which you decided.",
-        "64 -> 1":
-            "Hand `update` the agent and `by_hand.batch_of` of 64 rows, drawn anew from your buffer with `rng`.",
+        "(state, action, reward -> (next_state, action, reward": recorded.TURNED,
+        "256, rng -> 1, rng": recorded.BAD_BATCH,
     },
 )  # fmt: skip
 def train(agent, env, buffer, update, pushes, rng):
@@ -174,4 +153,4 @@ def train(agent, env, buffer, update, pushes, rng):
         if terminated or truncated:
             state, _ = env.reset()
         if push >= 256 and push % 4 == 0:
-            update(agent, by_hand.batch_of(buffer.sample(64, rng)))
+            update(agent, by_hand.batch_of(buffer.sample(256, rng)))

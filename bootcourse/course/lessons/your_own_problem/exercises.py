@@ -83,9 +83,10 @@ def bonus_cases(rng):
     """Nothing on the way, a cost, a gain; the way shown whole, in part, not at all; one decision; then 30 at random."""
     yield from ((0.0, 1.0, 9, 9, 0.97), (0.0, 1.0, 9, 0, 0.97), (-1.0, 0.0, 120, 120, 0.99), (-1.0, 0.0, 20, 5, 0.9))
     yield from ((0.1, 1.0, 4, 4, 0.9), (0.5, 0.2, 3, 1, 0.8), (0.0, 10.0, 1, 1, 0.5), (0.0, 10.0, 1, 0, 0.5))
-    for _ in range(30):
-        n = int(rng.integers(1, 20))
-        yield rng.normal(0, 1), rng.uniform(0, 10), n, int(rng.integers(0, n + 1)), rng.uniform(0.7, 0.99)
+    yield from ((-1.0, 500.0, 2, 1, 0.5), (1.0, -40.0, 6, 3, 0.9), (-1.0, 200.0, 150, 20, 0.99))
+    for number in range(30):
+        n, most = int(rng.integers(1, 20)), 300 if number % 4 == 3 else 10
+        yield rng.normal(0, 1), rng.uniform(0, most), n, int(rng.integers(0, n + 1)), rng.uniform(0.7, 0.99)
 
 
 @exercise(

@@ -3,9 +3,16 @@
 import gymnasium as gym
 import numpy as np
 
-from bootcourse.course.lessons.your_teacher.driven_out import NOT_SAME, NOT_WHOLE, NOTHING, OUTSIDE, no_action
+from bootcourse.course.lessons.your_teacher.driven_out import (
+    NOT_SAME,
+    NOT_WHOLE,
+    NOTHING,
+    OUTSIDE,
+    no_action,
+    same_action,
+)
 from bootcourse.learn.teachers import Rule
-from bootcourse.research.problems import DoorKey
+from bootcourse.research.problems import PROBLEMS, DoorKey
 
 UP = 1.0  # the flag was reached; any other result is the farthest position, the flag is at 0.5
 PUSHES = 3
@@ -17,21 +24,23 @@ def climb(answer, seed: int):
     An answer that is not a number is returned unchanged.
     """
     env = gym.make("MountainCar-v0").unwrapped
-    (position, speed), farthest = env.reset(seed=seed)[0], -2.0
-    for decision in range(200):
-        action, again = (answer(float(position), float(speed)) for _ in range(2))
-        wrong = no_action(action, again)
-        if wrong == NOTHING and decision == 0:
+    state, asked, end = env.reset(seed=seed)[0], [], None
+    while end is None and len(asked) < 200:
+        seen = tuple(map(float, state))
+        action = answer(*seen)
+        wrong = no_action(action)
+        if wrong == NOTHING and not asked:
             return None
         if wrong is not None:
             return action if wrong == "as it is" else float(wrong)
         if action >= PUSHES:
             return float(OUTSIDE)
-        (position, speed), _, terminated, _, _ = env.step(int(action))
-        farthest = max(farthest, float(position))
-        if terminated:
-            return UP
-    return round(20 * farthest) / 20
+        asked.append((seen, int(action)))
+        state, _, terminated, _, _ = env.step(int(action))
+        end = UP if terminated else None
+    if any(not same_action(answer(*seen), action) for seen, action in reversed(asked)):
+        return float(NOT_SAME)
+    return round(20 * max(position for (position, _), _ in asked)) / 20 if end is None else end
 
 
 def explain_climb(cases, answers):
@@ -42,7 +51,10 @@ def explain_climb(cases, answers):
     if NOT_WHOLE in ends or OUTSIDE in ends:
         return "Your rule returns something else than an action: a whole number (an `int`), 0 (left), 1 or 2 (right)."
     if NOT_SAME in ends:
-        return "Your rule answers the same state differently each time. The label of a state must not change."
+        return (
+            "Your rule answers the same state differently when it is asked again: it draws at random, or remembers. "
+            "The label of a state must not change."
+        )
     low = [end for end in ends if end != UP]
     return (
         f"Your rule reaches the flag at 0.5 in {len(ends) - len(low)} of {len(ends)} episodes. In the others it comes "
@@ -58,6 +70,15 @@ def climbed(rule: Rule, seed: int = 0) -> np.ndarray:
         positions.append(float(seen[0]))
         seen, _, terminated, _, _ = env.step(int(rule(*map(float, seen))))
     return np.array([*positions, float(seen[0])])
+
+
+def first_drives() -> dict[str, np.ndarray]:
+    """The positions of two drives of MountainCar: always pushed to the right, and by the course's teacher."""
+    ours = PROBLEMS["mountain-car"].teachers()["good"]  # it sees the speed in parts of 0.07
+    return {
+        "always to the right": climbed(lambda position, speed: 2),
+        "a rule of one line": climbed(lambda *seen: ours(np.array([seen]) / (1, 0.07))[0]),
+    }
 
 
 def rooms(teacher: Rule, seed: int) -> tuple[list[tuple[int, ...]], bool]:

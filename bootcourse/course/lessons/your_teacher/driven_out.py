@@ -13,6 +13,11 @@ OUT, BEHIND, OUTSIDE, NOT_SAME, NOT_WHOLE, NOTHING, SLOW = 0, 4, 5, 6, 7, 8, 9  
 ENDINGS = {1: "collides", 2: "leaves the road", 3: "stops on the road", BEHIND: "is still behind trap 1 at the end"}
 ENDINGS[SLOW] = "is in the left lane, and too slow to be ahead of trap 1 at the end"
 
+CHANGES = (
+    "Your rule answers the same road differently when it is asked again: it draws at random, or remembers. The label "
+    "of a state must not change."
+)
+
 
 def drive_out(answer, cars, scenario):
     """How one road ends: 0 for ahead of trap 1 at the end, without an accident, else what went wrong.
@@ -22,31 +27,41 @@ def drive_out(answer, cars, scenario):
     env = TrapVectorEnv(1, scenario, AutoresetMode.DISABLED)
     env.reset(seed=0)
     env.cars[0] = cars
-    for second in range(scenario.clock.decisions):
-        now = cars if second == 0 else env.cars[0].copy()  # its own array, so that the check sees a change
-        action, again = answer(now, scenario), answer(env.cars[0].copy(), scenario)
-        wrong = no_action(action, again)
-        if wrong == NOTHING and second == 0:
+    asked, end = [], None
+    while end is None and len(asked) < scenario.clock.decisions:
+        seen = env.cars[0].copy()
+        action = answer(seen.copy() if asked else cars, scenario)  # its own array, so that the check sees a change
+        wrong = no_action(action)
+        if wrong == NOTHING and not asked:
             return None
         if wrong is not None:
             return action if wrong == "as it is" else wrong
+        asked.append((seen, int(action)))
         _, _, terminated, _, infos = env.step(np.array([int(action)]))
-        if terminated[0]:
-            return int(infos["accident"][0])
+        end = int(infos["accident"][0]) if terminated[0] else None
+    if any(not same_action(answer(seen.copy(), scenario), action) for seen, action in reversed(asked)):
+        return NOT_SAME
+    if end is not None:
+        return end
     if env.cars[0, EGO, X] > env.cars[0, TRAP_1, X]:
         return OUT
     return SLOW if env.cars[0, EGO, LANE] == 0 else BEHIND
 
 
-def no_action(action, again):
+def same_action(again, action: int) -> bool:
+    """Does a rule that is asked a second time, after its drive, give the same action?"""
+    return no_action(again) is None and int(again) == action
+
+
+def no_action(action):
     """What is wrong with an answer of the rule; None if nothing is."""
     if action is None:
         return NOTHING
     if plain(action).kind not in NUMERIC or plain(action).shape != ():
         return "as it is"
     if not is_action(action):
-        return OUTSIDE if isinstance(action, (int, np.integer)) and not isinstance(action, bool) else NOT_WHOLE
-    return NOT_SAME if action != again else None
+        return OUTSIDE if np.asarray(action).dtype.kind in "iu" else NOT_WHOLE
+    return None
 
 
 def explain_rule(cases, answers):
@@ -59,6 +74,6 @@ def explain_rule(cases, answers):
     if OUTSIDE in ends:
         return f"Your rule sometimes returns a number that is not an action: give a whole number, 0 to {N_ACTIONS - 1}."
     if NOT_SAME in ends:
-        return "Your rule answers the same road differently each time. The label of a state must not change."
+        return CHANGES
     failures = ", on ".join(f"{ends.count(end)} it {words}" for end, words in ENDINGS.items() if end in ends)
     return f"Your rule gets out on {ends.count(OUT)} of {len(ends)} roads; on {failures}."

@@ -50,12 +50,15 @@ DENSE = replace(DEFAULT, name="dense left lane", traffic=replace(DEFAULT.traffic
 
 
 def dense_road(seed: int) -> np.ndarray:
-    """A road of `DENSE` as it begins: all ten traffic cars drive in the left lane, from 50 m behind the ego on."""
+    """A road of `DENSE` as it begins: all ten traffic cars drive in the left lane, in a queue of about 180 m.
+
+    Its last car is 25 to 185 m behind the ego. So there is no place, and no second, at which all queues have passed.
+    """
     env, rng = TrapVectorEnv(1, DENSE), np.random.default_rng(seed)
     env.reset(seed=int(seed))
     cars = env.cars[0].copy()
     queue = cars[TRAFFIC:]
-    queue[:, X] = -50 + np.cumsum(rng.uniform(14, 26, len(queue)))
+    queue[:, X] = -50 - rng.uniform(0, 150) + np.cumsum(rng.uniform(14, 26, len(queue)))
     queue[:, [LANE, TARGET_LANE, Y]] = 0.0
     queue[:, SPEED] = rng.uniform(10.5, 11.5, len(queue))
     return cars

@@ -1,7 +1,7 @@
 """Exercises of the lesson on a teacher of your own."""
 
 from bootcourse.course.exercise import exercise
-from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out, explain_rule
+from bootcourse.course.lessons.your_teacher.driven_out import CHANGES, OUT, drive_out, explain_rule
 from bootcourse.course.lessons.your_teacher.example_teachers import DENSE, careful, dense_road, watchful
 from bootcourse.learn.teachers import toward
 from bootcourse.road.state import EGO, LANE
@@ -49,13 +49,20 @@ my_rule = exercise(
         "return 9":
             "Your rule returns a number that is not an action: give a whole number from 0 to 8.",
         "return int(np.random.default_rng().integers(9))":
-            "Your rule answers the same road differently each time. The label of a state must not change.",
+            CHANGES,
     },
 )(careful)  # fmt: skip
 
 
-def dense_start(seed):
-    return dense_road(seed), DENSE
+# Of the first 300 roads those that separate: a rule that leaves at some x of its own, whatever is beside it, fails on 5
+# to 31 of them, and so do rules that look a little too short, or drive a little too fast in the free lane, which have
+# an accident on 1 to 8 % of all such roads. `watchful` gets out on all 300.
+SEPARATE = (10, 12, 13, 44, 45, 48, 50, 53, 54, 59, 91, 92, 98, 105, 109, 111, 112, 118, 120, 133, 162, 168, 175, 177,
+            190, 198, 200, 202, 212, 213, 217, 229, 232, 235, 238, 246, 261, 277, 280, 298)  # fmt: skip
+
+
+def dense_start(number):
+    return dense_road(1_310_000 + number), DENSE
 
 
 def without_a_look(cars, scenario):
@@ -66,9 +73,9 @@ def without_a_look(cars, scenario):
 watchful_rule = exercise(
     "μ(s) where looking matters: safe gaps ahead and behind, as in MOBIL",
     name="watchful_rule", minutes=25, difficulty=3,
-    cases=lambda rng: map(dense_start, range(1_300_002, 1_300_024)), run=drive_out, explain=explain_rule,
-    seconds=10,  # it drives 24 roads
-    worked=[(dense_start(1_300_000), OUT), (dense_start(1_300_001), OUT)],
+    cases=lambda rng: map(dense_start, SEPARATE[2:]), run=drive_out, explain=explain_rule,
+    seconds=15,  # it drives 40 roads
+    worked=[(dense_start(number), OUT) for number in SEPARATE[:2]],
     hints=(
         "Room on the left means two gaps: to the next car ahead in that lane, and to the next one behind, one of "
         "`cars[(cars[:, LANE] == lane - 1) & (cars[:, X] <= cars[EGO, X])]`. A faster follower needs a longer gap. "
@@ -84,7 +91,7 @@ watchful_rule = exercise(
             "Your rule escapes on some roads and hits a car on the others: there is room *ahead* in the left lane, and "
             "a faster car comes from behind. Look at the gap behind you, and at how fast it closes.",
         "return toward(cars, 9.0, 2, scenario)":
-            "Your rule is safe and stays in its lane on every road: the queue has an end, and gaps before that.",
+            "Your rule is safe and stays in its lane on every road: the queue has gaps, and an end.",
         "return 7":
             HITS,
     },
