@@ -31,10 +31,13 @@ UPDATE = """given => {  // one update on records given as bytes; its time, and t
     const update = () => code.update(end, end + 16, ...places.map(([place]) => place));
     const status = update();
     const bytes = places.map(([place, size]) => Array.from(new Uint8Array(memory.buffer, place, size)));
-    const time = performance.now();
-    for (let i = 0; i < 300; i++) update();
-    return { status, ms: (performance.now() - time) / 300,
-        after: bytes.map(each => btoa(each.map(byte => String.fromCharCode(byte)).join(""))) };
+    let ms = Infinity; // the best of many short turns, so that other programs do not count
+    for (let turn = 0; turn < 40; turn++) {
+        const time = performance.now();
+        for (let i = 0; i < 10; i++) update();
+        ms = Math.min(ms, (performance.now() - time) / 10);
+    }
+    return { status, ms, after: bytes.map(each => btoa(each.map(byte => String.fromCharCode(byte)).join(""))) };
 }"""
 
 
