@@ -220,6 +220,17 @@ def test_a_wrong_setting_is_answered_with_a_sentence(page, asked):
     assert said.startswith(WRONG[asked])
 
 
+def test_what_is_set_when_an_agent_begins_cannot_change_while_it_learns(page):
+    said = page.page.evaluate(
+        """() => {
+            const learner = new Learner(trap, { episodes: 5 });
+            try { learner.set({ p: 0.5, roads: 2 }); } catch (error) { return [error.message, learner.settings.rule_p]; }
+            finally { learner.stop(); }
+        }"""
+    )
+    assert said == ["envs_per_agent is set when an agent begins: start another one.", 0.9]
+
+
 def test_the_page_refuses_what_the_library_refuses():
     """The limits in the page are those of `Settings`: just inside is accepted there, just outside is not."""
     for name, limit in learning.limits().items():
