@@ -224,8 +224,10 @@ def test_what_is_set_when_an_agent_begins_cannot_change_while_it_learns(page):
     said = page.page.evaluate(
         """() => {
             const learner = new Learner(trap, { episodes: 5 });
-            try { learner.set({ p: 0.5, roads: 2 }); } catch (error) { return [error.message, learner.settings.rule_p]; }
-            finally { learner.stop(); }
+            let said = "";
+            try { learner.set({ p: 0.5, roads: 2 }); } catch (error) { said = error.message; }
+            learner.stop();
+            return [said, learner.settings.rule_p];
         }"""
     )
     assert said == ["envs_per_agent is set when an agent begins: start another one.", 0.9]
