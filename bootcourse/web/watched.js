@@ -16,10 +16,10 @@ class Watched {
       made.append(...inside);
       return made;
     };
-    this.stop = make("button", "margin-right: 12px", "Stop, and keep what was learned");
+    this.stop = make("button", "margin-right: 12px; padding: 4px 10px; cursor: pointer", "Stop, and keep what was learned");
     this.words = make("span", "");
     this.chart = make("div", "cursor: pointer");
-    el.style.cssText = "display: flex; flex-wrap: wrap; gap: 8px 16px";
+    el.style.cssText = "display: flex; flex-flow: row wrap; gap: 8px 16px; width: 100%";
     host.style.cssText += "flex: 1 1 360px";
     const line = make("p", "font: 13px system-ui, sans-serif; margin: 4px 12px", this.stop, this.words);
     el.prepend(make("div", "flex: 1 1 440px; max-width: 600px", line, this.chart));
