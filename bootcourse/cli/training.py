@@ -12,6 +12,8 @@ import os
 import shlex
 import shutil
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from pkgutil import resolve_name
@@ -22,7 +24,7 @@ from bootcourse.cli.own_files import loaded
 from bootcourse.cli.places import ask_for
 from bootcourse.colours import OTHER
 from bootcourse.errors import BootcourseError, check_known, did_you_mean
-from bootcourse.methods import METHODS, Method
+from bootcourse.methods import METHODS, Method, own_method
 from bootcourse.rooms import added
 
 INTERRUPTED = 130  # exit status
@@ -55,48 +57,69 @@ def train(
 ) -> None:
     """Train agents and write a run of each."""
     from bootcourse.learn.settings import settings_for, with_seeds
-    from bootcourse.learn.training import Training
     from bootcourse.scenario import scenario_from
-    from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
     from bootcourse.storage.work import locked
 
     check_known("Method", method, METHODS)
-    method = register_learner(learner, METHODS[method]) or method
-    asked = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
-    changes = {name: value for name, value in asked.items() if value is not None}
-    settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), scenario_from(scenario)
-    rule, work, episodes = teacher_from(teacher), out / UNFINISHED, episodes or METHODS[method].episodes
-    if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
-        with locked(work, "training"):  # removes what is left of it, if it was killed in its last moment
-            print(f"{out} is finished: there is nothing to resume.")
-        return
-    check_folder(out, resume)
-    ask_for(out)
-    if getattr(rule, "is_slow", False) and settings[0].needs_demonstrations and not (resume or quiet):
-        print("First this teacher drives the demonstrations. It is a slow one: that may take minutes.", file=sys.stderr)
-    training = None if resume else Training(settings, episodes, road, rule, device=device)
-    with locked(work, "training"):
-        check_folder(out, resume)  # another training may have ended before this one had the lock
-        if training is not None:
-            save_checkpoint(training, work / CHECKPOINT)  # raises now, not at the end, if the disk is full
-        elif not (work / COMPLETE).exists():
-            try:
-                training = load_checkpoint(work / CHECKPOINT, rule, device)
-            except DamagedCheckpoint as error:
-                raise BootcourseError(f"{error} Delete {work}, and start again without --resume.") from None
-            check_resumed(training, (settings, episodes, road), given_options(context))
-        try:
+    with learner_from(learner, METHODS[method]) as own:
+        method = own or method
+        given = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
+        changes = {name: value for name, value in given.items() if value is not None}
+        settings = with_seeds(settings_for(method, setting, **changes), seeds, first_seed)
+        asked = settings, episodes or METHODS[method].episodes, scenario_from(scenario)
+        rule = teacher_from(teacher)
+        if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
+            with locked(out / UNFINISHED, "training"):  # removes what a training left that was killed at its very end
+                print(f"{out} is finished: there is nothing to resume.")
+            return
+        check_folder(out, resume)
+        ask_for(out)
+        training = None if resume else begun(asked, rule, device, quiet)
+        with locked(out / UNFINISHED, "training"):
+            check_folder(out, resume)  # another training may have ended before this one had the lock
+            training = resumed(out, rule, device) if resume else kept(training, out)
+            if resume and training is not None:
+                check_resumed(training, asked, given_options(context))
             status = finish_training(training, out, progress=not quiet)
-        except KeyboardInterrupt:  # before the first decision, or after the last: the checkpoint is there
-            status = INTERRUPTED
-        if status == INTERRUPTED:
-            print(f"Interrupted. To continue, run `{command_to_continue(context)}`.", file=sys.stderr)
-        elif not quiet:
-            words = ["bootcourse", "evaluate", str(out)]
-            for option, place in (("--teacher", teacher), ("--learner", learner)):
-                words += [option, place] if place else []
-            print(f"To test these agents on 1,000 other roads, run `{shlex.join(words)}`.")
-        raise typer.Exit(status)
+    if status == INTERRUPTED:
+        print(f"Interrupted. To continue, run `{command_to_continue(context)}`.", file=sys.stderr)
+    elif not quiet:
+        words = ["bootcourse", "evaluate", str(out)]
+        for option, place in (("--teacher", teacher), ("--learner", learner)):
+            words += [option, place] if place else []
+        print(f"To test these agents on 1,000 other roads, run `{shlex.join(words)}`.")
+    raise typer.Exit(status)
+
+
+def begun(asked: tuple, rule, device: str, quiet: bool):
+    """A new training, after the demonstrations that it needs. asked: its settings, episodes and scenario."""
+    from bootcourse.learn.teachers import marked
+    from bootcourse.learn.training import Training
+
+    if marked(rule).is_slow and asked[0][0].needs_demonstrations and not quiet:
+        print("First this teacher drives the demonstrations. It is a slow one: that may take minutes.", file=sys.stderr)
+    return Training(*asked, rule, device=device)
+
+
+def kept(training, out: Path):
+    """The training, after its first checkpoint, which fails now and not at the end if the disk is full."""
+    from bootcourse.storage.checkpoint import save_checkpoint
+
+    save_checkpoint(training, out / UNFINISHED / CHECKPOINT)
+    return training
+
+
+def resumed(out: Path, rule, device: str):
+    """The training that goes on, None if it is over and its runs are complete. Raises BootcourseError for damage."""
+    from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint
+
+    work = out / UNFINISHED
+    if (work / COMPLETE).exists():
+        return None
+    try:
+        return load_checkpoint(work / CHECKPOINT, rule, device)
+    except DamagedCheckpoint as error:
+        raise BootcourseError(f"{error} Delete {work}, and start again without --resume.") from None
 
 
 def check_folder(out: Path, resume: bool) -> None:
@@ -150,22 +173,25 @@ def check_resumed(training, asked: tuple, given: dict) -> None:
         )
 
 
-def register_learner(place: str, like=None) -> str:
-    """Enter the learner "FILE.py:CLASS" into the methods, under the name of its class. Returns that name; "" for "".
+@contextmanager
+def learner_from(place: str, like: Method | None = None) -> Iterator[str]:
+    """The learner "FILE.py:CLASS", which is a method within the block, under the name of its class; "" for "".
 
     like: the method whose settings it starts from; None to read a run that has settings of its own. Raises
     BootcourseError if it is not there, does not load or is no learner, and for a name that a method has.
     """
     if not place:
-        return ""
+        yield ""
+        return
     kind = loaded(place, "--learner", "class")
     if not isinstance(kind, type) or not hasattr(kind, "driving_policy"):
         raise BootcourseError(f"--learner {place}: give a class with the methods of bootcourse.learn.protocol.Learner.")
     name = kind.__name__
     if name in METHODS:
         raise BootcourseError(f"--learner {place}: a method is called '{name}' already: give your class another name.")
-    METHODS[name] = replace(like, name=name, style=OTHER, learner=kind) if like else Method(name, OTHER, learner=kind)
-    return name
+    method = replace(like, name=name, style=OTHER, learner=kind) if like else Method(name, OTHER, learner=kind)
+    with own_method(name, method):
+        yield name
 
 
 def teacher_from(place: str):
@@ -192,6 +218,13 @@ def finish_training(training, out: Path, progress: bool) -> int:
 
     training: None if it is over and its runs are complete, but not all in their places.
     """
+    try:
+        return _finish(training, out, progress)
+    except KeyboardInterrupt:  # before the first decision, or after the last: the checkpoint is there
+        return INTERRUPTED
+
+
+def _finish(training, out: Path, progress: bool) -> int:
     from bootcourse.storage.checkpoint import save_checkpoint
     from bootcourse.storage.runs import save_runs
     from bootcourse.storage.work import Checkpoints

@@ -173,7 +173,7 @@ _shown: dict[str, tuple[int, list[Watch]]] = {}  # cell: how often it had run, a
 def watched(training: Training) -> Watch | None:
     """Show a training in the running cell of a notebook; None elsewhere, and off the trap."""
     cell = one_per_cell.this_cell()
-    if cell is None or not training.on_the_trap:
+    if cell is None or not training.place.is_trap:
         return None
     from IPython import get_ipython
     from IPython.display import display

@@ -21,7 +21,7 @@ from msgspec import Meta, Struct, convert
 from safetensors.torch import save
 from torch import Tensor
 
-from bootcourse.episodes.driving import TRAP
+from bootcourse.episodes.place import TRAP_ID, Place
 from bootcourse.errors import BootcourseError
 from bootcourse.files import (
     TEMPORARY,
@@ -39,7 +39,7 @@ from bootcourse.files import (
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import Settings, stored_settings
-from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
+from bootcourse.learn.teachers import Rule, default_teacher, teacher_name, teacher_of
 from bootcourse.learn.training import Result
 from bootcourse.methods import METHODS
 from bootcourse.scenario import N_ACTIONS, Scenario
@@ -60,7 +60,7 @@ class Config(Struct, forbid_unknown_fields=True):
     scenario: Scenario | None  # None off the trap
     episodes: Annotated[int, Meta(ge=1)]
     alpha: Annotated[float, Meta(ge=0)]
-    environment: str = TRAP  # see `environment_id`
+    environment: str = TRAP_ID  # the name of a `Place`
 
 
 class Provenance(Struct):
@@ -141,7 +141,7 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
         raise
 
 
-def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -> Run:
+def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP_ID) -> Run:
     """Read and check a run. teacher: its teacher in training, which the agents of some methods need to drive.
 
     environment: the id of the environment that it trained in. Raises BootcourseError, with the file and the remedy, if
@@ -170,7 +170,7 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -
     shapes = dict.fromkeys(curves.keys() & set(NAMES), (config.episodes,))
     check_arrays(curves, shapes, path / "curves.npz", TRAIN_AGAIN)
     actor, critics = _read_weights(path / "weights.safetensors", settings, config.scenario)
-    teacher = course_rule if teacher is None and config.scenario else teacher
+    teacher = default_teacher(Place(config.scenario)) if teacher is None else teacher
     taught = None if teacher is None else teacher_of(teacher, config.scenario, actor[-1].shape[2])
     agent = Agent(settings, actor, critics, config.alpha, taught)
     if agent.needs_teacher and stored.teacher != teacher_name(teacher):
