@@ -29,18 +29,8 @@ from bootcourse.rooms import added
 INTERRUPTED = 130  # exit status
 UNFINISHED, CHECKPOINT, SAVING, COMPLETE = "unfinished", "checkpoint.npz", "saving", "complete"  # see above
 SECONDS_BETWEEN = 20.0  # of checkpoints
-BEGINNING = (
-    "method",
-    "seeds",
-    "first_seed",
-    "episodes",
-    "scenario",
-    "setting",
-    "p",
-    "xi",
-    "c",
-    "change",
-)  # fixed by the start
+# Fixed by the start of a training:
+BEGINNING = ("method", "seeds", "first_seed", "episodes", "scenario", "setting", "p", "xi", "c", "change")
 
 
 def train(
