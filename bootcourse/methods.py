@@ -10,7 +10,7 @@ Training, files, evaluation, figures and the training panel then include it.
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pkgutil import resolve_name
 from types import MappingProxyType
 
@@ -145,6 +145,16 @@ DRIVERS = {  # name and style of the drivers that are not trained
     "idle": ("idle driver", OTHER),
     "random": ("random driver", OTHER),
 }
+
+
+def method_of(learner: type, like: Method | None = None) -> Method:
+    """The method of a learner of your own, whose name is that of its class.
+
+    like: the method whose settings it starts from. A class may have settings of its own, its `settings_class`.
+    """
+    started = like or Method("", OTHER)
+    own = getattr(learner, "settings_class", None) or started.kind
+    return replace(started, name=learner.__name__, style=OTHER, learner=learner, kind=own)
 
 
 @contextmanager

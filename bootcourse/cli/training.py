@@ -8,29 +8,29 @@
 A training that is stopped by Ctrl-C (exit status 130) or killed goes on with --resume.
 """
 
+import ast
 import os
 import shlex
 import shutil
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 from pkgutil import resolve_name
 
 import typer
 
-from bootcourse.cli.own_files import loaded
+from bootcourse.cli.own_files import loaded, scenario_at
 from bootcourse.cli.places import ask_for
-from bootcourse.colours import OTHER
 from bootcourse.errors import BootcourseError, check_known, did_you_mean
-from bootcourse.methods import METHODS, Method, own_method
+from bootcourse.methods import METHODS, Method, method_of, own_method
 from bootcourse.rooms import added
 
 INTERRUPTED = 130  # exit status
 UNFINISHED, CHECKPOINT, SAVING, COMPLETE = "unfinished", "checkpoint.npz", "saving", "complete"  # see above
 SECONDS_BETWEEN = 20.0  # of checkpoints
-BEGINNING = ("method", "seeds", "first_seed", "episodes", "scenario", "setting", "p", "xi", "c")  # fixed by the start
+# Fixed by the start of a training:
+BEGINNING = ("method", "seeds", "first_seed", "episodes", "scenario", "setting", "p", "xi", "c", "change")
 
 
 def train(
@@ -40,7 +40,7 @@ def train(
     first_seed: int = typer.Option(0, min=0, help="The first training seed."),
     episodes: int = typer.Option(0, min=0, help="Training episodes of each agent; 0: the method's own number."),
     out: Path = typer.Option(..., help="A new folder for the runs."),
-    scenario: str = typer.Option("default", help="default or calibrated."),
+    scenario: str = typer.Option("default", help="default, calibrated, or one of your own, FILE.py:NAME."),
     setting: str = typer.Option("quick", help="quick or paper: a quarter of an update per decision, or two."),
     teacher: str = typer.Option(
         "",
@@ -55,13 +55,13 @@ def train(
     p: float | None = typer.Option(None, help="Probability of the rule's action in the stochastic rule."),
     xi: float | None = typer.Option(None, help="Strength of the soft constraint: ξ = XI times α."),
     c: float | None = typer.Option(None, help="Bonus on a demonstration's reward."),
+    change: list[str] = typer.Option([], help="Another setting, NAME=VALUE, such as tau=0.01; give it several times."),
     device: str = typer.Option("cpu", help="Where the networks learn: cpu, or cuda if torch finds a GPU."),
     resume: bool = typer.Option(False, "--resume", help="Resume a training that was interrupted or killed."),
     quiet: bool = typer.Option(False, "--quiet", help="No progress bar."),
 ) -> None:
     """Train agents and write a run of each."""
     from bootcourse.learn.settings import settings_for, with_seeds
-    from bootcourse.scenario import scenario_from
     from bootcourse.storage.work import locked
 
     check_known("Method", method, METHODS)
@@ -69,9 +69,9 @@ def train(
     with learner_from("" if compiled else learner, METHODS[method]) as own:
         method = own or method
         given = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
-        changes = {name: value for name, value in given.items() if value is not None}
+        changes = changes_of(change) | {name: value for name, value in given.items() if value is not None}
         settings = with_seeds(settings_for(method, setting, **changes), seeds, first_seed)
-        asked = settings, episodes or METHODS[method].episodes, scenario_from(scenario)
+        asked = settings, episodes or METHODS[method].episodes, scenario_at(scenario)
         rule = teacher_from(teacher)
         if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
             with locked(out / UNFINISHED, "training"):  # removes what a training left that was killed at its very end
@@ -97,6 +97,22 @@ def train(
             words += [option, place] if place else []
         print(f"To test these agents on 1,000 other roads, run `{shlex.join(words)}`.")
     raise typer.Exit(status)
+
+
+def changes_of(words: list[str]) -> dict[str, object]:
+    """Settings from words such as "tau=0.01" and "hidden=(32, 32)". Raises BootcourseError for other words."""
+    changes = {}
+    for word in words:
+        name, equals, value = (part.strip() for part in word.partition("="))
+        if not equals or name in ("method", "seed"):
+            raise BootcourseError(
+                f"--change {word}: give NAME=VALUE, such as tau=0.01; --method and --first-seed apart."
+            )
+        try:
+            changes[name] = ast.literal_eval(value)
+        except (ValueError, SyntaxError):
+            changes[name] = value  # a word, which the settings refuse or take
+    return changes
 
 
 def begun(asked: tuple, rule, make: dict, quiet: bool):
@@ -161,8 +177,9 @@ def command_to_continue(context: typer.Context) -> str:
     """The command that continues a training: with all options of this one."""
     words = ["bootcourse", "train"]
     for name, value in given_options(context).items():
-        if name != "resume":
-            words += [f"--{name.replace('_', '-')}", *([] if value is True else [shlex.quote(str(value))])]
+        for one in value if isinstance(value, (list, tuple)) else [value]:
+            if name != "resume":
+                words += [f"--{name.replace('_', '-')}", *([] if one is True else [shlex.quote(str(one))])]
     return " ".join([*words, "--resume"])
 
 
@@ -177,6 +194,7 @@ def check_resumed(training, asked: tuple, given: dict) -> None:
         began |= {"method": first.method, "first_seed": first.seed, "scenario": training.scenario.name}
         began |= {"p": first.rule_p, "xi": first.xi_multiplier, "c": first.bonus}
         other = {name: f" (not {began[name]})" for name, value in chosen.items() if began.get(name, value) != value}
+        chosen |= {name: " ".join(value) for name, value in chosen.items() if isinstance(value, (list, tuple))}
         words = ", ".join(f"--{name.replace('_', '-')} {value}{other.get(name, '')}" for name, value in chosen.items())
         raise BootcourseError(
             f"{words}: this training began with other options. Give the same ones as at first, or none of them, or "
@@ -200,8 +218,7 @@ def learner_from(place: str, like: Method | None = None) -> Iterator[str]:
     name = kind.__name__
     if name in METHODS:
         raise BootcourseError(f"--learner {place}: a method is called '{name}' already: give your class another name.")
-    method = replace(like, name=name, style=OTHER, learner=kind) if like else Method(name, OTHER, learner=kind)
-    with own_method(name, method):
+    with own_method(name, method_of(kind, like)):
         yield name
 
 
