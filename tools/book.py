@@ -15,8 +15,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))  # so that `tools.course` is found
 
-from bootcourse.markup import html
-
 BUILD = ROOT / "build/book"
 INSTRUCTOR = re.compile(r"<!-- instructor -->\n(.*?)<!-- end -->\n", re.S)  # in a page, for this edition only
 DRIVEN = {  # lesson -> where its page in the book begins: the address of trap.html
@@ -101,7 +99,9 @@ def with_live_worlds(notebook: Path, to: Path) -> None:
 
 
 def add_learning(notebook: Path, addresses: dict[str, str]) -> None:
-    """Let agents learn in a lesson's page in the book, below the first cell that trains some: one page, several links."""
+    """Let agents learn in a lesson's page in the book, below the first cell that trains: one page, several links."""
+    from bootcourse.markup import html
+
     content = json.loads(notebook.read_text(encoding="utf-8"))
     trains = (cell for cell in content["cells"] if cell["cell_type"] == "code" and ".run(" in "".join(cell["source"]))
     links = " · ".join(
