@@ -220,6 +220,19 @@ def test_a_wrong_setting_is_answered_with_a_sentence(page, asked):
     assert said.startswith(WRONG[asked])
 
 
+def test_what_is_set_when_an_agent_begins_cannot_change_while_it_learns(page):
+    said = page.page.evaluate(
+        """() => {
+            const learner = new Learner(trap, { episodes: 5 });
+            let said = "";
+            try { learner.set({ p: 0.5, roads: 2 }); } catch (error) { said = error.message; }
+            learner.stop();
+            return [said, learner.settings.rule_p];
+        }"""
+    )
+    assert said == ["envs_per_agent is set when an agent begins: start another one.", 0.9]
+
+
 def test_the_page_refuses_what_the_library_refuses():
     """The limits in the page are those of `Settings`: just inside is accepted there, just outside is not."""
     for name, limit in learning.limits().items():

@@ -144,7 +144,7 @@ def watched(training: Training) -> Watch | None:
     """Show a training in the running cell of a notebook; None elsewhere, off the trap, and for agents that need Python
     to drive, because it is busy."""
     cell = one_per_cell.this_cell()
-    if cell is None or not training.on_the_trap or not alone(training.agent(0)):
+    if cell is None or not training.place.is_trap or not alone(training.agent(0)):
         return None
     from IPython import get_ipython
     from IPython.display import display
