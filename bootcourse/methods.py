@@ -8,10 +8,13 @@ there, too) and one entry:
 Training, files, evaluation, figures and the training panel then include it.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from pkgutil import resolve_name
 
 from bootcourse.colours import OTHER, Style
+from bootcourse.errors import require
 
 SAC = "bootcourse.learn.learner:SACLearner"
 SETTINGS = "bootcourse.learn.settings:Settings"
@@ -140,6 +143,27 @@ DRIVERS = {  # name and style of the drivers that are not trained
     "idle": ("idle driver", OTHER),
     "random": ("random driver", OTHER),
 }
+
+
+def method_of(learner: type, like: Method | None = None) -> Method:
+    """The method of a learner of your own, whose name is that of its class.
+
+    like: the method whose settings it starts from. A class may have settings of its own, its `settings_class`.
+    """
+    started = like or Method("", OTHER)
+    own = getattr(learner, "settings_class", None) or started.kind
+    return replace(started, name=learner.__name__, style=OTHER, learner=learner, kind=own)
+
+
+@contextmanager
+def own_method(name: str, method: Method) -> Iterator[str]:
+    """A method of your own, which is one of `METHODS` within the block. Raises BootcourseError for a name in use."""
+    require(name not in METHODS, f"A method is called '{name}' already: give yours another name.")
+    METHODS[name] = method
+    try:
+        yield name
+    finally:
+        del METHODS[name]
 
 
 def display_name(label: str) -> str:

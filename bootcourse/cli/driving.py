@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import typer
 
+from bootcourse.cli.own_files import scenario_at
 from bootcourse.cli.places import ask_for
 from bootcourse.errors import BootcourseError, did_you_mean
 
@@ -23,7 +24,7 @@ MEASURES = {
     "road_departure": "road departure %",
     "stoppage": "stoppage %",
 }
-SCENARIO = typer.Option("", help="default or calibrated; by default the scenario that a run trained on.")
+SCENARIO = typer.Option("", help="default, calibrated or FILE.py:NAME; by default the scenario that a run trained on.")
 TEACHER = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION.")
 LEARNER = typer.Option("", help="The learner of your own that a run was trained with: FILE.py:CLASS.")
 LOOK_AHEAD = typer.Option(0, min=0, help="Decisions to look ahead by rollouts, such as 10; 0: none.")
@@ -90,12 +91,12 @@ def drivers_of(who: str, scenario: str, seed: int, teacher: str, horizon: int) -
 
     from bootcourse.episodes.lookahead import lookahead
     from bootcourse.policies import idle_policy, random_policy, rule_policy
-    from bootcourse.scenario import DEFAULT, scenario_from
+    from bootcourse.scenario import DEFAULT
 
     if who in BUILT_IN:
         if teacher:
             raise BootcourseError(f"--teacher {teacher}: {', '.join(BUILT_IN)} drive without a teacher: leave it out.")
-        road, rng = scenario_from(scenario) if scenario else DEFAULT, np.random.default_rng(seed)
+        road, rng = scenario_at(scenario) if scenario else DEFAULT, np.random.default_rng(seed)
         built_in = {"rule": rule_policy(road), "idle": idle_policy, "random": random_policy(rng)}
         drivers = [Driver(who, built_in[who], road)]
     elif not Path(who).exists():
@@ -112,13 +113,12 @@ def agents_in(folder: Path, scenario: str, teacher: str, with_q: bool) -> list[D
     """The agent of each run in a folder."""
     from bootcourse.cli.training import teacher_from
     from bootcourse.learn.teachers import teacher_of
-    from bootcourse.scenario import scenario_from
     from bootcourse.storage.runs import find_runs, load_run
 
     drivers, rule = [], teacher_from(teacher)
     for path in find_runs(folder):
         run = load_run(path, rule)
-        road = scenario_from(scenario) if scenario else run.scenario
+        road = scenario_at(scenario) if scenario else run.scenario
         if road.observation_size != run.scenario.observation_size:
             raise BootcourseError(
                 f"{path} sees {run.scenario.observation_size} numbers, and {road.name} shows "

@@ -8,27 +8,27 @@
 A training that is stopped by Ctrl-C (exit status 130) or killed goes on with --resume.
 """
 
+import ast
 import os
 import shlex
 import shutil
 import sys
-from dataclasses import replace
 from pathlib import Path
 from pkgutil import resolve_name
 
 import typer
 
-from bootcourse.cli.own_files import loaded
+from bootcourse.cli.own_files import loaded, scenario_at
 from bootcourse.cli.places import ask_for
-from bootcourse.colours import OTHER
 from bootcourse.errors import BootcourseError, check_known, did_you_mean
-from bootcourse.methods import METHODS, Method
+from bootcourse.methods import METHODS, method_of
 from bootcourse.rooms import added
 
 INTERRUPTED = 130  # exit status
 UNFINISHED, CHECKPOINT, SAVING, COMPLETE = "unfinished", "checkpoint.npz", "saving", "complete"  # see above
 SECONDS_BETWEEN = 20.0  # of checkpoints
-BEGINNING = ("method", "seeds", "first_seed", "episodes", "scenario", "setting", "p", "xi", "c")  # fixed by the start
+# Fixed by the start of a training:
+BEGINNING = ("method", "seeds", "first_seed", "episodes", "scenario", "setting", "p", "xi", "c", "change")
 
 
 def train(
@@ -38,7 +38,7 @@ def train(
     first_seed: int = typer.Option(0, min=0, help="The first training seed."),
     episodes: int = typer.Option(0, min=0, help="Training episodes of each agent; 0: the method's own number."),
     out: Path = typer.Option(..., help="A new folder for the runs."),
-    scenario: str = typer.Option("default", help="default or calibrated."),
+    scenario: str = typer.Option("default", help="default, calibrated, or one of your own, FILE.py:NAME."),
     setting: str = typer.Option("quick", help="quick or paper: a quarter of an update per decision, or two."),
     teacher: str = typer.Option(
         "",
@@ -53,6 +53,7 @@ def train(
     p: float | None = typer.Option(None, help="Probability of the rule's action in the stochastic rule."),
     xi: float | None = typer.Option(None, help="Strength of the soft constraint: ξ = XI times α."),
     c: float | None = typer.Option(None, help="Bonus on a demonstration's reward."),
+    change: list[str] = typer.Option([], help="Another setting, NAME=VALUE, such as tau=0.01; give it several times."),
     device: str = typer.Option("cpu", help="Where the networks learn: cpu, or cuda if torch finds a GPU."),
     resume: bool = typer.Option(False, "--resume", help="Resume a training that was interrupted or killed."),
     quiet: bool = typer.Option(False, "--quiet", help="No progress bar."),
@@ -60,7 +61,6 @@ def train(
     """Train agents and write a run of each."""
     from bootcourse.learn.settings import settings_for, with_seeds
     from bootcourse.learn.training import Training
-    from bootcourse.scenario import scenario_from
     from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
     from bootcourse.storage.work import locked
 
@@ -68,8 +68,8 @@ def train(
     compiled = learner == "compiled"
     method = (not compiled and register_learner(learner, METHODS[method])) or method
     asked = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
-    changes = {name: value for name, value in asked.items() if value is not None}
-    settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), scenario_from(scenario)
+    changes = changes_of(change) | {name: value for name, value in asked.items() if value is not None}
+    settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), scenario_at(scenario)
     rule, work, episodes = teacher_from(teacher), out / UNFINISHED, episodes or METHODS[method].episodes
     if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
         with locked(work, "training"):  # removes what is left of it, if it was killed in its last moment
@@ -107,6 +107,22 @@ def train(
         raise typer.Exit(status)
 
 
+def changes_of(words: list[str]) -> dict[str, object]:
+    """Settings from words such as "tau=0.01" and "hidden=(32, 32)". Raises BootcourseError for other words."""
+    changes = {}
+    for word in words:
+        name, equals, value = (part.strip() for part in word.partition("="))
+        if not equals or name in ("method", "seed"):
+            raise BootcourseError(
+                f"--change {word}: give NAME=VALUE, such as tau=0.01; --method and --first-seed apart."
+            )
+        try:
+            changes[name] = ast.literal_eval(value)
+        except (ValueError, SyntaxError):
+            changes[name] = value  # a word, which the settings refuse or take
+    return changes
+
+
 def check_folder(out: Path, resume: bool) -> None:
     """Raise BootcourseError unless a training can begin, or be resumed, in this folder."""
     unfinished = is_unfinished(out)
@@ -135,8 +151,9 @@ def command_to_continue(context: typer.Context) -> str:
     """The command that continues a training: with all options of this one."""
     words = ["bootcourse", "train"]
     for name, value in given_options(context).items():
-        if name != "resume":
-            words += [f"--{name.replace('_', '-')}", *([] if value is True else [shlex.quote(str(value))])]
+        for one in value if isinstance(value, (list, tuple)) else [value]:
+            if name != "resume":
+                words += [f"--{name.replace('_', '-')}", *([] if one is True else [shlex.quote(str(one))])]
     return " ".join([*words, "--resume"])
 
 
@@ -151,6 +168,7 @@ def check_resumed(training, asked: tuple, given: dict) -> None:
         began |= {"method": first.method, "first_seed": first.seed, "scenario": training.scenario.name}
         began |= {"p": first.rule_p, "xi": first.xi_multiplier, "c": first.bonus}
         other = {name: f" (not {began[name]})" for name, value in chosen.items() if began.get(name, value) != value}
+        chosen |= {name: " ".join(value) for name, value in chosen.items() if isinstance(value, (list, tuple))}
         words = ", ".join(f"--{name.replace('_', '-')} {value}{other.get(name, '')}" for name, value in chosen.items())
         raise BootcourseError(
             f"{words}: this training began with other options. Give the same ones as at first, or none of them, or "
@@ -172,7 +190,7 @@ def register_learner(place: str, like=None) -> str:
     name = kind.__name__
     if name in METHODS:
         raise BootcourseError(f"--learner {place}: a method is called '{name}' already: give your class another name.")
-    METHODS[name] = replace(like, name=name, style=OTHER, learner=kind) if like else Method(name, OTHER, learner=kind)
+    METHODS[name] = method_of(kind, like)
     return name
 
 
