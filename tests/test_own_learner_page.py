@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import bootcourse as bc
+from bootcourse.cli.own_files import loaded
 from bootcourse.errors import BootcourseError
 from bootcourse.methods import METHODS
 from bootcourse.scenario import Scenario
@@ -27,27 +28,23 @@ def files(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_the_page_s_commands_train_and_test_and_python_reads_the_run(bootcourse, files, monkeypatch):
+def test_the_page_s_commands_train_and_test_and_python_reads_the_run(bootcourse, files):
     trained = bootcourse(*shlex.split(TRAIN)[1:], *FEW)
     assert trained.status == 0, trained.err
     tested = bootcourse(*shlex.split(EVALUATE)[1:], "--episodes", 5)
     assert tested.status == 0 and "MyLearner-0" in tested.out, tested.err
     with pytest.raises(BootcourseError, match="add the --learner FILE.py:CLASS .* or learner= to load_run"):
         bc.load_run("runs/mine/MyLearner-0")
-    monkeypatch.syspath_prepend(str(files))
-    from mine import MyLearner
-
-    run = bc.load_run("runs/mine/MyLearner-0", learner=MyLearner)
+    own = loaded("mine.py:MyLearner", "--learner", "class")
+    run = bc.load_run("runs/mine/MyLearner-0", learner=own)
     assert (run.agent.settings.certainty, run.agent.settings.tau) == (0.1, 0.01) and "MyLearner" not in METHODS
-    assert run.agent.kind is MyLearner and len(bc.record(run.agent.as_policy(with_q=True), [1])) == 1
+    assert run.agent.kind is own and len(bc.record(run.agent.as_policy(with_q=True), [1])) == 1
 
 
-def test_double_q_learning_trains_from_the_command_line_and_learns_what_pays(bootcourse, files, monkeypatch):
+def test_double_q_learning_trains_from_the_command_line_and_learns_what_pays(bootcourse, files):
     trained = bootcourse(*shlex.split(TRAIN_DQN)[1:-4], *FEW, "--out", "runs/dqn")
     assert trained.status == 0, trained.err
-    monkeypatch.syspath_prepend(str(files))
-    from dqn import DoubleDQN as learner
-
+    learner = loaded("dqn.py:DoubleDQN", "--learner", "class")
     run = bc.load_run("runs/dqn/DoubleDQN-1", learner=learner)
     assert (run.agent.probabilities(np.zeros((4, 26))).max(axis=1) == 1).all()
     rows, settings = bc.collect(4), bc.with_seeds(bc.settings_for("demos", gamma=0.0, critic_lr=0.01), 2)
