@@ -41,14 +41,14 @@ def evaluate(
     lookahead: int = LOOK_AHEAD,
 ) -> None:
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
-    from bootcourse.cli.training import register_learner
+    from bootcourse.cli.training import learner_from
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
     from bootcourse.progress import progress_bar
 
-    register_learner(learner)
-    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who, scenario, seed, teacher, lookahead)
-    bar = progress_bar(drivers, shown=bool(lookahead), unit="driver")  # looking ahead takes a minute and more
-    summaries = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in bar}
+    with learner_from(learner):
+        seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who, scenario, seed, teacher, lookahead)
+        bar = progress_bar(drivers, shown=bool(lookahead), unit="driver")  # looking ahead takes a minute and more
+        summaries = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in bar}
     means = {name: over_seeds([summaries[label] for label in labels]) for name, labels in alike(drivers).items()}
     columns = {label: vars(each) for label, each in summaries.items()} | means
     ahead = f", looking {lookahead} decisions ahead" if lookahead else ""
@@ -149,7 +149,7 @@ def drive(
     lookahead: int = LOOK_AHEAD,
 ) -> None:
     """Record one drive for figures and replays."""
-    from bootcourse.cli.training import register_learner
+    from bootcourse.cli.training import learner_from
     from bootcourse.episodes.record import record
     from bootcourse.files import check_replaceable
 
@@ -159,13 +159,13 @@ def drive(
         if path is not None:
             check_replaceable(path, ending)
     ask_for(out, png)
-    register_learner(learner)
-    drivers = drivers_of(who, scenario, seed, teacher, lookahead)
-    if len(drivers) > 1:
-        raise BootcourseError(f"{who} holds {len(drivers)} runs: name one, such as {Path(who) / drivers[0].label}.")
-    label, policy, road, _ = drivers[0]
-    label = label if label in BUILT_IN else label.rsplit("-", 1)[0]
-    rollout = record(policy, [seed], road, label + (f", {lookahead} ahead" if lookahead else ""))[0]
+    with learner_from(learner):
+        drivers = drivers_of(who, scenario, seed, teacher, lookahead)
+        if len(drivers) > 1:
+            raise BootcourseError(f"{who} holds {len(drivers)} runs: name one, such as {Path(who) / drivers[0].label}.")
+        label, policy, road, _ = drivers[0]
+        label = label if label in BUILT_IN else label.rsplit("-", 1)[0]
+        rollout = record(policy, [seed], road, label + (f", {lookahead} ahead" if lookahead else ""))[0]
     print(rollout.save(out))
     if png is not None:
         from bootcourse.plots.figure import save

@@ -13,6 +13,8 @@ import os
 import shlex
 import shutil
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from pkgutil import resolve_name
 
@@ -21,7 +23,7 @@ import typer
 from bootcourse.cli.own_files import loaded, scenario_at
 from bootcourse.cli.places import ask_for
 from bootcourse.errors import BootcourseError, check_known, did_you_mean
-from bootcourse.methods import METHODS, method_of
+from bootcourse.methods import METHODS, Method, method_of, own_method
 from bootcourse.rooms import added
 
 INTERRUPTED = 130  # exit status
@@ -66,7 +68,7 @@ def train(
 
     check_known("Method", method, METHODS)
     compiled = learner == "compiled"
-    method = (not compiled and register_learner(learner, METHODS[method])) or method
+    method = context.with_resource(learner_from("" if compiled else learner, METHODS[method])) or method
     asked = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
     changes = changes_of(change) | {name: value for name, value in asked.items() if value is not None}
     settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), scenario_at(scenario)
@@ -176,22 +178,24 @@ def check_resumed(training, asked: tuple, given: dict) -> None:
         )
 
 
-def register_learner(place: str, like=None) -> str:
-    """Enter the learner "FILE.py:CLASS" into the methods, under the name of its class. Returns that name; "" for "".
+@contextmanager
+def learner_from(place: str, like: Method | None = None) -> Iterator[str]:
+    """The learner "FILE.py:CLASS", which is a method within the block, under the name of its class; "" for "".
 
     like: the method whose settings it starts from; None to read a run that has settings of its own. Raises
     BootcourseError if it is not there, does not load or is no learner, and for a name that a method has.
     """
     if not place:
-        return ""
+        yield ""
+        return
     kind = loaded(place, "--learner", "class")
     if not isinstance(kind, type) or not hasattr(kind, "driving_policy"):
         raise BootcourseError(f"--learner {place}: give a class with the methods of bootcourse.learn.protocol.Learner.")
     name = kind.__name__
     if name in METHODS:
         raise BootcourseError(f"--learner {place}: a method is called '{name}' already: give your class another name.")
-    METHODS[name] = method_of(kind, like)
-    return name
+    with own_method(name, method_of(kind, like)):
+        yield name
 
 
 def teacher_from(place: str):
