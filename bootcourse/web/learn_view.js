@@ -38,11 +38,21 @@ class LearnView {
     this.makeDials();
     this.choose({ method: "bootstrapped", agents: Math.min(Math.max(cores, 2), 4), drives: 600, seed: 0 });
     this.wire();
-    const present = { id: "present", name: "the agent that learns", label: "an untrained agent", colour: data.colours.bootstrapped, words: "", plan: [] };
-    mount(find("watch"), data, { watch: true, driver: "present", ghost: "none", drivers: [present], pace: 2 }).then(watch => {
-      this.watch = watch;
-      watch.theme(game.host.dataset.theme);
-    });
+  }
+
+  // Show the road on which the agents drive; it is made when somebody comes to see it.
+  show() {
+    const { data, game, find } = this, colour = data.colours.bootstrapped;
+    const present = { id: "present", name: "the agent that learns", label: "an untrained agent", colour, words: "", plan: [] };
+    this.mounting ??= mount(find("watch"), data, { watch: true, driver: "present", ghost: "none", drivers: [present], pace: 2 })
+      .then(watch => {
+        this.watch = watch;
+        watch.theme(game.host.dataset.theme);
+        if (this.snapshot) this.seat(this.pointed, this.snapshot);
+        watch.run(this.busy);
+      });
+    this.watch?.run(this.busy);
+    this.draw();
   }
 
   get learners() { return this.groups.flatMap(({ learners }) => learners); }

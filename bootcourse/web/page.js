@@ -13,9 +13,11 @@ function turnTo(game, view, what) {
   for (const each of ["drive", "learn"]) document.getElementById(`to-${each}`).setAttribute("aria-pressed", each === what);
   document.getElementById("lead").textContent = LEADS[what];
   game.run(false);
-  view.watch?.run(learning && view.busy);
-  if (learning) view.draw();
-  else game.fit();
+  if (learning) view.show();
+  else {
+    view.watch?.run(false);
+    game.fit();
+  }
 }
 
 // The address may choose road, ghost, driver, pace, futures and view, or with what agents learn; what it asks for in

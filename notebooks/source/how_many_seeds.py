@@ -312,7 +312,8 @@ predict(
 # The middle 95 % of these means are the **bootstrap interval**. (Bootstrapped SAC
 # has nothing to do with it.)
 #
-# **Exercise (7 min, ●●○).** Write it. The draws are given, so that yours and ours agree.
+# **Exercise (7 min, ●●○).** Write it. The draws are given, so that yours and ours agree. (Between
+# two means every usual way to interpolate a percentile is right.)
 
 
 # %%

@@ -204,8 +204,8 @@ table(["", "takes the rule's action, %"], rows)
 def guide_shrinks(returns, best, window, tolerance):
     """True if the mean of the last `window` returns is at least the best mean less a tolerance.
 
-    returns: a list, since h last shrank; with fewer than `window` of them h stays. best: a number,
-    which may be negative. tolerance: a share of the size of best, 0.05 for 5 %.
+    returns: a list, since h last shrank; with fewer than `window` of them h stays. best: a float,
+    which may be negative, and -inf at first. tolerance: a share of the size of best, 0.05 for 5 %.
     """
     # solution: the exercise's own
 

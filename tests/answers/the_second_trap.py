@@ -104,3 +104,9 @@ wrong_lines("""clipped_loss
         -torch.where(advantage < 0, torch.maximum(paid, 10 * advantage), paid).mean()
     small advantages: solution(ratio, advantage.clamp(-20, 20), clip)
 """)
+
+equivalent(
+    "ppo_loss",
+    "log_pi.exp() * log_pi  ->  log_pi.exp() * log_pi.detach()",
+    "the slope that is lost is that of Σ π = 1, which is 0 in the logits",
+)
