@@ -62,51 +62,41 @@ def train(
 ) -> None:
     """Train agents and write a run of each."""
     from bootcourse.learn.settings import settings_for, with_seeds
-    from bootcourse.learn.training import Training
-    from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint, save_checkpoint
     from bootcourse.storage.work import locked
 
     check_known("Method", method, METHODS)
     compiled = learner == "compiled"
-    method = context.with_resource(learner_from("" if compiled else learner, METHODS[method])) or method
-    asked = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
-    changes = changes_of(change) | {name: value for name, value in asked.items() if value is not None}
-    settings, road = with_seeds(settings_for(method, setting, **changes), seeds, first_seed), scenario_at(scenario)
-    rule, work, episodes = teacher_from(teacher), out / UNFINISHED, episodes or METHODS[method].episodes
-    if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
-        with locked(work, "training"):  # removes what is left of it, if it was killed in its last moment
-            print(f"{out} is finished: there is nothing to resume.")
-        return
-    check_folder(out, resume)
-    ask_for(out)
-    if getattr(rule, "is_slow", False) and settings[0].needs_demonstrations and not (resume or quiet):
-        print("First this teacher drives the demonstrations. It is a slow one: that may take minutes.", file=sys.stderr)
-    make = {"device": device, "learner": "compiled" if compiled else "torch"}
-    training = None if resume else Training(settings, episodes, road, rule, **make)
-    with locked(work, "training"):
-        check_folder(out, resume)  # another training may have ended before this one had the lock
-        if training is not None:
-            save_checkpoint(training, work / CHECKPOINT)  # raises now, not at the end, if the disk is full
-        elif not (work / COMPLETE).exists():
-            try:
-                training = load_checkpoint(work / CHECKPOINT, rule, device)
-            except DamagedCheckpoint as error:
-                raise BootcourseError(f"{error} Delete {work}, and start again without --resume.") from None
-            check_resumed(training, (settings, episodes, road), given_options(context))
-            if compiled and training.learner_name != "compiled":
-                raise BootcourseError("--learner compiled: this training began without it; leave it out to go on.")
-        try:
+    with learner_from("" if compiled else learner, METHODS[method]) as own:
+        method = own or method
+        given = {"rule_p": p, "xi_multiplier": xi, "bonus": c}
+        changes = changes_of(change) | {name: value for name, value in given.items() if value is not None}
+        settings = with_seeds(settings_for(method, setting, **changes), seeds, first_seed)
+        asked = settings, episodes or METHODS[method].episodes, scenario_at(scenario)
+        rule = teacher_from(teacher)
+        if resume and not is_unfinished(out) and any(out.glob("*/provenance.json")):
+            with locked(out / UNFINISHED, "training"):  # removes what a training left that was killed at its very end
+                print(f"{out} is finished: there is nothing to resume.")
+            return
+        check_folder(out, resume)
+        ask_for(out)
+        make = {"device": device, "learner": "compiled" if compiled else "torch"}
+        training = None if resume else begun(asked, rule, make, quiet)
+        with locked(out / UNFINISHED, "training"):
+            check_folder(out, resume)  # another training may have ended before this one had the lock
+            training = resumed(out, rule, device) if resume else kept(training, out)
+            if resume and training is not None:
+                check_resumed(training, asked, given_options(context))
+                if compiled and training.learner_name != "compiled":
+                    raise BootcourseError("--learner compiled: this training began without it; leave it out to go on.")
             status = finish_training(training, out, progress=not quiet)
-        except KeyboardInterrupt:  # before the first decision, or after the last: the checkpoint is there
-            status = INTERRUPTED
-        if status == INTERRUPTED:
-            print(f"Interrupted. To continue, run `{command_to_continue(context)}`.", file=sys.stderr)
-        elif not quiet:
-            words = ["bootcourse", "evaluate", str(out)]
-            for option, place in (("--teacher", teacher), ("--learner", "" if compiled else learner)):
-                words += [option, place] if place else []
-            print(f"To test these agents on 1,000 other roads, run `{shlex.join(words)}`.")
-        raise typer.Exit(status)
+    if status == INTERRUPTED:
+        print(f"Interrupted. To continue, run `{command_to_continue(context)}`.", file=sys.stderr)
+    elif not quiet:
+        words = ["bootcourse", "evaluate", str(out)]
+        for option, place in (("--teacher", teacher), ("--learner", "" if compiled else learner)):
+            words += [option, place] if place else []
+        print(f"To test these agents on 1,000 other roads, run `{shlex.join(words)}`.")
+    raise typer.Exit(status)
 
 
 def changes_of(words: list[str]) -> dict[str, object]:
@@ -123,6 +113,40 @@ def changes_of(words: list[str]) -> dict[str, object]:
         except (ValueError, SyntaxError):
             changes[name] = value  # a word, which the settings refuse or take
     return changes
+
+
+def begun(asked: tuple, rule, make: dict, quiet: bool):
+    """A new training, after the demonstrations that it needs.
+
+    asked: its settings, episodes and scenario. make: further arguments of `Training`.
+    """
+    from bootcourse.learn.teachers import marked
+    from bootcourse.learn.training import Training
+
+    if marked(rule).is_slow and asked[0][0].needs_demonstrations and not quiet:
+        print("First this teacher drives the demonstrations. It is a slow one: that may take minutes.", file=sys.stderr)
+    return Training(*asked, rule, **make)
+
+
+def kept(training, out: Path):
+    """The training, after its first checkpoint, which fails now and not at the end if the disk is full."""
+    from bootcourse.storage.checkpoint import save_checkpoint
+
+    save_checkpoint(training, out / UNFINISHED / CHECKPOINT)
+    return training
+
+
+def resumed(out: Path, rule, device: str):
+    """The training that goes on, None if it is over and its runs are complete. Raises BootcourseError for damage."""
+    from bootcourse.storage.checkpoint import DamagedCheckpoint, load_checkpoint
+
+    work = out / UNFINISHED
+    if (work / COMPLETE).exists():
+        return None
+    try:
+        return load_checkpoint(work / CHECKPOINT, rule, device)
+    except DamagedCheckpoint as error:
+        raise BootcourseError(f"{error} Delete {work}, and start again without --resume.") from None
 
 
 def check_folder(out: Path, resume: bool) -> None:
@@ -222,6 +246,13 @@ def finish_training(training, out: Path, progress: bool) -> int:
 
     training: None if it is over and its runs are complete, but not all in their places.
     """
+    try:
+        return _finish(training, out, progress)
+    except KeyboardInterrupt:  # before the first decision, or after the last: the checkpoint is there
+        return INTERRUPTED
+
+
+def _finish(training, out: Path, progress: bool) -> int:
     from bootcourse.storage.checkpoint import save_checkpoint
     from bootcourse.storage.runs import save_runs
     from bootcourse.storage.work import Checkpoints

@@ -22,7 +22,7 @@ from msgspec import Meta, Struct, convert
 from safetensors.torch import save
 from torch import Tensor
 
-from bootcourse.episodes.driving import TRAP
+from bootcourse.episodes.place import TRAP_ID, Place
 from bootcourse.errors import BootcourseError
 from bootcourse.files import (
     TEMPORARY,
@@ -41,7 +41,7 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.protocol import Learner
 from bootcourse.learn.settings import Settings, stored_settings
-from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
+from bootcourse.learn.teachers import Rule, default_teacher, teacher_name, teacher_of
 from bootcourse.learn.training import Result
 from bootcourse.methods import METHODS, method_of, own_method
 from bootcourse.scenario import N_ACTIONS, Scenario
@@ -62,7 +62,7 @@ class Config(Struct, forbid_unknown_fields=True):
     scenario: Scenario | None  # None off the trap
     episodes: Annotated[int, Meta(ge=1)]
     alpha: Annotated[float, Meta(ge=0)]
-    environment: str = TRAP  # see `environment_id`
+    environment: str = TRAP_ID  # the name of a `Place`
 
 
 class Provenance(Struct):
@@ -145,7 +145,7 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
 
 
 def load_run(
-    path: Path, teacher: Rule | None = None, environment: str = TRAP, learner: type[Learner] | None = None
+    path: Path, teacher: Rule | None = None, environment: str = TRAP_ID, learner: type[Learner] | None = None
 ) -> Run:
     """Read and check a run: its folder, or the file that the page that learns saved of an agent.
 
@@ -183,10 +183,10 @@ def load_run(
     curves = read_arrays(path / "curves.npz", TRAIN_AGAIN)
     shapes = dict.fromkeys(curves.keys() & set(NAMES), (config.episodes,))
     check_arrays(curves, shapes, path / "curves.npz", TRAIN_AGAIN)
-    weights = path / "weights.safetensors"
     kind = learner or METHODS[method].learner_class()
-    actor, critics = networks_of(read_tensors(weights, TRAIN_AGAIN), settings, config.scenario, weights, kind=kind)
-    teacher = course_rule if teacher is None and config.scenario else teacher
+    weights = path / "weights.safetensors"
+    actor, critics = networks_of(read_tensors(weights, TRAIN_AGAIN), settings, config.scenario, weights, kind)
+    teacher = default_teacher(Place(config.scenario)) if teacher is None else teacher
     taught = None if teacher is None else teacher_of(teacher, config.scenario, actor[-1].shape[2])
     agent = Agent(settings, actor, critics, config.alpha, taught, learner)
     if agent.needs_teacher and stored.teacher != teacher_name(teacher):
@@ -201,14 +201,10 @@ def networks_of(
     settings: Settings,
     scenario: Scenario | None,
     path: Path,
+    kind: type[Learner],
     remedy: str = TRAIN_AGAIN,
-    kind: type[Learner] | None = None,
 ) -> tuple[list[Tensor], list[Tensor]]:
-    """The actor and the critics of a file, of the shapes of networks.py. Raises BootcourseError for others.
-
-    kind: of the learner, by default that of the method.
-    """
-    kind = kind or METHODS[settings.method].learner_class()
+    """The actor and the critics of a file, of the shapes of networks.py. Raises BootcourseError for others."""
     with decoding(path, remedy):
         inputs, outputs = weights["actor.0"].shape[1], weights[f"actor.{2 * len(settings.hidden)}"].shape[2]
     if scenario:

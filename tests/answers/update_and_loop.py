@@ -211,7 +211,7 @@ for _name, _words, *_changes in (
     ("the_mean_of_both", "the policy", ("q_pair.amin(0)", "q_pair.mean(0)")),
     ("a_fixed_temperature", "the critics", ("agent.log_alpha.exp().detach()", "torch.tensor(0.01)")),
     ("another_tau", "the copies", ("agent.tau *", "0.005 *")),
-    ("no_temperature", "log α", ("agent.target_entropy)", "sac.entropy(log_pi).mean())")),
+    ("half_the_target", "log α", ("agent.target_entropy)", "agent.target_entropy / 2)")),
     (
         "the_next_states",
         "the policy",

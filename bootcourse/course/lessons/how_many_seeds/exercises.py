@@ -1,7 +1,7 @@
 """Exercises of the lesson on seeds: intervals, power, and the difference of two groups."""
 
 import numpy as np
-import scipy.stats
+import scipy
 
 from bootcourse.course.exercise import exercise
 from bootcourse.course.values import NUMERIC, plain
