@@ -1,6 +1,6 @@
 """The text of the world's module: the scripts of this folder one after the other, and what they are given to work on.
 
-The compiled road, the agents and the car take half a minute to make (build.py), so they are kept in a file whose name
+The compiled road, the agents and the car take a minute to make (build.py), so they are kept in a file whose name
 is a hash of everything that they are made of. Nothing here imports what makes them, so a notebook shows its first
 picture at once.
 """
@@ -66,7 +66,7 @@ def content() -> dict[str, str]:
     for place in cache_places():
         with suppress(OSError, ValueError):  # it is not there, or a power cut has damaged it
             return json.loads((place / name).read_text(encoding="utf-8"))
-    print("The road is compiled for the browser, once: about half a minute.", file=sys.stderr)
+    print("The road is compiled for the browser, once: about a minute.", file=sys.stderr)
     from bootcourse.web import build
 
     made = build.content()
