@@ -1,17 +1,21 @@
 """The registry of methods: settings, learner, name and style of each.
 
 To add a method, write its learner (one file: see learn/learner.py for what may be overridden; settings of its own stand
-there, too) and one entry:
+there, too) and one entry in this file. Or, for a method of your own:
 
-    METHODS["mine"] = Method("my method", Style("#117733"), {"xi_multiplier": 0.0}, "my_package.mine:MyLearner")
+    with own_method("mine", Method("my method", Style("#117733"), {"xi_multiplier": 0.0}, MyLearner)):
 
 Training, files, evaluation, figures and the training panel then include it.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from pkgutil import resolve_name
+from types import MappingProxyType
 
 from bootcourse.colours import OTHER, Style
+from bootcourse.errors import require
 
 SAC = "bootcourse.learn.learner:SACLearner"
 SETTINGS = "bootcourse.learn.settings:Settings"
@@ -68,7 +72,7 @@ _PPO = {
 }
 _ON_POLICY = {"kind": "bootcourse.learn.ppo:PPOSettings", "on_policy": True, "episodes": 20_000}
 
-METHODS = {
+_METHODS = {
     "sac": Method("plain SAC", Style("#0072B2"), {"xi_multiplier": 0.0, "beta_start": 0.0}),
     "soft": Method("soft constraint only", Style("#56B4E9", "--"), {"beta_start": 0.0}),
     "demos": Method("demonstrations only", Style("#E69F00", "--"), {"xi_multiplier": 0.0}),
@@ -131,6 +135,7 @@ METHODS = {
         "IBRL", Style("#AA4499", "-.", marker="P"), _LATER, "bootcourse.learn.ibrl:IBRLLearner", taught=True
     ),
 }
+METHODS = MappingProxyType(_METHODS)  # by name; nobody changes it but `own_method`
 ABLATION = ("sac", "soft", "demos", "bootstrapped", "margin", "margin_soft")  # the paper's method and its parts
 BASELINES = ("bc", "cql", "cql_sac", "gail")
 AFTER = tuple(method for method in METHODS if method not in ABLATION + BASELINES)  # the paper trains none of them
@@ -140,6 +145,27 @@ DRIVERS = {  # name and style of the drivers that are not trained
     "idle": ("idle driver", OTHER),
     "random": ("random driver", OTHER),
 }
+
+
+def method_of(learner: type, like: Method | None = None) -> Method:
+    """The method of a learner of your own, whose name is that of its class.
+
+    like: the method whose settings it starts from. A class may have settings of its own, its `settings_class`.
+    """
+    started = like or Method("", OTHER)
+    own = getattr(learner, "settings_class", None) or started.kind
+    return replace(started, name=learner.__name__, style=OTHER, learner=learner, kind=own)
+
+
+@contextmanager
+def own_method(name: str, method: Method) -> Iterator[str]:
+    """A method of your own, which is one of `METHODS` within the block. Raises BootcourseError for a name in use."""
+    require(name not in METHODS, f"A method is called '{name}' already: give yours another name.")
+    _METHODS[name] = method
+    try:
+        yield name
+    finally:
+        del _METHODS[name]
 
 
 def display_name(label: str) -> str:

@@ -64,7 +64,7 @@ FORMS = {  # the cells of a notebook whose answer is right
 
 def read(*cells: str, outputs=()) -> Answers:
     code = [{"cell_type": "code", "source": cell, "outputs": list(outputs)} for cell in cells]
-    return Answers(msgspec.convert({"cells": code}, Notebook), Clock())
+    return Answers(msgspec.json.decode(msgspec.json.encode({"cells": code}), type=Notebook), Clock())
 
 
 @pytest.mark.parametrize("form", FORMS)

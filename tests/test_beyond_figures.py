@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.research.experiments.teacher_worth import QUANTITIES, by_teacher, in_words, worth_rows
+from bootcourse.research.experiments.teacher_worth import QUANTITIES, by_teacher, value_and_interval, worth_rows
 from bootcourse.research.results import Results, agent_entries
 
 EPISODES, TESTS = 120, 20
@@ -46,7 +46,7 @@ def worth():
 )
 def test_each_number_of_a_cell_is_that_of_its_agents(worth, place, quantity, words):
     number = QUANTITIES[quantity]
-    assert in_words(number.estimate(number.of_agents(worth[place]))) == words
+    assert value_and_interval(number.estimate(number.of_agents(worth[place]))) == words
 
 
 def test_the_table_has_a_row_for_each_cell_with_teachers_from_bad_to_perfect(worth):

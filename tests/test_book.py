@@ -143,6 +143,28 @@ def test_a_world_in_a_lesson_is_the_live_page_in_the_book(tmp_path):
     assert set(output.data) == {"text/html", "text/plain"}
 
 
+def test_where_a_lesson_trains_its_reader_trains_in_the_page(tmp_path):
+    cells = [nbformat.v4.new_code_cell("bc.world()"), nbformat.v4.new_code_cell("training.run(updates=9)")]
+    nbformat.write(nbformat.v4.new_notebook(cells=cells), tmp_path / "lesson.ipynb")
+    book.add_learning(tmp_path / "lesson.ipynb", book.LEARNED["soft_constraint"])
+    first, trained = nbformat.read(tmp_path / "lesson.ipynb", 4).cells
+    assert first.outputs == []
+    shown = trained.outputs[0].data["text/html"]
+    assert shown.count('target="learn"') == 3 and 'name="learn" src="../trap.html#learn=soft&amp;agents=2' in shown
+
+
+@needs_browser
+def test_what_the_book_lets_learn_is_what_the_page_takes(made, new_page):
+    page = new_page()
+    for lesson, addresses in book.LEARNED.items():
+        for address in addresses.values():
+            page.page.goto(f"{(made / 'trap.html').as_uri()}#{address}")
+            page.page.reload()
+            page.page.wait_for_function("() => window.trap?.ready")
+            assert page.page.locator("#fault").is_hidden(), (lesson, address)
+    page.page.close()
+
+
 @needs_browser
 def test_the_trap_is_driven_on_the_front_page(made, new_page):
     page = new_page()

@@ -47,7 +47,7 @@ def test_a_check_trains_its_agents_and_its_page_says_whether_they_reach_the_publ
     for name, published in (("gail-cartpole", 450.0), ("cql-cartpole", 600.0)):
         one = replace(checks.CHECKS[name], published=published, train=cloned, make_env=checks.cartpole)
         monkeypatch.setitem(checks.CHECKS, name, one)
-    results = checks.measured("gail-cartpole", 2)
+    results = checks.run_check("gail-cartpole", 2)
     assert results.measured["return"].shape == (2,) and results.measured["return"].min() > 450
     yes, no = checks.page({"gail-cartpole": results, "cql-cartpole": results}).splitlines()[-2:]
     assert "| yes |" in yes and "2 seeds (the demonstrator: 500)" in yes and "| **no** |" in no
@@ -55,4 +55,4 @@ def test_a_check_trains_its_agents_and_its_page_says_whether_they_reach_the_publ
 
 @pytest.mark.parametrize(("published", "score", "verdict"), [(100, 99, True), (100, 98.9, False), (-90, -91.0, False)])
 def test_within_one_percent_below_counts_as_reached(published, score, verdict):
-    assert checks.reached(np.array([score]), replace(checks.CHECKS["gail-cartpole"], published=published)) is verdict
+    assert checks.is_reached(np.array([score]), replace(checks.CHECKS["gail-cartpole"], published=published)) is verdict

@@ -53,7 +53,7 @@ def notebook(*cells: dict) -> dict:
 
 
 def read(notebook: dict) -> Notebook:
-    return msgspec.convert(notebook, Notebook)
+    return msgspec.json.decode(msgspec.json.encode(notebook), type=Notebook)
 
 
 def answers_in(notebook: Notebook) -> dict[str, str]:

@@ -243,24 +243,18 @@ def test_a_learner_of_one_s_own_trains_and_drives(bootcourse, tmp_path):
     before = dict(METHODS)
     (tmp_path / "mine.py").write_text(LEARNER)
     mine = ("--learner", f"{tmp_path / 'mine.py'}:MyLearner")
-    try:
-        arguments = ("train", "--seeds", 1, "--episodes", 3, "--out", tmp_path / "runs")
-        trained = bootcourse(*arguments, "--method", "sac", *mine)
-        assert trained.status == 0, trained.err
-        assert f"bootcourse evaluate {tmp_path / 'runs'} --learner" in trained.out
-        METHODS.pop("MyLearner")
-        assert "MyLearner-0" in bootcourse("evaluate", tmp_path / "runs", "--episodes", 3, *mine).out
-        METHODS.pop("MyLearner")
-        run, drive = tmp_path / "runs/MyLearner-0", tmp_path / "drive.npz"
-        assert bootcourse("drive", run, "--out", drive, *mine).status == 0 and drive.exists()
-        METHODS.pop("MyLearner")
-        alone = bootcourse("drive", run, "--out", tmp_path / "other.npz")
-        assert alone.status == 2 and "add the --learner FILE.py:CLASS" in alone.err and "damaged" not in alone.err
-        refused = bootcourse(*arguments, "--learner", f"{tmp_path / 'mine.py'}:NoLearner")
-        assert refused.status == 2 and "bootcourse.learn.protocol.Learner" in refused.err
-    finally:
-        METHODS.clear()
-        METHODS.update(before)
+    arguments = ("train", "--seeds", 1, "--episodes", 3, "--out", tmp_path / "runs")
+    trained = bootcourse(*arguments, "--method", "sac", *mine)
+    assert trained.status == 0, trained.err
+    assert f"bootcourse evaluate {tmp_path / 'runs'} --learner" in trained.out
+    assert "MyLearner-0" in bootcourse("evaluate", tmp_path / "runs", "--episodes", 3, *mine).out
+    run, drive = tmp_path / "runs/MyLearner-0", tmp_path / "drive.npz"
+    assert bootcourse("drive", run, "--out", drive, *mine).status == 0 and drive.exists()
+    alone = bootcourse("drive", run, "--out", tmp_path / "other.npz")
+    assert alone.status == 2 and "add the --learner FILE.py:CLASS" in alone.err and "damaged" not in alone.err
+    refused = bootcourse(*arguments, "--learner", f"{tmp_path / 'mine.py'}:NoLearner")
+    assert refused.status == 2 and "bootcourse.learn.protocol.Learner" in refused.err
+    assert METHODS == before
 
 
 def test_the_compiled_learner_trains_and_its_runs_say_so(bootcourse, tmp_path):

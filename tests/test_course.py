@@ -2,6 +2,8 @@
 
 import re
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import nbformat
@@ -57,7 +59,7 @@ def test_a_text_names_lessons_and_its_tables_are_in_their_order():
 
 
 def test_two_lessons_that_change_places_change_their_numbers(monkeypatch):
-    registry()  # as the lessons stand
+    list(registry())  # as the lessons stand
     places = {"the_rule": number("traffic"), "traffic": number("the_rule")}
     order = tuple({"the_rule": "traffic", "traffic": "the_rule"}.get(name, name) for name in LESSONS)
     for module in (lessons, numbering):
@@ -167,3 +169,13 @@ def test_it_is_found_when(copy, old, new, words):
     assert old in EXAMPLE
     copy.write_text(EXAMPLE.replace(old, new), encoding="utf-8")
     assert any(words in problem for problem in problems(copy)), problems(copy)
+
+
+def test_an_exercise_is_looked_up_in_its_own_lesson_and_no_other_is_loaded():
+    code = (
+        "import sys; from bootcourse.course.lessons import registry; registry()['soft_constraint']; print(*sys.modules)"
+    )
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert "bootcourse.course.lessons.soft_constraint.exercises" in loaded
+    assert {"bootcourse.course.lessons.the_trap.exercises", "scipy.stats"}.isdisjoint(loaded)
+    assert "soft_constraints" not in registry() and len(registry()) == len(set(registry()))

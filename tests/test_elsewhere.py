@@ -183,9 +183,9 @@ def test_an_interrupted_comparison_keeps_what_was_trained_and_names_what_is_miss
         bc.compare(only, 2, 20, teacher=presses_ctrl_c_after(2), **options)
 
 
-def test_the_ten_lines_of_the_readme_run(capsys):
-    readme = (Path(__file__).resolve().parent.parent / "README.md").read_text(encoding="utf-8")
-    (lines,) = [code for code in re.findall(r"```python\n(.*?)```", readme, re.S) if "def my_rule" in code]
+def test_the_lines_for_a_problem_of_your_own_run(capsys):
+    page = (Path(__file__).resolve().parent.parent / "book/in_python.md").read_text(encoding="utf-8")
+    (lines,) = [code for code in re.findall(r"```python\n(.*?)```", page, re.S) if "def my_rule" in code]
     assert "episodes=100" in lines
     exec(lines.replace("episodes=100", "episodes=1, tests=1, progress=False"), {})
     printed = capsys.readouterr().out

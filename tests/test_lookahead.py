@@ -20,7 +20,7 @@ from bootcourse.replay3d.recorder import to_html
 from bootcourse.replay3d.scene import timelines_of
 from bootcourse.replay3d.stage import _ribbon
 from bootcourse.research.computed import experiment
-from bootcourse.research.experiments.lookahead import Cell, drive, every_cell, rows
+from bootcourse.research.experiments.lookahead import Cell, drive_cell, every_cell, rows
 from bootcourse.research.results import Results
 from bootcourse.road.state import CRASHED, EGO, HEADING, LANE, SPEED, TARGET_LANE, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -258,10 +258,10 @@ def test_a_study_drives_each_cell_once(bootcourse, tmp_path):
 def test_a_cell_drives_the_agents_in_the_folder_and_then_those_that_ship(tmp_path):
     shipped = [FOLDER / "runs" / f"soft-{seed}" for seed in range(2)]
     shutil.copytree(shipped[1], tmp_path / "soft" / "soft-1")
-    results = drive(Cell("soft", "alone", agents=2, roads=5), tmp_path)
+    results = drive_cell(Cell("soft", "alone", agents=2, roads=5), tmp_path)
     assert [agent["seed"] for agent in results.agents] == [0, 1]
     with pytest.raises(BootcourseError, match="no agent of soft with the seed 5, 6: run `bootcourse train --method"):
-        drive(Cell("soft", "alone", agents=7), tmp_path)
+        drive_cell(Cell("soft", "alone", agents=7), tmp_path)
     for seed, path in enumerate(shipped):
         expected = drive_episodes(load_run(path).agent.as_policy(), bc.held_out_seeds(1, 5))
         assert results.measured["returns"][seed] == pytest.approx(expected.returns.mean())

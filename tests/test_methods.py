@@ -11,7 +11,7 @@ from bootcourse.learn import sac
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.methods import METHODS, Method, display_name, style
+from bootcourse.methods import METHODS, Method, display_name, own_method, style
 from bootcourse.panels import train_panel
 from bootcourse.plots.training_curves import training_curves
 from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
@@ -45,10 +45,9 @@ def always_faster(cars, scenario):
 
 
 @pytest.fixture
-def toy(monkeypatch):
-    entry = Method("toy method", Style("#117733", ":"), {"xi_multiplier": 0.0}, WithoutEntropy)
-    monkeypatch.setitem(METHODS, "toy", entry)
-    return "toy"
+def toy():
+    with own_method("toy", Method("toy method", Style("#117733", ":"), {"xi_multiplier": 0.0}, WithoutEntropy)) as name:
+        yield name
 
 
 def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, tmp_path):
@@ -71,11 +70,11 @@ def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, 
 
 
 @pytest.fixture
-def follower(monkeypatch, tmp_path):
+def follower(tmp_path):
     """A run of a method that drives with its teacher, which was `always_faster`."""
-    monkeypatch.setitem(METHODS, "follower", Method("follower", Style("#117733"), {"xi_multiplier": 0.0}, Follower))
-    result = Training([settings_for("follower", **SMALL)], 3, teacher=always_faster).run(progress=False)
-    return save_runs(result, tmp_path)[0]
+    with own_method("follower", Method("follower", Style("#117733"), {"xi_multiplier": 0.0}, Follower)) as name:
+        result = Training([settings_for(name, **SMALL)], 3, teacher=always_faster).run(progress=False)
+        yield save_runs(result, tmp_path)[0]
 
 
 def test_an_agent_that_drives_with_its_teacher_asks_it_in_every_state(follower):
@@ -95,9 +94,22 @@ def test_such_an_agent_is_not_loaded_with_another_teacher_and_does_not_drive_wit
         agent.probabilities(np.zeros((2, 26)))
 
 
-def test_a_training_that_goes_on_without_its_method_asks_for_the_learner(tmp_path, monkeypatch):
-    monkeypatch.setitem(METHODS, "toy", Method("toy", Style("#117733"), {}, WithoutEntropy))
-    save_checkpoint(Training([settings_for("toy", **SMALL)], 5), tmp_path / "checkpoint.npz")
-    monkeypatch.delitem(METHODS, "toy")
+def test_a_training_that_goes_on_without_its_method_asks_for_the_learner(tmp_path):
+    with own_method("toy", Method("toy", Style("#117733"), {}, WithoutEntropy)):
+        save_checkpoint(Training([settings_for("toy", **SMALL)], 5), tmp_path / "checkpoint.npz")
     with pytest.raises(BootcourseError, match="learns with 'toy': add the --learner FILE.py:CLASS"):
         load_checkpoint(tmp_path / "checkpoint.npz")
+
+
+def test_the_methods_are_what_they_were_after_a_block_with_one_s_own_and_nobody_else_changes_them():
+    before = dict(METHODS)
+    with own_method("mine", before["sac"]):
+        assert METHODS["mine"] is before["sac"]
+        with (
+            pytest.raises(BootcourseError, match="called 'sac' already: give yours another name"),
+            own_method("sac", before["soft"]),
+        ):
+            pass
+    assert METHODS == before
+    with pytest.raises(TypeError):
+        METHODS["mine"] = before["sac"]

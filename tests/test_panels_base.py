@@ -32,6 +32,16 @@ def a_p() -> Number:
     return Number("p", 0.9, 0.12, 0.99, 0.01, "A probability.", unit="share", check=check_p)
 
 
+def test_a_logarithmic_slider_is_read_to_two_digits_and_a_typed_number_as_it_is():
+    number = Number("ξ", 200, 0.1, 10_000, 0.05, "A strength.", logarithmic=True)
+    from_page(number.slider, value=10**2.25)
+    assert number.value == number.field.value == 180
+    from_page(number.field, value=177.5)
+    assert number.value == 177.5 and number.slider.value == pytest.approx(177.5)
+    from_page(number.field, value=0)
+    assert number.value == 0 and number.slider.value == pytest.approx(0.1), "the slider stands at its end"
+
+
 def test_slider_and_field_show_the_same_number_and_a_typed_one_may_lie_beyond_the_slider():
     number = a_p()
     from_page(number.slider, value=0.5)

@@ -11,7 +11,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.panels import train_panel
-from bootcourse.panels.watch import LEFT, WIDE, Watch
+from bootcourse.panels.watch import Watch
 from bootcourse.web.packing import EXACT, packed_network
 from tests.panels import from_page, raise_in_callbacks, words  # noqa: F401
 from tests.waiting import until
@@ -44,8 +44,8 @@ def test_train_trains_with_what_the_sliders_show_and_the_present_agent_is_on_the
     trained(panel)
     assert np.isfinite(panel.result.curves["return"]).all() and len(panel.result.agents) == 2
     assert panel.result.agents[0].settings.rule_p == 0.5 and "Done: 6 of 6 episodes" in words(panel)
-    now, before = panel.watch.drivers
-    assert (now["id"], before["id"]) == ("now", "before") and now["network"]["sizes"] == [26, 16, 16, 9]
+    [now] = panel.watch.drivers
+    assert now["id"] == "now" and now["network"]["sizes"] == [26, 16, 16, 9] and now["updates"] > 0
     assert panel.watch in panel.stage.children and not panel.watch.running
 
 
@@ -98,19 +98,14 @@ def test_what_cannot_change_while_it_trains_is_refused_in_one_sentence():
         cloning.change(bonus=1.0)
 
 
-def test_a_click_on_the_curves_puts_the_agent_of_that_moment_at_the_wheel(monkeypatch):
-    monkeypatch.setattr("bootcourse.panels.watch.KEEP", 2)
-    training = Training(with_seeds(settings_for("soft", **SMALL), 1), 40)
+def test_the_page_gets_the_weights_of_the_watched_agent_and_its_age():
+    training = Training(with_seeds(settings_for("soft", **SMALL), 2), 40)
     shown = Watch(training)
-    training.run(progress=False, callback=shown.look)
-    weights = {updates: agent.actor[0] for updates, _, agent in shown.kept}
-    assert len(weights) > 3
-    updates, episodes, agent = shown.kept[2]
-    x = LEFT + (episodes + 0.01) / training.episodes * WIDE
-    shown._heard(None, {"kind": "choose", "x": x}, [])
-    now, before = shown.drivers
-    assert now["name"] == f"after {updates:,} updates" and before["name"] == "after 0 updates"
-    assert now["network"] == packed_network(agent.actor, 0, EXACT)
+    training.run(progress=False, callback=shown.look, updates=20)
+    shown.show_now("")
+    [now] = shown.drivers
+    assert now["network"] == packed_network(training.agent(0).actor, 0, EXACT)
+    assert (now["updates"], now["episodes"]) == (20, training.curves.finished[0])
     shown._heard(None, {"kind": "stop"}, [])
     assert shown.stopping
     shown.close()

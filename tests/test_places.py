@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from bootcourse import processes
+from bootcourse import caches, processes
 from bootcourse.cli import places
 from bootcourse.course.classroom import commands
 from bootcourse.course.classroom.grading import Verdicts, judge_all
@@ -16,7 +16,6 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn import training
 from bootcourse.policies import idle_policy
 from bootcourse.research.runner import run_jobs
-from bootcourse.road import compiled
 from tests.conftest import drive_road_3
 
 EMPTY = {"cells": [], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}
@@ -98,9 +97,9 @@ def test_compiled_code_of_a_user_without_a_home_folder_is_never_looked_for_in_th
             raise answer
         return answer
 
-    monkeypatch.setattr(compiled, "user_cache_dir", without_home)
+    monkeypatch.setattr(caches, "user_cache_dir", without_home)
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    assert compiled.cache_places() == [compiled.PACKAGE / "__pycache__"]
+    assert caches.cache_places() == [caches.PACKAGE / "__pycache__"]
 
 
 def test_where_processes_cannot_share_a_semaphore_one_sentence_comes_before_the_work(folder, monkeypatch):

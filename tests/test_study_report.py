@@ -9,7 +9,7 @@ from bootcourse.files import write_json
 from bootcourse.learn.settings import settings_for
 from bootcourse.research import tables
 from bootcourse.research.computed import in_study
-from bootcourse.research.fidelity import fidelity, judge
+from bootcourse.research.fidelity import fidelity, verdict_on
 from bootcourse.research.paper import COLUMNS, PRINTED, TABLES, arithmetic, earned_at, paper_interval, possible
 from bootcourse.research.report import rule_results, write_report
 from bootcourse.research.results import Results, agent_entries, save_results
@@ -71,14 +71,14 @@ def test_what_cannot_be_compared_is_said_and_the_rule_s_interval_is_over_episode
     findings = {(row.method, row.column): row for row in fidelity(invented(("demos",)))}
     assert len(findings) == 35 and findings["demos", "collision"].verdict == "cannot be compared"
     assert findings["cql", "speed"].reason == "This study has not run this method."
-    finding = judge(rule_results(SCENARIOS["default"], 20), "rule", "success")
+    finding = verdict_on(rule_results(SCENARIOS["default"], 20), "rule", "success")
     assert finding.verdict == "reproduced" and finding.ours.low == pytest.approx(83.16, abs=0.01)
 
 
 @pytest.mark.parametrize("case", VERDICT)
 def test_the_verdict_follows_its_rule_when(case):
     scores, verdict = VERDICT[case]
-    finding = judge(scoring("soft", "returns", scores), "soft", "returns")
+    finding = verdict_on(scoring("soft", "returns", scores), "soft", "returns")
     assert finding.verdict == verdict and finding.ours.value == pytest.approx(np.mean(scores))
 
 

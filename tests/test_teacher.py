@@ -13,12 +13,23 @@ from bootcourse.course.lessons.your_teacher.example_teachers import examine
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError, RuleFailed
 from bootcourse.learn.settings import settings_for, with_seeds
-from bootcourse.learn.teachers import ahead, all_roads, course_rule, teacher_name, teacher_of, teacher_policy, toward
+from bootcourse.learn.teachers import (
+    ahead,
+    all_roads,
+    course_rule,
+    marked,
+    slow,
+    teacher_name,
+    teacher_of,
+    teacher_policy,
+    toward,
+    with_name,
+)
 from bootcourse.learn.training import Training
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
-from bootcourse.scenario import DEFAULT
+from bootcourse.scenario import CALIBRATED, DEFAULT
 from bootcourse.storage.checkpoint import load_checkpoint, save_checkpoint
 from bootcourse.storage.runs import load_run, save_runs
 
@@ -168,3 +179,22 @@ def test_demonstrations_by_chance_follow_the_teacher_with_p_and_need_the_same_p_
 )
 def test_an_exam_counts_and_never_raises(teacher, sentence):
     assert re.search(sentence, repr(examine(teacher, 20)))
+
+
+def test_a_mark_makes_another_rule_and_leaves_the_function_as_it_was():
+    def follows(cars, scenario):
+        return 4
+
+    of_all = all_roads(follows)
+    assert marked(of_all).answers_all_roads and not marked(follows).answers_all_roads
+    assert teacher_of(follows)(roads(3).cars).tolist() == [4, 4, 4]
+    with pytest.raises(BootcourseError, match="but 3 roads need a whole number each"):
+        teacher_of(of_all)(roads(3).cars)
+    both = slow(with_name(of_all, "follows the trap"))
+    assert (both.answers_all_roads, both.is_slow, both(None, None)) == (True, True, 4)
+    assert teacher_name(both).startswith("follows the trap ") and teacher_name(of_all) == teacher_name(follows)
+
+
+def test_a_teacher_on_a_road_of_one_s_own_is_told_the_scenario_of_that_road():
+    training = Training([settings_for("sac")], 1, make_env=lambda n: TrapVectorEnv(n, CALIBRATED))
+    assert training.scenario == CALIBRATED and training.place.name == "Trap-v0"

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from bootcourse.course.lessons import LESSONS, number, stem
+from bootcourse.course.lessons import COURSE, LESSONS, number, stem
 from tools import book
 from tools.course import claims
 from tools.course.known import minutes
@@ -40,6 +40,14 @@ def test_the_readme_gives_each_lesson_its_minutes():
     readme = (book.ROOT / "README.md").read_text(encoding="utf-8")
     table = re.findall(r"^\| \d+ \|.*\(notebooks/(\w+)\.ipynb\).* (\d+) \|$", readme, re.M)
     assert dict(table) == {stem(name): str(minutes(name)) for name in LESSONS}
+
+
+def test_the_readme_says_how_long_an_evening_and_a_week_are():
+    readme = (book.ROOT / "README.md").read_text(encoding="utf-8")
+    assert "lessons 0 and 1" in readme and "(an hour and a half)" in readme
+    assert abs(minutes(*COURSE[:2]) - 90) <= 10
+    assert f"lessons 0 to {len(COURSE) - 1}" in readme and "(eleven hours)" in readme
+    assert abs(minutes(*COURSE) / 60 - 11) < 0.5
 
 
 def test_the_evening_and_the_homework_add_up_and_a_meeting_fits_into_90_minutes():

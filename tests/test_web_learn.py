@@ -31,10 +31,13 @@ UPDATE = """given => {  // one update on records given as bytes; its time, and t
     const update = () => code.update(end, end + 16, ...places.map(([place]) => place));
     const status = update();
     const bytes = places.map(([place, size]) => Array.from(new Uint8Array(memory.buffer, place, size)));
-    const time = performance.now();
-    for (let i = 0; i < 300; i++) update();
-    return { status, ms: (performance.now() - time) / 300,
-        after: bytes.map(each => btoa(each.map(byte => String.fromCharCode(byte)).join(""))) };
+    let ms = Infinity; // the best of many short turns, so that other programs do not count
+    for (let turn = 0; turn < 40; turn++) {
+        const time = performance.now();
+        for (let i = 0; i < 10; i++) update();
+        ms = Math.min(ms, (performance.now() - time) / 10);
+    }
+    return { status, ms, after: bytes.map(each => btoa(each.map(byte => String.fromCharCode(byte)).join(""))) };
 }"""
 
 
@@ -215,6 +218,19 @@ def test_a_wrong_setting_is_answered_with_a_sentence(page, asked):
     said = page.page.evaluate("asked => { try { trap.learn(asked); } catch (error) { return error.message; } }",
                               json.loads(asked))  # fmt: skip
     assert said.startswith(WRONG[asked])
+
+
+def test_what_is_set_when_an_agent_begins_cannot_change_while_it_learns(page):
+    said = page.page.evaluate(
+        """() => {
+            const learner = new Learner(trap, { episodes: 5 });
+            let said = "";
+            try { learner.set({ p: 0.5, roads: 2 }); } catch (error) { said = error.message; }
+            learner.stop();
+            return [said, learner.settings.rule_p];
+        }"""
+    )
+    assert said == ["envs_per_agent is set when an agent begins: start another one.", 0.9]
 
 
 def test_the_page_refuses_what_the_library_refuses():

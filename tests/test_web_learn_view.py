@@ -47,7 +47,7 @@ def test_agents_learn_at_a_press_of_start_and_their_curves_grow(visit):
         assert len(page.page.query_selector_all("#curves figure")) == 5
         assert "After " in text(page, "#story") or "found a way out" in text(page, "#story")
         page.page.wait_for_function("() => document.getElementById('moment-words').textContent.endsWith('drives, now')")
-        assert "agent after" in page.page.evaluate("trap.view.watch.drivers.present.label")  # the present agent drives
+        page.page.wait_for_function("() => trap.view.watch?.drivers.present.label.startsWith('the agent after')")
         page.page.click("#start")
         assert text(page, "#start") == "Go on"
         page.page.wait_for_timeout(400)  # for the turns that had begun

@@ -9,14 +9,16 @@ from pathlib import Path
 
 import pytest
 
-from bootcourse.web import build
+from bootcourse.storage import assets
+from bootcourse.web import build, bundle
 
 ROOT = Path(__file__).resolve().parent.parent
 PIP = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--quiet"]
 IN_THE_WHEEL = """
-import json, sys
+import json, shutil, sys
 import bootcourse as bc
-from bootcourse.web import build
+from bootcourse.storage import assets
+from bootcourse.web import build, bundle
 
 agents, drive = (lambda: bc.shipped_agents("sac")), (lambda: bc.shipped_drive("rule"))
 said = []
@@ -25,7 +27,10 @@ for what in (bc.board, agents, bc.shipped_results, drive, build.page):
         what()
     except bc.BootcourseError as error:
         said.append(str(error))
-build.page_data = dict
+for name in ("manifest.json", "report/ablation.json"):
+    (assets.FOLDER / name).parent.mkdir(exist_ok=True)
+    shutil.copy(f"{sys.argv[1]}/{name}", assets.FOLDER / name)
+bundle.content = lambda: {"names": build.names(), "data": "{}", "picture": ""}  # nothing is compiled
 print(json.dumps({"file": bc.__file__, "said": said, "page": build.page()}))
 """
 
@@ -59,11 +64,12 @@ def test_it_holds_every_file_of_the_package_and_nothing_that_was_compiled(site):
 
 def test_its_page_is_the_clone_s_and_what_needs_the_shipped_results_says_so(site, monkeypatch):
     environment = os.environ | {"PYTHONPATH": str(site), "NUMBA_CACHE_DIR": str(site)}
-    run = subprocess.run([sys.executable, "-P", "-c", IN_THE_WHEEL], cwd=site, env=environment, capture_output=True)
+    command = [sys.executable, "-P", "-c", IN_THE_WHEEL, str(assets.FOLDER)]
+    run = subprocess.run(command, cwd=site, env=environment, capture_output=True)
     assert run.returncode == 0, run.stderr.decode()
     there = json.loads(run.stdout)
     assert Path(there["file"]).parent == site / "bootcourse"
-    monkeypatch.setattr(build, "page_data", dict)
+    monkeypatch.setattr(bundle, "content", lambda: {"names": build.names(), "data": "{}", "picture": ""})
     assert there["page"] == build.page() and "</script>" in there["page"]
     assert len(there["said"]) == 5
     for sentence in there["said"]:

@@ -22,6 +22,25 @@ DRIVEN = {  # lesson -> where its page in the book begins: the address of trap.h
     "the_rule": "driver=rule&ghost=none&pace=0",
     "soft_constraint": "road=10&driver=soft&ghost=sac",
 }
+# lesson -> where it trains, its reader in the book trains in the page: {words: the address of trap.html}
+LEARNED = {
+    "the_trap": {"both aids": "learn=bootstrapped&agents=2&drives=500", "plain SAC": "learn=sac&agents=2&drives=500"},
+    "the_barrier": {
+        "plain SAC": "learn=sac&agents=4&drives=600",
+        "the same, γ = 0.95": "learn=sac&agents=4&drives=600&gamma=0.95",
+    },
+    "soft_constraint": {
+        "ξ = 200 α": "learn=soft&agents=2&drives=600&xi=200",
+        "ξ stays at 2": "learn=soft&agents=2&drives=600&xiFixed=2",
+        "ξ = 0": "learn=soft&agents=2&drives=600&xi=0",
+    },
+    "learning_from_demonstrations": {
+        "c = 2": "learn=demos&agents=2&drives=600&c=2",
+        "c = 0": "learn=demos&agents=2&drives=600&c=0",
+        "β = 0.3": "learn=demos&agents=2&drives=600&beta=0.3",
+        "both aids": "learn=bootstrapped&agents=2&drives=600",
+    },
+}
 WORLD = re.compile(r'<img [^>]*data-world="([^"]*)"[^>]*>')  # the picture that a world leaves where no kernel runs
 SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 
@@ -51,6 +70,8 @@ def gather(to: Path, edition: str = "student") -> None:
         with_live_worlds(notebook, to / "lessons" / notebook.name)
         if (lesson := notebook.stem.partition("_")[2]) in DRIVEN:
             add_drive(to / "lessons" / notebook.name, DRIVEN[lesson])
+        if lesson in LEARNED:
+            add_learning(to / "lessons" / notebook.name, LEARNED[lesson])
         if edition != "instructor":
             continue
         page = (ROOT / "notebooks/instructor" / notebook.name).with_suffix(".md")
@@ -62,7 +83,7 @@ def gather(to: Path, edition: str = "student") -> None:
 
 def frame(address: str) -> str:
     """The page that drives, within a lesson's page."""
-    page = f'<iframe src="../trap.html#{address}" title="Drive the trap" loading="lazy"'
+    page = f'<iframe src="../trap.html#{address}" title="The trap" loading="lazy"'
     return f'{page} style="width: 100%; height: 880px; border: 0"></iframe>'
 
 
@@ -75,6 +96,23 @@ def with_live_worlds(notebook: Path, to: Path) -> None:
             if address := WORLD.search("".join(shown.get("text/html", ""))):
                 output["data"] = {"text/html": frame(address[1]), "text/plain": shown["text/plain"]}
     to.write_text(json.dumps(content), encoding="utf-8")
+
+
+def add_learning(notebook: Path, addresses: dict[str, str]) -> None:
+    """Let agents learn in a lesson's page in the book, below the first cell that trains: one page, several links."""
+    from bootcourse.markup import html
+
+    content = json.loads(notebook.read_text(encoding="utf-8"))
+    trains = (cell for cell in content["cells"] if cell["cell_type"] == "code" and ".run(" in "".join(cell["source"]))
+    links = " · ".join(
+        html('<a href="../trap.html#{}" target="learn">{}</a>', address, words) for words, address in addresses.items()
+    )
+    first = next(iter(addresses.values())).replace("&", "&amp;")
+    shown = frame(first).replace("<iframe ", '<iframe name="learn" ')
+    said = f"<p>Train agents here, in this page, and move the sliders while they learn: {links}</p>{shown}"
+    output = {"output_type": "display_data", "metadata": {}, "data": {"text/html": said, "text/plain": "Agents learn."}}
+    next(trains)["outputs"].append(output)
+    notebook.write_text(json.dumps(content), encoding="utf-8")
 
 
 def add_drive(notebook: Path, address: str) -> None:

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import typer
 
+from bootcourse.cli.own_files import scenario_at
 from bootcourse.cli.places import ask_for
 from bootcourse.errors import BootcourseError, did_you_mean
 
@@ -23,7 +24,7 @@ MEASURES = {
     "road_departure": "road departure %",
     "stoppage": "stoppage %",
 }
-SCENARIO = typer.Option("", help="default or calibrated; by default the scenario that a run trained on.")
+SCENARIO = typer.Option("", help="default, calibrated or FILE.py:NAME; by default the scenario that a run trained on.")
 TEACHER = typer.Option("", help="The teacher that a run drives with: planner …, or FILE.py:FUNCTION.")
 LEARNER = typer.Option("", help="The learner of your own that a run was trained with: FILE.py:CLASS.")
 LOOK_AHEAD = typer.Option(0, min=0, help="Decisions to look ahead by rollouts, such as 10; 0: none.")
@@ -40,14 +41,14 @@ def evaluate(
     lookahead: int = LOOK_AHEAD,
 ) -> None:
     """Drive held-out episodes and print success, return, speed, distance and accidents with 95 % intervals."""
-    from bootcourse.cli.training import register_learner
+    from bootcourse.cli.training import learner_from
     from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds, over_seeds, summarise
     from bootcourse.progress import progress_bar
 
-    register_learner(learner)
-    seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who, scenario, seed, teacher, lookahead)
-    bar = progress_bar(drivers, shown=bool(lookahead), unit="driver")  # looking ahead takes a minute and more
-    summaries = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in bar}
+    with learner_from(learner):
+        seeds, drivers = held_out_seeds(seed, episodes), drivers_of(who, scenario, seed, teacher, lookahead)
+        bar = progress_bar(drivers, shown=bool(lookahead), unit="driver")  # looking ahead takes a minute and more
+        summaries = {each.label: summarise(drive_episodes(each.policy, seeds, each.road)) for each in bar}
     means = {name: over_seeds([summaries[label] for label in labels]) for name, labels in alike(drivers).items()}
     columns = {label: vars(each) for label, each in summaries.items()} | means
     ahead = f", looking {lookahead} decisions ahead" if lookahead else ""
@@ -90,12 +91,12 @@ def drivers_of(who: str, scenario: str, seed: int, teacher: str, horizon: int) -
 
     from bootcourse.episodes.lookahead import lookahead
     from bootcourse.policies import idle_policy, random_policy, rule_policy
-    from bootcourse.scenario import DEFAULT, scenario_from
+    from bootcourse.scenario import DEFAULT
 
     if who in BUILT_IN:
         if teacher:
             raise BootcourseError(f"--teacher {teacher}: {', '.join(BUILT_IN)} drive without a teacher: leave it out.")
-        road, rng = scenario_from(scenario) if scenario else DEFAULT, np.random.default_rng(seed)
+        road, rng = scenario_at(scenario) if scenario else DEFAULT, np.random.default_rng(seed)
         built_in = {"rule": rule_policy(road), "idle": idle_policy, "random": random_policy(rng)}
         drivers = [Driver(who, built_in[who], road)]
     elif not Path(who).exists():
@@ -112,13 +113,12 @@ def agents_in(folder: Path, scenario: str, teacher: str, with_q: bool) -> list[D
     """The agent of each run in a folder."""
     from bootcourse.cli.training import teacher_from
     from bootcourse.learn.teachers import teacher_of
-    from bootcourse.scenario import scenario_from
     from bootcourse.storage.runs import find_runs, load_run
 
     drivers, rule = [], teacher_from(teacher)
     for path in find_runs(folder):
         run = load_run(path, rule)
-        road = scenario_from(scenario) if scenario else run.scenario
+        road = scenario_at(scenario) if scenario else run.scenario
         if road.observation_size != run.scenario.observation_size:
             raise BootcourseError(
                 f"{path} sees {run.scenario.observation_size} numbers, and {road.name} shows "
@@ -149,7 +149,7 @@ def drive(
     lookahead: int = LOOK_AHEAD,
 ) -> None:
     """Record one drive for figures and replays."""
-    from bootcourse.cli.training import register_learner
+    from bootcourse.cli.training import learner_from
     from bootcourse.episodes.record import record
     from bootcourse.files import check_replaceable
 
@@ -159,13 +159,13 @@ def drive(
         if path is not None:
             check_replaceable(path, ending)
     ask_for(out, png)
-    register_learner(learner)
-    drivers = drivers_of(who, scenario, seed, teacher, lookahead)
-    if len(drivers) > 1:
-        raise BootcourseError(f"{who} holds {len(drivers)} runs: name one, such as {Path(who) / drivers[0].label}.")
-    label, policy, road, _ = drivers[0]
-    label = label if label in BUILT_IN else label.rsplit("-", 1)[0]
-    rollout = record(policy, [seed], road, label + (f", {lookahead} ahead" if lookahead else ""))[0]
+    with learner_from(learner):
+        drivers = drivers_of(who, scenario, seed, teacher, lookahead)
+        if len(drivers) > 1:
+            raise BootcourseError(f"{who} holds {len(drivers)} runs: name one, such as {Path(who) / drivers[0].label}.")
+        label, policy, road, _ = drivers[0]
+        label = label if label in BUILT_IN else label.rsplit("-", 1)[0]
+        rollout = record(policy, [seed], road, label + (f", {lookahead} ahead" if lookahead else ""))[0]
     print(rollout.save(out))
     if png is not None:
         from bootcourse.plots.figure import save

@@ -6,13 +6,14 @@ import sys
 from pathlib import Path
 
 from bootcourse.errors import BootcourseError, described
+from bootcourse.scenario import Scenario, scenario_from
 
 PREFIX = "own file "  # of the name under which Python knows a user's file
 _folders: set[str] = set()  # of the files that were loaded
 
 
 def loaded(place: str, option: str, what: str):
-    """The function or class of "FILE.py:NAME". The file runs as with `python FILE.py`: it can import its neighbours.
+    """What "FILE.py:NAME" names. The file runs as with `python FILE.py`: it can import its neighbours.
 
     Raises BootcourseError if it is not there or does not load.
     """
@@ -32,9 +33,14 @@ def loaded(place: str, option: str, what: str):
     except (Exception, SystemExit) as error:  # whatever the user's file does
         del sys.modules[own]
         raise BootcourseError(f"{file} cannot be loaded: {described(error)}.") from error
-    if not callable(getattr(module, name, None)):
+    if not hasattr(module, name):
         raise BootcourseError(f"{file} has no {what} '{name}': write it there, or give another name.")
     return getattr(module, name)
+
+
+def scenario_at(place: str) -> Scenario:
+    """The scenario of a name, or of "FILE.py:NAME": a `Scenario` there, or a dictionary. Raises BootcourseError."""
+    return scenario_from(loaded(place, "--scenario", "scenario") if ":" in place else place)
 
 
 def find_neighbours(folder: str) -> None:

@@ -13,25 +13,28 @@ def in_float32(rows: torch.Tensor) -> None:
 
 
 def drawn_evenly(numbers: torch.Tensor, held: int) -> bool:
-    """Are `held` numbers drawn, each about as often as chance would?"""
-    counts = numbers.unique(return_counts=True)[1]
-    return len(counts) == held and bool(((counts * held / numbers.numel() - 1).abs() < 0.5).all())
+    """Are `held` numbers drawn, each as often as chance would? A count may be off by 6 standard deviations."""
+    counts, expected = numbers.unique(return_counts=True)[1], numbers.numel() / held
+    return len(counts) == held and bool(((counts - expected) ** 2 < 36 * expected * (1 - 1 / held)).all() or held == 1)
 
 
 def independent(numbers: torch.Tensor, held: int) -> bool:
     """Are these rows drawn each for itself, from `held` rows, in whatever order? numbers: (times, batch).
 
     Counted are the pairs of rows, within a batch and between a batch and the next, that lie a given number of places
-    apart, in a circle. Of independent draws all pairs are independent, two by two, so a count has the variance of a
-    binomial one. It may be off by 6 standard deviations: a right answer fails in fewer than 1 of 10⁷ checks.
+    apart, in a circle. They are compared with what the rows' own shares make of independent draws: then all pairs are
+    independent, two by two, so a count has the variance of a binomial one. It may be off by 6 standard deviations: a
+    right answer fails in fewer than 1 of 10⁷ checks.
     """
-    places = torch.arange(numbers.shape[1])
+    places, shares = torch.arange(numbers.shape[1]), torch.bincount(numbers.flatten().long() % held, minlength=held)
+    shares = shares / numbers.numel()
     within = (numbers[:, :, None] - numbers[:, None, :])[:, places[:, None] < places]
     between = numbers[1:, :, None] - numbers[:-1, None, :]
     for steps in (within.flatten().long() % held, between.flatten().long() % held):
         apart = torch.minimum(steps, held - steps)
         counts = torch.bincount(apart, minlength=held // 2 + 1)
-        share = torch.tensor([(1 if 2 * k in (0, held) else 2) / held for k in range(held // 2 + 1)])
+        share = torch.stack([(shares * shares.roll(k)).sum() * (1 if 2 * k in (0, held) else 2)
+                             for k in range(held // 2 + 1)])  # fmt: skip
         deviation = (len(steps) * share * (1 - share)).sqrt()
         if bool(((counts - len(steps) * share).abs() > 6 * deviation).any()):
             return False

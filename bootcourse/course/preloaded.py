@@ -9,7 +9,7 @@ from bootcourse.road.compiled import CACHE_FOLDER
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
 
-registry()
+list(registry())
 if CACHE_FOLDER is not None and any(CACHE_FOLDER.rglob("*.nbc")):
     env = TrapVectorEnv(1)
     observations, _ = env.reset(seed=0)

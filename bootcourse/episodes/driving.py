@@ -1,7 +1,7 @@
 """The loop that drives one episode on each road of an environment; evaluation, recording and demonstrations use it.
 
-The environment is a gymnasium `VectorEnv`, such as `TrapVectorEnv`. Where it has no true state `cars`, as all but the
-trap, the observations take their place.
+The environment is a gymnasium `VectorEnv`, such as `TrapVectorEnv`. Off the trap, observations take the place of the
+true state (see place.py).
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -11,12 +11,11 @@ import numpy as np
 from gymnasium.spaces import Box, Discrete
 from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 
+from bootcourse.episodes.place import place_of
 from bootcourse.errors import require
 from bootcourse.policies import Policy, PolicyOutput, check_policy
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
-
-TRAP = "Trap-v0"  # the id of the course's environment
 
 
 class Step(NamedTuple):
@@ -41,17 +40,17 @@ def steps(policy: Policy, env: VectorEnv, seeds: Sequence[int] | int) -> Iterato
     """
     if hasattr(check_policy(policy), "reset"):
         policy.reset(env.num_envs)
-    on_the_trap = hasattr(env, "cars")
+    place = place_of(env)
     observations, _ = env.reset(seed=seeds)
     running = np.ones(env.num_envs, dtype=bool)
     while running.any():
-        cars = env.cars.copy() if on_the_trap else observations
+        cars = place.state(env, observations).copy()
         output = policy(observations, cars)
         seen, rewards, terminated, truncated, infos = env.step(output.actions)
         reached = reached_observations(seen, infos)
         yield Step(
             running, observations, cars, output, rewards, terminated, truncated, reached,
-            reached_cars(env, reached, infos), infos,
+            place.state_reached(env, reached, infos), infos,
         )  # fmt: skip
         running = running & ~(terminated | truncated)
         observations = seen
@@ -67,13 +66,6 @@ def reached_observations(observations: np.ndarray, infos: dict) -> np.ndarray:
     reached, ended = observations.copy(), infos["_final_obs"]
     reached[ended] = np.stack(infos["final_obs"][ended])
     return reached
-
-
-def reached_cars(env: VectorEnv, reached: np.ndarray, infos: dict) -> np.ndarray:
-    """The true state that a step led to, as `reached_observations`, which are returned off the trap."""
-    if not hasattr(env, "cars"):
-        return reached
-    return np.where(infos["_final_obs"][:, None, None], env.final_cars, env.cars) if "final_obs" in infos else env.cars
 
 
 def one_episode_each(n: int, scenario: Scenario | None, make_env: Callable[[int], VectorEnv] | None) -> VectorEnv:
@@ -95,7 +87,7 @@ def copies_of(make_env: Callable[[int], VectorEnv], n: int) -> VectorEnv:
     env = make_env(n)
     is_right = isinstance(env, VectorEnv) and env.num_envs == n
     require(is_right, f"make_env({n}) returned {env!r:.80}, no vector environment of {n} copies: {wanted}.")
-    name, actions, observations = environment_id(env), env.single_action_space, env.single_observation_space
+    name, actions, observations = place_of(env).name, env.single_action_space, env.single_observation_space
     discrete = " gymnasium.wrappers.DiscretizeAction(env, bins=5) makes them of a Box." * isinstance(actions, Box)
     require(
         isinstance(actions, Discrete) and actions.start == 0,
@@ -112,11 +104,3 @@ def copies_of(make_env: Callable[[int], VectorEnv], n: int) -> VectorEnv:
         "(With vectorization_mode='async', add vector_kwargs={'autoreset_mode': 'SameStep'}.)",
     )
     return env
-
-
-def environment_id(env: VectorEnv) -> str:
-    """The id under which gymnasium knows an environment; its class where it is not registered."""
-    if hasattr(env, "cars"):
-        return TRAP
-    one = env.unwrapped.envs[0] if hasattr(env.unwrapped, "envs") else env
-    return one.spec.id if one.spec else type(one.unwrapped).__name__

@@ -8,6 +8,7 @@ from gymnasium.vector import VectorEnv
 
 from bootcourse.episodes.driving import one_episode_each, steps
 from bootcourse.episodes.infos import known_success, reported
+from bootcourse.episodes.place import place_of
 from bootcourse.errors import whole
 from bootcourse.policies import Policy
 from bootcourse.road.state import Accident
@@ -67,7 +68,7 @@ def drive_episodes(
     for i in range(0, len(seeds), together):
         part = list(seeds[i : i + together])
         env = one_episode_each(len(part), scenario, make_env)
-        parts.append(_drive(policy, env, part, (scenario or DEFAULT).clock.decision_rate))
+        parts.append(_drive(policy, env, part))
     success, returns, speed, distance, accident = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     success = known_success(success)
     return Episodes(
@@ -79,7 +80,7 @@ def drive_episodes(
     )
 
 
-def _drive(policy: Policy, env: VectorEnv, seeds: list[int], decision_rate: float) -> tuple[np.ndarray, ...]:
+def _drive(policy: Policy, env: VectorEnv, seeds: list[int]) -> tuple[np.ndarray, ...]:
     returns, decisions = np.zeros(len(seeds)), np.zeros(len(seeds))
     ends = {name: np.full(len(seeds), np.nan) for name in ("is_success", "distance", "accident")}
     for step in steps(policy, env, seeds):
@@ -89,7 +90,7 @@ def _drive(policy: Policy, env: VectorEnv, seeds: list[int], decision_rate: floa
         for name, values in ends.items() if ended.any() else ():
             values[ended] = reported(name, step.infos, len(seeds))[ended]
     success, distance, accident = ends.values()
-    return success, returns, distance / (decisions / decision_rate), distance, accident
+    return success, returns, distance / place_of(env).seconds(decisions), distance, accident
 
 
 def evaluate(

@@ -23,11 +23,12 @@ class Agent:
     critics: list[Tensor]  # those of the critics, mostly two, [(2, inputs, outputs), (2, 1, outputs), ...]; or none, []
     alpha: float  # the entropy coefficient at the end of the training; 0 for a method without one
     teach: Callable[[np.ndarray], np.ndarray] | None = None  # μ, for a method that drives with it: see `taught_by`
+    learner: type | None = None  # the class of its learner, if it is your own; None: that of its method
 
     @property
     def kind(self) -> type:
         """The class of its learner, which says how its networks decide."""
-        return METHODS[self.settings.method].learner_class()
+        return self.learner or METHODS[self.settings.method].learner_class()
 
     @property
     def needs_teacher(self) -> bool:

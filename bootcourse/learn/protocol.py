@@ -27,6 +27,7 @@ class Learner:
     """
 
     needs_teacher = False  # whether `driving_policy` depends on the teacher's actions μ(s)
+    settings_class: type[Settings] | None = None  # of a learner with settings of its own, a subclass of `Settings`
     device = torch.device("cpu")  # of all tensors: see `move_to`
     settings: list[Settings]
     agents: int

@@ -131,7 +131,7 @@ PLAN = record(  # of the training: an agent's `Settings`, and the number of epis
 )
 RUN = record(  # the state of the training, and room for one decision
     random=np.uint64,  # of SplitMix64
-    decisions=WHOLE,  # on each road
+    decisions=WHOLE,  # of the agent, on all its roads together
     updates=WHOLE,
     finished=WHOLE,  # episodes, as in curves.py
     demonstrations=WHOLE,  # rows of the memory with demonstrations
@@ -144,7 +144,6 @@ RUN = record(  # the state of the training, and room for one decision
     directions=(LONG, (VEHICLES, 2)),
     uniforms=(LONG, uniforms_needed(VEHICLES)),
     seen=(REAL, (ROADS + 1, SEEN)),
-    reached=(REAL, SEEN),
     rule_actions=(WHOLE, ROADS + 1),  # μ(s)
     decided=(WHOLE, ROADS),  # decisions of the running episodes, and their sums of
     earned=(LONG, ROADS),  # rewards

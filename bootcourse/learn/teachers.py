@@ -15,15 +15,17 @@ import hashlib
 import inspect
 import math
 import operator
+import sys
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from bootcourse.episodes.place import Place
 from bootcourse.errors import BootcourseError, RuleFailed, described
 from bootcourse.policies import Policy, policy_of
 from bootcourse.road.constants import constants
-from bootcourse.road.state import EGO, LANE, SPEED, X, Y
+from bootcourse.road.state import EGO, LANE, SPEED, X
 from bootcourse.rule import rule, track
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
@@ -51,22 +53,59 @@ def toward(cars: np.ndarray, speed: float, lane: int, scenario: Scenario = DEFAU
     return int(track(cars, float(speed), int(lane), constants(scenario)))
 
 
-def all_roads(many: Callable[[np.ndarray, Scenario], np.ndarray]):
+@dataclass(frozen=True)
+class MarkedRule:
+    """A rule, and what those who ask it must know. It is called as the rule itself."""
+
+    rule: Rule
+    answers_all_roads: bool = False  # in one call: (roads, vehicles, 10) -> (roads,)
+    is_slow: bool = False  # takes milliseconds: a training asks only if its method uses the answers (`asks_teacher`)
+    name: str = ""  # in the files of a run; "" for the function's
+
+    def __post_init__(self):
+        object.__setattr__(self, "__wrapped__", self.rule)  # `inspect` reads its source and its arguments there
+        object.__setattr__(self, "__name__", getattr(self.rule, "__name__", type(self.rule).__name__))
+        object.__setattr__(self, "__module__", getattr(self.rule, "__module__", type(self).__module__))
+
+    def __call__(self, *state):
+        return self.rule(*state)
+
+    def __reduce__(self):
+        """A rule that a module holds under its own name is copied and pickled as that name, as functions are."""
+        if getattr(sys.modules.get(self.__module__), self.__name__, None) is self:
+            return self.__name__
+        return MarkedRule, (self.rule, self.answers_all_roads, self.is_slow, self.name)
+
+
+def marked(rule: Rule) -> MarkedRule:
+    """The rule with its marks: it answers for one road and at once, if nobody said otherwise."""
+    return rule if isinstance(rule, MarkedRule) else MarkedRule(rule)
+
+
+def all_roads(rule: Rule) -> MarkedRule:
     """Mark a rule that computes the actions of all roads in one call, (roads, vehicles, 10) -> (roads,)."""
-    many.answers_for_all_roads = True
-    return many
+    return replace(marked(rule), answers_all_roads=True)
 
 
-def slow(my_rule: Rule) -> Rule:
+def slow(rule: Rule) -> MarkedRule:
     """Mark a rule that takes milliseconds: a training asks it only if its method uses the answers (`asks_teacher`)."""
-    my_rule.is_slow = True
-    return my_rule
+    return replace(marked(rule), is_slow=True)
+
+
+def with_name(rule: Rule, name: str) -> MarkedRule:
+    """The rule under another name in the files of a run, where one function makes several rules."""
+    return replace(marked(rule), name=name)
 
 
 @all_roads
 def course_rule(cars: np.ndarray, scenario: Scenario) -> np.ndarray:
     """The course's rule controller μ (Algorithm 1) as a teacher: the default."""
     return rule(cars, scenario).actions
+
+
+def default_teacher(place: Place) -> Rule | None:
+    """Who teaches where no teacher is given: the course's rule on the trap, elsewhere nobody."""
+    return course_rule if place.is_trap else None
 
 
 def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: int = N_ACTIONS) -> Teacher:
@@ -76,19 +115,20 @@ def teacher_of(my_rule: Rule, scenario: Scenario | None = DEFAULT, n_actions: in
     """
     if not callable(my_rule):
         raise BootcourseError(f"teacher = {my_rule!r:.80}: give a function that returns an action.")
-    asked = _Asked(my_rule, scenario, n_actions)
-    return asked.about_all if getattr(my_rule, "answers_for_all_roads", False) else asked.about_each
+    questions = _Questions(marked(my_rule), Place(scenario), n_actions)
+    return questions.for_all if questions.rule.answers_all_roads else questions.for_each
 
 
 @dataclass(frozen=True)
-class _Asked:
-    """A rule, and where it is asked."""
+class _Questions:
+    """Questions to a rule, and checks of its answers."""
 
-    rule: Rule
-    scenario: Scenario | None
+    rule: MarkedRule
+    place: Place
     n_actions: int
 
-    def about_all(self, cars: np.ndarray) -> np.ndarray:
+    def for_all(self, cars: np.ndarray) -> np.ndarray:
+        """The actions on all roads, (roads, vehicles, 10) -> (roads,), in one call."""
         actions = np.asarray(self._ask(cars, ALL))
         if actions.shape != (len(cars),) or actions.dtype.kind not in "iu":
             answered = f"actions of shape {actions.shape} and type {actions.dtype}"
@@ -97,7 +137,8 @@ class _Asked:
             raise self._failed(f"returned {actions[road]}, but {self._an_action_is}", cars[road])
         return actions
 
-    def about_each(self, cars: np.ndarray) -> np.ndarray:
+    def for_each(self, cars: np.ndarray) -> np.ndarray:
+        """The same, in a call for each road."""
         actions = np.empty(len(cars), dtype=np.int64)
         for road, state in enumerate(cars):
             action = self._ask(state.copy())  # your rule may write into it
@@ -109,26 +150,18 @@ class _Asked:
 
     def _ask(self, state: np.ndarray, where: str = ""):
         try:
-            return self.rule(state) if self.scenario is None else self.rule(state, self.scenario)
+            return self.rule(state, *self.place.told)
         except (Exception, SystemExit) as error:  # your rule may raise anything
-            if str(getattr(self.rule, "__module__", "")).startswith("bootcourse."):  # ours: it is a bug, and passes
-                raise
+            if str(getattr(self.rule.rule, "__module__", "")).startswith("bootcourse."):
+                raise  # an error in ours is a bug: it passes
             raise self._failed(f"raised {described(error)}", state, where) from error
 
     def _failed(self, how: str, state: np.ndarray, where: str = "") -> RuleFailed:
-        name = getattr(self.rule, "__name__", type(self.rule).__name__)
-        return RuleFailed(name, how, where or _place(state, self.scenario), state)
+        return RuleFailed(self.rule.__name__, how, where or self.place.in_words(state), state)
 
     @property
     def _an_action_is(self) -> str:
         return f"an action is a whole number from 0 to {self.n_actions - 1}"
-
-
-def _place(state: np.ndarray, scenario: Scenario | None) -> str:
-    """The state of one road in which a rule failed, in words."""
-    if scenario is None:
-        return f"for the observation {np.array2string(state, precision=3)}"
-    return f"with the ego at x = {state[EGO, X]:.1f} m, y = {state[EGO, Y]:.1f} m, {state[EGO, SPEED]:.1f} m/s"
 
 
 def is_action(action, n_actions: int = N_ACTIONS) -> bool:
@@ -155,9 +188,10 @@ def teacher_name(my_rule: Rule) -> str:
         return "none"
     if my_rule is course_rule:
         return "rule"
-    name = getattr(my_rule, "__qualname__", type(my_rule).__name__)
+    one = marked(my_rule)
+    name = one.name or getattr(one.rule, "__qualname__", type(one.rule).__name__)
     try:
-        source = inspect.getsource(my_rule).encode()
+        source = inspect.getsource(one.rule).encode()
     except (OSError, TypeError):  # without a source file, or not a function
-        source = getattr(getattr(my_rule, "__code__", None), "co_code", b"")
+        source = getattr(getattr(one.rule, "__code__", None), "co_code", b"")
     return f"{name} {hashlib.sha256(source).hexdigest()[:12]}"

@@ -22,7 +22,8 @@ import torch
 from gymnasium.vector import VectorEnv
 from torch import Tensor
 
-from bootcourse.episodes.driving import TRAP, copies_of, environment_id, reached_cars, reached_observations
+from bootcourse.episodes.driving import copies_of, reached_observations
+from bootcourse.episodes.place import TRAP_ID, place_of
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, check_known, require, whole
 from bootcourse.learn.agent import Agent, sample_actions
@@ -33,7 +34,7 @@ from bootcourse.learn.protocol import Learner, move_to
 from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.running import device_named, interrupt_after_step, one_torch_thread
 from bootcourse.learn.settings import Settings
-from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
+from bootcourse.learn.teachers import Rule, default_teacher, marked, teacher_name, teacher_of
 from bootcourse.methods import display_name
 from bootcourse.one_per_cell import this_cell
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -62,7 +63,7 @@ class Result:
     interrupted: bool
     stopped: dict[int, int] = field(default_factory=dict)  # {agent: the decision at which its loss was not finite}
     teacher: str = "rule"  # see `teachers.teacher_name`
-    environment: str = TRAP  # see `driving.environment_id`
+    environment: str = TRAP_ID  # the name of a `Place`
     learner: str = "torch"  # "compiled", or "own" for a learner of your own
 
     def __repr__(self) -> str:
@@ -108,20 +109,22 @@ class Training:
         make_learner: Callable[[Sequence[Settings], int, int], Learner] | None = None,
         learner: str = "torch",
     ):
-        if not settings:
-            raise BootcourseError("There are no agents: give the settings of at least one.")
-        if isinstance(settings, Settings):
-            raise BootcourseError(
-                "These are one agent's settings: give a list of them, such as with_seeds(settings, 4)."
-            )
+        _check_settings(settings)
         self.episodes = whole(episodes, "episodes", MOST_EPISODES, low=1)
         self.settings, self.make_env = list(settings), make_env
         self.n_agents, self.envs_per_agent = len(settings), settings[0].envs_per_agent
         n_envs = self.n_agents * self.envs_per_agent
         self.env = TrapVectorEnv(n_envs, scenario) if make_env is None else copies_of(make_env, n_envs)
-        self.on_the_trap = hasattr(self.env, "cars")
-        self.scenario = scenario if self.on_the_trap else None
+        self.place = place_of(self.env)
         size, self.n_actions = self.env.single_observation_space.shape[0], int(self.env.single_action_space.n)
+        self._make_learner(make_learner, learner, device, size)
+        self._set_teacher(default_teacher(self.place) if teacher is None else teacher)
+        rows = demonstrations_for(settings, demonstrations, self.teacher, self.scenario, make_env, self.n_actions)
+        self.replay = self.learner.make_buffer(size, rows)
+        self._begin(whole(first_seed, "first_seed"))
+
+    def _make_learner(self, make_learner: Callable | None, learner: str, device: str, size: int) -> None:
+        """The learner of the agents' method, torch's or the compiled one, or one of your own, on its device."""
         check_known("Learner", learner, LEARNERS)
         compiled = learner == "compiled"
         require(not (compiled and make_learner), 'A learner of your own is not compiled: leave out learner="compiled".')
@@ -131,15 +134,14 @@ class Training:
         self.learner = make(self.settings, size, self.n_actions)
         if device != "cpu":
             move_to(self.learner, device_named(device))
-        self._set_teacher(course_rule if teacher is None and self.on_the_trap else teacher)
-        rows = demonstrations_for(settings, demonstrations, self.teacher, self.scenario, make_env, self.n_actions)
-        self.replay = self.learner.make_buffer(size, rows)
+
+    def _begin(self, first_seed: int) -> None:
+        """The first episodes, the generators of each agent, and everything that is counted from 0."""
         self.curves = Curves(self.n_agents, self.envs_per_agent, self.episodes)
-        streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in settings]
+        streams = [np.random.SeedSequence([s.seed]).spawn(2) for s in self.settings]
         self.act_rngs = [np.random.default_rng(act) for act, _ in streams]
         self.sample_rngs = [np.random.default_rng(sample) for _, sample in streams]
-        first = whole(first_seed, "first_seed")
-        seeds = [first + s.seed * 1000 + env for s in settings for env in range(self.envs_per_agent)]
+        seeds = [first_seed + s.seed * 1000 + env for s in self.settings for env in range(self.envs_per_agent)]
         self.states, _ = self.env.reset(seed=seeds)
         self.rule_actions = self.taught()  # μ(s), (envs,)
         self.decisions, self.updates, self.seconds = 0, 0, 0.0
@@ -147,22 +149,27 @@ class Training:
         self.finished_agents: dict[int, Agent] = {}  # snapshots after their last episode
         self.stopped: dict[int, int] = {}  # {agent: the decision at which its loss was not finite}
         self.last_finite: dict[int, Agent] = {}  # {agent: a snapshot from an update with a finite loss}
-        self.beta_start = np.array([s.beta_start for s in settings])
-        self.beta_episodes = np.array([np.inf if s.beta_episodes is None else s.beta_episodes for s in settings])
+        self.beta_start = np.array([s.beta_start for s in self.settings])
+        self.beta_episodes = np.array([np.inf if s.beta_episodes is None else s.beta_episodes for s in self.settings])
 
     def _set_teacher(self, teacher: Rule | None) -> None:
         """Set the teacher, and whether it is asked in the states that the agents reach."""
         asking = [s for s in self.settings if s.asks_teacher]
         if asking and teacher is None:
             raise BootcourseError(
-                f"Method '{asking[0].method}' asks a teacher, and {environment_id(self.env)} has none: give "
+                f"Method '{asking[0].method}' asks a teacher, and {self.place.name} has none: give "
                 "teacher=my_rule, or choose a method without a teacher, such as 'sac'."
             )
         for settings in asking:
             check_p(settings.rule_p, "rule_p", self.n_actions)
         self.teacher = teacher
         self._teach = None if teacher is None else teacher_of(teacher, self.scenario, self.n_actions)
-        self.asks = teacher is not None and (bool(asking) or not getattr(teacher, "is_slow", False))
+        self.asks = teacher is not None and (bool(asking) or not marked(teacher).is_slow)
+
+    @property
+    def scenario(self) -> Scenario | None:
+        """The road's; None off the trap."""
+        return self.place.scenario
 
     @property
     def beta(self) -> np.ndarray:
@@ -178,7 +185,7 @@ class Training:
         """The teacher's actions in the present states, (envs,); zeros where it is not asked."""
         if not self.asks:
             return np.zeros(self.env.num_envs, dtype=np.int64)
-        return self._teach(self.env.cars if self.on_the_trap else self.states)
+        return self._teach(self.place.state(self.env, self.states))
 
     def change(self, **values) -> None:
         """Change settings of all agents from the next update on: rule_p, xi_multiplier, bonus or beta_start.
@@ -214,7 +221,7 @@ class Training:
         self.rule_actions = self.taught()
         reached_rule_actions = self.rule_actions.copy()
         if done.any() and self.asks:  # these roads are already reset: μ(s') is of the old episode's last state
-            reached_rule_actions[done] = self._teach(reached_cars(self.env, reached, infos)[done])
+            reached_rule_actions[done] = self._teach(self.place.state_reached(self.env, reached, infos)[done])
         rows = encode_transitions(decided_in, reached, actions, rewards, terminated, taught, reached_rule_actions)
         self.replay.add(rows.view(*shape, -1), done.reshape(shape))
         self.decisions += len(actions)
@@ -255,8 +262,6 @@ class Training:
         In a notebook, the curves and the present agent on the road take its place (see panels/watch.py).
         callback: called with this training after every decision.
         """
-        from bootcourse.progress import end_full, progress_bar
-
         watch = None
         if progress and this_cell() is not None:
             from bootcourse.panels.watch import watched
@@ -264,8 +269,7 @@ class Training:
             watch = watched(self)
         calls = [call for call in (callback, watch and watch.look) if call]
         started, before = time.perf_counter(), self.seconds
-        total, unit = (self.n_agents * self.episodes, "episode") if updates is None else (updates, "update")
-        bar = progress_bar(shown=progress and watch is None, total=total, unit=unit)
+        bar = _Bar(self, progress and watch is None, updates)
         with one_torch_thread(), bar, interrupt_after_step() as interrupted:
             try:
                 while not (self.done or interrupted.is_set()):
@@ -276,12 +280,9 @@ class Training:
                     self.seconds = before + time.perf_counter() - started
                     for call in calls:
                         call(self)
-                    so_far = np.minimum(self.curves.finished, self.episodes).sum() if updates is None else self.updates
-                    if progress and watch is None and so_far > bar.n:
-                        bar.set_postfix_str(_success(self.curves), refresh=False)
-                        bar.update(min(int(so_far), total) - bar.n)
+                    bar.show()
                 if not interrupted.is_set():
-                    end_full(bar)  # it is over as planned
+                    bar.end()
             except KeyboardInterrupt:
                 interrupted.set()
         result = self.result(interrupted=interrupted.is_set() or not self.done)
@@ -293,15 +294,49 @@ class Training:
         """The agents and curves so far."""
         agents = [self.finished_agents.get(i) or self.agent(i) for i in range(self.n_agents)]
         curves, name = {key: values.copy() for key, values in self.curves.values.items()}, teacher_name(self.teacher)
-        environment = environment_id(self.env)
-        learner, stopped = self.learner_name or "own", dict(self.stopped)
-        return Result(agents, curves, self.scenario, self.seconds, interrupted, stopped, name, environment, learner)
+        stopped, place, learner = dict(self.stopped), self.place, self.learner_name or "own"
+        return Result(agents, curves, place.scenario, self.seconds, interrupted, stopped, name, place.name, learner)
 
     def agent(self, i: int) -> Agent:
         """A snapshot of agent i."""
         return self.learner.agent(i).taught_by(self._teach)
 
 
-def _success(curves: Curves) -> str:
-    rates = curves.recent("success")
-    return "success " + " ".join("-" if np.isnan(rate) else f"{100 * rate:.0f}%" for rate in rates[:10])
+def _check_settings(settings: Sequence[Settings]) -> None:
+    if not settings:
+        raise BootcourseError("There are no agents: give the settings of at least one.")
+    if isinstance(settings, Settings):
+        raise BootcourseError("These are one agent's settings: give a list of them, such as with_seeds(settings, 4).")
+
+
+class _Bar:
+    """The progress of a training: its episodes, or its updates if their number is given, and the agents' success."""
+
+    def __init__(self, training: Training, shown: bool, updates: int | None):
+        from bootcourse.progress import progress_bar
+
+        self.training, self.by_updates = training, updates is not None
+        total, unit = (updates, "update") if self.by_updates else (training.n_agents * training.episodes, "episode")
+        self.shown, self.total, self.bar = shown, total, progress_bar(shown=shown, total=total, unit=unit)
+
+    def __enter__(self) -> "_Bar":
+        self.bar.__enter__()
+        return self
+
+    def __exit__(self, *error) -> None:
+        self.bar.__exit__(*error)
+
+    def show(self) -> None:
+        """Show how far the training is."""
+        curves = self.training.curves
+        so_far = self.training.updates if self.by_updates else np.minimum(curves.finished, self.training.episodes).sum()
+        if self.shown and so_far > self.bar.n:
+            rates = ("-" if np.isnan(rate) else f"{100 * rate:.0f}%" for rate in curves.recent("success")[:10])
+            self.bar.set_postfix_str("success " + " ".join(rates), refresh=False)
+            self.bar.update(min(int(so_far), self.total) - self.bar.n)
+
+    def end(self) -> None:
+        """Show that it is over as planned."""
+        from bootcourse.progress import end_full
+
+        end_full(self.bar)

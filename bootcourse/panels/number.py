@@ -40,8 +40,9 @@ class Number(widgets.VBox):
         for part, width in ((label, 92), (self.slider, 210), (self.field, 88), (self, 420)):
             part.layout.width = f"{width}px"
         self.show()
-        for control in (self.slider, self.field):
-            control.observe(lambda change: self._enter(change["new"]), "value")
+        dragged = (lambda value: float(f"{value:.2g}")) if logarithmic else float  # 180, and not 177.8279
+        self.slider.observe(lambda change: self._enter(dragged(change["new"])), "value")
+        self.field.observe(lambda change: self._enter(change["new"]), "value")
         self.observe(lambda change: self.show(), "value")
 
     def _enter(self, value: float) -> None:

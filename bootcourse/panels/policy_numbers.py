@@ -8,8 +8,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 import torch
-from scipy.special import xlogy
 
 from bootcourse.errors import BootcourseError
 from bootcourse.learn import bootstrap
@@ -52,7 +52,7 @@ def policy_numbers(
     price = -log_rule[0].numpy()
     shares = worth = optimum = None
     if policy is not None:
-        shares = xlogy(policy, policy) + policy * price
+        shares = scipy.special.xlogy(policy, policy) + policy * price
     if q is not None:
         worth = q - xi * price
         values = torch.from_numpy(np.asarray(q, dtype=np.float64))

@@ -1,18 +1,18 @@
 """A training while it learns: curves that grow, and the road on which the present agent drives beside its older self.
 
 `Training.run()` shows it in a notebook; `train_panel` has it below its sliders. A click on a curve puts the agent of
-that moment at the wheel. The page draws and drives; Python sends two sets of weights now and then, and the curves.
+that moment at the wheel. Python sends the weights of the present agent and the curves now and then; the page drives,
+and keeps the agents (web/watched.js).
 """
 
+import secrets
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 import traitlets
 
 from bootcourse import one_per_cell
-from bootcourse.learn.agent import Agent
 from bootcourse.learn.training import Result, Training
 from bootcourse.methods import display_name, style
 from bootcourse.plots.svg import INK, QUIET, Drawing, SvgAxes, drawing, line, printed, span, text
@@ -24,8 +24,6 @@ from bootcourse.web.widget import World
 SHOWN = ("success", "return", "entropy", "xi")  # of the measures
 LEFT, TOP, ACROSS, DOWN, WIDE, HIGH = 46, 58, 270, 176, 216, 110  # px, of the small charts
 SIZE = (2 * ACROSS + 10, 2 * DOWN + 40)
-KEEP, BEFORE = 100, 500  # updates between the agents that are kept, and to the agent beside
-AGENTS = 300  # kept at most: of more, every second one goes
 SHARE, PAUSE = 0.03, 1.0  # of the training's time, at most; s between two looks, at least
 FIRST_ROAD = 1_000_000  # which no agent has trained on
 Marks = list[tuple[int, str]]  # (episode, what was changed)
@@ -44,37 +42,34 @@ class Watch(World):
 
     def __init__(self, training: Training, button: bool = True):
         self.training, self.stopping, self.marks = training, False, []
-        methods = [settings.method for settings in training.settings]
-        self.number = methods.index(methods[-1])  # of the agent that is watched: of several methods the last's first
-        self.kept: list[tuple[int, int, Agent]] = []  # (updates, episodes, the agent)
-        self.spent, self._due, self._chosen = 0.0, 0.0, None
+        self.methods = [settings.method for settings in training.settings]
+        self.number = self.methods.index(self.methods[-1])  # of the agent that is watched: the last method's first
+        self.spent, self._due = 0.0, 0.0
         opens = {"road": FIRST_ROAD, "driver": "now", "ghost": "before", "pace": 2, "futures": 0, "view": "above"}
-        opens |= {"details": False, "height": SIZE[1] + 40, "watch": True, "run": True, "stop": button}
-        super().__init__(self._pair(), opens, training.scenario)
+        opens |= {"details": False, "height": SIZE[1] + 40, "watch": True, "run": True, "button": button}
+        opens |= {"training": secrets.token_hex(8)}
+        opens["axis"] = {"first": LEFT, "across": ACROSS, "wide": WIDE, "episodes": training.episodes}
+        super().__init__({"now": self._now()}, opens, training.scenario)
         self._draw()
 
     def look(self, training: Training) -> None:
-        """Called after each decision: now and then, send the curves, and let the present agent drive."""
+        """Called after each decision: now and then, send the curves and the present agent."""
         now = time.monotonic()
-        if training.updates >= (self.kept[-1][0] + KEEP if self.kept else 0):
-            self._keep(training)
         if now >= self._due:
             self.show_now(f"{training.updates:,} updates, {training.decisions:,} decisions")
             took = time.monotonic() - now
             self._due = now + max(PAUSE, took / SHARE)
-        self.spent += time.monotonic() - now
+            self.spent += took
 
     def show_now(self, words: str) -> None:
         """Send what there is now."""
         with self.hold_sync():
             self._draw()
             self.words = words
-            if self._chosen is None:
-                self.offer(**self._pair())
+            self.offer(now=self._now())
 
     def ended(self, result: Result) -> None:
-        """The training is over: the last agents stay."""
-        self._keep(self.training)
+        """The training is over: the last agent stays."""
         self.running = False
         self.show_now(f"{'Stopped' if result.interrupted else 'Done'} after {self.training.updates:,} updates")
         if self.handle is not None:
@@ -87,49 +82,21 @@ class Watch(World):
 
     def _draw(self) -> None:
         training = self.training
-        methods = [settings.method for settings in training.settings]
-        self.svg = training_chart(methods, training.curves.values, training.episodes, self.marks)
+        self.svg = training_chart(self.methods, training.curves.values, training.episodes, self.marks)
         self.chart = str(self.svg)
 
-    def _keep(self, training: Training) -> None:
-        self.kept.append((training.updates, self._episodes(), self._agent()))
-        if len(self.kept) > AGENTS:
-            del self.kept[1::2]
-
-    def _agent(self) -> Agent:
-        """The agent that is watched, without its critics if it drives without."""
-        agent = self.training.agent(self.number)
-        return replace(agent, critics=[]) if alone(agent) else agent
-
-    def _episodes(self) -> int:
-        return int(self.training.curves.finished[self.number])
-
-    def _pair(self) -> dict[str, Guest]:
-        """The present agent, or the one that was clicked, and the one of some hundred updates before."""
-        chosen = self._chosen or (self.training.updates, 0, self._agent())
-        before = [each for each in self.kept if each[0] <= chosen[0] - BEFORE] or self.kept[:1] or [chosen]
-        called = {"now": ("the agent now" if self._chosen is None else f"after {chosen[0]:,} updates", chosen),
-                  "before": (f"after {before[-1][0]:,} updates", before[-1])}  # fmt: skip
-        colour = {"colour": style(chosen[2].settings.method).colour}
-        pair = {name: guest(agent, 1, words) for name, (words, (_, _, agent)) in called.items()}
-        return {name: each._replace(told=each.told | colour) for name, each in pair.items()}
+    def _now(self) -> Guest:
+        """The present agent, for the page."""
+        training = self.training
+        now = guest(training.agent(self.number), 1)
+        more = {"updates": training.updates, "episodes": int(training.curves.finished[self.number])}
+        return now._replace(told=now.told | more)
 
     def _heard(self, widget, message: dict, buffers) -> None:
         if message.get("kind") == "stop":
             self.stopping = True
-        elif message.get("kind") == "choose":
-            self._choose(float(message["x"]))
         else:
             super()._heard(widget, message, buffers)
-
-    def _choose(self, x: float) -> None:
-        """A click on the curves, at so many pixels from the left: right of their end, the present agent again."""
-        episode = ((x - LEFT) % ACROSS) / WIDE * self.training.episodes
-        reached = int(self._episodes())
-        self._chosen = (
-            None if episode > reached else min(self.kept, key=lambda kept: abs(kept[1] - episode), default=None)
-        )
-        self.offer(**self._pair())
 
     def _repr_mimebundle_(self, **kwargs) -> tuple[dict, dict]:
         data, metadata = super()._repr_mimebundle_(**kwargs)
@@ -153,7 +120,7 @@ def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episod
         left, top = LEFT + (i % 2) * ACROSS, TOP + (i // 2) * DOWN
         limits = measure.limits or span(means.ravel(), measure.least)
         axes = SvgAxes(left, top, WIDE, HIGH, (0, max(episodes, 1)), limits)
-        axes.frame(measure.label, "episode")
+        axes.frame(measure.label.split(",")[0], "episode")
         for episode, changed in marks:
             x, y = axes.at(episode, axes.y[1])
             parts += [line(x, y, x, y + HIGH, QUIET, 1, 'stroke-dasharray="3 3"'), text(x + 3, y + 9, changed, size=9)]
@@ -174,9 +141,10 @@ _shown: dict[str, tuple[int, list[Watch]]] = {}  # cell: how often it had run, a
 
 
 def watched(training: Training) -> Watch | None:
-    """Show a training in the running cell of a notebook; None elsewhere, and off the trap."""
+    """Show a training in the running cell of a notebook; None elsewhere, off the trap, and for agents that need Python
+    to drive, because it is busy."""
     cell = one_per_cell.this_cell()
-    if cell is None or not training.on_the_trap:
+    if cell is None or not training.place.is_trap or not alone(training.agent(0)):
         return None
     from IPython import get_ipython
     from IPython.display import display

@@ -51,45 +51,54 @@ def traces(
     panel.
     """
     drives = [rollouts] if isinstance(rollouts, Rollout) else list(rollouts)
-    if not drives:
-        raise BootcourseError("There is no drive to draw: give a rollout, or a list of them.")
-    for panel in what:
-        check_known("Panel", panel, PANELS)
-    end = max(drive.times[-1] for drive in drives)
-    panels = [(panel, None) for panel in PANELS if panel in what and panel != "action"]
-    panels += [("action", i) for i in range(len(drives)) if "action" in what]
-    if not panels:
-        raise BootcourseError(f"There is nothing to draw: name one or more of {', '.join(PANELS)}.")
+    panels = _panels(drives, what)
     names, looks = _names(drives), _looks(drives)
     title = title or _title(drives, names)
-    heights = [PANELS[panel][1] for panel, _ in panels]
-    head = HEAD + LINE * len(wrapped(title).splitlines())
-    total = head + sum(heights) + GAP * (len(heights) - 1) + FOOT
-    figure, top = new_figure(total), head
-    for k, ((panel, i), height) in enumerate(zip(panels, heights, strict=True)):
-        ax = axes_at(figure, LEFT, top, WIDTH - LEFT - RIGHT, height)
-        top += height + GAP
-        label = PANELS[panel][0] if i is None else f"actions: {names[i]}"
-        plain_axes(ax, label)
+    figure, axes = _stacked([PANELS[panel][1] for panel, _ in panels], HEAD + LINE * len(wrapped(title).splitlines()))
+    end = max(drive.times[-1] for drive in drives)
+    for ax, (panel, i) in zip(axes, panels, strict=True):
+        plain_axes(ax, PANELS[panel][0] if i is None else f"actions: {names[i]}")
         ax.set_xlim(0, end)
         if i is None:
             _draw_panel(ax, panel, drives, looks)
         else:
             _draw_actions(ax, drives[i], looks[i].colour)
             ax.yaxis.label.set_color(looks[i].colour)
-        if k == 0 and i is None:
-            _write_names(ax, panel, drives, names, looks)
-        last = k == len(panels) - 1
-        ax.tick_params(axis="x", labelbottom=last)
-        if last:
-            ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
+        ax.tick_params(axis="x", labelbottom=ax is axes[-1])
+    if panels[0][1] is None:
+        _write_names(axes[0], panels[0][0], drives, names, looks)
+    axes[-1].set_xlabel("time (s)", fontsize=TEXT, color=INK)
+    drawn = ", ".join(panel for panel in PANELS if panel in what)
+    return finish(figure, title, f"Over {end:g} s, below each other: {drawn}. {_stories(drives, names, title)}")
+
+
+def _panels(drives: list[Rollout], what: Sequence[str]) -> list[tuple[str, int | None]]:
+    """The panels from above: (name, the drive whose actions it has, None for all drives)."""
+    if not drives:
+        raise BootcourseError("There is no drive to draw: give a rollout, or a list of them.")
+    for panel in what:
+        check_known("Panel", panel, PANELS)
+    panels = [(panel, None) for panel in PANELS if panel in what and panel != "action"]
+    panels += [("action", i) for i in range(len(drives)) if "action" in what]
+    if not panels:
+        raise BootcourseError(f"There is nothing to draw: name one or more of {', '.join(PANELS)}.")
+    return panels
+
+
+def _stacked(heights: Sequence[float], head: float) -> tuple[Figure, list]:
+    """A figure of axes of these heights below each other, under a title of height `head` (inches)."""
+    figure = new_figure(head + sum(heights) + GAP * (len(heights) - 1) + FOOT)
+    tops = [head + sum(heights[:k]) + GAP * k for k in range(len(heights))]
+    return figure, [axes_at(figure, LEFT, top, WIDTH - LEFT - RIGHT, h) for top, h in zip(tops, heights, strict=True)]
+
+
+def _stories(drives: list[Rollout], names: list[str], title: str) -> str:
+    """What came of each drive, and how it ended where the title does not say so."""
     stories = []
     for each, drive in zip(names, drives, strict=True):
         ending = outcome(drive)
         stories.append(f"{each}: {_numbers(drive)}" if ending in title else f"{each}: {ending}, {_numbers(drive)}")
-    drawn = ", ".join(panel for panel in PANELS if panel in what)
-    alt = f"Over {end:g} s, below each other: {drawn}. Whole drives: {'; '.join(stories)}."
-    return finish(figure, title, alt)
+    return f"Whole drives: {'; '.join(stories)}."
 
 
 def _names(drives: list[Rollout]) -> list[str]:

@@ -3,7 +3,7 @@
 It is HTML and CSS without scripts, and takes its text colour from the page.
 """
 
-from scipy.special import rel_entr
+import scipy
 
 from bootcourse.colours import ALARM, TRAP
 from bootcourse.episodes.rollout import Rollout, series
@@ -123,7 +123,7 @@ def _choice(timeline: Timeline, t: float) -> Markup:
         rows.append(html(row, "on" if taken else "", "▸" if taken else " ", name, drawn, cells))
     page = html("<table>{}</table>", joined(rows))
     if len(bars) == 2:
-        kl = rel_entr(*(numbers for _, numbers in bars)).sum()
+        kl = scipy.special.rel_entr(*(numbers for _, numbers in bars)).sum()
         page += html("<div>KL(π‖π̃) = <b>{:.2f}</b> nats</div>", kl)
     if rollout.policy is not None and rollout.q_values is None:
         page += Markup('<div class="dim">No Q: this agent has none, or it was not recorded.</div>')

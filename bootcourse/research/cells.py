@@ -23,7 +23,7 @@ from bootcourse.storage.work import Checkpoints
 
 VARIED = ("sac", "soft", "demos", "bootstrapped")  # the paper's ablation
 TESTS = 1000  # held-out episodes of each agent
-CURVES = ("success", "return", "xi", "decisions")  # of trained agents that ship
+SHIPPED_CURVES = ("success", "return", "xi", "decisions")  # of trained agents that ship
 SECONDS_BETWEEN = 60.0  # of checkpoints
 
 

@@ -71,7 +71,8 @@ def words_of(experiment: str) -> str:
     return re.split(r"(?<=[.?])\s", text, maxsplit=1)[0].replace("\n", " ")
 
 
-study.__doc__ += "".join(f"\n\n    {name}: {words_of(name)}" for name in EXPERIMENTS)
+LISTED = "".join(f"\n\n    {name}: {words_of(name)}" for name in EXPERIMENTS)
+study.__doc__ = f"{study.__doc__}{LISTED}"  # what `--help` prints
 
 
 def compute(wanted: list, out: Path, after: Callable[[list[str]], None], **how) -> int:

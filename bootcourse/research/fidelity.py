@@ -35,7 +35,7 @@ class FidelityRow(NamedTuple):
     reason: str
 
 
-def judge(results: Results, method: str, column: str) -> FidelityRow:
+def verdict_on(results: Results, method: str, column: str) -> FidelityRow:
     """The verdict on one number. The mean over agents is compared, as the paper prints means."""
     paper = paper_interval(method, column)
     if method not in results.methods:
@@ -61,7 +61,7 @@ def judge(results: Results, method: str, column: str) -> FidelityRow:
 
 def fidelity(results: Results) -> list[FidelityRow]:
     """A finding for every number of the two tables (a row that stands in both is judged once)."""
-    return [judge(results, method, column) for method in PRINTED for column in COLUMNS]
+    return [verdict_on(results, method, column) for method in PRINTED for column in COLUMNS]
 
 
 def fidelity_table(findings: dict[str, list[FidelityRow]]) -> str:

@@ -17,7 +17,7 @@ from gymnasium.vector import AutoresetMode
 
 from bootcourse.episodes.driving import steps
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.teachers import Rule
+from bootcourse.learn.teachers import MarkedRule, with_name
 from bootcourse.policies import PlanPolicy, Policy, idle_policy, rule_policy
 from bootcourse.road.branching import expand, future_worth
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, TRAP_1, X, Y
@@ -130,7 +130,7 @@ def follow(plans: Sequence[Plan]) -> PlanPolicy:
     return PlanPolicy(table)
 
 
-def planner_rule(search: Search | None = None) -> Rule:
+def planner_rule(search: Search | None = None) -> MarkedRule:
     """The planner as a teacher: it plans anew at each decision, 15 ahead with a beam of 30, and takes the first action.
 
     A decision takes about ten milliseconds. Beyond its horizon it assumes an empty road: see `future_worth`.
@@ -140,8 +140,7 @@ def planner_rule(search: Search | None = None) -> Rule:
     def planned(cars: np.ndarray, scenario: Scenario) -> int:
         return int(plan(cars, scenario, search).actions[0])
 
-    planned.__qualname__ = f"planner, beam {search.beam}, {search.decisions or 'all'} decisions"  # see `teacher_name`
-    return planned
+    return with_name(planned, f"planner, beam {search.beam}, {search.decisions or 'all'} decisions")
 
 
 @dataclass(frozen=True)

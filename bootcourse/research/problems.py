@@ -23,7 +23,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from bootcourse.episodes.success import Success
-from bootcourse.learn.teachers import Rule, all_roads
+from bootcourse.learn.teachers import Rule, all_roads, with_name
 from bootcourse.research.teachers import hashed
 
 MakeEnv = Callable[[], gym.Env]
@@ -237,8 +237,7 @@ def right_in(share: float, rule: Rule, n_actions: int) -> Rule:
         other = 1 + (hashed(seen, 2) * (n_actions - 1)).astype(np.int64)
         return (rule(seen) + np.where(hashed(seen, 1) < share, 0, other)) % n_actions
 
-    partly.__qualname__ = f"{rule.__name__}, right in {100 * share:g} % of states"
-    return partly
+    return with_name(partly, f"{rule.__name__}, right in {100 * share:g} % of states")
 
 
 def wrong_where(region: Callable[[np.ndarray], np.ndarray], rule: Rule, n_actions: int) -> Rule:
@@ -248,8 +247,7 @@ def wrong_where(region: Callable[[np.ndarray], np.ndarray], rule: Rule, n_action
     def partly(seen: np.ndarray) -> np.ndarray:
         return (rule(seen) + region(seen)) % n_actions
 
-    partly.__qualname__ = f"{rule.__name__}, wrong in a region"
-    return partly
+    return with_name(partly, f"{rule.__name__}, wrong in a region")
 
 
 @dataclass(frozen=True)

@@ -158,23 +158,33 @@ def load_results(path: Path) -> Results:
     if not {"agents", "stopped"} <= arrays.keys():
         raise BootcourseError(f"{path} does not hold a study's results: {RUN_AGAIN}.")
     arrays.pop("provenance", None)
+    agents = _agents(str(arrays.pop("agents")), path)
+    parts = {part: _part(arrays, part) for part in PARTS}
+    check_arrays(arrays, _shapes(arrays, parts, len(agents)), path, RUN_AGAIN)
+    return Results(agents, arrays["stopped"], **parts, seconds=arrays.get("seconds"))
+
+
+def _agents(text: str, path: Path) -> list[dict]:
+    """`Results.agents` of a file, checked as settings of this version."""
+    agents = []
     with decoding(path, RUN_AGAIN):
-        stored = parse(str(arrays.pop("agents")), list[dict[str, Any]], path, RUN_AGAIN)
-        agents = []
-        for agent in stored:
+        for agent in parse(text, list[dict[str, Any]], path, RUN_AGAIN):
             teacher = str(agent.pop("teacher"))
             rule = agent.get("method") == "rule"  # it has no settings
             agents += [agent | {"teacher": teacher}] if rule else agent_entries([stored_settings(agent)], teacher)
-    parts = {part: _part(arrays, part) for part in PARTS}
-    n, tests = len(agents), [each.shape[1:2] for each in parts["tested"].values()][:1]
-    shapes = {f"tested.{f.name}": (n, *tests[0]) for f in fields(Episodes)} if tests else {}
+    return agents
+
+
+def _shapes(arrays: dict[str, np.ndarray], parts: dict[str, dict[str, np.ndarray]], n: int) -> dict[str, tuple]:
+    """The shapes that the arrays of a file with n agents must have; within a part the first array tells the length."""
+    shapes: dict[str, tuple] = {name: (n,) for name in ("stopped", "seconds") if name in arrays}
+    tests = [each.shape[1:2] for each in parts["tested"].values()][:1]
+    shapes |= {f"tested.{f.name}": (n, *tests[0]) for f in fields(Episodes)} if tests else {}
     for part in ("curves", "notes"):
         points = [each.shape[1:2] for each in parts[part].values()][:1]
         shapes |= {f"{part}.{name}": (n, *points[0]) for name in parts[part]}
     shapes |= {f"measured.{name}": (n,) for name in parts["measured"]}
-    shapes |= {f"weights.{name}": each.shape for name, each in parts["weights"].items()}
-    check_arrays(arrays, shapes | {name: (n,) for name in ("stopped", "seconds") if name in arrays}, path, RUN_AGAIN)
-    return Results(agents, arrays["stopped"], **parts, seconds=arrays.get("seconds"))
+    return shapes | {f"weights.{name}": each.shape for name, each in parts["weights"].items()}
 
 
 def _part(arrays: dict[str, np.ndarray], part: str) -> dict[str, np.ndarray]:

@@ -101,10 +101,10 @@ def time_needed(jobs: Sequence[Job], root: Path, workers: int | None) -> str:
     cores = min(workers or usable_processors(), len(jobs))
     others = len(jobs) - len(known)
     also = f", and {others} that nobody has timed" * (others > 0)
-    return f"About {in_words(sum(known) / cores)} on {cores} core{'s' * (cores > 1)} without other work{also}."
+    return f"About {duration(sum(known) / cores)} on {cores} core{'s' * (cores > 1)} without other work{also}."
 
 
-def in_words(seconds: float) -> str:
+def duration(seconds: float) -> str:
     """ "40 minutes", "3.5 hours"."""
     return f"{seconds / 3600:.1f} hours" if seconds >= 5400 else f"{max(1, round(seconds / 60))} minute(s)"
 

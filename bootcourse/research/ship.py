@@ -29,7 +29,7 @@ from bootcourse.storage.assets import FOLDER, FORMAT, LIMIT, MANIFEST, Entry, re
 from bootcourse.storage.runs import load_run
 from bootcourse.storage.sealed import write_sealed
 
-CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
+STUDY_CURVES = ("success", "return", "speed", "distance", "accident", "entropy")  # the others are in runs/
 RUNS = 5  # training seeds whose weights ship; curves and scores ship of all
 PICTURES = (
     "readme",
@@ -133,7 +133,7 @@ def add_studies(to: Shipment) -> None:
             if part == "default" and not path.exists():
                 raise BootcourseError(f"{to.study} has no finished jobs in jobs/default: compute them first.")
             continue
-        to.add_results(load_jobs(to.study, part), path, part, CURVES)
+        to.add_results(load_jobs(to.study, part), path, part, STUDY_CURVES)
         if part in study.bound:
             best = to.new / f"bound-{part}.npz"
             write_arrays(best, {"returns": study.bound[part].astype(np.float32)})

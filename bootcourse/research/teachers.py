@@ -13,7 +13,7 @@ import numpy as np
 
 from bootcourse.episodes.lookahead import HORIZON, rollout_values
 from bootcourse.errors import check_known
-from bootcourse.learn.teachers import Rule, all_roads, course_rule, slow
+from bootcourse.learn.teachers import Rule, all_roads, course_rule, slow, with_name
 from bootcourse.policies import rule_policy
 from bootcourse.research.planner import planner_rule
 from bootcourse.road.state import ACCELERATION, COLUMNS, HEADING, LANE, SPEED, TARGET_LANE, TRAFFIC, X, Y
@@ -55,8 +55,7 @@ def at_random(share: float) -> Rule:
         drawn = (N_ACTIONS * chance(cars, 2)).astype(np.int64)
         return np.where(chance(cars, 1) < share, drawn, course_rule(cars, scenario))
 
-    partly_random.__qualname__ = f"rule, {100 * share:g} % at random"  # see `teacher_name`
-    return partly_random
+    return with_name(partly_random, f"rule, {100 * share:g} % at random")
 
 
 @all_roads
@@ -104,8 +103,7 @@ def remembering_planner() -> Rule:
     def planner(cars: np.ndarray, scenario: Scenario) -> int:
         return planned(cars.tobytes(), scenario)
 
-    planner.__qualname__ = plan.__qualname__
-    return slow(planner)
+    return slow(with_name(planner, plan.name))
 
 
 @slow

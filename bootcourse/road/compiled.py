@@ -22,23 +22,14 @@ from pathlib import Path
 import numba
 from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
 from numba.core.caching import FunctionCache
-from platformdirs import user_cache_dir
 
-PACKAGE = Path(__file__).resolve().parent.parent
+from bootcourse.caches import PACKAGE, cache_places
 
 
 def sources(package: Path) -> list[Path]:
     """The files whose text the cache depends on: all of `road`, and every other file with a compiled function."""
     files = sorted([*package.glob("*.py"), *package.glob("*/*.py")])
     return [file for file in files if file.parent.name == "road" or b"\n@compiled" in file.read_bytes()]
-
-
-def cache_places() -> list[Path]:
-    """Where compiled code may be kept, the best place first: numba's own NUMBA_CACHE_DIR, if it is set, goes first."""
-    chosen, own = os.environ.get("NUMBA_CACHE_DIR"), []
-    with suppress(RuntimeError):  # a user without a home folder
-        own = [Path(user_cache_dir("bootcourse"))]
-    return [*([Path(chosen)] if chosen else []), PACKAGE / "__pycache__", *(each for each in own if each.is_absolute())]
 
 
 def cache_folder(files: list[Path], places: list[Path], kind: str = "numba") -> tuple[Path | None, str]:

@@ -56,7 +56,7 @@ def save_checkpoint(training: Training, path: Path) -> None:
 
     Raises BootcourseError off the trap, for a learner of your own, which no file can hold, or if it cannot be written.
     """
-    if not training.on_the_trap:
+    if not training.place.is_trap:
         raise BootcourseError("Only a training on the trap can be saved and resumed: let this one run to its end.")
     if training.learner_name is None:
         raise BootcourseError("A training with a learner of your own cannot be saved: let this one run to its end.")

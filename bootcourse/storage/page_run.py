@@ -16,6 +16,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import LARGEST_ARRAYS, check_arrays, decoding, parse, read_bytes
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.curves import NAMES
+from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.settings import stored_settings
 from bootcourse.learn.teachers import course_rule, teacher_of
 from bootcourse.storage.runs import Config, Run, networks_of
@@ -57,8 +58,8 @@ def read_page_run(path: Path) -> Run:
     check_arrays(log_alpha, {"log_alpha": (1,)}, path, AGAIN)
     targets = [name for name in tensors if name.startswith("targets.")]
     targets = {name.replace("targets", "critics"): tensors.pop(name) for name in targets}
-    actor, critics = networks_of(tensors, settings, config.scenario, path, AGAIN)
-    networks_of({**tensors, **targets}, settings, config.scenario, path, AGAIN)
+    actor, critics = networks_of(tensors, settings, config.scenario, path, SACLearner, AGAIN)
+    networks_of({**tensors, **targets}, settings, config.scenario, path, SACLearner, AGAIN)
     taught = teacher_of(course_rule, config.scenario)
     agent = Agent(settings, actor, critics, config.alpha, taught)
     told = {name: getattr(told, name) for name in told.__struct_fields__}

@@ -10,6 +10,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+from contextlib import nullcontext
 from dataclasses import asdict, dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -21,7 +22,7 @@ from msgspec import Meta, Struct, convert
 from safetensors.torch import save
 from torch import Tensor
 
-from bootcourse.episodes.driving import TRAP
+from bootcourse.episodes.place import TRAP_ID, Place
 from bootcourse.errors import BootcourseError
 from bootcourse.files import (
     TEMPORARY,
@@ -38,10 +39,11 @@ from bootcourse.files import (
 )
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.curves import NAMES
+from bootcourse.learn.protocol import Learner
 from bootcourse.learn.settings import Settings, stored_settings
-from bootcourse.learn.teachers import Rule, course_rule, teacher_name, teacher_of
+from bootcourse.learn.teachers import Rule, default_teacher, teacher_name, teacher_of
 from bootcourse.learn.training import Result
-from bootcourse.methods import METHODS
+from bootcourse.methods import METHODS, method_of, own_method
 from bootcourse.scenario import N_ACTIONS, Scenario
 from bootcourse.storage.sealed import amiss, read_sealed, write_sealed
 
@@ -60,7 +62,7 @@ class Config(Struct, forbid_unknown_fields=True):
     scenario: Scenario | None  # None off the trap
     episodes: Annotated[int, Meta(ge=1)]
     alpha: Annotated[float, Meta(ge=0)]
-    environment: str = TRAP  # see `environment_id`
+    environment: str = TRAP_ID  # the name of a `Place`
 
 
 class Provenance(Struct):
@@ -142,12 +144,15 @@ def _save_run(path: Path, agent: Agent, curves: dict[str, np.ndarray], result: R
         raise
 
 
-def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -> Run:
+def load_run(
+    path: Path, teacher: Rule | None = None, environment: str = TRAP_ID, learner: type[Learner] | None = None
+) -> Run:
     """Read and check a run: its folder, or the file that the page that learns saved of an agent.
 
     teacher: its teacher in training, which the agents of some methods need to drive. environment: the id of the
-    environment that it trained in. Raises BootcourseError, with the file and the remedy, if a file is missing or
-    damaged, or for another teacher or environment.
+    environment that it trained in. learner: the class that it trained with, if that is your own. Raises
+    BootcourseError, with the file and the remedy, if a file is missing or damaged, or for another teacher, environment
+    or learner.
     """
     path = Path(path)
     if path.is_file() and path.suffix == ".safetensors":
@@ -163,23 +168,27 @@ def load_run(path: Path, teacher: Rule | None = None, environment: str = TRAP) -
         if sentence := amiss(path / name, stored.sha256.get(name, ""), TRAIN_AGAIN):
             raise BootcourseError(sentence)
     config = read_json(path / "config.json", Config, TRAIN_AGAIN)
-    if (method := config.settings.get("method")) not in METHODS:
-        own = "if it is a learner of your own, add the --learner FILE.py:CLASS that it was trained with"
-        raise BootcourseError(f"{path} was trained with {method!r:.80}, which is no method here: {own}.")
+    if (method := config.settings.get("method")) not in METHODS and (learner is None or learner.__name__ != method):
+        own = "add the --learner FILE.py:CLASS that it was trained with, or learner= to load_run"
+        raise BootcourseError(
+            f"{path} was trained with {method!r:.80}, which is no method here: if it is a learner of your own, {own}."
+        )
     if (there := config.environment) != environment:
         raise BootcourseError(
             f"{path} was trained in {there:.80}, not in {environment}: give environment={there!r:.80}."
         )
-    with decoding(path / "config.json", TRAIN_AGAIN):
+    known = nullcontext() if method in METHODS else own_method(method, method_of(learner))
+    with known, decoding(path / "config.json", TRAIN_AGAIN):
         settings = stored_settings(config.settings)
     curves = read_arrays(path / "curves.npz", TRAIN_AGAIN)
     shapes = dict.fromkeys(curves.keys() & set(NAMES), (config.episodes,))
     check_arrays(curves, shapes, path / "curves.npz", TRAIN_AGAIN)
+    kind = learner or METHODS[method].learner_class()
     weights = path / "weights.safetensors"
-    actor, critics = networks_of(read_tensors(weights, TRAIN_AGAIN), settings, config.scenario, weights)
-    teacher = course_rule if teacher is None and config.scenario else teacher
+    actor, critics = networks_of(read_tensors(weights, TRAIN_AGAIN), settings, config.scenario, weights, kind)
+    teacher = default_teacher(Place(config.scenario)) if teacher is None else teacher
     taught = None if teacher is None else teacher_of(teacher, config.scenario, actor[-1].shape[2])
-    agent = Agent(settings, actor, critics, config.alpha, taught)
+    agent = Agent(settings, actor, critics, config.alpha, taught, learner)
     if agent.needs_teacher and stored.teacher != teacher_name(teacher):
         raise BootcourseError(
             f"{path} drives with the teacher '{stored.teacher}', not '{teacher_name(teacher)}': give the same teacher."
@@ -192,6 +201,7 @@ def networks_of(
     settings: Settings,
     scenario: Scenario | None,
     path: Path,
+    kind: type[Learner],
     remedy: str = TRAIN_AGAIN,
 ) -> tuple[list[Tensor], list[Tensor]]:
     """The actor and the critics of a file, of the shapes of networks.py. Raises BootcourseError for others."""
@@ -201,7 +211,7 @@ def networks_of(
         inputs, outputs = scenario.observation_size, N_ACTIONS
     layers = list(pairwise((inputs, *settings.hidden, outputs)))
     rows = [(inputs, outputs) for n_in, outputs in layers for inputs in (n_in, 1)]
-    networks = (("actor", 1), ("critics", METHODS[settings.method].learner_class().n_critics(settings)))
+    networks = (("actor", 1), ("critics", kind.n_critics(settings)))
     shapes = {f"{name}.{i}": (n, *row) for name, n in networks if n for i, row in enumerate(rows)}
     check_arrays(weights, shapes, path, remedy)
     if not all(np.isfinite(values).all() for values in weights.values()):

@@ -164,10 +164,10 @@ def content() -> dict[str, str]:
 
 
 def page() -> str:
-    """The whole page as text."""
+    """The whole page as text. Raises BootcourseError where no results ship."""
     text = (HERE / "page.html").read_text(encoding="utf-8")
     styles = "".join(map(text_of, ("theme.css", "controls.css", "page.css", "learn.css")))
-    numbers = json.loads((FOLDER / "report/ablation.json").read_text(encoding="utf-8"))  # ours and the paper's
+    numbers = json.loads(shipped("report/ablation.json").read_text(encoding="utf-8"))  # ours and the paper's
     numbers["colours"] = {method: style(method).colour for method in LEARNABLE}
     data = bundle.content()["data"].removesuffix("}") + f',"ablation":{json.dumps(numbers)}}}'
     parts = {"style": styles, "learn": text_of("learn.html"), "data": data}

@@ -1,6 +1,6 @@
 """The text of the world's module: the scripts of this folder one after the other, and what they are given to work on.
 
-The compiled road, the agents and the car take half a minute to make (build.py), so they are kept in a file whose name
+The compiled road, the agents and the car take a minute to make (build.py), so they are kept in a file whose name
 is a hash of everything that they are made of. Nothing here imports what makes them, so a notebook shows its first
 picture at once.
 """
@@ -9,11 +9,11 @@ import hashlib
 import json
 import re
 import sys
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
-from platformdirs import user_cache_dir
-
+from bootcourse.caches import cache_places
 from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes
 
@@ -53,23 +53,24 @@ def module() -> str:
 
 def notebook_module() -> str:
     """The same as an ES module for notebooks, with its data in it."""
-    return "\n".join(
-        [module(), f"const DATA = {content()['data']};", script("widget"), "export { mount, show, DATA };"]
-    )
+    data = json.loads(content()["data"])
+    data.pop("learning", None)  # in a notebook, Python trains
+    texts = [module(), f"const DATA = {json.dumps(data)};", script("watched"), script("widget")]
+    return "\n".join([*texts, "export { mount, show, DATA };"])
 
 
 @cache
 def content() -> dict[str, str]:
     """What build.py makes: "names" and "data" for the scripts, and "picture", an SVG for readers without a kernel."""
-    name, places = f"world-{_hash()}.json", [PACKAGE / "__pycache__", Path(user_cache_dir("bootcourse"))]
-    for place in places:
-        if (place / name).is_file():
+    name = f"world-{_hash()}.json"
+    for place in cache_places():
+        with suppress(OSError, ValueError):  # it is not there, or a power cut has damaged it
             return json.loads((place / name).read_text(encoding="utf-8"))
-    print("The road is compiled for the browser, once: about half a minute.", file=sys.stderr)
+    print("The road is compiled for the browser, once: about a minute.", file=sys.stderr)
     from bootcourse.web import build
 
     made = build.content()
-    for place in places:
+    for place in cache_places():
         try:
             write_bytes(place / name, json.dumps(made).encode())
             break

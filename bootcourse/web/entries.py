@@ -7,7 +7,9 @@ over many roads allocate arrays, which WebAssembly without numba's runtime canno
 import numba
 from numba import types
 
-from bootcourse.learn import compiled, compiled_training, records
+from bootcourse.learn import records
+from bootcourse.learn.compiled import update
+from bootcourse.learn.compiled_training import advance, begin, demonstrate
 from bootcourse.road import twin
 from bootcourse.road.constants import constants
 from bootcourse.road.formulas import weighted_reward
@@ -76,14 +78,14 @@ ENTRIES = {
     "observe": (observe.py_func, (CARS, SCENARIO, _array(types.float32, 1))),
     "decide": (decide, (CARS, types.int64, SCENARIO, ORDER, AROUND, CARS, REALS, TRACE)),
     "rule": (rule, (CARS, SCENARIO, ORDER, AROUND, REALS)),
-    "update": (compiled.update.py_func, (AGENT, BATCH, COEFFICIENTS, WORK)),
-    "begin": (compiled_training.begin.py_func, (AGENT, PLAN, RUN, types.int64, SCENARIO)),
+    "update": (update.py_func, (AGENT, BATCH, COEFFICIENTS, WORK)),
+    "begin": (begin.py_func, (AGENT, PLAN, RUN, types.int64, SCENARIO)),
     "demonstrate": (
-        compiled_training.demonstrate.py_func,
+        demonstrate.py_func,
         (RUN, MEMORY, COEFFICIENTS, PLAN, SCENARIO, types.int64),
     ),
     "advance": (
-        compiled_training.advance.py_func,
+        advance.py_func,
         (AGENT, BATCH, COEFFICIENTS, WORK, PLAN, RUN, MEMORY, CURVES, SCENARIO, types.int64),
     ),
 }

@@ -11,6 +11,8 @@ const SHORT = { p: "rule_p", xi: "xi_multiplier", xiFixed: "xi_fixed", c: "bonus
   betaEpisodes: "beta_episodes", eta: "target_entropy", alpha: "alpha_init", roads: "envs_per_agent" };
 const READABLE = { success: "escaped", return: "returns", speed: "speeds", distance: "distances", accident: "accidents",
   entropy: "entropies", decisions: "lengths" }; // what `trap.learn` returns
+const AT_START = ["seed", "alpha_init", "envs_per_agent", "buffer_size", "learning_starts", "demonstration_episodes",
+  "stochastic_demonstrations"]; // settings that cannot change while an agent learns
 const EVERY = 20; // episodes between two snapshots of the agent
 
 // The library's settings of an agent, out of what was asked for. Throws an Error whose message says what is wrong.
@@ -115,8 +117,10 @@ class Learner {
   }
 
   // Change p, xi, xiFixed, c, beta, betaEpisodes, eta, gamma ... from now on; `marks` keeps what was changed when.
+  // Throws an Error for a value that is not right, and for a setting that is one of the start alone.
   set(asked) {
-    const changes = changesOf(this.learning, asked);
+    const changes = changesOf(this.learning, asked), late = Object.keys(changes).find(name => AT_START.includes(name));
+    if (late) throw new Error(`${late} is set when an agent begins: start another one.`);
     Object.assign(this.settings, changes);
     this.marks.push({ episode: this.episode, changes });
     this.worker.postMessage({ kind: "set", changes });

@@ -9,7 +9,7 @@ from typing import get_args
 
 import numpy as np
 
-from bootcourse.episodes.driving import TRAP
+from bootcourse.episodes.place import TRAP_ID
 from bootcourse.learn import records
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import MAX_SEED, Settings, settings_for
@@ -93,7 +93,7 @@ def learning_data() -> dict:
         "without": without,
         "limits": limits(),
         "scenario": asdict(DEFAULT),
-        "environment": TRAP,
+        "environment": TRAP_ID,
     }
 
 

@@ -92,6 +92,54 @@ class OneTooSmall(WithADeque):
         self.rows = collections.deque(maxlen=size - 1)
 
 
+@right("ReplayBuffer")
+class InOrder(WithADeque):
+    def sample(self, batch, rng):
+        return torch.stack([self.rows[i] for i in np.sort(rng.integers(len(self.rows), size=batch))])
+
+
+@right("ReplayBuffer")
+class OneByOne(WithADeque):
+    def sample(self, batch, rng):
+        return torch.cat([self.rows[int(rng.random() * len(self.rows))][None] for _ in range(batch)])
+
+
+@wrong("ReplayBuffer", "keep nothing from call to call")
+class PassByPass(WithADeque):
+    """Each row comes once before one comes again."""
+
+    def sample(self, batch, rng):
+        drawn = [i for _ in range(batch // len(self.rows) + 1) for i in rng.permutation(len(self.rows))]
+        return torch.stack([self.rows[i] for i in drawn[:batch]])
+
+
+@wrong("ReplayBuffer", "keep nothing from call to call")
+class Walking(WithADeque):
+    """It goes on where the last batch ended."""
+
+    place = 0
+
+    def sample(self, batch, rng):
+        self.place += batch
+        return torch.stack([self.rows[(self.place + i) % len(self.rows)] for i in range(batch)])
+
+
+@wrong("ReplayBuffer", "more often than others")
+class Rounded(WithADeque):
+    """The first and the last row have half of the others' chance."""
+
+    def sample(self, batch, rng):
+        return torch.stack([self.rows[round(i)] for i in rng.random(batch) * (len(self.rows) - 1)])
+
+
+@wrong("ReplayBuffer", "keep nothing from call to call")
+class OneBatch(WithADeque):
+    """A generator of its own makes the same batch at each call."""
+
+    def sample(self, batch, rng):
+        return torch.stack([self.rows[i] for i in np.random.default_rng(0).integers(len(self.rows), size=batch)])
+
+
 @wrong("ReplayBuffer", "neighbours")
 class AStretch(WithADeque):
     def sample(self, batch, rng):
@@ -211,7 +259,7 @@ for _name, _words, *_changes in (
     ("the_mean_of_both", "the policy", ("q_pair.amin(0)", "q_pair.mean(0)")),
     ("a_fixed_temperature", "the critics", ("agent.log_alpha.exp().detach()", "torch.tensor(0.01)")),
     ("another_tau", "the copies", ("agent.tau *", "0.005 *")),
-    ("no_temperature", "log α", ("agent.target_entropy)", "sac.entropy(log_pi).mean())")),
+    ("half_the_target", "log α", ("agent.target_entropy)", "agent.target_entropy / 2)")),
     (
         "the_next_states",
         "the policy",

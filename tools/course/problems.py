@@ -85,7 +85,7 @@ def of_exercise(name: str, cell: Cell, before: Cell | None) -> list[str]:
 
 def of_solution(exercise, solved: ast.FunctionDef | ast.ClassDef) -> list[str]:
     """A solution that stands beside the exercise, and is shown on request, is the one in the source."""
-    if not exercise.solution.__module__.endswith((".exercises", ".parts")):
+    if not exercise.solution.__module__.endswith(".exercises"):
         return []  # the library's own, or a helper's
     shown = ast.parse(textwrap.dedent(inspect.getsource(exercise.solution))).body[0]
     if not isinstance(shown, (ast.FunctionDef, ast.ClassDef)):

@@ -6,6 +6,8 @@ headings, exercises, predictions, links and tables follow (`make notebooks`, `ma
 
 import functools
 import importlib
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -50,18 +52,60 @@ def stem(lesson: str) -> str:
     return f"{number(lesson):02d}_{lesson}"
 
 
+class Registry(Mapping):
+    """name -> exercise, in the order of the lessons and of the files' lines: every `Exercise` of NAME/exercises.py.
+
+    An exercise is looked up in the files that have its name in them. Only to count or list them all are all files
+    loaded, which takes seconds.
+    """
+
+    def __getitem__(self, name: str) -> "Exercise":
+        for lesson in LESSONS:
+            if re.search(rf"\b{re.escape(name)}\b", _text(lesson)) and name in _exercises(lesson):
+                return _exercises(lesson)[name]
+        raise KeyError(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(_all())
+
+    def __len__(self) -> int:
+        return len(_all())
+
+
 @functools.cache
-def registry() -> "dict[str, Exercise]":
-    """name -> exercise, in the order of the lessons and of the files' lines: every `Exercise` of NAME/exercises.py."""
+def registry() -> Registry:
+    """Every exercise by its name."""
+    return Registry()
+
+
+def _file(lesson: str) -> Path:
+    return Path(__file__).parent / lesson / "exercises.py"
+
+
+@functools.cache
+def _text(lesson: str) -> str:
+    """The lesson's file of exercises; "" if it has none."""
+    return _file(lesson).read_text(encoding="utf-8") if _file(lesson).exists() else ""
+
+
+@functools.cache
+def _exercises(lesson: str) -> "dict[str, Exercise]":
+    """The exercises of a lesson."""
     from bootcourse.course.exercise import Exercise  # loads torch, which a lesson's number does not need
 
-    exercises = {}
+    if not _text(lesson):
+        return {}
+    values = vars(importlib.import_module(f"{__name__}.{lesson}.exercises")).values()
+    return {value.name: replace(value, lesson=stem(lesson)) for value in values if isinstance(value, Exercise)}
+
+
+@functools.cache
+def _all() -> dict[str, str]:
+    """name -> lesson. Raises ValueError if two exercises have one name."""
+    lessons: dict[str, str] = {}
     for lesson in LESSONS:
-        if not (Path(__file__).parent / lesson / "exercises.py").exists():
-            continue
-        for value in vars(importlib.import_module(f"{__name__}.{lesson}.exercises")).values():
-            if isinstance(value, Exercise):
-                if value.name in exercises:
-                    raise ValueError(f"Two exercises are called {value.name}: {exercises[value.name].lesson}, {lesson}")
-                exercises[value.name] = replace(value, lesson=stem(lesson))
-    return exercises
+        for name in _exercises(lesson):
+            if name in lessons:
+                raise ValueError(f"Two exercises are called {name}: {stem(lessons[name])}, {lesson}")
+            lessons[name] = lesson
+    return lessons

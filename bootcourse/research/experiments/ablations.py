@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from bootcourse.research import tables
-from bootcourse.research.cells import CURVES, TESTS, train_and_test, trained
+from bootcourse.research.cells import SHIPPED_CURVES, TESTS, train_and_test, trained
 from bootcourse.research.experiment import Computed, Experiment
 
 HELPED = ("demos", "bootstrapped")
@@ -25,4 +25,4 @@ def section(computed: dict[str, Computed], folder: Path) -> list[str]:
     return ["## One choice of the method changed\n", tables.variations_table(computed["ablations"])]
 
 
-EXPERIMENT = Experiment("ablations", cells, train_and_test, CURVES, section)
+EXPERIMENT = Experiment("ablations", cells, train_and_test, SHIPPED_CURVES, section)

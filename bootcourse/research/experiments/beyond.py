@@ -31,7 +31,7 @@ def cells() -> dict[str, dict]:
     return {f"{method}-{first}": {"method": method, "first": first} for first in firsts for method in COMMON}
 
 
-def compared(method: str, first: int) -> Results:
+def trained_to_budgets(method: str, first: int) -> Results:
     """The chosen try with `GROUP` seeds from `first` on, tested at each budget. Raises Interrupted.
 
     `tested` is at `BOARD`, `measured` has the means at each budget: returns_100000, success_100000 ...
@@ -58,4 +58,4 @@ EQUAL_SECONDS = """The last 50 training episodes that ended in so much time, wit
 beginning of jump-start RL's.
 """
 
-EXPERIMENT = Experiment("beyond", cells, results_of(compared), ("return", "decisions"), section)
+EXPERIMENT = Experiment("beyond", cells, results_of(trained_to_budgets), ("return", "decisions"), section)

@@ -170,7 +170,7 @@ def cells(seeds: int = 4) -> dict[str, dict]:
     return {name: {"check": name, "seeds": seeds} for name in CHECKS}
 
 
-def measured(check: str, seeds: int) -> Results:
+def run_check(check: str, seeds: int) -> Results:
     """Train and test the agents of a check. Raises Interrupted.
 
     Measured, (agents,): return, and the mean return of each who drove the data, the same for all: data_0, data_1.
@@ -183,7 +183,7 @@ def measured(check: str, seeds: int) -> Results:
     return Results(entries, np.full(seeds, -1), measured=numbers)
 
 
-def reached(returns: np.ndarray, check: Check) -> bool:
+def is_reached(returns: np.ndarray, check: Check) -> bool:
     """Is the mean of the agents' returns within 1 % of the published figure, or above it?"""
     return bool(returns.mean() >= check.published - CLOSE * abs(check.published))
 
@@ -197,11 +197,11 @@ def page(computed: Computed) -> str:
         by = [f"{values[0]:.0f}" for measure, values in results.measured.items() if measure.startswith("data_")]
         ours += f" ({check.data}: {' and '.join(by)})" if by else ""
         budget = f"{check.our_budget}, {results.seconds.sum():.0f} s"
-        verdict = "yes" if reached(returns, check) else "**no**"
+        verdict = "yes" if is_reached(returns, check) else "**no**"
         published = f"{check.published:g}", check.their_budget
         rows.append([check.learner, check.task, *published, ours, budget, verdict, check.source])
     headings = ["learner", "task", "published", "its budget", "ours, mean [worst, best]", "our budget", "reached"]
     return PAGE + markdown([*headings, "source"], rows)
 
 
-EXPERIMENT = Experiment("checks", cells, results_of(measured), page=page)
+EXPERIMENT = Experiment("checks", cells, results_of(run_check), page=page)

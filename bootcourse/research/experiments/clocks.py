@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from bootcourse.methods import display_name
-from bootcourse.research.cells import CURVES, TESTS, VARIED, train_and_test, trained
+from bootcourse.research.cells import SHIPPED_CURVES, TESTS, VARIED, train_and_test, trained
 from bootcourse.research.experiment import Computed, Experiment
 from bootcourse.research.paper import EPISODES, PRINTED
 from bootcourse.research.results import Results, join
@@ -95,4 +95,4 @@ table with *one* trained agent per method and 20 test episodes each reads as the
 Its interval is over training seeds (Jeffreys).
 """
 
-EXPERIMENT = Experiment("clocks", cells, train_and_test, CURVES, section)
+EXPERIMENT = Experiment("clocks", cells, train_and_test, SHIPPED_CURVES, section)

@@ -50,7 +50,7 @@ def distilled(target: str, hidden: tuple[int, ...] = (), weight: float = 1.0, on
 
     target: "actions", "shield" or "values". hidden: of a new network; () begins with the base's weights. weight: of a
     state in which the label is not the base's action. onward: from such states, do what the label says, let the student
-    drive on for so many decisions, and label what it reaches. Measured, (agents,): see `lookahead.drive`.
+    drive on for so many decisions, and label what it reaches. Measured, (agents,): see `lookahead.drive_cell`.
     """
     bases = [shipped_actors(BASE)[seed] for seed in range(AGENTS)]
     students = [_student(base, target, hidden, weight, onward) for base in bases]

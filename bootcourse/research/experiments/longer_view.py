@@ -5,7 +5,7 @@ from pathlib import Path
 from bootcourse.learn.settings import SETTINGS
 from bootcourse.research import tables
 from bootcourse.research.beyond import learner_rows
-from bootcourse.research.cells import CURVES, TESTS, train_and_test, trained
+from bootcourse.research.cells import SHIPPED_CURVES, TESTS, train_and_test, trained
 from bootcourse.research.experiment import Computed, Experiment
 
 SANER = {**SETTINGS["paper"], "gamma": 0.95, "bonus": 0.5, "batch": 128}
@@ -25,4 +25,4 @@ LONGER_VIEW = """The paper's method with two updates per decision, a bonus of 0.
 of 64, and a γ of 0.95 instead of 0.8.
 """
 
-EXPERIMENT = Experiment("longer-view", cells, train_and_test, CURVES, section)
+EXPERIMENT = Experiment("longer-view", cells, train_and_test, SHIPPED_CURVES, section)

@@ -101,10 +101,10 @@ def cells(seeds: int = max(BASES.values()), tests: int = MANY) -> dict[str, dict
 
 def run(at: Workplace, **fields) -> None:
     """Drive a cell with the agents in the study's folder `agents`, and with those that ship."""
-    write_arrays(at.job / "results.npz", as_arrays(drive(Cell(**fields), at.study / "agents")))
+    write_arrays(at.job / "results.npz", as_arrays(drive_cell(Cell(**fields), at.study / "agents")))
 
 
-def drive(cell: Cell, trained: Path) -> Results:
+def drive_cell(cell: Cell, trained: Path) -> Results:
     """Drive a cell with the agents in trained/METHOD, see `agents_of`. Raises Interrupted if it is stopped.
 
     Measured, (agents,): roads, returns and success (means over the roads), accidents (how many), decisions, overruled
@@ -154,7 +154,7 @@ def shipped_actors(base: str) -> dict[int, Agent]:
 
 
 def measured(driver: Policy, roads: Sequence[int]) -> dict[str, float]:
-    """What a driver did on some roads, see `drive`."""
+    """What a driver did on some roads, see `drive_cell`."""
     returns, success, began = [], [], time.process_time()
     accidents = decisions = overruled = 0
     for first in range(0, len(roads), TOGETHER):

@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bootcourse.research import tables
-from bootcourse.research.cells import CURVES, TESTS, train_and_test, trained
+from bootcourse.research.cells import SHIPPED_CURVES, TESTS, train_and_test, trained
 from bootcourse.research.experiment import Computed, Experiment
 from bootcourse.scenario import DEFAULT, Scenario
 
@@ -54,4 +54,4 @@ def section(computed: dict[str, Computed], folder: Path) -> list[str]:
     return text + [tables.sensitivity_table(varied, measure) for measure in ("success", "returns", "collision")]
 
 
-EXPERIMENT = Experiment("sensitivity", cells, train_and_test, CURVES, section)
+EXPERIMENT = Experiment("sensitivity", cells, train_and_test, SHIPPED_CURVES, section)

@@ -84,7 +84,7 @@ QUANTITIES = {
 }
 
 
-def in_words(estimate: Estimate) -> tuple[str, str]:
+def value_and_interval(estimate: Estimate) -> tuple[str, str]:
     """("80", "[44, 97]"): a cell's value and interval; "not reached" where it is infinite, "" where there is none."""
     if np.isinf(estimate.value):
         return "not reached", "" if np.isnan(estimate.low) or np.isinf(estimate.low) else f"[{estimate.low:.0f}, –]"
@@ -94,7 +94,7 @@ def in_words(estimate: Estimate) -> tuple[str, str]:
     return value, low_high
 
 
-def reached(results: Results) -> str:
+def counted(results: Results) -> str:
     """ "7 of 10": how many agents escaped on 95 % of the last roads at some time of their training."""
     return f"{int(np.isfinite(spent(results)).sum())} of {len(results)}"
 
@@ -104,8 +104,8 @@ def worth_rows(computed: Cells) -> tuple[list[str], list[list[str]]]:
     rows = []
     for (teacher, method), results in computed.items():
         of = {name: quantity.estimate(quantity.of_agents(results)) for name, quantity in QUANTITIES.items()}
-        until = " ".join(in_words(of["decisions"])).strip()
-        numbers = [bracketed(of["return"]), bracketed(of["accidents"]), f"{until} ({reached(results)})"]
+        until = " ".join(value_and_interval(of["decisions"])).strip()
+        numbers = [bracketed(of["return"]), bracketed(of["accidents"]), f"{until} ({counted(results)})"]
         escaping = k_of_n(results.scores("success") >= ESCAPES)
         rows.append([TEACHERS[teacher].words, display_name(method), escaping, *numbers])
     labels = [QUANTITIES[name].label for name in ("return", "accidents", "decisions")]

@@ -3,7 +3,7 @@
 import functools
 
 import numpy as np
-import scipy.stats
+import scipy
 
 from bootcourse.course.exercise import exercise
 from bootcourse.course.values import NUMERIC, plain

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from bootcourse.road.formulas import desired_gap, idm_acceleration
 from bootcourse.scenario import DEFAULT, Traffic
@@ -29,7 +29,7 @@ def stronger(speeding_up: float = 1.0, braking: float = 1.0) -> Callable[..., fl
 
 def settled_speed(spacing: float) -> float:
     """The speed (m/s) that cars hold which follow each other at this distance (m, more than s0)."""
-    return brentq(lambda v: follow(v, 0.0, spacing), 0.0, DEFAULT.traffic.desired_speed)
+    return scipy.optimize.brentq(lambda v: follow(v, 0.0, spacing), 0.0, DEFAULT.traffic.desired_speed)
 
 
 def ring(

@@ -6,7 +6,7 @@ import numpy as np
 
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.teachers import Rule, ahead, teacher_of, teacher_policy, toward
+from bootcourse.learn.teachers import Rule, ahead, marked, teacher_of, teacher_policy, toward
 from bootcourse.road.state import EGO, LANE, SPEED, TARGET_LANE, TRAFFIC, Accident, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, Scenario
@@ -115,7 +115,7 @@ def examine(my_rule: Rule, roads: int = 100, scenario: Scenario = DEFAULT) -> Ex
         if not np.array_equal(first, again):
             problems.append("It answers the same road differently each time.")
         road = env.cars[0].copy()
-        my_rule(road[None] if getattr(my_rule, "answers_for_all_roads", False) else road, scenario)
+        my_rule(road[None] if marked(my_rule).answers_all_roads else road, scenario)
         if not np.array_equal(road, env.cars[0]):
             problems.append("It writes into `cars`: compute new values instead.")
         if problems:
