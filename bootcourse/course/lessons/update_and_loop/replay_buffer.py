@@ -17,6 +17,10 @@ COPIES = (
     "Your buffer is right but slow: it copies all its rows to add one or to draw one, and training does both thousands "
     "of times. Overwrite one row of a list or of a table, and pick the drawn rows only."
 )
+TOGETHER = (
+    "The rows that you draw depend on each other: they are neighbours, one row again and again, or one pass through "
+    "the table. Draw each row for itself, and keep nothing from call to call."
+)
 AGAIN = "Your buffer gives the same batch at each call: draw anew each time, with the generator `rng` of that call."
 EMPTIED = "Your buffer loses rows when you draw from it: `sample` must leave the rows where they are."
 ONCE = "Your buffer draws without replacement. Each draw is made from all rows: a row may come twice in a batch."
@@ -125,7 +129,7 @@ def of_the_buffer(cases, answers):
         if not same:
             return "Two equal generators give different batches: draw with `rng`, so that a training can be repeated."
         if not apart:
-            return "The rows of your batch depend on each other, as neighbours do: draw each for itself, from all rows."
+            return TOGETHER
         if not twice:
             return ONCE
         if not even:
