@@ -175,7 +175,7 @@ class Rounded(WithADeque):
         return torch.stack([self.rows[round(i)] for i in rng.random(batch) * (len(self.rows) - 1)])
 
 
-@wrong("ReplayBuffer", "keep nothing from call to call")
+@wrong("ReplayBuffer", "the same batch at each call")
 class OneBatch(WithADeque):
     """A generator of its own makes the same batch at each call."""
 
