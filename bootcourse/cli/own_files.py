@@ -55,6 +55,6 @@ def find_neighbours(folder: str) -> None:
             del sys.modules[name]
     if folder in sys.path:
         sys.path.remove(folder)
-    packages = (i for i, place in enumerate(sys.path) if Path(place).name in ("site-packages", "dist-packages"))
-    sys.path.insert(next(packages, len(sys.path)), folder)
+    later = {*_folders, *(place for place in sys.path if Path(place).name in ("site-packages", "dist-packages"))}
+    sys.path.insert(next((i for i, place in enumerate(sys.path) if place in later), len(sys.path)), folder)
     _folders.add(folder)
