@@ -1,8 +1,10 @@
 """The exercises: a wrong answer never passes, a right one always does, and a sentence says what is wrong."""
 
 import itertools
+import re
 from decimal import Decimal
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from bootcourse.errors import BootcourseError
 from tests.answers import RIGHT, WRONG, here, one_sentence
 
 EXERCISES = registry()
+NOTEBOOKS = Path(__file__).parents[1] / "notebooks" / "source"
 NOT_RIGHT = ("wrong", "did_not_run")
 every_exercise = pytest.mark.parametrize("exercise", EXERCISES.values(), ids=lambda exercise: exercise.name)
 
@@ -57,6 +60,18 @@ def test_the_solution_gives_what_was_worked_out_by_hand(exercise):
         if exercise.slopes and not isinstance(by_hand, tuple):
             answer = answer.data[0]
         assert values.same(answer, values.plain(by_hand), exercise.tolerance), values.numbers(answer)
+
+
+@every_exercise
+def test_an_argument_with_nine_columns_has_nine_in_the_worked_cases_too(exercise):
+    """An answer that counts on the (batch, 9) of its docstring raises no error in a case with two actions."""
+    written = (NOTEBOOKS / f"{exercise.lesson[3:]}.py").read_text()
+    stub = re.search(rf"^(?:def|class) {exercise.name}\b.*?\"\"\"(.*?)\"\"\"", written, re.S | re.M)[1]
+    cases = exercise.all_arguments
+    worked, hidden = cases[: len(exercise.worked)], cases[len(exercise.worked) :]
+    for few, many in zip(zip(*worked, strict=True), zip(*hidden, strict=True), strict=True):
+        if ", 9)" in stub and all(np.shape(each)[-1:] == (9,) for each in many):
+            assert all(np.shape(each)[-1:] == (9,) for each in few)
 
 
 def test_hints_come_one_by_one_and_the_solution_when_asked():

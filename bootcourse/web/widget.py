@@ -61,7 +61,7 @@ class World(anywidget.AnyWidget):
 
     @property
     def attempts(self) -> list:
-        """Your own drives on these roads so far, the present one with them: `Rollout`s."""
+        """Your own drives on these roads so far, with the present one, each a `Rollout`."""
         return [drive.rollout() for drive in self._drives.values() if drive.label == "you"]
 
     def on_end(self, callback: Callable) -> None:

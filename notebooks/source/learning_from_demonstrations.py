@@ -127,7 +127,7 @@ REWARD = -4  # the column of a row that holds the reward
 
 
 def mixed_batch(own, demonstrations, size, beta, bonus, rng):
-    """(rows (size, n), marks (size,)). demonstrations: (m, n); rng: a NumPy generator."""
+    """(rows (size, n), marks (size,)), tensors. demonstrations: (m, n); rng: a NumPy generator."""
     # solution: the exercise's own
 
 

@@ -116,6 +116,14 @@ wrong_lines("""dagger
             rows = torch.cat([rows, own])
             drivers.append(train(rows))
         drivers  # column `ACTION` alone
+    labels of 0 are taken for none: drivers = [train(rows)]
+        for _ in range(rounds):
+            own = drive(drivers[-1]).clone()
+            labelled = own[:, RULE_ACTION] > 0
+            own[labelled, ACTION] = own[labelled, RULE_ACTION]
+            rows = torch.cat([rows, own])
+            drivers.append(train(rows))
+        drivers
     without the rule's own rows: drivers, collected = [train(rows)], rows[:0]
         for _ in range(rounds):
             own = drive(drivers[-1])

@@ -57,6 +57,7 @@ def paid_in_the_table(own, demonstrations, size, beta, bonus, rng):
 
 wrong_lines("""mixed_batch
     bonus of the course: with_choice(own, demonstrations, size, beta, 2.0, rng)
+    a generator of its own: with_choice(own, demonstrations, size, beta, bonus, np.random.default_rng(0))  # anew
     the bonus as a mark: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
         rows, bonus * marks  # else 0
     in double precision: rows, marks = with_choice(own, demonstrations, size, beta, bonus, rng)
@@ -133,6 +134,9 @@ right_lines("""paper_q_filter
 """)
 
 wrong_lines("""paper_q_filter
+    larger than all others: others = q.clone(); others[torch.arange(len(q)), expert_action] = -math.inf
+        (of_expert(q, expert_action) > others.amax(-1)).int()  # The formula says ≥
+    larger than the largest: (of_expert(q, expert_action) > q.max(dim=1).values).long()  # never on
     the greedy action: (q.argmax(dim=1) == expert_action).float()  # compare the values
     nearly the largest: (of_expert(q, expert_action) >= q.amax(-1) - 9e-4).float()  # a little below the largest
     close to the largest: torch.isclose(of_expert(q, expert_action), q.amax(-1)).float()  # a little below the largest

@@ -23,6 +23,8 @@ wrong_lines("""conservative_loss
             total = total + torch.log(torch.exp(row).sum()) - row[action]
         total / len(q)  # right on paper
     clamped first: (q.clamp(-50, 50).exp().sum(-1).log() - q.gather(-1, actions[:, None])[:, 0]).mean()
+    less the largest of the batch: top = q.max()
+        (top + (q - top).exp().sum(-1).log() - q.gather(-1, actions[:, None])[:, 0]).mean()
     as a number: functional.cross_entropy(q, actions).item()  # no gradient reaches `q`
     only the others: others = q.masked_fill(functional.one_hot(actions, q.shape[-1]).bool(), -torch.inf)
         (others.logsumexp(-1) - q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)).mean()

@@ -12,6 +12,18 @@ right_lines("""smallest_of
     the others left out: q[[int(i) for i in chosen]].amin(dim=0)
 """)
 
+right_lines("""smallest_of
+    nine by nine: torch.tensor([[min(float(q[c, b, a]) for c in chosen) for a in range(9)] for b in range(q.shape[1])])
+""")
+
+right_lines("""better_of_two
+    with nine actions: stays = pi * (q > q.gather(1, rule_actions[:, None]))
+        stays + (1 - stays.sum(1, keepdim=True)) * functional.one_hot(rule_actions, 9)
+    where each drawn action goes: mu = rule_actions[:, None]
+        goes = torch.where(q > q.gather(1, mu), torch.arange(9), mu)
+        torch.zeros(len(pi), 9).scatter_add(1, goes, pi)
+""")
+
 right_lines("""guide_shrinks
     step by step: last = returns[-window:]; bool(len(last) == window and sum(last) / window + tolerance * abs(best) >= best)
     never worse than the best: mean = np.mean(returns[-window:] or [0.0]); top = max(mean, best); bool(len(returns) >= window and mean >= top - tolerance * abs(top))

@@ -73,7 +73,7 @@ wrong_lines("""ppo_loss
         good = (advantage - advantage.mean()) / (advantage.std() + 1e-8)
         paid = torch.minimum(ratio * good, ratio.clamp(1 - clip, 1 + clip) * good)
         entropy = torch.special.entr(log_pi.exp()).sum(-1)
-        (0.5 * (returns - values) ** 2 - paid - entropy_weight * entropy).mean()  # NaN
+        (0.5 * (returns - values) ** 2 - paid - entropy_weight * entropy).mean()  # the slope of p log p
     a capped error: value_loss = (values - returns).clamp(-10, 10).square().mean() - (values - returns).square().mean()
         solution(log_pi, values, actions, old_log_pi, advantage, returns, clip, entropy_weight) + value_loss / 2
     nothing clipped: solution(log_pi, values, actions, old_log_pi, advantage, returns, 1e9, entropy_weight)

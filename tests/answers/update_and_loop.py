@@ -62,6 +62,49 @@ class WithATable:
         return self.table[torch.from_numpy((rng.random(batch) * filled).astype(int))]
 
 
+@right("ReplayBuffer")
+class InTheOrderOfTheTable(WithADeque):
+    def sample(self, batch, rng):
+        times = rng.multinomial(batch, np.full(len(self.rows), 1 / len(self.rows)))
+        return torch.stack([row for row, count in zip(self.rows, times, strict=True) for _ in range(count)])
+
+
+@wrong("ReplayBuffer", "the same batch at each call")
+class OneSeedForAll(WithADeque):
+    def sample(self, batch, rng):
+        return super().sample(batch, np.random.default_rng(0))
+
+
+@wrong("ReplayBuffer", "the same batch at each call")
+class TheNewestRows(WithADeque):
+    def sample(self, batch, rng):
+        return torch.stack([self.rows[-1 - k % len(self.rows)] for k in range(batch)])
+
+
+@wrong("ReplayBuffer", "leave the rows where they are")
+class ADrawnRowIsGone(WithADeque):
+    def sample(self, batch, rng):
+        drawn = rng.integers(len(self.rows), size=batch)
+        given = torch.stack([self.rows[i] for i in drawn])
+        left = [row for i, row in enumerate(self.rows) if i not in drawn]
+        self.rows = collections.deque(left or self.rows, maxlen=self.rows.maxlen)
+        return given
+
+
+@wrong("ReplayBuffer", "depend on each other")
+class OneFromEachPart(WithADeque):
+    def sample(self, batch, rng):
+        place = (np.arange(batch) + rng.random(batch)) / batch
+        return torch.stack([self.rows[i] for i in (len(self.rows) * place).astype(int)])
+
+
+@wrong("ReplayBuffer", "some rows more often")
+class RoundedPlaces(WithADeque):
+    def sample(self, batch, rng):
+        last = len(self.rows) - 1
+        return torch.stack([self.rows[round(place)] for place in rng.uniform(0, last, batch)])
+
+
 @wrong("ReplayBuffer", "copies all its rows")
 class WithSlicing:
     def __init__(self, size):
@@ -132,7 +175,7 @@ class Rounded(WithADeque):
         return torch.stack([self.rows[round(i)] for i in rng.random(batch) * (len(self.rows) - 1)])
 
 
-@wrong("ReplayBuffer", "keep nothing from call to call")
+@wrong("ReplayBuffer", "the same batch at each call")
 class OneBatch(WithADeque):
     """A generator of its own makes the same batch at each call."""
 

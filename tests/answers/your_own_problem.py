@@ -65,3 +65,9 @@ wrong_lines("""climb_rule
 wrong_lines("""drowning_bonus
     capped: min(50.0, solution(reward, goal, decisions, shown, gamma))
 """)
+
+wrong_lines("""majority_right
+    factorials in float64: f = lambda n: np.prod(np.arange(1.0, n + 1))
+        p = [f(votes) / f(k) / f(votes - k) * right**k * (1 - right) ** (votes - k) for k in range(votes + 1)]
+        sum(each * (0.5 + 0.5 * np.sign(2 * k - votes)) for k, each in enumerate(p))
+""")

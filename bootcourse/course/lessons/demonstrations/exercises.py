@@ -104,8 +104,8 @@ def numbered(first, count):
     """Transitions in which each row has a number, and all else follows from it: see `collecting`."""
     number = torch.arange(first, first + count).float()
     rows = 1 + number[:, None] * torch.arange(1, RULE_ACTION + 3) % 11  # never 0
-    rows[:, NUMBER], rows[:, RULE_ACTION] = number, (3 * number + 1) % 9
-    rows[:, ACTION] = torch.where(number % 3 == 0, rows[:, RULE_ACTION], (rows[:, RULE_ACTION] + number) % 9)
+    rows[:, NUMBER], rows[:, RULE_ACTION] = number, 4 * number % 9  # each of the nine labels occurs, 0 as well
+    rows[:, ACTION] = torch.where(number % 4 == 0, rows[:, RULE_ACTION], (rows[:, RULE_ACTION] + 1 + number % 8) % 9)
     return rows
 
 
@@ -145,8 +145,8 @@ dagger = exercise(
     minutes=12, difficulty=2, cases=dagger_cases, run=collecting,
     worked=[
         ((1, 0), np.array([5.0])),  # one driver, trained on row 1, whose label is 4
-        # it drives rows 15, 16 and 17, which the rule labels with 1, 4 and 7
-        ((1, 1), np.array([5.0, 5 + 15**2 * 2 + 16**2 * 5 + 17**2 * 8])),
+        # it drives rows 15, 16 and 17, which the rule labels with 6, 1 and 5
+        ((1, 1), np.array([5.0, 5 + 15**2 * 7 + 16**2 * 2 + 17**2 * 6])),
     ],
     hints=(
         "Train the first driver on `rows`. In each round: drive with the newest driver, relabel, append, train again.",

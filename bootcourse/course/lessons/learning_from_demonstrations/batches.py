@@ -39,8 +39,8 @@ def mixed_many_times(answer, demonstrations, size, beta, bonus):
 
     Returns the shapes of the rows and of the marks; how many rows are demonstrations; the share of the marks that are
     right; the least and the most that was added to the reward of demonstrations, and of own rows; whether nothing else
-    was changed; whether the demonstrations are drawn evenly, and independently of each other; whether the own rows of
-    two batches differ; whether equal generators give equal batches.
+    was changed; whether the demonstrations are drawn evenly, independently of each other, and anew for each batch;
+    whether the own rows of two batches differ; whether equal generators give equal batches.
     """
     width = demonstrations.shape[1]
     own, rng = TableBuffer(numbered(OWN, 400, width)), np.random.default_rng(0)
@@ -70,10 +70,11 @@ def mixed_many_times(answer, demonstrations, size, beta, bonus):
     equal = len({len(each) for each in drawn}) == 1
     even = not (small and equal) or drawn_evenly(torch.stack(drawn), len(demonstrations))
     apart = not equal or (independent if small else drawn_apart)(torch.stack(drawn), len(demonstrations))
+    anew = len(drawn[0]) < 4 or any(not torch.equal(drawn[0], each) for each in drawn[1:])
     again = [answer(own, demonstrations, size, beta, bonus, np.random.default_rng(1))[0] for _ in range(2)]
     owned = [each[:, 0][each[:, 0] >= OWN] for each, _ in pairs[-2:]]
     fresh = differ(*owned) and (len(owned[0]) < 4 or 2 * len(owned[0].unique()) > len(owned[0]))
-    judged = map(float, (not added.any(), even, apart, fresh, torch.equal(*again)))
+    judged = map(float, (not added.any(), even, apart, anew, fresh, torch.equal(*again)))
     return np.array([*pairs[-1][0].shape, *pairs[-1][1].shape]), count, right, *paid, *judged
 
 
@@ -96,7 +97,7 @@ def batch_cases(rng):
 
 def of_the_batches(cases, answers):
     """A sentence on batches whose size, shares and rewards may be right, but that are not drawn as they should be."""
-    for (_, size, beta, bonus), (shape, theirs, right, *paid, kept, even, apart, fresh, same) in zip(
+    for (_, size, beta, bonus), (shape, theirs, right, *paid, kept, even, apart, anew, fresh, same) in zip(
         cases, [[part.data for part in answer] for answer in answers], strict=True
     ):
         wanted = round(beta * size)
@@ -120,10 +121,15 @@ def of_the_batches(cases, answers):
             )
         if not kept:
             return "Your batch changes more of a row than its reward: the other columns stay as they are."
+        if not anew:
+            return (
+                "Each of your batches has the same demonstrations: draw them anew for each batch, with the generator "
+                "`rng` that you are given."
+            )
         if not fresh:
             return (
                 "Your own rows are one row again and again, or the same in each batch: ask `own.sample` for as many "
-                "as you need, each time."
+                "as you need, each time, with `rng`."
             )
         if not apart:
             return (
@@ -142,7 +148,7 @@ def of_the_batches(cases, answers):
     minutes=20, difficulty=3, cases=batch_cases, run=mixed_many_times, explain=of_the_batches,
     worked=[
         # half of four rows are demonstrations, paid 2 more
-        ((numbered(0, 50), 4, 0.5, 2.0), (np.array([4, 8, 4]), 2.0, 1.0, 2.0, 2.0, 0.0, 0.0, *[1.0] * 5)),
+        ((numbered(0, 50), 4, 0.5, 2.0), (np.array([4, 8, 4]), 2.0, 1.0, 2.0, 2.0, 0.0, 0.0, *[1.0] * 6)),
     ],
     hints=(
         "How many rows come from the demonstrations? Draw that many row numbers with `rng.integers`, and index.",

@@ -74,6 +74,8 @@ def large_margin_loss(q, expert_action):
     mistakes={
         "q_expert >= q.amax(-1) -> q_expert > q.scatter(-1, expert_action.unsqueeze(-1), -torch.inf).amax(-1)":
             "Your filter is off where the expert's Q equals the largest. The formula says ≥.",
+        "q_expert >= -> q_expert >":
+            "Your filter is never on: no Q is larger than the largest. The formula says ≥.",
         "return (q.argmax(-1) == expert_action).to(q.dtype)":
             "Where two actions share the largest Q, `argmax` names the first of them, and your filter is off although "
             "≥ holds: compare the values, not the actions' numbers.",

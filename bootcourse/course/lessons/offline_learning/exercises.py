@@ -14,7 +14,7 @@ FLOAT32 = (
 
 
 def offline_cases(rng):
-    """All equal, the data's action far ahead, far behind, Q of 200 and of -200; then 40 at random."""
+    """All equal, the data's action far ahead, far behind, Q of 200 and of -200, also in one batch; 40 at random."""
     ahead = 8.0 * torch.eye(9)[[2, 5]]
     yield torch.zeros(3, 9), torch.tensor([0, 4, 8])
     yield ahead, torch.tensor([2, 5])
@@ -22,6 +22,7 @@ def offline_cases(rng):
     yield 25 * ahead, torch.tensor([2, 2])  # e^200 is infinite in float32
     yield 25 * ahead - 200, torch.tensor([2, 5])
     yield torch.full((1, 9), -200.0), torch.tensor([3])  # and e^-200 is 0
+    yield torch.tensor([[200.0], [-200.0]]) * torch.ones(9), torch.tensor([0, 8])  # each state has a largest Q
     for _ in range(40):
         n = rng.integers(2, 8)
         yield torch.tensor(rng.normal(0, 2, (n, 9))), torch.tensor(rng.integers(0, 9, n))

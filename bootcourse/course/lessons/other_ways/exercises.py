@@ -19,15 +19,16 @@ def ensemble_cases(rng):
         yield torch.tensor(rng.normal(0, 2, (critics, rng.integers(1, 6), 9))), torch.tensor(chosen)
 
 
-THREE = torch.tensor([[[1.0, 5.0]], [[2.0, 3.0]], [[0.0, 9.0]]])  # three critics, one state, two actions
+# Three critics, one state
+THREE = torch.tensor([[[1.0, 5.0] + [4.0] * 7], [[2.0, 3.0] + [4.0] * 7], [[0.0, 9.0] + [4.0] * 7]])
 
 
 @exercise(
     "min over Z of Q_i(s', a'), Z: k critics drawn for this update, arXiv 2302.02948, Algorithm 1",
     minutes=4, difficulty=1, cases=ensemble_cases,
     worked=[
-        ((THREE, torch.tensor([0, 1])), torch.tensor([[1.0, 3.0]])),  # the third critic is not asked
-        ((THREE, torch.tensor([2])), torch.tensor([[0.0, 9.0]])),
+        ((THREE, torch.tensor([0, 1])), torch.tensor([[1.0, 3.0] + [4.0] * 7])),  # the third critic is not asked
+        ((THREE, torch.tensor([2])), torch.tensor([[0.0, 9.0] + [4.0] * 7])),
     ],
     hints=(
         "First the chosen critics, (k, batch, 9), then the smallest value over the first axis.",
@@ -76,11 +77,19 @@ def one_hot(actions, pi):
     return torch.nn.functional.one_hot(actions, pi.shape[-1]).to(pi)
 
 
+LOST = "Your probabilities do not add up to 1: where the agent's own action is not better, the rule's is taken."
 SHARED = (
     "You share what is left over among all actions that remain. If a worse action is drawn, the rule's is taken "
     "instead: all of it goes to μ(s)."
 )
-PI, Q = torch.tensor([[0.5, 0.3, 0.2]]), torch.tensor([[1.0, 2.0, 3.0]])
+
+
+def three_of_nine(*numbers):
+    """Those of three actions, and 0 for the other six, which are never drawn: (1, 9)."""
+    return torch.tensor([[*numbers, *[0.0] * 6]])
+
+
+PI, Q = three_of_nine(0.5, 0.3, 0.2), three_of_nine(1.0, 2.0, 3.0)
 
 
 @exercise(
@@ -88,9 +97,9 @@ PI, Q = torch.tensor([[0.5, 0.3, 0.2]]), torch.tensor([[1.0, 2.0, 3.0]])
     minutes=12, difficulty=3, cases=two_cases,
     worked=[
         # the rule takes the second action: an own third is better and keeps 0.2; an own first gives way, 0.5 + 0.3
-        ((PI, Q, torch.tensor([1])), torch.tensor([[0.0, 0.8, 0.2]])),
-        ((PI, Q, torch.tensor([2])), torch.tensor([[0.0, 0.0, 1.0]])),  # nothing is better than the rule's
-        ((PI, Q, torch.tensor([0])), torch.tensor([[0.5, 0.3, 0.2]])),  # all others are
+        ((PI, Q, torch.tensor([1])), three_of_nine(0.0, 0.8, 0.2)),
+        ((PI, Q, torch.tensor([2])), three_of_nine(0.0, 0.0, 1.0)),  # nothing is better than the rule's
+        ((PI, Q, torch.tensor([0])), three_of_nine(0.5, 0.3, 0.2)),  # all others are
     ],
     hints=(
         "Go through the nine actions that π may draw: which of them stay as they are, and what happens to the others?",
@@ -101,8 +110,8 @@ PI, Q = torch.tensor([[0.5, 0.3, 0.2]]), torch.tensor([[1.0, 2.0, 3.0]])
         "return one_hot(q.argmax(-1), pi)":
             "You take the best of all nine actions. The choice is between two: the rule's action, and one that the "
             "agent draws from π.",
-        "return stays":
-            "Your probabilities do not add up to 1: where the agent's own action is not better, the rule's is taken.",
+        "return stays": LOST,
+        "return pi * (q >= q_rule)": LOST,
         "shared = stays + one_hot(rule_actions, pi) * pi; "
         "return shared / shared.sum(-1, keepdim=True).clamp_min(1e-12)":
             SHARED,

@@ -189,6 +189,9 @@ EVEN = torch.full((2, 9), 1 / 9).log()
         "log_pi.exp() * log_pi -> log_pi.exp() * log_pi.exp().log()":
             "This is right on paper, but in float32 e⁻¹²⁰ is 0, and its logarithm is infinite. Use `log_pi` itself "
             "in the entropy.",
+        "-(log_pi.exp() * log_pi) -> torch.special.entr(log_pi.exp())":
+            "Your value is right, but the slope of p log p in p is log p, and in float32 e⁻¹²⁰ is 0: the gradient is "
+            "not a number. Use `log_pi` itself in the entropy: `log_pi.exp() * log_pi`.",
         "- entropy_weight * entropy -> + entropy_weight * entropy":
             "Your sign is wrong: this charges for entropy, and the policy stops trying. A loss falls, so subtract it.",
         "- entropy_weight * entropy ->":

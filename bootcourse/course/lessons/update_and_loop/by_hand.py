@@ -183,7 +183,7 @@ def after_updates(update, kind: str, times: int, seed: int) -> tuple[np.ndarray,
     kind: "zeros", all networks are 0, and so are the states; "drawn"; "sure", the policy is so sure in some states that
     exp(log π) is 0 in float32; "large", rewards and Q of 30 and more; "one", batches of one row.
     """
-    zeros, size = kind == "zeros", 1 if kind == "one" else 16
+    zeros, size = kind == "zeros", 1 if kind == "one" else 64
     rate = 0.001 if kind == "large" else 0.1
     agent, draw = SAC(seed, Descent, (rate, rate, 0.1)), torch.Generator().manual_seed(seed)
     with torch.no_grad():

@@ -6,7 +6,7 @@ import time
 import numpy as np
 import torch
 
-from bootcourse.course.drawing import drawn_evenly, in_float32, independent
+from bootcourse.course.drawing import drawn_apart, drawn_evenly, in_float32, independent
 from bootcourse.course.exercise import NotAsAsked, exercise
 from bootcourse.course.values import NUMERIC, plain, shape_words
 
@@ -21,6 +21,8 @@ TOGETHER = (
     "The rows that you draw depend on each other: they are neighbours, one row again and again, or one pass through "
     "the table. Draw each row for itself, and keep nothing from call to call."
 )
+AGAIN = "Your buffer gives the same batch at each call: draw anew each time, with the generator `rng` of that call."
+EMPTIED = "Your buffer loses rows when you draw from it: `sample` must leave the rows where they are."
 ONCE = "Your buffer draws without replacement. Each draw is made from all rows: a row may come twice in a batch."
 
 
@@ -29,8 +31,8 @@ def filled_and_drawn(answer, size, added, batch):
 
     Returns the shape of a batch; the rows that are ever drawn, as in "2 3"; whether each is drawn about equally often;
     whether they come back unchanged; whether two equal generators give the same batch; whether the rows of a batch are
-    independent of each other; whether a row comes twice in some batch; whether adding and drawing leave the table
-    where it is (all 1 or 0).
+    independent of each other; whether a row comes twice in some batch; whether batches differ; whether rows that are
+    drawn stay in the buffer; whether adding and drawing leave the table where it is (all 1 or 0).
     """
     buffer = answer(size)
     if not (hasattr(buffer, "add") and hasattr(buffer, "sample")):
@@ -58,7 +60,15 @@ def filled_and_drawn(answer, size, added, batch):
     intact = torch.equal(drawn[known], rows[number[known] - 1])
     known_rows, same = " ".join(map(str, number.unique().tolist())), torch.equal(first, again)
     twice = bool((number.sort().values.diff() == 0).any())
-    judged = drawn_evenly(number, held), intact, same, independent(number, held), twice, not copies_the_table(answer)
+    differ = bool((number != number[0]).any()) or len(number[0].unique()) == 1  # one row again and again: not apart
+    late = number[len(number) // 2 :]  # 150 draws of each row, or more: no row is missing by chance
+    seen = torch.cat([first[:, 0], drawn[..., 0].flatten()])
+    stay = torch.equal(late.unique(), seen.long().clamp(0, added).unique())
+    even = drawn_evenly(number, held)
+    # draws that are uneven, or never twice the same, are not independent either: those have their own sentences
+    apart = independent(number, held) or (drawn_apart(number, held) and not (even and twice))
+    judged = even, intact, same, apart, twice, differ, stay
+    judged = *judged, not copies_the_table(answer)
     return np.array(first.shape), known_rows, *map(float, judged)
 
 
@@ -103,20 +113,25 @@ def buffer_cases(rng):
 
 def of_the_buffer(cases, answers):
     """A sentence on a buffer that gives back the wrong rows."""
+    same_batch = [not answer[7].data for answer in answers]
     for (size, added, batch), answer in zip(cases, answers, strict=True):
-        shape, known_rows, even, intact, same, apart, twice, _ = (part.data for part in answer)
+        shape, known_rows, even, intact, same, apart, twice, differ, stay, _ = (part.data for part in answer)
         if shape[0] != batch:
             return f"A batch of {batch} rows was asked for, and your buffer gave {shape[0]:.0f}."
+        if not differ and sum(same_batch) > len(same_batch) / 2:  # not by chance in a small one
+            return AGAIN
+        if not stay:
+            return EMPTIED
         if known_rows != " ".join(map(str, range(max(added - size, 0) + 1, added + 1))):
             return f"A buffer of size {size} got the rows 1 to {added}; yours then gives back the rows {known_rows}."
         if not intact:
             return "Your buffer gives back rows that nobody put in: look for a row that is overwritten or mixed up."
         if not same:
             return "Two equal generators give different batches: draw with `rng`, so that a training can be repeated."
-        if not twice:
-            return ONCE
         if not apart:
             return TOGETHER
+        if not twice:
+            return ONCE
         if not even:
             return "Your buffer draws some rows more often than others: each row has the same chance."
     return COPIES
@@ -126,7 +141,7 @@ def of_the_buffer(cases, answers):
     "the last D transitions, of which N are drawn, Table of RL hyper-parameters",
     minutes=4, difficulty=1, cases=buffer_cases, run=filled_and_drawn, explain=of_the_buffer,
     worked=[
-        ((2, 3, 4), (np.array([4, 3]), "2 3", 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)),  # the oldest of three rows is gone
+        ((2, 3, 4), (np.array([4, 3]), "2 3", *[1.0] * 8)),  # the oldest of three rows is gone
     ],
     hints=(
         "First draw the places of the rows: `batch` whole numbers below `len(self.rows)`, with `rng`.",

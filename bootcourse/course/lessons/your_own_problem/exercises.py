@@ -35,7 +35,7 @@ def climb_rule(position, speed):
 
 def majority_cases(rng):
     """One vote, two, an even number, right in half, always right, systematic, many votes; then 30 at random."""
-    yield from ((0.7, 1), (0.7, 2), (0.6, 4), (0.5, 5), (1.0, 3), (0.0, 4), (0.2, 9), (0.7, 41))
+    yield from ((0.7, 1), (0.7, 2), (0.6, 4), (0.5, 5), (1.0, 3), (0.0, 4), (0.2, 9), (0.7, 41), (0.52, 200))
     for _ in range(30):
         yield rng.uniform(0, 1), int(rng.integers(1, 30))
 
