@@ -129,7 +129,11 @@ def lessons() -> Iterator[Finding]:
     if not (FOLDER / MANIFEST).exists():
         yield Finding("STOP", f"the results that the lessons show are not in {FOLDER}", whole)
     elif problems := verify():
-        again = f"Delete the folder {FOLDER}, and run `git checkout {FOLDER.name}` in {ROOT}."
+        again = f"Delete the folder {FOLDER}, and "
+        if (ROOT / ".git").exists():
+            again += f"run `git checkout {FOLDER.name}` in {ROOT}."
+        else:  # it was downloaded as a .zip file
+            again += "put the one from a new download of the course in its place."
         yield Finding("STOP", f"{len(problems)} of the shipped files are wrong. {problems[0]}", again)
     elif notebooks:
         yield Finding("ok", f"{len(notebooks)} lessons, and the results that they show")

@@ -9,6 +9,7 @@ import os
 import socket
 import sys
 import tempfile
+import unicodedata
 from pathlib import Path
 
 import msgspec
@@ -107,6 +108,13 @@ def test_submit_puts_answers_and_predictions_into_one_file_that_is_read_as_it_wa
     assert [each.answers for each in collect(folder.parent)][-1] == one.answers, "a folder with the file in it"
 
 
+def test_a_name_is_the_same_whether_its_accents_were_typed_apart_or_not(bootcourse, folder):
+    for name in ("René", "Rene\u0301"):
+        answer = bootcourse("submit", folder, "--name", name)
+        assert answer.status == 0 and (folder / "submission-rené.json").exists(), answer.err
+    assert len(list(folder.glob("*.json"))) == 1
+
+
 def test_submit_finds_what_a_kernel_kept_elsewhere_and_says_where_it_looked(bootcourse, folder, monkeypatch):
     monkeypatch.chdir(folder.parent)
     later, first = ({"answer": words, "time": f"2026-10-0{day}T00:00:00+00:00"} for day, words in ((2, "b"), (1, "a")))
@@ -196,6 +204,15 @@ def test_students_of_one_name_stay_apart_and_what_a_link_leads_to_is_not_read(tm
     verdicts.known |= {key_of(NAME, one.answers[NAME]): MISSING for one in submissions if one.answers}
     write_report([grading.graded(one, worth, verdicts) for one in submissions], tmp_path / "out.csv", [])
     assert len(list((tmp_path / "out-pages").iterdir())) == len(submissions)
+
+
+def test_the_pages_of_a_class_are_as_many_files_on_windows_and_macos(tmp_path):
+    students = "ada", "Ada", "René", "Rene\u0301", "a:b", "a?b", "plain"
+    own, verdicts = [Submission(student=name) for name in students], Verdicts(tmp_path / "v.jsonl")
+    write_report([grading.graded(one, {NAME: 2}, verdicts) for one in own], tmp_path / "out.csv", [])
+    pages = [path.name for path in (tmp_path / "out-pages").iterdir()]
+    assert len({unicodedata.normalize("NFC", name).casefold() for name in pages}) == len(students)
+    assert not set('<>:"|?*\\') & set("".join(pages)) and "plain.html" in pages
 
 
 # Judging --------------------------------------------------------------------------------------------

@@ -47,6 +47,13 @@ def test_a_file_imports_its_neighbours_also_when_it_is_called():
     assert loaded("rules/mine.py:rule", "--teacher", "function")() == (7, 3)
 
 
+def test_a_file_beside_it_does_not_replace_a_module_of_python(monkeypatch):
+    monkeypatch.delitem(sys.modules, "colorsys", raising=False)
+    write("rules/colorsys.py", "raise RuntimeError('the user has this file, too')")
+    write("rules/mine.py", "def rule():\n    import colorsys\n    return colorsys.rgb_to_hsv(0, 0, 1)")
+    assert loaded("rules/mine.py:rule", "--teacher", "function")() == (2 / 3, 1, 1)
+
+
 def test_a_file_may_hold_dataclasses_with_postponed_annotations():
     write("mine.py", WITH_DATACLASS)
     assert loaded("mine.py:rule", "--teacher", "function")() == 12.0

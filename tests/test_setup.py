@@ -180,6 +180,18 @@ def test_the_doctor_finds_that(what, monkeypatch, capsys):
     assert doctor.main() == 1 and sentence in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(("cloned", "remedy"), [(True, "git checkout assets"), (False, "new download")])
+def test_the_doctor_s_remedy_for_damaged_files_fits_a_clone_and_a_download(cloned, remedy, tmp_path, monkeypatch):
+    (tmp_path / "notebooks").mkdir()
+    (tmp_path / "notebooks/01.ipynb").touch()
+    if cloned:
+        (tmp_path / ".git").mkdir()
+    monkeypatch.setattr(doctor, "ROOT", tmp_path)
+    monkeypatch.setattr(assets, "verify", lambda: ["One is damaged."])
+    (found,) = doctor.lessons()
+    assert found.level == "STOP" and remedy in found.remedy
+
+
 def test_the_doctor_reads_the_lock_for_this_platform_only():
     lines = ["here==1.0 ; sys_platform != 'nowhere'", "elsewhere==2.0 ; sys_platform == 'nowhere'", "plain==3.0+cpu"]
     lock = "".join(f"{line} \\\n    --hash=sha256:00\n" for line in lines)

@@ -13,7 +13,7 @@ _folders: set[str] = set()  # of the files that were loaded
 
 
 def loaded(place: str, option: str, what: str):
-    """What "FILE.py:NAME" names. The file runs as with `python FILE.py`: it can import its neighbours.
+    """What "FILE.py:NAME" names. It can import the files beside it, but none in place of one of Python's own modules.
 
     Raises BootcourseError if it is not there or does not load.
     """
@@ -44,12 +44,17 @@ def scenario_at(place: str) -> Scenario:
 
 
 def find_neighbours(folder: str) -> None:
-    """Let the files of a folder be imported by name; those of another user's file, which keeps them, are forgotten."""
+    """Let the files of a folder be imported by name; those of another user's file, which keeps them, are forgotten.
+
+    The folder is searched after Python's own modules and before the installed packages. A queue.py or statistics.py of
+    the user would otherwise stop whatever imports Python's module later.
+    """
     for name, module in list(sys.modules.items()):
         at = str(Path(getattr(module, "__file__", None) or "").parent)
         if at in _folders and at != folder and not name.startswith(PREFIX):
             del sys.modules[name]
     if folder in sys.path:
         sys.path.remove(folder)
-    sys.path.insert(0, folder)
+    later = {*_folders, *(place for place in sys.path if Path(place).name in ("site-packages", "dist-packages"))}
+    sys.path.insert(next((i for i, place in enumerate(sys.path) if place in later), len(sys.path)), folder)
     _folders.add(folder)

@@ -7,6 +7,7 @@ import csv
 import hashlib
 import io
 import os
+import re
 import sys
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -16,7 +17,7 @@ from urllib.parse import quote
 
 from bootcourse.course.classroom.grading import MISSING, Graduate, Judged, check_own
 from bootcourse.course.classroom.sandbox import HOLDS
-from bootcourse.course.classroom.submission import fingerprint
+from bootcourse.course.classroom.submission import composed, fingerprint
 from bootcourse.course.lessons import registry
 from bootcourse.course.predictions import number_of, worded
 from bootcourse.course.verdict import COLOURS, MARKS, marked
@@ -35,6 +36,7 @@ MADE_BY = '<meta name="generator" content="bootcourse">'
 WORDS = {"missing": "not handed in", "todo": "not written"}
 LOOK_AT = {"did_not_run": "did not run", "broke": "our check broke off", "library": "the library's own, not counted"}
 MOST = 12  # different answers to a prediction that are listed
+NOT_ON_WINDOWS = re.compile(r'[<>:"|?*\\]')  # in the name of a file
 LONGEST_NAME = 200  # bytes of a student's name in the name of a page; systems allow 255 in all
 
 
@@ -57,22 +59,31 @@ def write_report(graduates: Sequence[Graduate], out: Path, holds: list[str]) -> 
     """Write them to `out`, the table, and beside it. Returns the table and the page about the class."""
     pages, index = pages_of(out), out.with_suffix(".html")
     write_csv(graduates, out)
-    link = {}
+    link, alike = {}, Counter(same_file(one.submission.student) for one in graduates)
     for one in graduates:
         student = one.submission.student
-        name = f"{page_name(student)}.html"
+        name = f"{page_name(student, alone=alike[same_file(student)] == 1)}.html"
         write_bytes(pages / name, page_for(one).encode("utf-8", "replace"))
         link[student] = html('<a href="{}">{}</a>', quote(os.fsencode(f"{pages.name}/{name}")), student)
     write_bytes(index, class_page(graduates, link, holds).encode("utf-8", "replace"))
     return [out, index]
 
 
-def page_name(student: str) -> str:
-    """The student's name, which is the name of a file; of a long one the beginning, and what makes it unique."""
-    name = os.fsencode(student)
-    if len(name) <= LONGEST_NAME:
+def page_name(student: str, alone: bool) -> str:
+    """The student's name, which is the name of a file, as every system can write it.
+
+    A name that is long, that holds what Windows does not allow, or that is not alone (see `same_file`) gets a hash,
+    which makes it unique; of a long one the beginning stays.
+    """
+    name, portable = os.fsencode(student), NOT_ON_WINDOWS.sub("-", student)
+    if portable == student and alone and len(name) <= LONGEST_NAME:
         return student
-    return f"{os.fsdecode(name[:LONGEST_NAME])}-{hashlib.sha256(name).hexdigest()[:8]}"
+    return f"{os.fsdecode(os.fsencode(portable)[:LONGEST_NAME])}-{hashlib.sha256(name).hexdigest()[:8]}"
+
+
+def same_file(student: str) -> str:
+    """Names of which this is the same are one file on Windows or macOS, whose disks do not tell "Ada" from "ada"."""
+    return composed(student).casefold()
 
 
 def write_csv(graduates: Sequence[Graduate], path: Path) -> None:

@@ -6,6 +6,7 @@ Such a file may come from anybody: one reader checks every field, and what it re
 import hashlib
 import os
 import re
+import unicodedata
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -83,7 +84,7 @@ def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]
     Raises BootcourseError for an empty name, for no folder or one without notebooks, and for a file that is not this
     student's own submission.
     """
-    name = " ".join(name.encode("utf-8", "replace").decode().split())[:100]
+    name = " ".join(composed(name.encode("utf-8", "replace").decode()).split())[:100]
     short = re.sub(r"[\W_]+", "-", name).strip("-").lower()[:40] or "mine"
     path = out or (folder.parent if folder.is_file() else folder) / f"submission-{short}.json"
     if not name:
@@ -94,12 +95,17 @@ def submit(folder: Path, name: str, out: Path | None) -> tuple[Path, Submission]
         raise BootcourseError(f"{folder} is not there: give the folder with your notebooks.")
     if os.path.lexists(path):
         old = read_json(path, Submission, "choose another name for the file, with --out")
-        if old.name != name:
+        if composed(old.name) != name:
             raise BootcourseError(f"{path} is the submission of {old.name or 'nobody'}: choose another, with --out.")
     now = datetime.now(UTC).isoformat(timespec="seconds")
     submission = replace(from_notebooks(folder, around(folder), SAVE), name=name, time=now, exercises=fingerprint())
     write_json(path, to_builtins(submission))
     return path, submission
+
+
+def composed(name: str) -> str:
+    """A name whose accents are part of their letters, however it was typed: macOS often gives them apart."""
+    return unicodedata.normalize("NFC", name)
 
 
 def from_notebooks(path: Path, others: Sequence[Path] = (), remedy: str = ASK) -> Submission:
