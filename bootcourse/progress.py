@@ -16,7 +16,8 @@ class Lines(in_text):
 
 def progress_bar(iterable=None, shown: bool = True, **options) -> in_text:
     """A bar over an iterable, or one to `update`; options: tqdm's, such as total and unit."""
-    if notebook_tqdm is not in_text or sys.stderr.isatty():
+    shown = shown and sys.stderr is not None  # a program without a console, such as pythonw, has none
+    if notebook_tqdm is not in_text or (shown and sys.stderr.isatty()):
         return tqdm(iterable, disable=not shown, mininterval=0.5, **options)
     return Lines(iterable, disable=not shown, mininterval=10.0, **options)
 

@@ -256,3 +256,12 @@ def test_a_result_has_three_lines(capsys):
     assert len(lines) == 3 and all(len(line) < 120 for line in lines)
     assert "2 agents of plain SAC on the trap" in lines[0] and lines[1].startswith("6 episodes")
     assert capsys.readouterr().err == ""
+
+
+def test_a_training_learns_where_gradients_are_switched_off_and_without_a_console(monkeypatch):
+    monkeypatch.setattr("sys.stderr", None)
+    settings = [settings_for("sac", learning_starts=64)]
+    with torch.no_grad():
+        training = Training(settings, episodes=20)
+        training.run(updates=2)
+    assert training.updates == 2

@@ -231,6 +231,7 @@ class Training:
             if agent not in self.finished_agents:
                 self.finished_agents[int(agent)] = self.agent(agent)
 
+    @torch.enable_grad()  # also where somebody has switched gradients off
     def update(self) -> None:
         """One update of every agent. Agents with a non-finite loss are frozen at their last finite snapshot."""
         snapshots = {} if self.updates % SNAPSHOT_EVERY else {i: self.agent(i) for i in range(self.n_agents)}
