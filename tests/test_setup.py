@@ -94,9 +94,9 @@ def test_the_install_compiles_the_road_and_jupyterlab_will_ask_nothing(tmp_path)
     python.write_text(f'#!/bin/sh\necho "$@" >> {called}\ncase "$2" in *sys.prefix*) echo {tmp_path};; esac\n')
     python.chmod(0o755)
     subprocess.run(["sh", "tools/install.sh", str(python), "student.lock"], cwd=ROOT, check=True, capture_output=True)
-    *_, lock, package, prefix, compiled = called.read_text().splitlines()
+    *_, lock, package, prefix, compiled, page = called.read_text().splitlines()
     assert lock.endswith("--require-hashes -r student.lock") and "--editable ." in package
-    assert "bootcourse.doctor import road" in compiled
+    assert "bootcourse.doctor import road" in compiled and "bundle" in page
     settings = json.loads((tmp_path / "share/jupyter/lab/settings/overrides.json").read_text())
     assert settings == {name: CALM[name] for name in settings}, "the settings that the tests of JupyterLab rely on"
     assert CALM["@jupyterlab/apputils-extension:notification"] in settings.values()

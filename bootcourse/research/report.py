@@ -58,7 +58,7 @@ def write_report(study: StudyResults, folder: Path) -> Path:
 def ablation(results: Results) -> dict:
     """The paper's ablation in numbers, ours beside the paper's, for the page that learns (web/ablation.js)."""
     methods = {}
-    for method in TABLES[INTEGRATED]:
+    for method in (method for method in TABLES[INTEGRATED] if method in results.methods):
         printed, returns = PRINTED[method], results.of(method).scores("returns")
         methods[method] = {
             "ours": {"escaped": results.escapers(method), "agents": len(returns), "returns": round(returns.mean(), 2)},

@@ -34,7 +34,6 @@ wrong_lines("""reads_as_printed
     one of the rows: sum(np.mean((s if ahead else 1 - s) ** episodes) for s, ahead in zip(rows, printed))
 """)
 
-equivalent("forgetting", "means > 0.5  ->  means > 0.505", "a mean of 50 episodes is a multiple of 0.02")
 PAIRS = "zip(rows, printed, strict=True)"
 for _change in (
     f"for success, all_ahead in {PAIRS}:  ->  for success, all_ahead in zip(rows, printed):",

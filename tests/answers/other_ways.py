@@ -2,10 +2,7 @@
 
 import torch
 
-from tests.answers import equivalent, right, right_lines, wrong_lines
-
-EITHER = "of two actions with the same value, either is the better one"
-equivalent("better_of_two", "pi * (q > q_rule)  ->  pi * (q >= q_rule)", EITHER)
+from tests.answers import right, right_lines, wrong_lines
 
 right_lines("""smallest_of
     indexed: torch.index_select(q, 0, chosen).min(dim=0)[0]
