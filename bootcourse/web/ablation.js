@@ -35,7 +35,7 @@ async function tested(road, first, layers) {
 
 // Train and test them, and show the table while it fills. drives: of each agent in training.
 function runAblation(view, drives) {
-  const { find, data } = view, groups = FOUR.map(method => ({ name: METHOD_WORDS[method][0], method,
+  const { find, data } = view, groups = FOUR.map(method => ({ name: METHOD_WORDS[method][0].split(",")[0], method,
     agents: Array.from({ length: SEEDS }, (_, seed) => ({ method, seed, episodes: drives })) }));
   // One agent of each method first, then the second ones: no method waits for another.
   view.run(groups, null, 0);
