@@ -78,7 +78,7 @@ function tableOf(numbers, drives, groups, results) {
     const cells = [...mine, ofAll(ours.escaped, ours.agents), points(ours.returns), `${paper.success} %`, points(paper.returns)];
     return `<tr><th scope="row"><i class="swatch" style="background:${colour}"></i>${name}</th>${cells.map(cell => `<td>${cell}</td>`).join("")}</tr>`;
   });
-  const above = [["", 1], [`yours: three agents, ${drives} drives`, 3], ["ours: ten agents, 2,000 drives", 2], ["the paper", 2]];
+  const above = [["", 1], [`yours: three, ${drives} drives`, 3], ["ours: ten, 2,000 drives", 2], ["the paper", 2]];
   const heads = ["", "escape (95 %)", `of ${TESTED} roads`, "return", "escape (95 %)", "return", "success", "return"];
   return `<thead><tr>${above.map(([head, wide]) => `<th scope="colgroup" colspan="${wide}">${head}</th>`).join("")}</tr>`
     + `<tr>${heads.map(head => `<th scope="col">${head}</th>`).join("")}</tr></thead><tbody>${rows.join("")}</tbody>`;
