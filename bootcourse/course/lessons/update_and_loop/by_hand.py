@@ -42,9 +42,11 @@ def batch_of(rows: Tensor) -> Batch:
 class SAC:
     """An actor, two critics, their slow copies and log α, with an optimiser for each of the three.
 
-    The settings solve the pole in 30,000 pushes: batches of 256, faster steps and copies than the road's. They were
-    chosen on the seeds 100 to 105. With the road's (64, rates a third as large, τ = 0.02 or 0.05) most agents still
-    let the cart drift off its track after some 200 pushes. rates: of the critics, the actor and log α.
+    The settings are made for the pole: batches of 256, faster steps and copies than the road's. They were chosen on
+    the seeds 100 to 105. After 30,000 pushes each of the five agents of the seeds 0 to 4 balanced 20 test episodes to
+    their end by its most probable pushes; in training, where pushes are drawn, three of the five did so in their last
+    20 episodes. With the road's (64, rates a third as large, τ = 0.02 or 0.05) most agents still let the cart drift off
+    its track after some 200 pushes. rates: of the critics, the actor and log α.
     """
 
     gamma, tau, target_entropy = 0.99, 0.1, 0.3 * float(np.log(2))
