@@ -156,7 +156,7 @@ def test_a_command_imports_nothing_from_the_folder_in_which_it_is_typed(tmp_path
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT to send")
 def test_a_training_that_is_stopped_loses_nothing_and_resumes(bootcourse, tmp_path):
     out = tmp_path / "runs"
-    command = [*COMMAND, "train", "--method", "sac", "--seeds", "1", "--episodes", "100", "--out", str(out), "--quiet"]
+    command = [*COMMAND, "train", "--method", "sac", "--seeds", "1", "--episodes", "600", "--out", str(out), "--quiet"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     assert until((out / "unfinished" / "checkpoint.npz").exists, 60)
     time.sleep(0.3)
