@@ -45,6 +45,28 @@ def crash():
     return drive_road_3(plan_policy([("accelerate straight", 30)]), "you")
 
 
+@pytest.fixture(scope="module")
+def web_page(tmp_path_factory):
+    """The file of the page on which anyone drives and agents learn."""
+    from bootcourse.web import build
+
+    path = tmp_path_factory.mktemp("web") / "trap.html"
+    build.main(["--out", str(path)])
+    return path
+
+
+@pytest.fixture(scope="module")
+def visit(web_page):
+    """Opens the page in Chromium without a network: visit("#road=7", width=390)."""
+    from functools import partial
+
+    from tests.browser import open_browser
+    from tests.drive_page import opened
+
+    with open_browser(offline=True) as new_page:
+        yield partial(opened, new_page, web_page)
+
+
 @dataclass(frozen=True)
 class Answer:
     status: int

@@ -4,7 +4,6 @@ import base64
 import gzip
 import json
 import re
-from functools import partial
 
 import numpy as np
 import pytest
@@ -22,8 +21,8 @@ from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE, Clock, 
 from bootcourse.storage.runs import load_run
 from bootcourse.web import build, wasm
 from bootcourse.web.entries import ENTRIES
-from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
-from tests.drive_page import drive_in_page, opened
+from tests.browser import ARTEFACTS, is_blank, needs_browser
+from tests.drive_page import drive_in_page
 
 pytestmark = needs_browser
 EPISODES = 40  # of each scenario
@@ -39,24 +38,10 @@ SCENARIOS = {
 
 
 @pytest.fixture(scope="module")
-def path(tmp_path_factory):
-    path = tmp_path_factory.mktemp("web") / "trap.html"
-    build.main(["--out", str(path)])
-    return path
-
-
-@pytest.fixture(scope="module")
-def module(path):
+def module(web_page):
     """The compiled road, out of the page: one compilation serves all tests."""
-    data = re.search(r'<script type="application/json" id="data">(.*?)</script>', path.read_text(encoding="utf-8"))
+    data = re.search(r'<script type="application/json" id="data">(.*?)</script>', web_page.read_text(encoding="utf-8"))
     return gzip.decompress(base64.b64decode(json.loads(data[1])["module"]))
-
-
-@pytest.fixture(scope="module")
-def visit(path):
-    """Opens the page: visit("#road=7", width=390)."""
-    with open_browser(offline=True) as new_page:
-        yield partial(opened, new_page, path)
 
 
 @pytest.fixture(scope="module")
@@ -197,9 +182,9 @@ def test_the_nine_futures_are_worth_as_much_as_in_python(page):
     assert np.abs(values - rollout_values(env.cars, rule_policy(DEFAULT))).max() < 1e-5  # worths have six digits
 
 
-def test_the_page_is_one_file_that_asks_for_nothing_and_is_under_400_kb(path, page):
-    assert path.stat().st_size < 400_000
-    assert page.requests == [path.as_uri()]
+def test_the_page_is_one_file_that_asks_for_nothing_and_is_under_400_kb(web_page, page):
+    assert web_page.stat().st_size < 400_000
+    assert page.requests == [web_page.as_uri()]
     assert page.errors == []
 
 

@@ -2,7 +2,6 @@
 
 import base64
 import json
-from functools import partial
 
 import numpy as np
 import pytest
@@ -12,8 +11,7 @@ from bootcourse.errors import BootcourseError
 from bootcourse.learn import compiled, records
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.web import build, learning
-from tests.browser import needs_browser, open_browser
-from tests.drive_page import opened
+from tests.browser import needs_browser
 from tests.test_learn_learner import batches
 
 pytestmark = needs_browser
@@ -39,14 +37,6 @@ UPDATE = """given => {  // one update on records given as bytes; its time, and t
     }
     return { status, ms, after: bytes.map(each => btoa(each.map(byte => String.fromCharCode(byte)).join(""))) };
 }"""
-
-
-@pytest.fixture(scope="module")
-def visit(tmp_path_factory):
-    path = tmp_path_factory.mktemp("web") / "trap.html"
-    build.main(["--out", str(path)])
-    with open_browser(offline=True) as new_page:
-        yield partial(opened, new_page, path)
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,6 @@
 """Learn beside Drive: the page's buttons, sliders, curves and addresses, moved in Chromium."""
 
 import json
-from functools import partial
 from urllib.parse import parse_qs
 
 import pytest
@@ -11,20 +10,10 @@ import bootcourse as bc
 from bootcourse.course.shipped import shipped_results
 from bootcourse.research.report import ABLATION, ablation
 from bootcourse.storage.assets import FOLDER
-from bootcourse.web import build
-from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
-from tests.drive_page import opened
+from tests.browser import ARTEFACTS, is_blank, needs_browser
 
 pytestmark = needs_browser
 FOUR = ("sac", "soft", "demos", "bootstrapped")
-
-
-@pytest.fixture(scope="module")
-def visit(tmp_path_factory):
-    path = tmp_path_factory.mktemp("web") / "trap.html"
-    build.main(["--out", str(path)])
-    with open_browser(offline=True) as new_page:
-        yield partial(opened, new_page, path)
 
 
 def learned(page, episodes: int) -> None:

@@ -1,22 +1,10 @@
 """Five visits to the page that learns: a child, a phone, somebody with a keyboard alone, a lecturer and a sceptic."""
 
-from functools import partial
-
 import pytest
 
-from bootcourse.web import build
-from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
-from tests.drive_page import opened
+from tests.browser import ARTEFACTS, is_blank, needs_browser
 
 pytestmark = needs_browser
-
-
-@pytest.fixture(scope="module")
-def visit(tmp_path_factory):
-    path = tmp_path_factory.mktemp("web") / "trap.html"
-    build.main(["--out", str(path)])
-    with open_browser(offline=True) as new_page:
-        yield partial(opened, new_page, path)
 
 
 def driven(page, episodes: int) -> None:

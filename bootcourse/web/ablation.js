@@ -43,9 +43,10 @@ function runAblation(view, drives) {
   view.coming = order;
   for (let i = 0; i < Math.max(1, view.cores); i++) view.next();
   const began = performance.now(), results = new Map(), mine = view.groups;
+  const tests = () => [...results.values()].filter(Boolean).length; // those that have ended
   const show = () => {
     find("table").innerHTML = tableOf(data.ablation, drives, mine, results);
-    const done = results.size, all = FOUR.length * SEEDS, time = ((performance.now() - began) / 1000).toFixed(0);
+    const done = tests(), all = FOUR.length * SEEDS, time = ((performance.now() - began) / 1000).toFixed(0);
     find("ablation-words").textContent = done < all ? `${done} of ${all} agents are trained and tested (${time} s).`
       : `Done in ${time} s. An agent escapes if it gets out on ${100 * data.ablation.escapes} of ${TESTED} roads that it has not seen.`;
     if (done === all) find("learn-live").textContent = find("ablation-words").textContent;
@@ -59,7 +60,7 @@ function runAblation(view, drives) {
       learner.stop(); // its memory is free again; it has learned what it is to learn
     }
     show();
-    if ([...results.values()].filter(Boolean).length < FOUR.length * SEEDS) setTimeout(look, 300);
+    if (tests() < FOUR.length * SEEDS) setTimeout(look, 300);
   };
   show();
   look();

@@ -1,7 +1,7 @@
 // What the address asks for, as in "#road=7&ghost=rule,sac&view=3d", and a sentence for each part that cannot be had.
 
 const LARGEST_ROAD = 999999999;
-const listed = names => `${names.slice(0, -1).join(", ")} or ${names.at(-1)}`;
+const listed = (names, word = "or") => (names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} ${word} ${names.at(-1)}`);
 
 // { wanted: { road: "7", ... } with what is valid, faults: [sentences] }. text: without its "#"; drivers: their names;
 // now: { road: "10", ... }, what is used where the address is wrong.

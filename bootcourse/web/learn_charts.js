@@ -47,7 +47,7 @@ class Charts {
   // groups: [{ name, colour, learners }]; episodes: of each agent; pointed: { learner, episode } of the agent on the road;
   // level: the return of somebody who follows the slow cars.
   draw(groups, { episodes, pointed = {}, level = null }) {
-    Object.assign(this, { groups, episodes });
+    this.episodes = episodes;
     for (const figure of this.element.children) figure.innerHTML = this.chart(figure, groups, pointed, level);
   }
 

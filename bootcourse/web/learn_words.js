@@ -5,22 +5,20 @@ const NUMBERS = ["none", "one", "two", "three", "four", "five", "six", "seven", 
 
 const share = (values, from, to) => values.slice(from, to).reduce((sum, value) => sum + value, 0) / Math.max(to - from, 1);
 
-// What an agent has come to: { found, best, recent, driven, drives }. found: the drive that ends the first 50 in a row of which
-// more than half got out, or null; best: the largest share of 50; recent: how many of its last 100 drives got out.
+// What an agent has come to: { found, recent, driven, drives }. found: the drive that ends the first 50 in a row of which
+// more than half got out, or null; recent: how many of its last 100 drives got out; driven: of how many, if it has fewer.
 function progressOf({ curves }) {
   const { success } = curves, drives = success.length, driven = Math.min(drives, RECENT);
-  let found = null, best = 0, sum = 0;
+  let found = null, sum = 0;
   success.forEach((out, i) => {
     sum += out - (i >= WINDOW ? success[i - WINDOW] : 0);
-    if (i < WINDOW - 1) return;
-    best = Math.max(best, sum / WINDOW);
-    if (found === null && sum > WINDOW / 2) found = i + 1;
+    if (found === null && i >= WINDOW - 1 && sum > WINDOW / 2) found = i + 1;
   });
-  return { found, best, driven, drives, recent: Math.round(share(success, drives - driven, drives) * driven) };
+  return { found, driven, drives, recent: Math.round(share(success, drives - driven, drives) * driven) };
 }
 
-const list = words => (words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`);
-const counted = (n, of) => (n === of && n === 2 ? "both" : n === of && n > 2 ? `all ${NUMBERS[n] ?? n}` : `${NUMBERS[n] ?? n} of ${NUMBERS[of] ?? of}`);
+const inWords = n => NUMBERS[n] ?? String(n);
+const counted = (n, of) => (n === of && n === 2 ? "both" : n === of && n > 2 ? `all ${inWords(n)}` : `${inWords(n)} of ${inWords(of)}`);
 
 // One or two sentences about some agents.
 function storyOf(learners) {
@@ -32,7 +30,7 @@ function storyOf(learners) {
   }
   if (driven < WINDOW) return `Their first drives: they try actions at random, and most drives end in an accident.`;
   const finders = all.filter(({ found }) => found !== null);
-  const recents = each => list(each.map(({ recent }) => String(recent)));
+  const recents = each => listed(each.map(({ recent }) => String(recent)), "and");
   const last = Math.min(...all.map(({ driven: last }) => last));
   if (!finders.length) {
     const some = all.some(({ recent }) => recent > 0);
@@ -43,9 +41,9 @@ function storyOf(learners) {
   const first = Math.min(...finders.map(({ found }) => found));
   const beginning = `${capital(counted(finders.length, n))} agents ${finders.length === 1 ? "has" : "have"} found a way out, `
     + `${finders.length === 1 ? "" : "the first "}after ${first} drives. `;
-  const holding = kept ? `${lost.length ? `${capital(NUMBERS[kept] ?? String(kept))} of these` : finders.length === 1 ? "It" : "They"} `
+  const holding = kept ? `${lost.length ? `${capital(inWords(kept))} of these` : finders.length === 1 ? "It" : "They"} `
     + `got out on ${recents(finders.filter(each => !lost.includes(each)))} of the last ${RECENT} roads. ` : "";
-  const losing = lost.length ? `${lost.length === 1 ? "One forgets" : `${capital(NUMBERS[lost.length] ?? String(lost.length))} forget`} it again: `
+  const losing = lost.length ? `${lost.length === 1 ? "One forgets" : `${capital(inWords(lost.length))} forget`} it again: `
     + `${recents(lost)} of the last ${RECENT}.` : "";
   return beginning + holding + losing;
 }
@@ -54,7 +52,7 @@ function storyOf(learners) {
 function finders(groups) {
   const each = groups.map(({ name, agents, learners }) => {
     const k = learners.filter(learner => progressOf(learner).found !== null).length;
-    return `${name}: ${NUMBERS[k] ?? k} of ${NUMBERS[agents.length] ?? agents.length}`;
+    return `${name}: ${inWords(k)} of ${inWords(agents.length)}`;
   });
   return `Agents that have found a way out so far. ${capital(each.join("; "))}.`;
 }
