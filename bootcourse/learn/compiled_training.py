@@ -14,7 +14,7 @@ import numpy as np
 from bootcourse.errors import require, whole
 from bootcourse.learn import records
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.compiled import draw_near, forward, policy, update
+from bootcourse.learn.compiled import follow, forward, policy, update
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.records import ACTIONS, BATCH, MOST_DEMONSTRATIONS, MOST_EPISODES, ROADS, SEEN
 from bootcourse.learn.settings import Settings
@@ -65,18 +65,6 @@ def draw_network(run, network):
     draw_first(run, network.b_2, 1, hidden, hidden)
     draw_first(run, network.w_3, ACTIONS, hidden, hidden)
     draw_first(run, network.b_3, 1, ACTIONS, hidden)
-
-
-@vectorised
-def copy(network, out):
-    """Copy a network's weights and biases."""
-    one = np.float32(1)
-    draw_near(out.w_1, network.w_1, one)
-    draw_near(out.b_1, network.b_1, one)
-    draw_near(out.w_2, network.w_2, one)
-    draw_near(out.b_2, network.b_2, one)
-    draw_near(out.w_3, network.w_3, one)
-    draw_near(out.b_3, network.b_3, one)
 
 
 @vectorised
@@ -245,8 +233,8 @@ def begin(agent, plan, run, seed, c):
     draw_network(run, agent.actor)
     draw_network(run, agent.critic_1)
     draw_network(run, agent.critic_2)
-    copy(agent.critic_1, agent.target_1)
-    copy(agent.critic_2, agent.target_2)
+    follow(agent.target_1, agent.critic_1, np.float32(1))
+    follow(agent.target_2, agent.critic_2, np.float32(1))
     agent.fade_1 = agent.fade_2 = 1.0
     for i in range(len(run.order)):
         run.order[i] = i
