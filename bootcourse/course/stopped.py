@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 LONGEST = 2**16  # bytes of notes that are read: the process may write anything there
-SLOW_TO_SAY = 0.3  # seconds in which it has to say its line
+SLOW_TO_SAY = 2  # seconds in which it has to say its line: other processes may have the processors
+QUIET = 0.1  # seconds without a byte after which it has said all
 
 
 class Notes:
@@ -73,8 +74,8 @@ def processor_seconds(session: int) -> float:
 def said(descriptor: int) -> str:
     """All that stands in the pipe, once the process has said its line or has had the time to."""
     os.set_blocking(descriptor, False)
-    end, text = time.monotonic() + SLOW_TO_SAY, b""
-    while time.monotonic() < end and len(text) < LONGEST:
+    end, quiet, text = time.monotonic() + SLOW_TO_SAY, float("inf"), b""
+    while time.monotonic() < min(end, quiet) and len(text) < LONGEST:
         try:
             more = os.read(descriptor, LONGEST)
         except BlockingIOError:
@@ -83,6 +84,6 @@ def said(descriptor: int) -> str:
         if not more:
             break
         text += more
-        if b"most recent call first" in text:  # the lines come at once; where it is shut in, from two processes
-            end = min(end, time.monotonic() + 0.05)
+        if b"most recent call first" in text:
+            quiet = time.monotonic() + QUIET
     return text.decode("utf-8", "replace")

@@ -104,6 +104,7 @@ def become_first(libc: ctypes.CDLL) -> None:
     """Go on as the first process of the new namespace: when it ends, all that were started in it are killed."""
     child = os.fork()
     if child:
+        signal.signal(signal.SIGUSR1, signal.SIG_IGN)  # asked where the answer is, the child alone replies
         code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
         if code < 0:  # minus the signal that ended it
             os.kill(os.getpid(), -code)
