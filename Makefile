@@ -4,7 +4,8 @@
 # make test   every test, the notebooks included: 10 to 18 minutes on two cores
 # make bench  how fast the road and the learner are, as ratios
 # make book   the lessons as pages that need no server, in build/book/html  (EDITION=instructor: with solutions)
-# make notebooks  execute the lessons' sources again and write the notebooks, solved and not, and the instructor's pages
+# make notebooks  execute the lessons' texts again and write the notebooks
+# make solved     the notebooks with the solutions, and the instructor's pages, in notebooks/solved and notebooks/instructor
 # make doctor what is right and wrong with this machine
 # make lock   resolve environment.lock and student.lock again
 # make clean  remove .venv and the caches
@@ -16,13 +17,13 @@ PYTHON ?= python3
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 # Folders that JupyterLab's list of files leaves out: what is not for who begins.
-HIDDEN := instructor solved source __pycache__ ruff.toml
+HIDDEN := instructor solved __pycache__ ruff.toml
 NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb))
 
 # So that a notebook finds this `bootcourse` and this `python`.
 WITH_PATH := PATH="$(CURDIR)/$(BIN):$$PATH"
 
-.PHONY: help lab drive check test bench book notebooks doctor lock clean
+.PHONY: help lab drive check test bench book notebooks solved doctor lock clean
 
 help:
 	@sed -n '/^$$/q;s/^# \{0,1\}//p' Makefile
@@ -51,6 +52,9 @@ bench: .venv/installed
 
 notebooks: .venv/installed
 	@$(WITH_PATH) $(BIN)/python tools/notebooks.py
+
+solved: .venv/installed
+	@$(BIN)/python tools/notebooks.py --solved
 
 book: .venv/installed
 	@$(BIN)/python tools/book.py $(EDITION)

@@ -4,8 +4,7 @@ import pytest
 
 from tests.leftovers import LeavesNothing, files, survey
 
-# tests/test_notebooks.py executes these, without the cells that the student's notebooks have, too.
-collect_ignore = ["notebooks/solved"]
+collect_ignore = ["notebooks/solved"]  # what `make solved` writes
 # These files use the numbers in the text of all lessons: one worker computes and keeps them.
 TOGETHER = {f"tests/test_{name}.py" for name in ("book", "claims", "course", "teaching")}
 

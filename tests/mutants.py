@@ -3,8 +3,8 @@
     python -m tests.mutants critic_target paper_q_filter  # the changes to their solutions that pass: cases are missing
 
 A change that gives the right answer for all arguments that the exercise allows is no mistake: it stands in
-`tests/answers`, with the reason, as `equivalent(exercise, change, why)`. Classes are left out, and exercises in which
-other numbers do as well: most changes to a controller are other controllers, and a probe may ask with any numbers.
+the lesson's answers.py, with the reason, as `equivalent(exercise, change, why)`. Classes are left out, and exercises in
+which other numbers do as well: most changes to a controller are other controllers, and a probe may ask with any.
 """
 
 import ast

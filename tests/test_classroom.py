@@ -26,11 +26,12 @@ from bootcourse.course.classroom.pages import write_report
 from bootcourse.course.classroom.sandbox import HOLDS, shut_in
 from bootcourse.course.classroom.submission import Submission, collect, fingerprint, from_notebooks
 from bootcourse.course.judge import judge
-from bootcourse.course.lessons import number, registry
+from bootcourse.course.lessons import number, registry, stem
 from bootcourse.course.predictions import FILE
 from bootcourse.errors import BootcourseError
 from tests.answers import here
-from tools.course.source import NOTEBOOKS
+from tools.course.products import solved_notebook, student_file
+from tools.course.source import lesson_of, sources
 
 NAME = "luck"
 LESSON = str(number(registry()[NAME].lesson.partition("_")[2]))
@@ -64,11 +65,12 @@ def answers_in(notebook: Notebook) -> dict[str, str]:
 # Answers --------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("path", sorted(NOTEBOOKS.glob("solved/*.ipynb")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sources(), ids=lesson_of)
 def test_every_answer_of_a_solved_notebook_is_found_and_right_and_of_the_students_a_stub(path, monkeypatch):
     monkeypatch.setattr(runner, "run", here)
-    expected = {name for name, exercise in registry().items() if exercise.lesson == path.stem}
-    solved, stubs = (answers_in(read(json.loads(file.read_bytes()))) for file in (path, NOTEBOOKS / path.name))
+    expected = {name for name, exercise in registry().items() if exercise.lesson == stem(lesson_of(path))}
+    stubs = answers_in(read(json.loads(student_file(path).read_bytes())))
+    solved = answers_in(read(solved_notebook(path) or notebook()))
     assert set(solved) == set(stubs) == expected
     assert all(judge(registry()[name], text).passed for name, text in solved.items())
     assert not any(map(unfinished, solved.values())) and all(map(unfinished, stubs.values()))

@@ -1,4 +1,4 @@
-"""One source, three products: what is wrong with a lesson is found, and what is made from it is right."""
+"""One text, three products: what is wrong with a lesson is found, and what is made from it is right."""
 
 import re
 import shutil
@@ -14,18 +14,19 @@ from bootcourse.course.lessons import LESSONS, number, registry, stem
 from bootcourse.course.predictions import number_of
 from tools.course import numbering
 from tools.course import problems as problems_module
-from tools.course.numbering import BY_HAND, NOTEBOOKS, ROOT, refreshed, resolved
+from tools.course.numbering import BY_HAND, LESSON_FOLDERS, ROOT, refreshed, resolved, text_file
 from tools.course.problems import dead_names, problems
-from tools.course.products import instructor_file, make, refresh_prose, solved_file, student_file
-from tools.course.source import read, sources
+from tools.course.products import instructor_file, make, make_solved, refresh_prose, solved_file, student_file
+from tools.course.source import lesson_of, read, sources
 
-EXAMPLE = re.search(r"```python\n(.*?)```", (NOTEBOOKS / "source/README.md").read_text(encoding="utf-8"), re.S)[1]
+EXAMPLE = re.search(r"```python\n(.*?)```", (LESSON_FOLDERS / "README.md").read_text(encoding="utf-8"), re.S)[1]
 PAGES = [*ROOT.glob("book/*.md"), *ROOT.glob("book/teaching/*.md")]
+TEXTS = [*sources(), *PAGES, ROOT / "book/paper_map.toml"]
 
 # The lessons ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("path", sources(), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sources(), ids=lesson_of)
 def test_nothing_is_wrong_with_a_lesson(path):
     assert problems(path) == []
 
@@ -38,7 +39,7 @@ def test_the_code_that_a_page_of_the_book_names_exists(page):
 # Numbers --------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("path", [*sources(), *PAGES, ROOT / "book/paper_map.toml"], ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", TEXTS, ids=lambda path: f"{path.parent.name}-{path.stem}")
 def test_no_number_of_a_lesson_is_written_by_hand(path):
     text = path.read_text(encoding="utf-8").replace("\n# ", "\n")
     if path.name != "cloud.md":  # is read as it is, and kept up to date
@@ -65,7 +66,7 @@ def test_two_lessons_that_change_places_change_their_numbers(monkeypatch):
     for module in (lessons, numbering):
         monkeypatch.setattr(module, "LESSONS", order)
     for name, place in places.items():
-        text = "\n".join(cell.text for cell in read(NOTEBOOKS / f"source/{name}.py"))
+        text = "\n".join(cell.text for cell in read(text_file(name)))
         assert text.startswith(f"# {place} · ") and f"**Exercise {place}.1 (" in text
         assert stem(name) == f"{place:02}_{name}" and number_of(f"{name}.1") == f"{place}.1"
     readme = refreshed((ROOT / "README.md").read_text(encoding="utf-8"))
@@ -82,7 +83,7 @@ def test_the_pages_that_hold_the_numbers_are_up_to_date(name):
 
 
 def write_source(folder: Path, text: str = EXAMPLE, name: str = "the_rule") -> Path:
-    path = folder / "notebooks/source" / f"{name}.py"
+    path = folder / "bootcourse/course/lessons" / name / "text.py"
     path.parent.mkdir(parents=True)
     path.write_text(text, encoding="utf-8")
     return path
@@ -93,6 +94,7 @@ def made(tmp_path_factory):
     """The example, executed once."""
     path = write_source(tmp_path_factory.mktemp("example"))
     make(path)
+    make_solved(path)
     return path
 
 
@@ -106,8 +108,8 @@ def few_exercises(monkeypatch):
 @pytest.fixture
 def copy(made, few_exercises, tmp_path):
     """A copy that a test may spoil."""
-    shutil.copytree(made.parent.parent, tmp_path / "notebooks")
-    return tmp_path / "notebooks/source" / made.name
+    shutil.copytree(made.parents[4], tmp_path, dirs_exist_ok=True)
+    return tmp_path / made.relative_to(made.parents[4])
 
 
 def text_of(file: Path) -> list[str]:
@@ -128,7 +130,8 @@ def test_the_student_gets_a_stub_that_failed_politely_and_the_solved_notebook_pa
     assert texts[0].startswith(f"# {number('the_rule')} · The rule") and not any(
         "They say 4 m" in each for each in texts
     )
-    assert result_of(solved_file(made))["text/plain"].startswith("✓ Right.")
+    solved = next(text for text in text_of(solved_file(made)) if text.startswith("def safety_distance"))
+    assert "closing_speed = " in solved and "..." not in solved
 
 
 def test_the_instructor_s_page_has_timings_questions_answers_and_misconceptions(made):
@@ -142,7 +145,7 @@ def test_the_instructor_s_page_has_timings_questions_answers_and_misconceptions(
 def test_text_is_refreshed_without_execution_and_code_is_not(copy):
     copy.write_text(EXAMPLE.replace("how far is safe", "what is safe"), encoding="utf-8")
     assert refresh_prose(copy) and problems(copy) == []
-    assert result_of(solved_file(copy))["text/plain"].startswith("✓ Right.")
+    assert "Nothing to check yet" in result_of(student_file(copy))["text/plain"]
     copy.write_text(EXAMPLE.replace("import check, source", "import source, check"), encoding="utf-8")
     assert not refresh_prose(copy)
 
@@ -159,7 +162,7 @@ SPOILT = {
                                      "No compare_predictions answers the_rule.1"),
     "a claim is false": ("You drive 12 m/s", "<!-- claim: 1 == 2 -->", "`1 == 2` is False"),
     "the rows have other minutes": ("**Time** 13", "**Time** 14", "the rows add up to 13 minutes"),
-    "a note for the instructor has changed": ("They say 4 m", "They say 5 m", "the_rule.md is out of date"),
+    "a text has changed": ("You drive 12 m/s", "You drive 13 m/s", "the_rule.ipynb is out of date"),
     "a solution has changed": ("closing_speed", "closing", "the source's solution is not the one"),
 }  # fmt: skip
 

@@ -18,7 +18,7 @@ from bootcourse.errors import BootcourseError
 from tests.answers import RIGHT, WRONG, here, one_sentence
 
 EXERCISES = registry()
-NOTEBOOKS = Path(__file__).parents[1] / "notebooks" / "source"
+TEXTS = Path(__file__).parents[1] / "bootcourse/course/lessons"
 NOT_RIGHT = ("wrong", "did_not_run")
 every_exercise = pytest.mark.parametrize("exercise", EXERCISES.values(), ids=lambda exercise: exercise.name)
 
@@ -65,7 +65,7 @@ def test_the_solution_gives_what_was_worked_out_by_hand(exercise):
 @every_exercise
 def test_an_argument_with_nine_columns_has_nine_in_the_worked_cases_too(exercise):
     """An answer that counts on the (batch, 9) of its docstring raises no error in a case with two actions."""
-    written = (NOTEBOOKS / f"{exercise.lesson[3:]}.py").read_text()
+    written = (TEXTS / exercise.lesson[3:] / "text.py").read_text()
     stub = re.search(rf"^(?:def|class) {exercise.name}\b.*?\"\"\"(.*?)\"\"\"", written, re.S | re.M)[1]
     cases = exercise.all_arguments
     worked, hidden = cases[: len(exercise.worked)], cases[len(exercise.worked) :]

@@ -1,7 +1,4 @@
-"""The notebooks as files, student's and solved, and the solutions at work.
-
-nbval executes the student's notebooks; test_course.py holds both to their sources.
-"""
+"""The notebooks as files. nbval executes them; test_course.py holds them to the lessons' texts."""
 
 import re
 from pathlib import Path
@@ -12,13 +9,8 @@ import pytest
 from bootcourse.course.lessons import stem
 from tools.course.numbering import NOTEBOOKS
 
-SOLVED = sorted(NOTEBOOKS.glob("solved/*.ipynb"))
-NOTEBOOK_FILES = sorted(NOTEBOOKS.glob("*.ipynb")) + SOLVED
 
-
-@pytest.fixture(
-    scope="module", params=NOTEBOOK_FILES, ids=lambda path: str(path.relative_to(NOTEBOOKS).with_suffix(""))
-)
+@pytest.fixture(scope="module", params=sorted(NOTEBOOKS.glob("*.ipynb")), ids=lambda path: path.stem)
 def notebook(request):
     return nbformat.read(request.param, as_version=4)
 

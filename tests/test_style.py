@@ -25,6 +25,12 @@ def test_every_file_is_formatted():
     assert result.returncode == 0, f"run `ruff format`:\n{result.stdout}{result.stderr}"
 
 
+def test_the_code_of_the_lessons_texts_is_formatted_for_a_notebook_s_narrow_cells():
+    texts = sorted(map(str, ROOT.glob("bootcourse/course/lessons/*/text.py")))
+    result = ruff("format", "--check", "--line-length=100", "--config=format.exclude=[]", *texts)
+    assert result.returncode == 0 and f"{len(texts)} files already" in result.stdout, result.stdout + result.stderr
+
+
 def named(path: Path) -> set[str]:
     """The modules of this package that a file imports or names in its words, wherever in it."""
     nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))

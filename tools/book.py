@@ -48,9 +48,9 @@ SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 def gather(to: Path, edition: str = "student") -> None:
     """Put all that the book is made of into the folder `to`. edition: student, or instructor with the solutions."""
     from bootcourse.web import build as drive_page
-    from tools.course import paper_map
+    from tools.course import instructor, paper_map
     from tools.course.claims import claims_page, fill_in
-    from tools.course.numbering import resolved
+    from tools.course.numbering import resolved, text_file
 
     shutil.rmtree(to, ignore_errors=True)
     shutil.copytree(ROOT / "book", to)
@@ -68,16 +68,17 @@ def gather(to: Path, edition: str = "student") -> None:
     (to / "lessons/instructor").mkdir(parents=True)
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
         with_live_worlds(notebook, to / "lessons" / notebook.name)
-        if (lesson := notebook.stem.partition("_")[2]) in DRIVEN:
+        lesson = notebook.stem.partition("_")[2]
+        if lesson in DRIVEN:
             add_drive(to / "lessons" / notebook.name, DRIVEN[lesson])
         if lesson in LEARNED:
             add_learning(to / "lessons" / notebook.name, LEARNED[lesson])
         if edition != "instructor":
             continue
-        page = (ROOT / "notebooks/instructor" / notebook.name).with_suffix(".md")
         # The solved notebooks are not in the book: the page has the solutions itself, and says where they lie.
-        text = SOLVED.sub(r"\1 (`notebooks/solved/\2`)", page.read_text(encoding="utf-8"))
-        (to / "lessons/instructor" / page.name).write_text(text, encoding="utf-8")
+        text = SOLVED.sub(r"\1 (`make solved` writes `notebooks/solved/\2`)", instructor.page(text_file(lesson)))
+        (to / "lessons/instructor" / notebook.with_suffix(".md").name).write_text(text, encoding="utf-8")
+    shutil.copy(ROOT / "bootcourse/course/lessons/README.md", to / "add_a_lesson.md")
     (to / "claims.md").write_text(claims_page(), encoding="utf-8")
 
 

@@ -1,1 +1,1 @@
-"""One source, three products (notebooks/source/README.md): a student's notebook, a solved one, an instructor's page."""
+"""One text, three products: a student's notebook, a solved one, an instructor's page (course/lessons/README.md)."""

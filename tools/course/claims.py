@@ -2,7 +2,7 @@
 
 In a markdown cell of a source `{{ expression }}` or `{{ expression | .1f }}` (a format of Python's) becomes a
 number, and `<!-- claim: expression -->` behind a sentence must be true. Expressions name what known.py has, and what
-notebooks/source/numbers/NAME.py has for the lesson NAME.
+numbers.py in the lesson's folder has.
 """
 
 import re
@@ -11,21 +11,21 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from tools.course.numbering import NOTEBOOKS
-from tools.course.source import CLAIM, NUMBER, Cell, read, sources, title
+from tools.course.numbering import LESSON_FOLDERS
+from tools.course.source import CLAIM, NUMBER, Cell, lesson_of, read, sources, title
 
 HEAD = """# Where the numbers come from
 
 Numbers in the text of a lesson are computed when the lesson is made, from the library and from the results that ship
 with it. Behind some sentences stand claims, which must be true or the lesson is not made. Here is each paragraph that
 has either, with the expressions; they name what `tools/course/known.py`
-and `notebooks/source/numbers` have. Numbers that are not here are shown by
+and `numbers.py` in the lesson's folder have. Numbers that are not here are shown by
 a cell of their lesson, quoted from a publication that the text names, or invented for a question."""
 
 
 def filled(path: Path) -> list[Cell]:
     """The cells of a source with their numbers. Raises ValueError: what has no value, what is claimed and not true."""
-    cells, lesson = read(path), path.stem
+    cells, lesson = read(path), lesson_of(path)
     check_claims("\n".join(cell.text for cell in cells), lesson)
     both = ((cell, fill_in(cell.text, lesson)) for cell in cells)
     return [cell if cell.is_code else replace(cell, student=text, solved=text) for cell, text in both]
@@ -74,8 +74,8 @@ def names(lesson: str) -> dict:
     """What an expression in a lesson's text may name."""
     from tools.course import known
 
-    own = NOTEBOOKS / f"source/numbers/{lesson}.py"
-    return vars(known) | (runpy.run_path(str(own)) if own.exists() else {})
+    own = LESSON_FOLDERS / lesson / "numbers.py"
+    return vars(known) | (runpy.run_path(str(own)) if lesson and own.exists() else {})
 
 
 def claims_page() -> str:
@@ -84,7 +84,7 @@ def claims_page() -> str:
     for path in sources():
         cells = read(path)
         paragraphs = [part for cell in cells for part in re.split(r"\n\s*\n|\n(?=- |\d+\. |#)", cell.text)]
-        entries = [entry(part, path.stem) for part in paragraphs if NUMBER.search(part) or CLAIM.search(part)]
+        entries = [entry(part, lesson_of(path)) for part in paragraphs if NUMBER.search(part) or CLAIM.search(part)]
         parts += [f"## {title(cells)}", *entries] if entries else []
     return "\n\n".join(parts) + "\n"
 

@@ -10,17 +10,17 @@ from pathlib import Path
 from bootcourse.course.exercise import Exercise
 from bootcourse.course.lessons import registry, stem
 from tools.course.claims import filled
-from tools.course.source import Cell, one_folder_down, title
+from tools.course.source import Cell, lesson_of, one_folder_down, title
 
 
 def page(path: Path) -> str:
     """The whole page, as markdown."""
     cells = filled(path)
-    file = f"{stem(path.stem)}.ipynb"
+    file = f"{stem(lesson_of(path))}.ipynb"
     solved = f" · [solved](../solved/{file})" if any(cell.is_exercise for cell in cells) else ""
     parts = [
         f"# For the instructor: {title(cells)}",
-        f"[Notebook](../{file}){solved}. Made from `source/{path.name}`: change it there.",
+        f"[Notebook](../{file}){solved}. Made from `bootcourse/course/lessons/{lesson_of(path)}`: change it there.",
         timings(cells),
     ]
     for heading, inside in sections(cells):

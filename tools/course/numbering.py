@@ -16,6 +16,7 @@ from bootcourse.course.lessons import LESSONS, number, stem
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 NOTEBOOKS = ROOT / "notebooks"
+LESSON_FOLDERS = ROOT / "bootcourse/course/lessons"
 KEPT = ("README.md", "book/cloud.md", "tests/check.txt")  # read as they are, so they hold the numbers themselves
 NAMED = re.compile(r"\[\[(\w+)\]\]")
 NAME = "|".join(sorted(LESSONS, key=len, reverse=True))
@@ -24,6 +25,11 @@ UNTITLED = re.compile(rf"\[\](?=\(({NAME})\.ipynb\))")
 ROW = re.compile(r"\| \[\[(\w+)\]\]")
 # By hand: "lesson 3", "Lessons 4 and 7" or "03_the_rule.ipynb".
 BY_HAND = re.compile(rf"(?<!-)\b[Ll]essons?\s+\d|\b\d\d_(?:{NAME})\b")
+
+
+def text_file(lesson: str) -> Path:
+    """The file of a lesson's text, which people edit."""
+    return LESSON_FOLDERS / lesson / "text.py"
 
 
 def resolved(text: str, folder: str | None = None) -> str:
@@ -56,9 +62,8 @@ def known(lesson: str) -> str:
 
 @cache
 def title(lesson: str) -> str:
-    """A lesson's title, as the first heading of its source says it."""
-    source = NOTEBOOKS / f"source/{lesson}.py"
-    return re.search(r"^# # (.+)", source.read_text(encoding="utf-8"), re.M)[1]
+    """A lesson's title, as the first heading of its text says it."""
+    return re.search(r"^# # (.+)", text_file(lesson).read_text(encoding="utf-8"), re.M)[1]
 
 
 def refreshed(text: str) -> str:

@@ -13,8 +13,8 @@ from pathlib import Path
 from bootcourse.course.lessons import registry, stem
 from tools.course.claims import filled
 from tools.course.instructor import together
-from tools.course.products import out_of_date
-from tools.course.source import Cell, arguments_of, body, function_in
+from tools.course.products import is_out_of_date, student_file
+from tools.course.source import Cell, arguments_of, body, function_in, lesson_of
 
 
 def problems(path: Path) -> list[str]:
@@ -24,14 +24,14 @@ def problems(path: Path) -> list[str]:
     except ValueError as error:
         return [f"{error}."]
     wrong = [
-        *of_exercises(cells, path.stem),
-        *of_predictions(cells, path.stem),
+        *of_exercises(cells, lesson_of(path)),
+        *of_predictions(cells, lesson_of(path)),
         *of_references(cells),
         *of_minutes(cells),
     ]
     if wrong:
         return wrong
-    return [f"{target.parent.name}/{target.name} is out of date: run make notebooks." for target in out_of_date(path)]
+    return [f"{student_file(path).name} is out of date: run make notebooks."] if is_out_of_date(path) else []
 
 
 def begins(text: str) -> str:

@@ -1,7 +1,7 @@
-"""From one source: the student's notebook, the solved one, and the instructor's page.
+"""From a lesson's text: the student's notebook, and on demand the solved one and the instructor's page.
 
-Both notebooks come from one run. Where a cell holds a solution, the kernel first runs the student's stub
-and then the solution, whose check must pass; all other cells run once and serve both.
+Where a cell holds a solution, the kernel first runs the student's stub and then the solution, whose check must pass;
+all other cells run once. The solved notebook takes its outputs from the student's.
 """
 
 import hashlib
@@ -16,7 +16,7 @@ from bootcourse.course.lessons import LESSONS, stem
 from tools.course.claims import filled
 from tools.course.instructor import page
 from tools.course.numbering import NOTEBOOKS
-from tools.course.source import Cell, one_folder_down, read, sources
+from tools.course.source import Cell, lesson_of, one_folder_down, read, sources
 
 WIDGET = "application/vnd.jupyter.widget-view+json"
 SOLVED_NOTE = (
@@ -31,29 +31,31 @@ IMPORTS_CHECK = re.compile(r"^from bootcourse\.course import (?:.*|\([^)]*)\bche
 
 
 def student_file(path: Path) -> Path:
-    return path.parent.parent / f"{stem(path.stem)}.ipynb"
+    return path.parents[4] / "notebooks" / f"{stem(lesson_of(path))}.ipynb"
 
 
 def solved_file(path: Path) -> Path:
-    return path.parent.parent / "solved" / f"{stem(path.stem)}.ipynb"
+    return student_file(path).parent / "solved" / student_file(path).name
 
 
 def instructor_file(path: Path) -> Path:
-    return path.parent.parent / "instructor" / f"{stem(path.stem)}.md"
+    return student_file(path).parent / "instructor" / f"{student_file(path).stem}.md"
 
 
-def documents(path: Path) -> dict[Path, nbformat.NotebookNode]:
-    """The notebooks that a source describes, without outputs; a source without solutions has no solved one."""
+def student_notebook(path: Path) -> nbformat.NotebookNode:
+    """The notebook that a text describes for the student, without outputs."""
+    return notebook([node(cell, cell.student) for cell in filled(path) if not cell.for_instructor])
+
+
+def solved_notebook(path: Path) -> nbformat.NotebookNode | None:
+    """The one with the solutions, without outputs; None where the lesson has no exercise."""
     cells = [cell for cell in filled(path) if not cell.for_instructor]
-    targets = {student_file(path): notebook([node(cell, cell.student) for cell in cells])}
-    if any(cell.is_exercise for cell in cells):
-        targets[solved_file(path)] = notebook(solved_nodes(path, cells))
-    return targets
+    return notebook(solved_nodes(path, cells)) if any(cell.is_exercise for cell in cells) else None
 
 
 def solved_nodes(path: Path, cells: list[Cell]) -> list[nbformat.NotebookNode]:
     """The solved notebook's cells: a note where one is, and strict checks from the import on."""
-    nodes = [nbformat.v4.new_markdown_cell(SOLVED_NOTE.format(stem(path.stem)))]
+    nodes = [nbformat.v4.new_markdown_cell(SOLVED_NOTE.format(stem(lesson_of(path))))]
     for cell in cells:
         nodes.append(node(cell, cell.solved if cell.is_code else one_folder_down(cell.solved)))
         if cell.is_code and IMPORTS_CHECK.search(cell.solved):
@@ -79,13 +81,31 @@ def notebook(nodes: list[nbformat.NotebookNode]) -> nbformat.NotebookNode:
     return nbformat.v4.new_notebook(cells=nodes, metadata=PYTHON)
 
 
-def make(path: Path) -> list[Path]:
-    """Execute a source and write all that comes from it. Raises what a cell raises, and where a check fails."""
-    targets = documents(path)
-    outputs = execute(path)
-    for document in targets.values():
+def make(path: Path) -> Path:
+    """Execute a text and write the notebook. Raises what a cell raises, and where a solution's check fails."""
+    document = student_notebook(path)
+    fill_in(document, execute(path))
+    return write(path, document)
+
+
+def make_solved(path: Path) -> list[Path]:
+    """Write the solved notebook and the instructor's page. Returns what is written.
+
+    Nothing is executed: what the student's notebook has, too, takes its outputs; a solution has none.
+    """
+    written = [instructor_file(path)]
+    if document := solved_notebook(path):
+        ran = nbformat.read(student_file(path), as_version=4).cells
+        outputs = {}
+        for cell in ran:
+            outputs.setdefault(cell.source, []).append(cell.get("outputs", []))
         fill_in(document, outputs)
-    return write(path, targets)
+        solved_file(path).parent.mkdir(exist_ok=True)
+        nbformat.write(document, solved_file(path))
+        written.append(solved_file(path))
+    instructor_file(path).parent.mkdir(exist_ok=True)
+    instructor_file(path).write_text(page(path), encoding="utf-8")
+    return written
 
 
 def execute(path: Path) -> dict[str, list]:
@@ -96,23 +116,26 @@ def execute(path: Path) -> dict[str, list]:
             steps.append(cell.student)
             if cell.is_exercise:
                 steps += ["check.strict()", cell.solved, "check.strict(False)"]
-    if answers := list(path.parent.parent.glob("answers/*.*")):
+    notebooks = student_file(path).parent
+    notebooks.mkdir(exist_ok=True)
+    if answers := list(notebooks.glob("answers/*.*")):
         raise ValueError(f"Move {answers[0].parent} away: the notebooks would be made with these answers.")
     ran = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(step) for step in steps], metadata=PYTHON)
-    NotebookClient(ran, timeout=300, resources={"metadata": {"path": path.parent.parent}}).execute()
-    outputs = {STRICT: [[]]}
+    NotebookClient(ran, timeout=300, resources={"metadata": {"path": notebooks}}).execute()
+    outputs = {}
     for cell in ran.cells:
         outputs.setdefault(cell.source, []).append(tidy(cell.outputs))
     return outputs
 
 
 def fill_in(document: nbformat.NotebookNode, outputs: dict[str, list]) -> None:
-    """Give each code cell its outputs and its number."""
+    """Give each code cell its outputs, none where it did not run, and its number."""
     stood, code = {}, [cell for cell in document.cells if cell.cell_type == "code"]
     for number, cell in enumerate(code, start=1):
         time = stood.get(cell.source, 0)
         stood[cell.source] = time + 1
-        cell.execution_count, cell.outputs = number, [nbformat.from_dict(o) for o in outputs[cell.source][time]]
+        shown = outputs[cell.source][time] if cell.source in outputs else []
+        cell.execution_count, cell.outputs = number, [nbformat.from_dict(output) for output in shown]
         for output in cell.outputs:
             if output.output_type == "execute_result":
                 output.execution_count = number
@@ -139,13 +162,9 @@ def tidy(outputs: list) -> list:
     return tidied
 
 
-def write(path: Path, targets: dict[Path, nbformat.NotebookNode]) -> list[Path]:
-    for target, document in targets.items():
-        target.parent.mkdir(exist_ok=True)
-        nbformat.write(document, target)
-    instructor_file(path).parent.mkdir(exist_ok=True)
-    instructor_file(path).write_text(page(path), encoding="utf-8")
-    return [*targets, instructor_file(path)]
+def write(path: Path, document: nbformat.NotebookNode) -> Path:
+    nbformat.write(document, student_file(path))
+    return student_file(path)
 
 
 def remove_strange() -> list[Path]:
@@ -159,33 +178,23 @@ def remove_strange() -> list[Path]:
     return strange
 
 
-def refresh_prose(path: Path) -> list[Path]:
-    """Take over a source's text and keep the outputs. Returns what is written: [] where the code has changed, too."""
-    targets = documents(path)
-    for target, document in targets.items():
-        if not target.exists():
-            return []
-        old = [cell for cell in nbformat.read(target, as_version=4).cells if cell.cell_type == "code"]
-        new = [cell for cell in document.cells if cell.cell_type == "code"]
-        if [cell.source for cell in old] != [cell.source for cell in new]:
-            return []
-        for before, after in zip(old, new, strict=True):
-            after.outputs, after.execution_count = before.outputs, before.execution_count
-    return write(path, targets)
+def refresh_prose(path: Path) -> Path | None:
+    """Take over a lesson's text and keep the outputs. Returns what is written; None where the code has changed, too."""
+    document = student_notebook(path)
+    if not student_file(path).exists():
+        return None
+    old = [cell for cell in nbformat.read(student_file(path), as_version=4).cells if cell.cell_type == "code"]
+    new = [cell for cell in document.cells if cell.cell_type == "code"]
+    if [cell.source for cell in old] != [cell.source for cell in new]:
+        return None
+    for before, after in zip(old, new, strict=True):
+        after.outputs, after.execution_count = before.outputs, before.execution_count
+    return write(path, document)
 
 
-def out_of_date(path: Path) -> list[Path]:
-    """The generated files that are not what their source says, or are missing."""
-    targets = documents(path)
-    late = [target for target, document in targets.items() if not same_cells(target, document)]
-    target = instructor_file(path)
-    if not target.exists() or target.read_text(encoding="utf-8") != page(path):
-        late.append(target)
-    return late + [target for target in (solved_file(path),) if target not in targets and target.exists()]
-
-
-def same_cells(target: Path, document: nbformat.NotebookNode) -> bool:
-    if not target.exists():
-        return False
-    cells = nbformat.read(target, as_version=4).cells
-    return [(c.cell_type, c.source) for c in cells] == [(c.cell_type, c.source) for c in document.cells]
+def is_out_of_date(path: Path) -> bool:
+    """Is the student's notebook not what the text says, or missing?"""
+    if not student_file(path).exists():
+        return True
+    cells = nbformat.read(student_file(path), as_version=4).cells
+    return [(c.cell_type, c.source) for c in cells] != [(c.cell_type, c.source) for c in student_notebook(path).cells]

@@ -1,4 +1,4 @@
-"""A lesson's source, notebooks/source/NAME.py in percent format, as cells with a student's and a solved text.
+"""A lesson's text, text.py in its folder (percent format), as cells with a student's and a solved text.
 
 The title, the exercises and the lessons that a text names get their numbers here (numbering.py). Lines between
 `# solution` and `# end solution` are the student's to write: the student gets `...` for them.
@@ -15,9 +15,9 @@ from pathlib import Path
 import jupytext
 
 from bootcourse.course.lessons import LESSONS, number, registry
-from tools.course.numbering import NOTEBOOKS, resolved
+from tools.course.numbering import resolved, text_file
 
-SAME = "# NBVAL_CHECK_OUTPUT"  # in a source; nbval reads it as a tag, which students do not see
+SAME = "# NBVAL_CHECK_OUTPUT"  # in a text; nbval reads it as a tag, which students do not see
 BEGIN, END = "# solution", "# end solution"
 OWN = re.compile(rf"^( +){BEGIN}: the exercise's own$", re.M)
 NUMBER = re.compile(r"\{\{\s+(.+?)(?:\s+\|\s+([\w.,+%]+))?\s+\}\}", re.S)
@@ -60,7 +60,12 @@ def sources(names: list[str] = ()) -> list[Path]:
     """The sources of these lessons, or of all, in their order. Raises ValueError for what is no lesson."""
     if strange := set(names) - set(LESSONS):
         raise ValueError(f"There is no lesson {min(strange)}: choose from {', '.join(LESSONS)}.")
-    return [NOTEBOOKS / f"source/{name}.py" for name in LESSONS if not names or name in names]
+    return [text_file(name) for name in LESSONS if not names or name in names]
+
+
+def lesson_of(path: Path) -> str:
+    """The name of the lesson whose text this is: that of its folder."""
+    return path.parent.name
 
 
 def read(path: Path) -> list[Cell]:
@@ -74,7 +79,7 @@ def read(path: Path) -> list[Cell]:
             text = with_solutions(text)
             both = without_solution(text), without_marks(text)
         else:
-            text, exercises = numbered(cell.source, path.stem, exercises)
+            text, exercises = numbered(cell.source, lesson_of(path), exercises)
             both = text, text
         cells.append(Cell(cell.cell_type, *both, dict(cell.metadata)))
     return cells

@@ -24,6 +24,7 @@ from bootcourse.files import TEMPORARY, read_bytes, read_json, unix_lines, write
 
 KIT = Path(bootcourse.__file__).resolve().parent.parent
 COPIED = ("bootcourse", "assets", "tools/install.sh", "pyproject.toml", "Makefile", "LICENSE", ".gitattributes")
+KEPT_BACK = ("text.py", "numbers.py", "answers.py")  # of a lesson: solutions, and what its makers use
 
 
 HOLDS_SOLUTIONS = "The checks are part of the kit and hold right answers: they stand in `bootcourse/course/lessons`."
@@ -136,6 +137,7 @@ def content(lessons: set[int] | None, solutions: bool) -> dict[str, bytes]:
         raise BootcourseError(f"{KIT}/notebooks has none of these lessons: install the course as its README says.")
     kit = sorted(path for name in COPIED for path in [KIT / name, *(KIT / name).rglob("*")] if path.is_file())
     kit = [path for path in kit if not {"__pycache__", ".ipynb_checkpoints"} & set(path.parts)]
+    kit = [path for path in kit if not (path.name in KEPT_BACK and path.parent.parent.name == "lessons")]
     files |= {path.relative_to(KIT).as_posix(): unix_lines(read_bytes(path)) for path in kit}
     lock = read_bytes(KIT / "student.lock")  # no test and book packages; under the name that its Makefile knows
     files["environment.lock"] = lock.replace(b"student.lock", b"environment.lock")

@@ -1,0 +1,264 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from scipy import stats
+
+from bootcourse.course.lessons.found_and_kept.exercises import forgetting
+from bootcourse.course.lessons.found_and_kept.figures import half_found
+from bootcourse.course.shipped import shipped_agents
+from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.research.experiments import clocks as study_clocks
+from bootcourse.research.results import Results
+from bootcourse.rule import stochastic_rule
+from bootcourse.statistics import ESCAPES
+from bootcourse.statistics import IN_A_ROW as WINDOW
+from tools.course.known import clocks, escapers, fisher, in_training, of, shipped_experiment, shipped_results, varied
+
+SHORTER = study_clocks.TRAINED  # training episodes of the agents of rounds 4 and 5
+
+
+def undecided(method: str, first: int, last: int | None) -> float:
+    """The mean effective number of actions of a method's agents in some of their training episodes."""
+    return float(np.exp(of(method).curves["entropy"][:, first:last].mean()))
+
+
+def rule_actions() -> float:
+    """The effective number of actions of the stochastic rule."""
+    return float(np.exp(stats.entropy(stochastic_rule(np.array(0), 0.9))))
+
+
+def ablations() -> dict[str, Results]:
+    """The ten agents of each method with one choice of the method changed, by what was changed."""
+    return shipped_experiment("ablations")
+
+
+class Counted(NamedTuple):
+    """How many agents found the way out, how many of these kept it, and of how many."""
+
+    found: int
+    kept: int
+    n: int
+
+
+def of_all() -> Results:
+    """The study's agents, every method's."""
+    return shipped_results()
+
+
+def way(results: Results, method: str) -> Counted:
+    """Of a method's agents, see `Results.found_and_kept`."""
+    found, kept = results.found_and_kept(method)
+    return Counted(int(found.sum()), int(kept.sum()), len(found))
+
+
+def keeps(method: str) -> np.ndarray:
+    """Which of the study's agents of a method keep the way out, (agents,)."""
+    return of_all().found_and_kept(method)[1]
+
+
+def failed_soft() -> np.ndarray:
+    """Of the study's agents with the soft constraint alone that fail the test: their success in the last 200 training
+    episodes, with drawn actions, (agents,)."""
+    failed = of("soft").scores("success") < ESCAPES
+    return of("soft").curves["success"][failed, -200:].mean(axis=1)
+
+
+def demos_span() -> np.ndarray:
+    """Of the study's agents with demonstrations alone that found the way out: the episodes that end their first and
+    last good window, (agents, 2), in the order in which they found it."""
+    spans = forgetting(of("demos").curves["success"], WINDOW)
+    spans = spans[spans[:, 0] > 0]
+    return spans[spans[:, 0].argsort()]
+
+
+def demos_found() -> np.ndarray:
+    """When they found it, (agents,)."""
+    return demos_span()[:, 0]
+
+
+def demos_lost() -> np.ndarray:
+    """When they lost it, (agents,)."""
+    return demos_span()[:, 1]
+
+
+def over_updates(driver: str) -> Counted:
+    """The agents with demonstrations alone of one driver, over all numbers of updates."""
+    each = [way(clocks()[updates, driver], "demos") for updates in study_clocks.UPDATES]
+    return Counted(*(sum(column) for column in zip(*each, strict=True)))
+
+
+def lost_it(method: str, results: Results | None = None) -> np.ndarray:
+    """Which agents lose the way out as β ends: half or less of 50 episodes in a row from 900 to 1,100, (agents,).
+
+    results: of other agents than the study's.
+    """
+    around = (results or of_all()).of(method).curves["success"][:, 900:1100]
+    return (np.lib.stride_tricks.sliding_window_view(around, WINDOW, axis=1).mean(-1) <= 0.5).any(axis=1)
+
+
+def losing_p() -> float:
+    """Fisher's p: do more agents with both aids lose the way out around episode 1,000 if β ends there than if not?"""
+    groups = (lost_it("bootstrapped"), lost_it("bootstrapped", ablations()["β for ever"]))
+    return float(stats.fisher_exact([[int(each.sum()), int((~each).sum())] for each in groups]).pvalue)
+
+
+def found_after(updates: str, method: str) -> int:
+    """The episode by which half of the agents with so many updates for a decision have found the way out."""
+    return half_found(clocks()[updates, "π̃"].of(method))
+
+
+def xi_left(updates: str) -> float:
+    """Which part of ξ is left then with the soft constraint alone, the median over agents."""
+    xi = clocks()[updates, "π̃"].of("soft").curves["xi"]
+    return float(np.median(xi[:, found_after(updates, "soft") - 1] / xi[:, 0]))
+
+
+def other_entropies() -> np.ndarray:
+    """What the agents with both aids earn with a target entropy of 0.3 or 1 nat, (agents,)."""
+    each = [shipped_experiment("sensitivity")[f"target entropy {eta}"] for eta in ("0.3", "1")]
+    return np.concatenate([results.of("bootstrapped").scores("returns") for results in each])
+
+
+def of_the_agent_shown() -> Rollout:
+    """The first drive of the lesson: of an agent with demonstrations alone, after its training."""
+    best = int(in_training("demos", 700, 900).argmax())
+    return record(shipped_agents("demos")[best].as_policy(), [10])[0]
+
+
+def keeping_p(method: str) -> float:
+    """Fisher's p: of the agents that found the way out, do more keep it if β never ends than if it ends at 1,000?"""
+    ends, stays = way(of_all(), method), way(ablations()["β for ever"], method)
+    return float(stats.fisher_exact([[each.kept, each.found - each.kept] for each in (ends, stays)]).pvalue)
+
+
+def kept_of(method: str, stays: bool) -> str:
+    """ "6 of 7": of the agents that found the way out, how many keep it if β never ends, or ends at 1,000."""
+    counted = way(ablations()["β for ever"] if stays else of_all(), method)
+    return f"{counted.kept} of {counted.found}"
+
+
+def keepers(results: Results, method: str, measure: str) -> float:
+    """The mean of a measure over the agents of a method that keep the way out."""
+    return float(results.of(method).scores(measure)[results.found_and_kept(method)[1]].mean())
+
+
+def elsewhere(method: str) -> Counted:
+    """The agents with another γ or target entropy than the paper's, over all such changes: escaped is kept."""
+    each = [agents.of(method) for change, agents in varied().items() if "γ" in change or "entropy" in change]
+    won = sum(escapers(agents, method) for agents in each)
+    return Counted(won, won, sum(map(len, each)))
+
+
+def stratified_p(pairs: list[tuple[Counted, Counted]]) -> float:
+    """The exact p of a difference in keeping between the first and the second group, compared within each pair.
+
+    Given how many agents won in each pair, those of the first group have a hypergeometric distribution; their sum
+    over the pairs has the convolution. As in Fisher's test, p adds up what is at most as probable as what happened.
+    """
+    chances, won = np.ones(1), 0
+    for first, second in pairs:
+        both, won = first.kept + second.kept, won + first.kept
+        own = stats.hypergeom(first.n + second.n, both, first.n).pmf(np.arange(first.n + 1))
+        chances = np.convolve(chances, own)
+    return float(chances[chances <= chances[won] * (1 + 1e-9)].sum())
+
+
+def driver_p() -> float:
+    """μ against π̃, with demonstrations alone, at each number of updates."""
+    pairs = [tuple(way(clocks()[updates, d], "demos") for d in ("μ", "π̃")) for updates in study_clocks.UPDATES]
+    return stratified_p(pairs)
+
+
+def updates_p() -> float:
+    """A quarter of an update against two, with demonstrations alone, for each driver."""
+    pairs = [tuple(way(clocks()[updates, d], "demos") for updates in ("1/4", "2")) for d in ("μ", "π̃")]
+    return stratified_p(pairs)
+
+
+def trend_p() -> float:
+    """The two-sided p of a trend: of the soft agents, do fewer keep the way out with each doubling of the updates?
+
+    By 100,000 permutations of which agents keep it; the statistic is the covariance with the logarithm of the updates.
+    """
+    groups = [clocks()[of].found_and_kept("soft")[1] for of in (("1/4", "π̃"), ("1", "π̃"), ("2", "π̃"), ("4", "π̃"))]
+    kept = np.concatenate(groups).astype(float)
+    doublings = np.repeat([-2.0, 0.0, 1.0, 2.0], [len(each) for each in groups])
+    doublings -= doublings.mean()
+    drawn = np.random.default_rng(0).permuted(np.tile(kept, (100_000, 1)), axis=1) @ doublings
+    return float(np.mean(np.abs(drawn) >= abs(kept @ doublings) - 1e-9))
+
+
+@cache
+def p_values() -> dict[str, float]:
+    """Every p value that the lesson prints."""
+    kept = {m: way(shipped_results("paper"), m).kept for m in ("demos", "margin", "bootstrapped", "margin_soft")}
+    return {
+        "keeping": keeping_p("demos"),
+        "losing, both": losing_p(),
+        "trend": trend_p(),
+        "driver": driver_p(),
+        "updates": updates_p(),
+        "choices": fisher(*(way(clocks()[cell], "demos").kept for cell in (("1/4", "μ"), ("2", "π̃")))),
+        "bonus, margin": fisher(kept["demos"], kept["margin"]),
+        "bonus, margin, with ξ": fisher(kept["bootstrapped"], kept["margin_soft"]),
+    }
+
+
+def holm() -> dict[str, float]:
+    """The same, corrected for their number (Holm 1979)."""
+    corrected, least = {}, 0.0
+    for tried, (name, p) in enumerate(sorted(p_values().items(), key=lambda item: item[1])):
+        corrected[name] = least = max(least, min(1.0, (len(p_values()) - tried) * p))
+    return corrected
+
+
+def comparison(name: str) -> str:
+    """A row of the lesson's table, without its first cell: who keeps the way out, p, and p after Holm."""
+    open_numbers, paper = ((clocks()["1/4", "μ"], "demos"), (clocks()["2", "π̃"], "demos")), shipped_results("paper")
+    kept = {
+        "keeping": f"{kept_of('demos', True)} against {kept_of('demos', False)} that found it",
+        "losing, both": f"{_losers(ablations()['β for ever'])} against {_losers(of_all())} that lose it",
+        "trend": soft_kept(),
+        "updates": f"{of_updates('1/4')} against {of_updates('2')}",
+        "driver": f"{of_driver('μ')} against {of_driver('π̃')}",
+        "choices": kept_against(*open_numbers),
+        "bonus, margin": kept_against((paper, "demos"), (paper, "margin")),
+        "bonus, margin, with ξ": kept_against((paper, "bootstrapped"), (paper, "margin_soft")),
+    }
+    return f"{kept[name]}|{_short(p_values()[name])}|{_short(holm()[name])}"
+
+
+def _losers(results: Results) -> str:
+    """ "7 of 10": how many agents with both aids lose the way out around episode 1,000."""
+    lost = lost_it("bootstrapped", results)
+    return f"{lost.sum()} of {len(lost)}"
+
+
+def soft_kept() -> str:
+    """How many agents of the soft constraint alone keep the way out, by the updates for a decision."""
+    each = [way(clocks()[updates, "π̃"], "soft") for updates in study_clocks.UPDATES]
+    return ", ".join(f"{counted.kept} of {counted.n}" for counted in each)
+
+
+def of_updates(updates: str) -> str:
+    """ "8 of 20": of the agents with demonstrations alone and so many updates, of both drivers, how many keep it."""
+    each = [way(clocks()[updates, driver], "demos") for driver in ("μ", "π̃")]
+    return f"{sum(counted.kept for counted in each)} of {sum(counted.n for counted in each)}"
+
+
+def of_driver(driver: str) -> str:
+    """The same of one driver, over all numbers of updates."""
+    return f"{over_updates(driver).kept} of {over_updates(driver).n}"
+
+
+def _short(p: float) -> str:
+    return f"{p:.2f}" if p >= 0.1 else f"{p:.3f}" if p >= 0.001 else "< 0.001"
+
+
+def kept_against(first: tuple[Results, str], second: tuple[Results, str]) -> str:
+    """ "2 of 10 against 10 of 10": how many agents of two groups keep the way out."""
+    return " against ".join(f"{way(*group).kept} of {way(*group).n}" for group in (first, second))

@@ -1,0 +1,44 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+from functools import cache
+
+import numpy as np
+
+from bootcourse.statistics import Estimate, improvement
+from tools.course.known import of, rule_drives, shipped_runs
+
+
+@cache
+def demonstrated_q() -> np.ndarray:
+    """After training, what the shipped agents with demonstrations only think of the rule's actions, (agents,).
+
+    The mean over the first 20 seconds of the rule's drives on 20 roads.
+    """
+    values, did = _way_out("demos")
+    return np.array([each[np.arange(len(did)), did].mean() for each in values])
+
+
+@cache
+def demonstrated_largest(method: str) -> np.ndarray:
+    """In which share of these states the rule's action has the largest Q, for the shipped agents, (agents,)."""
+    values, did = _way_out(method)
+    return np.array([np.mean(each.argmax(1) == did) for each in values])
+
+
+def most_frequent_on_the_way() -> tuple[float, int]:
+    """The share of these states in which the rule takes its most frequent action there, and that action."""
+    counts = np.bincount(np.concatenate([drive.rule_actions[:20] for drive in rule_drives()[:20]]), minlength=9)
+    return float(counts.max() / counts.sum()), int(counts.argmax())
+
+
+def _way_out(method: str) -> tuple[list[np.ndarray], np.ndarray]:
+    """What the shipped agents of a method think of each action there, [(states, 9)], and what the rule did."""
+    drives = rule_drives()[:20]
+    seen = np.concatenate([drive.observations[:20] for drive in drives])
+    did = np.concatenate([drive.actions[:20] for drive in drives])
+    return [run.agent.q_values(seen) for run in shipped_runs(method)], did
+
+
+def bonus_over_margin() -> Estimate:
+    """With the soft constraint: how often an agent with the bonus earns more than one with the margin."""
+    return improvement(of("bootstrapped").scores("returns"), of("margin_soft").scores("returns"))

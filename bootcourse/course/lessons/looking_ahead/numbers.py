@@ -1,0 +1,177 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+from functools import cache
+
+import numpy as np
+from scipy import stats
+
+from bootcourse.course import shipped as course
+from bootcourse.course.lessons.looking_ahead.imagined_road import decide_by
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.lookahead import HORIZON, NINE, imagine, lookahead
+from bootcourse.episodes.models import MODELS
+from bootcourse.episodes.record import record
+from bootcourse.episodes.words import overtaken
+from bootcourse.policies import idle_policy, random_policy
+from bootcourse.research.computed import experiment
+from bootcourse.research.experiments import distil
+from bootcourse.research.experiments.lookahead import MANY, ROADS, Cell, Score, score
+from bootcourse.research.results import Results
+from bootcourse.road.state import Accident
+from bootcourse.scenario import DEFAULT
+
+NOISE, LATE = "places off by 1 m, speeds by 0.5 m/s", "everything a second late"
+OTHERS_LATE = "the others a second late"
+KEEPING, GAPS = "others keep speed and lane", "twice the time gap"
+
+
+@cache
+def shipped() -> dict:
+    """The experiment's cells."""
+    return experiment("look-ahead")
+
+
+def ahead(base: str, form: str = "rollouts", horizon: int = HORIZON, model: str = "exact", roads: int = ROADS) -> Score:
+    """What the agents of a base policy reached in one form. roads: MANY for the cell on so many."""
+    assert roads in (ROADS, MANY)
+    return score(shipped(), Cell(base, form, roads=roads, horizon=horizon, model=model))
+
+
+def per_thousand(base: str, form: str = "rollouts", **more) -> float:
+    """Accidents in 1,000 drives."""
+    return 1000 * ahead(base, form, **more).accident_rate.value
+
+
+def gain(base: str) -> float:
+    """What the rollouts add to the mean return."""
+    return ahead(base).returns.value - ahead(base, "alone").returns.value
+
+
+def better(base: str, form: str) -> int:
+    """With how many of the wrong models it has fewer accidents for each drive than the base policy alone."""
+    alone = per_thousand(base, "alone")
+    return sum(per_thousand(base, form, model=model) < alone for model in MODELS if model != "exact")
+
+
+def overruled(form: str) -> list[float]:
+    """In how many of 1,000 decisions PPO's agents take another action with each wrong model, in ascending order."""
+    return sorted(1000 * ahead("ppo_cloned", form, model=model).overruled for model in MODELS if model != "exact")
+
+
+def clearly_safer(base: str) -> int:
+    """With how many of the wrong models the shield's interval of accidents lies below that of the rollouts."""
+    wrong = [model for model in MODELS if model != "exact"]
+    rates = [[ahead(base, form, model=one).accident_rate for form in ("shield", "rollouts")] for one in wrong]
+    return sum(shield.high < rollouts.low for shield, rollouts in rates)
+
+
+def each(form: str, measure: str) -> np.ndarray:
+    """The accidents or the mean return of each of the paper's agents, (agents,)."""
+    return shipped()[Cell("bootstrapped", form).name].measured[measure]
+
+
+def of_the_worst(count: int) -> int:
+    """The accidents of so many of these agents, those that have most."""
+    return int(np.sort(each("alone", "accidents"))[-count:].sum())
+
+
+def all_ten_gain() -> bool:
+    """Whether each of them has fewer accidents with rollouts, and a higher return."""
+    fewer = each("rollouts", "accidents") < each("alone", "accidents")
+    return bool((fewer & (each("rollouts", "returns") > each("alone", "returns"))).all())
+
+
+def _accidents(base: str) -> np.ndarray:
+    """The accidents of each agent of a base policy, alone and with rollouts, (2, agents)."""
+    return np.stack([shipped()[Cell(base, form).name].measured["accidents"] for form in ("alone", "rollouts")])
+
+
+def less_safe(base: str) -> np.ndarray:
+    """Which agents of a base policy have more accidents with rollouts than alone, (agents,)."""
+    alone, ahead = _accidents(base)
+    return ahead > alone
+
+
+def most_harmed(base: str) -> tuple[int, int]:
+    """The accidents alone and with rollouts of the agent that gains most of them, on its 1,000 roads."""
+    alone, ahead = _accidents(base)
+    worst = int((ahead - alone).argmax())
+    return int(alone[worst]), int(ahead[worst])
+
+
+@cache
+def learned() -> dict[str, Results]:
+    """The students of the look-ahead, by what they learned."""
+    return experiment("distil")
+
+
+def before():
+    """Accidents of the agents that these students were, (agents,)."""
+    return shipped()[Cell(distil.BASE, "alone").name].measured["accidents"][: distil.AGENTS]
+
+
+@cache
+def how_five_end() -> list[np.ndarray]:
+    """How the drives of each bootstrapped agent that ships end on the lesson's 40 roads."""
+    roads = held_out_seeds(15, 40)
+    return [drive_episodes(agent.as_policy(), roads).accident for agent in course.shipped_agents("bootstrapped")]
+
+
+def five_accidents() -> list[int]:
+    """The accidents of each of them."""
+    return [int((ends > 0).sum()) for ends in how_five_end()]
+
+
+def departures() -> float:
+    """The share of road departures in the accidents of the one that has most."""
+    ends = max(how_five_end(), key=lambda each: (each > 0).sum())
+    return float((ends == Accident.ROAD_DEPARTURE).sum() / (ends > 0).sum())
+
+
+def outs(base: str, form: str = "rollouts") -> np.ndarray:
+    """The share of drives that end ahead of trap 1, of each agent of a base policy."""
+    return shipped()[Cell(base, form).name].measured["success"]
+
+
+@cache
+def changed_before_passing() -> np.ndarray:
+    """Of the drives with rollouts of the first plain SAC agent that get out, of 20: decisions that are not its own.
+
+    Counted up to the second in which it passes trap 1.
+    """
+    agent, counts = course.shipped_agents("sac")[0].as_policy(), []
+    for drive in record(lookahead(agent), held_out_seeds(15, 40)[:20]):
+        if drive.success:
+            cars = drive.states[:: DEFAULT.clock.steps][: int(np.ceil(overtaken(drive)))]
+            counts.append(int((decide_by(agent)(cars) != drive.actions[: len(cars)]).sum()))
+    return np.array(counts)
+
+
+def closest() -> tuple[float, float, float]:
+    """Accidents in 1,000 drives of a PPO agent and of the student nearest to it, and Fisher's p of the two."""
+    pairs = [
+        (int(old), int(new), int(roads))
+        for students in learned().values()
+        for old, new, roads in zip(before(), students.measured["accidents"], students.measured["roads"], strict=True)
+    ]
+    old, new, roads = min(pairs, key=lambda pair: (pair[1] - pair[0]) / pair[2])
+    p = stats.fisher_exact([[old, roads - old], [new, roads - new]]).pvalue
+    return 1000 * old / roads, 1000 * new / roads, float(p)
+
+
+@cache
+def ahead_of_twenty(base: str, horizon: int = HORIZON) -> int:
+    """How many of 20 drives with rollouts of "idle" or "random" end ahead of trap 1."""
+    policy = idle_policy if base == "idle" else random_policy(np.random.default_rng(0))
+    return int(drive_episodes(lookahead(policy, horizon), held_out_seeds(15, 40)[:20]).success.sum())
+
+
+@cache
+def nine_ends() -> list[int]:
+    """How the nine imagined drives end, six seconds before this agent's first collision: 0 without an accident."""
+    ends = [(each > 0).sum() for each in how_five_end()]
+    agent, roads = course.shipped_agents("bootstrapped")[int(np.argmax(ends))].as_policy(), held_out_seeds(15, 40)
+    first = int((how_five_end()[int(np.argmax(ends))] == Accident.COLLISION).argmax())
+    drive = record(agent, [roads[first]])[0]
+    cars = drive.states[(len(drive.actions) - 6) * DEFAULT.clock.steps]
+    return [int(end) for end in imagine(cars[None], NINE[None], agent, horizon=10).accidents[0]]

@@ -1,0 +1,150 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+from functools import cache
+from itertools import combinations
+
+import numpy as np
+
+from bootcourse.course.lessons.other_ways import figures
+from bootcourse.course.lessons.your_teacher import taught_agents
+from bootcourse.course.lessons.your_teacher.taught_agents import holm, p_value
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
+from bootcourse.episodes.words import overtaken
+from bootcourse.learn.settings import settings_for
+from bootcourse.learn.teachers import teacher_policy
+from bootcourse.policies import random_policy, rule_policy
+from bootcourse.research import equal_decisions
+from bootcourse.research.beyond import at_budget
+from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
+from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import (
+    ESCAPES,
+    Estimate,
+    found,  # noqa: F401
+    interval,
+)
+from tools.course.known import shipped_experiment, shipped_teachers
+
+FIRST, SECOND, LAST = BUDGETS
+TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
+
+
+@cache
+def compared() -> dict[str, Results]:
+    """{method: its agents} of the comparison at equal decisions."""
+    return by_method(shipped_experiment("beyond"))
+
+
+def later(method: str) -> Results:
+    """The agents of a method in this comparison."""
+    return compared()[method]
+
+
+def at(method: str, measure: str, budget: int = FIRST) -> np.ndarray:
+    """Each agent's mean return, success or accidents after so many decisions, or its seconds until then: (agents,)."""
+    return equal_decisions.at(later(method), measure, budget)
+
+
+def cost(method: str) -> float:
+    """Seconds of one core for a decision of these agents, until the first of their budgets."""
+    return float(at(method, "seconds").mean()) / FIRST
+
+
+def score_at(method: str, budget: int = FIRST) -> Estimate:
+    """The interquartile mean of these agents' returns, with its interval."""
+    return interval(at(method, "returns", budget))
+
+
+def middle(method: str, budget: int = FIRST) -> float:
+    """The interquartile mean of these agents' returns."""
+    return score_at(method, budget).value
+
+
+@cache
+def pairs(budget: int) -> dict[tuple[str, str], float]:
+    """{a pair of the methods with a teacher: p of the rank test of their returns, after Holm}."""
+    of = list(combinations([method for method in compared() if method in TAUGHT], 2))
+    p = [p_value(*(at(method, "returns", budget) for method in pair)) for pair in of]
+    return {pair: float(each) for pair, each in zip(of, holm(p), strict=True)}
+
+
+def at_edge() -> set[str]:
+    """The methods with a teacher whose best setting of the search is its first or its last."""
+    places = {method: np.argmax(list(search(method).values())) for method in TAUGHT}
+    return {method for method, place in places.items() if place != 1}
+
+
+@cache
+def near_rule() -> tuple[float, int]:
+    """(mean return, accidents) of the rule that sees 30 m, on 200 held-out roads."""
+    policy = teacher_policy(taught_agents.TEACHERS["the rule, 30 m"])
+    driven = drive_episodes(policy, held_out_seeds(1, 200))
+    return float(driven.returns.mean()), int((driven.accident > 0).sum())
+
+
+def lowest() -> str:
+    """The method with a teacher that earns the least after the first budget."""
+    return min(TAUGHT, key=lambda method: at(method, "returns").mean())
+
+
+def in_seconds(method: str) -> Estimate:
+    """The return in training after equal seconds of a core."""
+    seconds = later(method).measured[f"seconds_{FIRST}"] / FIRST
+    return interval(at_budget(later(method).curves, equal_decisions.SECONDS / seconds))
+
+
+def escaping(method: str, budget: int = FIRST) -> int:
+    """How many of these agents escape."""
+    return int((at(method, "success", budget) >= ESCAPES).sum())
+
+
+def search(method: str) -> dict[str, float]:
+    """{what was tried: mean return} of the search."""
+    return tried(shipped_experiment("beyond-search")[method])
+
+
+@cache
+def rules_overtaking() -> np.ndarray:
+    """When the rule is ahead of trap 1, in seconds on each of 100 held-out roads; inf where it is not."""
+    drives = record(rule_policy(DEFAULT), held_out_seeds(1, 100))
+    return np.array([overtaken(drive) or np.inf for drive in drives])
+
+
+def rlpd() -> Results:
+    """Ten RLPD agents that the rule taught, of the experiment on teachers."""
+    return shipped_teachers()["rule", "rlpd"]
+
+
+@cache
+def untrained() -> np.ndarray:
+    """The episodes that such an agent ends before its first update, (agents, episodes) of True and False."""
+    return np.cumsum(rlpd().curves["decisions"], axis=1) < settings_for("rlpd").learning_starts
+
+
+def ahead_next() -> float:
+    """The share of the next 50 episodes that end ahead of trap 1."""
+    following = (~untrained()).cumsum(axis=1)  # 1 in the episode of the first update
+    return float(rlpd().curves["success"][(following > 0) & (following <= 50)].mean())
+
+
+@cache
+def random_duration() -> float:
+    """How long a driver that draws each action evenly drives, in seconds, on 200 held-out roads."""
+    policy = random_policy(np.random.default_rng(0))
+    return float(np.mean([len(drive.actions) for drive in record(policy, held_out_seeds(6, 200))]))
+
+
+def drives_before(method: str) -> int:
+    """How many drives of the rule these agents have before they begin: demonstrations, or what a clone learns from."""
+    settings = settings_for(method, **equal_decisions.COMMON[method])
+    return settings.demonstration_episodes if settings.needs_demonstrations else 0
+
+
+def decisions_per_update(method: str) -> float:
+    """After how many decisions of their own these agents make an update, on average."""
+    agent = later(method).agents[0]
+    if "epochs" in agent:
+        return agent["batch"] / agent["epochs"]
+    return agent["envs_per_agent"] / agent["updates"]

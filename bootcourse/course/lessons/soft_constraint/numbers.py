@@ -1,0 +1,33 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+import math
+
+import numpy as np
+
+from bootcourse.research.results import Results
+from tools.course.known import RULE_P, escapers, of, shipped_experiment
+
+
+def stays() -> Results:
+    """The ten agents with the soft constraint whose ξ stays at 2."""
+    return shipped_experiment("ablations")["ξ stays at 2"]
+
+
+def beyond_the_rule() -> int:
+    """How many of the ten agents whose ξ fades earn more than twice as much as the rule."""
+    return int((of("soft").scores("returns") > 2 * of("rule").scores("returns").mean()).sum())
+
+
+def with_kl_in_actor_only() -> int:
+    """How many of ten agents with the soft constraint escape if the KL is in the actor's loss alone."""
+    return escapers(shipped_experiment("ablations")["KL in the actor only"], "soft")
+
+
+def entropy_of_the_rule() -> float:
+    """The entropy of the stochastic rule, in nats: p for its action, the rest for the other eight."""
+    return -RULE_P * math.log(RULE_P) - (1 - RULE_P) * math.log((1 - RULE_P) / 8)
+
+
+def with_target(entropy: float) -> np.ndarray:
+    """The returns of the study's agents with the soft constraint and another target entropy, (agents,)."""
+    return shipped_experiment("sensitivity")[f"target entropy {entropy:g}"].of("soft").scores("returns")

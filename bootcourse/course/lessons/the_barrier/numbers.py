@@ -1,0 +1,226 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+from functools import cache
+
+import numpy as np
+from scipy import stats
+
+from bootcourse.course.lessons.the_barrier import attempts, chain, easier, figures
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.policies import random_policy
+from bootcourse.research.planner import Search, discounted_values, plan_episodes
+from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import ESCAPES
+from tools.course.known import ROAD, idle, of, shipped_experiment, shipped_runs
+
+
+@cache
+def planned(beam: int, gamma: float, keep_lane: bool = False, road: int = ROAD) -> float:
+    """What the planner's best drive on a road is worth."""
+    return plan_episodes([road], search=Search(beam, gamma, keep_lane))[0].value
+
+
+@cache
+def discounted_scores(method: str) -> np.ndarray:
+    """The shipped agents' discounted returns at their own γ, each the mean of 200 held-out roads: (agents,)."""
+    agents, seeds = [run.agent for run in shipped_runs(method)], held_out_seeds(1, 200)
+    return np.array([discounted_values(a.as_policy(), seeds, DEFAULT, a.settings.gamma).mean() for a in agents])
+
+
+def stayed() -> int:
+    """How many of the study's plain agents return what doing nothing does, to within 3."""
+    return int((np.abs(of("sac").scores("returns") - idle().rewards.sum()) < 3).sum())
+
+
+@cache
+def by_chance():
+    """The barrier's 5,000 random drives."""
+    return drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
+
+
+@cache
+def chance_worth() -> np.ndarray:
+    """What those of them that end ahead are worth at γ = 0.8."""
+    driven = attempts.drive(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
+    return driven.values(0.8)[driven.ahead]
+
+
+def lone_escaper(measure: str) -> float:
+    """A measure of the one agent of twenty that escapes on the road as it is."""
+    here = easy("as it is")
+    return float(here.scores(measure)[here.scores("success") >= ESCAPES].item())
+
+
+def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
+    """How many learners of the barrier's chain have decided on its free road, whose every decision pays 1."""
+    return sum(map(chain.has_been_free, chain.learned(explore, gamma, walks=walks)))
+
+
+FOUR = "4 random actions, then accelerates"
+UNSKILLED = ("random for 150 s", FOUR, "random lanes and speeds")
+THE_PLAN = "one plan, then accelerates"
+KINDS_OF_ATTEMPTS = (*UNSKILLED, THE_PLAN, "the rule's way")
+
+
+@cache
+def all_tested() -> dict[str, attempts.Outcome]:
+    """The lesson's kinds of attempts on its 500 roads, driven in the same order."""
+    roads = held_out_seeds(7, 500)
+    return {kind: attempts.drive(policy, roads) for kind, policy in attempts.kinds(len(roads)).items()}
+
+
+def tested(kind: str) -> attempts.Outcome:
+    """One kind of them."""
+    return all_tested()[kind]
+
+
+def unhurt_plan() -> np.ndarray:
+    """What the plan's drives without an accident are worth at γ = 0.8."""
+    return tested(THE_PLAN).values(0.8)[~tested(THE_PLAN).accident]
+
+
+def easy(kind: str) -> Results:
+    """The twenty agents of one of `easier.KINDS`."""
+    return shipped_experiment("easier")[kind]
+
+
+def safe(kind: str) -> int:
+    """How many of them hardly ever end ahead, or in an accident."""
+    return int(((easy(kind).scores("success") < 0.05) & (easy(kind).scores("accident") < 0.05)).sum())
+
+
+def often_ahead(kind: str) -> int:
+    """How many of them end ahead of trap 1 on at least one road in ten."""
+    return int((easy(kind).scores("success") >= 0.1).sum())
+
+
+def ahead_and_crashed(kind: str) -> tuple[int, int]:
+    """How many of their drives end ahead of trap 1, and how many of these in an accident."""
+    ahead = easy(kind).episodes("success") > 0
+    return int(ahead.sum()), int((ahead & (easy(kind).episodes("accident") > 0)).sum())
+
+
+ONCE = "accelerates once, then nothing"
+FREE, RAM = "free accidents", "accelerates into trap 1"
+MIDDLE = easier.MIDDLE
+
+
+def staying_return(kind: str) -> float:
+    """The return of a car that stays behind trap 1 on the lesson's 100 roads of a kind."""
+    return float(idle().rewards.sum() if kind == "as it is" else worth_of(kind, "stays", 1.0))
+
+
+def paying(kind: str) -> int:
+    """How many of the twenty agents of a kind escape and earn more than staying."""
+    return int(figures.paying(easy(kind), staying_return(kind)).sum())
+
+
+def middle_p() -> float:
+    """Fisher's p of these agents, as it is and mid-lane."""
+    won = [paying(kind) for kind in ("as it is", MIDDLE)]
+    return float(stats.fisher_exact([[each, 20 - each] for each in won]).pvalue)
+
+
+def _straight() -> np.ndarray:
+    """Which agents from mid-lane drive faster than 20 m/s, on average."""
+    return easy(MIDDLE).scores("speed") > 20
+
+
+def straight_on() -> int:
+    """How many they are."""
+    return int(_straight().sum())
+
+
+def straight_speed() -> float:
+    """How fast they drive, on average, m/s."""
+    return float(easy(MIDDLE).scores("speed")[_straight()].mean())
+
+
+def straight_return() -> float:
+    """The most that one of them earns."""
+    return float(easy(MIDDLE).scores("returns")[_straight()].max())
+
+
+def decided() -> int:
+    """How many of the study's plain agents have an entropy of 0.01 nat or less in their last 100 training episodes."""
+    return int((of("sac").curves["entropy"][:, -100:].mean(axis=1) <= 0.01).sum())
+
+
+def crash_soon(gamma: float | None = None) -> int:
+    """Of the agents with free accidents (and this γ), how many have crashed after 6 s in their median drive."""
+    agents = easy(FREE)
+    chosen = [gamma in (None, agent["gamma"]) for agent in agents.agents]
+    lasted = np.median(agents.tested["distance"] / agents.tested["speed"], axis=1)
+    return int((lasted[chosen] < 6.05).sum())
+
+
+@cache
+def easier_outcomes(road: str) -> dict[str, attempts.Outcome]:
+    """What came of the lesson's drives on its 100 roads, made easier."""
+    roads, make_env = held_out_seeds(7, 100), easier.KINDS[road][0]
+    return {name: attempts.drive(each, roads, make_env) for name, each in easier.drivers(road).items()}
+
+
+def easier_outcome(road: str, name: str) -> attempts.Outcome:
+    """One of them."""
+    return easier_outcomes(road)[name]
+
+
+def worth_of(road: str, name: str, gamma: float) -> float:
+    """What a drive on an easier road is worth, on average."""
+    return float(easier_outcome(road, name).values(gamma).mean())
+
+
+@cache
+def best_in_lane() -> np.ndarray:
+    """What the best drives in the lane are worth at γ = 0.8 on the table's four roads."""
+    return np.array([planned(50, 0.8, keep_lane=True, road=road) for road in range(4)])
+
+
+def farther() -> np.ndarray:
+    """Which agents of plain SAC with a larger γ than the paper's escape on the road as it is."""
+    here = easy("as it is")
+    ours = here.scores("success")[[agent["gamma"] > 0.8 for agent in here.agents]]
+    varied = [
+        each.of("sac").scores("success") for what, each in shipped_experiment("sensitivity").items() if "γ" in what
+    ]
+    return np.concatenate([ours, *varied]) >= ESCAPES
+
+
+@cache
+def changed_agents(method: str) -> np.ndarray:
+    """Which agents of a method escape with another γ, another target entropy or both, (agents,)."""
+    varied = shipped_experiment("sensitivity").items()
+    scores = [each.of(method).scores("success") for what, each in varied if "γ" in what or "entropy" in what]
+    return np.concatenate(scores) >= ESCAPES
+
+
+@cache
+def replayed(times: int, walks: int = 30) -> int:
+    """How many of the chain's learners with A's ε and γ leave if the way out is replayed before the first decision."""
+    q = np.zeros((chain.STATES, 2))
+    for s, a in chain.WAY_OUT * times:
+        q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
+    return sum(_leaves(q.copy(), 0.1, seed) for seed in range(walks))
+
+
+def crashing(kind: str) -> int:
+    """How many agents of a kind have an accident in more than nine of ten drives."""
+    return int((easy(kind).scores("accident") > 0.9).sum())
+
+
+def optimistic(explore: float, start: float, walks: int = 30) -> int:
+    """How many of the chain's learners leave at γ = 0.8 if Q begins at `start` instead of 0."""
+    return sum(_leaves(np.full((chain.STATES, 2), float(start)), explore, seed) for seed in range(walks))
+
+
+def _leaves(q: np.ndarray, explore: float, seed: int) -> bool:
+    """Does a learner of the chain that begins with this Q, which it changes, leave at γ = 0.8?"""
+    s = 0
+    for t, chance in enumerate(chain.chances(explore, 1000, seed)):
+        s = 0 if t % chain.EPISODE == 0 else s
+        a = int(q[s].argmax()) if chance < 0 else chance
+        q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
+        s = chain.NEXT[s, a]
+    return chain.leaves(q)

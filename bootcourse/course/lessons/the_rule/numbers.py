@@ -1,0 +1,65 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+import dataclasses
+from functools import cache
+
+import numpy as np
+
+from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
+from bootcourse.policies import rule_policy
+from bootcourse.road.state import EGO, LANE, SPEED, X, Y
+from bootcourse.rule import SETTLED as SETTLED
+from bootcourse.rule import Reason, rule
+from bootcourse.scenario import DEFAULT
+
+
+@cache
+def sighted(sight: float, n: int = DEFAULT.rule.n, t_safe: float = DEFAULT.rule.t_safe) -> Episodes:
+    """The rule with another sight (m), n speeds and another t_safe (s), on the lesson's 200 roads."""
+    rule = dataclasses.replace(DEFAULT.rule, n=n, t_safe=t_safe)
+    seen = dataclasses.replace(DEFAULT.sight, distance=sight)
+    driver = rule_policy(dataclasses.replace(DEFAULT, rule=rule, sight=seen))
+    return drive_episodes(driver, held_out_seeds(1, 200))
+
+
+@cache
+def median_distance(roads: int = 20) -> float:
+    """The median distance (m) to the next car in the left lane, from 30 s on, over the rule's first roads."""
+    distances = []
+    for drive in record(rule_policy(DEFAULT), range(roads)):
+        for cars in drive.states[30 * DEFAULT.clock.steps :: DEFAULT.clock.steps]:
+            ahead = cars[(cars[:, LANE] == 0) & (cars[:, X] > cars[EGO, X]), X]
+            if cars[EGO, LANE] == 0:
+                distances.append(ahead.min() - cars[EGO, X] if len(ahead) else np.inf)
+    return float(np.median(distances))
+
+
+@cache
+def above_14(n: int, roads: int = 40) -> float:
+    """In which share of its seconds the rule with n speeds drives faster than 14 m/s, over its first roads."""
+    driver = rule_policy(dataclasses.replace(DEFAULT, rule=dataclasses.replace(DEFAULT.rule, n=n)))
+    speeds = [drive.states[:: DEFAULT.clock.steps, EGO, SPEED] for drive in record(driver, range(roads))]
+    return float(np.mean(np.concatenate(speeds) > 14))
+
+
+@cache
+def broken_off(crashed: bool = True) -> tuple[float, float, int]:
+    """Of the drives with a sight of 20 m that have an accident, or have none: the share in which a lane change was
+    broken off, the last lane change's speed, and the number of drives with one that was broken off.
+
+    Broken off: on its way to the left the rule sees nobody ahead in the right lane and stays there. The speed (m/s) is
+    the lowest at which the last lane change of a drive began.
+    """
+    near = dataclasses.replace(DEFAULT, sight=dataclasses.replace(DEFAULT.sight, distance=20.0))
+    which = np.flatnonzero((sighted(20.0).accident > 0) == crashed)
+    seeds, right = held_out_seeds(1, 200), DEFAULT.road.lanes - 1
+    drives = record(rule_policy(near), [seeds[i] for i in which])
+    broken, speeds = [], []
+    for drive in drives:
+        cars = drive.states[:: DEFAULT.clock.steps][: len(drive.actions)]
+        reasons, ego = rule(cars, near).reasons, cars[:, EGO]
+        turned = np.abs(ego[:, Y] - right * DEFAULT.road.lane_width) > 0.05
+        broken.append(np.any((reasons == Reason.FREE) & (ego[:, LANE] == right) & turned))
+        speeds += ego[np.flatnonzero(reasons == Reason.CHANGE)[-1:], SPEED].tolist()  # none if it changes no lane
+    return float(np.mean(broken)), float(np.min(speeds)), int(np.sum(broken))

@@ -1,0 +1,42 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+import itertools
+from functools import cache
+
+import numpy as np
+
+from bootcourse.course.lessons.the_trap import figures
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.policies import PlanPolicy, plan_policy
+
+STRAIGHT_BETWEEN = (("keep left", 2), ("keep straight", 2), ("keep right", 2))
+RIGHT_FIRST = ("keep right", ("keep left", 4), ("keep right", 3))
+
+
+@cache
+def unhurt(turns: tuple) -> np.ndarray:
+    """On which of the lesson's 400 roads a plan gets out unhurt."""
+    return figures.d2_and_unhurt([*turns, ("accelerate straight", 5)])[1]
+
+
+def balanced() -> np.ndarray:
+    """Which of all plans steer left as often as right, (6561,) bool."""
+    return (every_plan() == 3).sum(axis=1) == (every_plan() == 5).sum(axis=1)
+
+
+def every_plan() -> np.ndarray:
+    """The plans that steer left (3), straight (4) or right (5) in each of eight seconds: (6561, 8)."""
+    return np.array(list(itertools.product((3, 4, 5), repeat=8)))
+
+
+@cache
+def plans_of(road: int):
+    """Their drives on a road, each with five seconds of acceleration at its end."""
+    actions = np.vstack([every_plan().T, np.full((5, 3**8), 7)])
+    return drive_episodes(PlanPolicy(actions), [road] * 3**8, together=10_000)
+
+
+@cache
+def blind_plan():
+    """That plan on the study's 1,000 held-out roads: its episodes."""
+    return drive_episodes(plan_policy([*RIGHT_FIRST, ("accelerate straight", 5)]), held_out_seeds(1, 1000))
