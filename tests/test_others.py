@@ -10,6 +10,8 @@ import torch
 import bootcourse as bc
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.replay_buffer import decode_transitions
+from bootcourse.research.experiments import others
+from bootcourse.research.results import Results, load_results, save_results
 from bootcourse.scenario import CALIBRATED, DEFAULT, Clock
 
 stable_baselines3 = pytest.importorskip("stable_baselines3", reason="an extra: pip install 'bootcourse[others]'")
@@ -98,3 +100,26 @@ def test_a_scenario_may_be_named_and_what_single_roads_lack_is_said():
     for mistake in (lambda: env.set_attr("scenario", DEFAULT), lambda: env.env_method("cars")):
         with pytest.raises(BootcourseError, match="for single roads"):
             mistake()
+
+
+def test_a_small_comparison_is_computed_kept_and_read_again_with_the_library_s_own_settings(tmp_path, monkeypatch):
+    monkeypatch.setattr(others, "TRIES", others.TRIES[:1])
+    monkeypatch.setattr(others, "SEARCH_ROADS", range(2))
+    made = others.compared("PPO alone", decisions=4_096, seeds=2, tests=4)
+    save_results(made, tmp_path / "results.npz", {})
+    read = load_results(tmp_path / "results.npz")
+    assert read.agents == made.agents and read.agents[1]["learning_rate"] == others.TRIES[0]["learning_rate"]
+    assert np.array_equal(read.scores("success"), made.scores("success")) and read.sizes == (4, 0)
+
+
+def test_the_report_counts_who_escapes_with_the_teacher_and_without():
+    def agents(name: str, successes: list[int]) -> Results:
+        tested = {"success": np.array(successes, float)[:, None].repeat(20, 1)}
+        tested |= {"returns": tested["success"], "accident": 1 - tested["success"]}
+        entries = [{"method": name, "seed": i, "gamma": 0.9, "learning_rate": 1e-3} for i in range(len(successes))]
+        return Results(entries, np.full(len(successes), -1), tested)
+
+    computed = {cell: agents(cell, [0, 0, 0]) for cell in others.KINDS}
+    computed["PPO after cloning"] = agents("PPO after cloning", [1, 1, 0])
+    said = others.reading(computed)
+    assert "0 of 3 escape alone and 2 of 3 after cloning" in said and "100 % of their drives" in said

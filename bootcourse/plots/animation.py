@@ -28,7 +28,7 @@ REST = 2.5  # s of clip that the last frame is shown
 VIEW = 86.0  # m of road in the picture
 ROOM = VIEW / 2 - 14.0  # m from the picture's middle to the ego, at most: it stays in sight if trap 1 cannot
 AFTER = 6.0  # s that the clip goes on after the last overtaking
-COLOURS = 96  # in the palette that all frames share
+COLOURS = 64  # in the palette that all frames share
 
 
 def frame(rollouts: Sequence[Rollout], time: float) -> Figure:
@@ -108,7 +108,7 @@ def animate(rollouts: Sequence[Rollout], path: Path) -> Path:
     frames = [picture.quantize(palette=palette, dither=Image.Dither.NONE) for picture in pictures]
     durations = [round(1000 * FRAME)] * (len(frames) - 1) + [round(1000 * REST)]
     buffer = io.BytesIO()
-    how = {"save_all": True, "duration": durations, "loop": 0, "disposal": 1, "optimize": False}
+    how = {"save_all": True, "duration": durations, "loop": 0, "disposal": 1, "optimize": True}
     frames[0].save(buffer, "GIF", append_images=frames[1:], comment=alt(rollouts).encode(), **how)
     write_bytes(path, buffer.getvalue())
     return Path(path)

@@ -81,13 +81,17 @@ class SvgAxes:
         across, up = (x - self.x[0]) / (self.x[1] - self.x[0]), (y - self.y[0]) / (self.y[1] - self.y[0])
         return self.left + across * self.width, self.top + (1 - up) * self.height
 
-    def frame(self, title: str, x_name: str = "", rows: int = 3) -> None:
-        """Title above, grid lines and their numbers at round places, `x_name` below."""
+    def scale(self, title: str, rows: int = 3) -> None:
+        """Title above, and grid lines with their numbers at round places of y."""
         self.parts.append(text(self.left, self.top - 8, title, size=12, bold=True))
         for y in ticks(*self.y, rows):
             _, down = self.at(self.x[0], y)
             self.parts.append(line(self.left, down, self.left + self.width, down))
             self.parts.append(text(self.left - 5, down + 3.5, number(y), "end", QUIET, 10.5))
+
+    def frame(self, title: str, x_name: str = "", rows: int = 3) -> None:
+        """The same, with numbers at round places of x and `x_name` below."""
+        self.scale(title, rows)
         for x in ticks(*self.x, 4):
             across, down = self.at(x, self.y[0])
             self.parts.append(line(across, down, across, down + 3))

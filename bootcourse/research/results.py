@@ -17,6 +17,7 @@ from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import check_arrays, decoding, parse, read_arrays, read_json, write_arrays
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings, stored_settings
+from bootcourse.methods import METHODS
 from bootcourse.research.jobs import Description
 from bootcourse.research.teachers import RULE
 from bootcourse.road.state import Accident
@@ -165,13 +166,16 @@ def load_results(path: Path) -> Results:
 
 
 def _agents(text: str, path: Path) -> list[dict]:
-    """`Results.agents` of a file, checked as settings of this version."""
+    """`Results.agents` of a file; those of our methods are checked as settings of this version.
+
+    The rule and learners of other libraries (`experiments/others.py`) have no such settings.
+    """
     agents = []
     with decoding(path, RUN_AGAIN):
         for agent in parse(text, list[dict[str, Any]], path, RUN_AGAIN):
             teacher = str(agent.pop("teacher"))
-            rule = agent.get("method") == "rule"  # it has no settings
-            agents += [agent | {"teacher": teacher}] if rule else agent_entries([stored_settings(agent)], teacher)
+            ours = agent.get("method") in METHODS
+            agents += agent_entries([stored_settings(agent)], teacher) if ours else [agent | {"teacher": teacher}]
     return agents
 
 

@@ -134,7 +134,26 @@ def obstacle(arguments: Mapping) -> str:
 
 def section(computed: dict[str, Computed], folder: Path) -> list[str]:
     """What theirs and ours reached."""
-    return ["## Learners that we did not write\n", SECTION, markdown(*rows(computed["others"]))]
+    return [
+        "## Learners that we did not write\n",
+        SECTION,
+        markdown(*rows(computed["others"])),
+        reading(computed["others"]),
+    ]
+
+
+def reading(computed: Computed) -> str:
+    """What the table says about the teacher: the agents that escape without it and with it."""
+    escape = {cell: f"{results.escapers(results.methods[0])} of {len(results)}" for cell, results in computed.items()}
+    crash = {cell: 100 * results.episodes("accident").mean() for cell, results in computed.items()}
+    return (
+        f"Theirs agree with ours on the teacher: of PPO's agents {escape['PPO alone']} escape alone and "
+        f"{escape['PPO after cloning']} after cloning; of DQN's {escape['DQN alone']} alone, "
+        f"{escape['DQN with demonstrations']} with the rule's drives in the buffer, and "
+        f"{escape['DQN with demonstrations and c']} with c on their rewards. DQN's agents get out and crash: even with c "
+        f"{crash['DQN with demonstrations and c']:.0f} % of their drives end in an accident. {DECISIONS['DQN']:,} decisions "
+        "are few, and one seed decided each search.\n"
+    )
 
 
 def rows(computed: Computed) -> tuple[list[str], list[list[str]]]:

@@ -27,7 +27,7 @@ import bootcourse as bc
 import numpy as np
 import torch
 from bootcourse.course import charts, check, compare_predictions, predict, source, table
-from bootcourse.course.lessons.demonstrations import cloning, figures
+from bootcourse.course.lessons.demonstrations import cloning, explorable, figures
 from bootcourse.learn import demonstrations, replay_buffer
 from bootcourse.road.state import EGO, LANE, Y
 
@@ -295,6 +295,13 @@ table(
 # the table and none like the last.
 # <!-- claim: 0.25 < in_free_lane()[0] < 0.4 and in_free_lane()[2] < 1.5 -->
 #
+# **Drag** the errors. How rarely must a copy err, so that half of its drives follow the teacher to
+# the end?
+
+# %%
+explorable.compounding()
+
+# %% [markdown]
 # How much can this cost over a whole drive? Let a clone err with probability ε at a decision while
 # it is in the demonstrator's states.
 #

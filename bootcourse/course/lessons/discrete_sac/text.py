@@ -26,7 +26,7 @@ import bootcourse as bc
 import numpy as np
 import torch
 from bootcourse.course import charts, check, compare_predictions, predict, table
-from bootcourse.course.lessons.discrete_sac import diagrams, figures
+from bootcourse.course.lessons.discrete_sac import diagrams, explorable, figures
 from bootcourse.learn import sac
 from bootcourse.research.experiments import checks
 
@@ -89,6 +89,13 @@ bc.show(diagrams.sac_diagram())
 # %% [markdown]
 # ## Round 1: what is a state worth when entropy is rewarded?
 #
+# **Drag** the temperature α. Going straight is worth most here: at which end does the agent nearly
+# always go straight, and what does it do at the other end?
+
+# %%
+explorable.undecided()
+
+# %% [markdown]
 # Early estimates of Q are poor, so an agent that takes only what it now thinks best may not find
 # out that something else is better. To go on trying other actions is **exploration**, and SAC adds
 # a small reward for it: an undecided policy earns more. The policy's **entropy** says how undecided

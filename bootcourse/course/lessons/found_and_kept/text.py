@@ -27,7 +27,7 @@
 import bootcourse as bc
 import numpy as np
 from bootcourse.course import charts, check, compare_predictions, predict, shipped, table
-from bootcourse.course.lessons.found_and_kept import exercises, figures
+from bootcourse.course.lessons.found_and_kept import exercises, explorable, figures
 from bootcourse.research import paper, tables
 from bootcourse.research.experiments import clocks
 from bootcourse.statistics import rolling_means
@@ -289,6 +289,13 @@ table(["β is 0 after, episodes", "return of agents with both aids that keep the
 # %% [markdown]
 # ## Round 4: two clocks
 #
+# ξ counts updates, β counts episodes. **Drag** the updates for each decision. At which number would
+# both fade equally fast? (Drawn as if each update lowered log α by its learning rate.)
+
+# %%
+explorable.clocks()
+
+# %% [markdown]
 # How many updates belong to a decision? The paper does not say. In the study it is one for each
 # four. We trained new agents with one, two and four. Their trainings end after {{ SHORTER | , }}
 # episodes and not {{ of('sac').curves['success'].shape[1] | , }}, so *kept* now means: still there
@@ -298,7 +305,7 @@ table(["β is 0 after, episodes", "return of agents with both aids that keep the
 # of('bootstrapped').scores('success')[5] | .0f }} % of the roads after 2,000.
 #
 # Their demonstrations were driven by the rule μ, as in the study, or by the stochastic rule π̃, as
-# the paper writes. ξ counts updates, β counts episodes:
+# the paper writes:
 # <!-- claim: {r.curves['success'].shape[1] for r in clocks().values()} == {SHORTER} -->
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 -->
 

@@ -26,6 +26,7 @@ import bootcourse as bc
 import numpy as np
 import scipy.stats
 from bootcourse.course import check, compare_predictions, predict, shipped, table
+from bootcourse.course.lessons.how_many_seeds import explorable
 from bootcourse.course.lessons.how_many_seeds import figures as figures_seeds
 from bootcourse.research import figures, paper, report, tables
 
@@ -89,13 +90,21 @@ bc.show(figures_seeds.who_escapes(study, methods))
 # In this study an agent succeeds on more than 90 % of the roads or on fewer than 10 %, so a
 # method's result is a number of agents. (One bootstrapped agent, at 92 %, just misses the line:
 # with a line at 90 % eight of them would escape, too.) Eight of ten escape: what does that say
-# about others? The **exact interval** (Clopper and Pearson's) of k out of n holds every rate with
-# which the observed k would not be too improbable. At its low end, k *or more* out of n have a
-# chance of 2.5 %; at its high end, k *or fewer* have.
+# about others?
 # <!-- claim: (of('bootstrapped').scores('success') > 0.9).sum() == 8 ==
 #   (of('soft').scores('success') > 0.9).sum() -->
 # <!-- claim: escaped('soft') == 8 and [round(100 * each) for m in ('sac', 'soft', 'demos',
 #   'bootstrapped') for each in of(m).scores('success') if 0.1 < each < 0.95] == [92] -->
+#
+# **Drag** the number of agents. How many of them make the interval half as wide as ten do?
+
+# %%
+explorable.certainty()
+
+# %% [markdown]
+# The **exact interval** (Clopper and Pearson's) of k out of n holds every rate with which the
+# observed k would not be too improbable. At its low end, k *or more* out of n have a chance of
+# 2.5 %; at its high end, k *or fewer* have.
 #
 # **Exercise (8 min, ●●○).** Write it. `scipy.stats.beta.ppf(q, a, b)` is where a beta
 # distribution reaches q, and solves both: a = k, b = n − k + 1 for the low end, a = k + 1, b = n −

@@ -182,6 +182,10 @@ for c in (0.0, 0.05, 0.5, 2.0):
     rows.append([c, *(f"{value:.2f}" for value in values)])
 table(["c", "the rule's way", "staying", "the bonus adds c / (1 − γ)"], rows)
 
+# %% [markdown]
+# **Drag** c, and read the lower picture. In which seconds does the rule's drive need a bonus, and
+# from which c on is it worth more in each of them?
+
 # %%
 bc.panels.bonus_panel()
 
@@ -205,6 +209,13 @@ bc.panels.bonus_panel()
 # reward. Ask how much of its argument applies here: with c = 2 and rewards below 1, most of it. A
 # good question is what a bonus on *all* rows would do: it pays for each second without an accident.
 # <!-- claim: SETTINGS.bonus == 2 and max(map(second_pays, np.arange(0, 25, 0.1))) < 1 -->
+
+# %% [markdown]
+# **Slide.** Train with demonstrations alone. After a minute set c to 0, later β to 0.9. Which of the
+# two moves the curve of the success?
+
+# %%
+bc.panels.train_panel("demos", seeds=2, episodes=600)
 
 # %% [markdown]
 # ## Round 3: what does c = 2 do to a critic?

@@ -36,6 +36,7 @@ from bootcourse.course import (
     shipped,
     table,
 )
+from bootcourse.course.lessons.soft_constraint import explorable
 from bootcourse.course.lessons.soft_constraint.examples import kl_of
 
 # %% [markdown]
@@ -471,7 +472,14 @@ bc.show(charts.lines(updates, {"soft": xi}, title, "update", y_label, logarithmi
 # In the study, with the same settings, that is after {{ tenth_of_xi('soft').min() }} to {{
 # tenth_of_xi('soft').max() }} episodes.
 #
-# **What fades?** Put ξ = 200 α into the best compromise of Round 3:
+# **What fades?** Here another action is worth 1 more than the rule's. **Drag** α down, as training
+# does, and read the sentence: which number stays, and when does the other action win?
+
+# %%
+explorable.pull()
+
+# %% [markdown]
+# Put ξ = 200 α into the best compromise of Round 3:
 #
 # $$ \pi^*(a) \propto
 # \exp\Big( \frac{Q(a)}{201\,\alpha} + \tfrac{200}{201} \log\tilde\pi(a) \Big) $$
@@ -574,6 +582,13 @@ bc.show(figure)
 # Ask before the last figure what an agent with ξ = 2 could do better than the rule, and what each
 # such second would cost it (8.8: far more than a second pays).
 # <!-- claim: round(2 * math.log(80), 1) == 8.8 -->
+
+# %% [markdown]
+# **Slide.** Let two agents get out. Then drag ξ to 10,000 α: do they keep the way out, and what do
+# their return and entropy do?
+
+# %%
+bc.panels.train_panel("soft", seeds=2, episodes=600)
 
 # %%
 kl_alone = "less than a crash, but only with the KL"

@@ -38,6 +38,7 @@ from bootcourse.course.lessons.the_barrier import (
     diagrams,
     easier,
     exercises,
+    explorable,
     figures,
 )
 from bootcourse.research import planner, report
@@ -130,6 +131,13 @@ shown(alone.agents, tests)
 # the curves.
 
 # %% [markdown]
+# **Slide.** Train plain SAC for a minute. Then choose *soft constraint only*, train again, and move
+# ξ. After how many episodes do the curves leave those of plain SAC?
+
+# %%
+bc.panels.train_panel("sac", seeds=3, episodes=600)
+
+# %% [markdown]
 # ## Round 2: is it the discount?
 #
 # A learner maximises a discounted sum: the reward after t seconds counts $\gamma^t$.
@@ -188,6 +196,14 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 
 # %% [markdown]
 # ## Round 3: is it luck, or the price of attempts?
+#
+# **Drag** the number of accidents. How many of a hundred attempts may end in one before the others
+# no longer pay for them, at γ = 0.8, and at γ = 0.95?
+
+# %%
+explorable.price()
+
+# %% [markdown]
 #
 # Let 5,000 drives take each action at random, for 150 s.
 #

@@ -27,7 +27,7 @@ import dataclasses
 import bootcourse as bc
 import numpy as np
 from bootcourse.course import charts, check, compare_predictions, predict, shipped, table
-from bootcourse.course.lessons.the_rule import figures
+from bootcourse.course.lessons.the_rule import explorable, figures
 from bootcourse.road.state import EGO, SPEED, TRAP_1, TRAP_2, X
 
 # %% [markdown]
@@ -117,6 +117,13 @@ table(["", "m/s"], rows)
 # %% [markdown]
 # ## Round 2: when to change lane?
 #
+# A car ahead in the new lane is slower than you. **Drag** t_safe, the time for which the gap must
+# last: up to which speed does the rule ask for a gap in which the car could still brake?
+
+# %%
+explorable.gap()
+
+# %% [markdown]
 # The car falls back. When is the gap to trap 2 long enough to change lane? Ask how far you close in
 # on the slower of the two cars ahead during $t_\text{safe}$ seconds. This is our **safety
 # distance**:

@@ -29,7 +29,7 @@ import bootcourse as bc
 import gymnasium as gym
 import numpy as np
 from bootcourse.course import check, compare_predictions, own_code, predict, table
-from bootcourse.course.lessons.the_trap import diagrams, figures
+from bootcourse.course.lessons.the_trap import diagrams, explorable, figures
 from bootcourse.research import report, tables
 from bootcourse.road import formulas, observation
 
@@ -498,6 +498,13 @@ table(["", "who gets out", "mean return", "drives that end in an accident"], row
 # on the projector's machine, the saved picture tells the same story.
 
 # %% [markdown]
+# **Slide.** Press *Train*: two agents learn with the rule's help, and the road shows how one drives
+# now. After a minute, drag ξ to its lower end, or β to 0. What changes in the curves?
+
+# %%
+bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)
+
+# %% [markdown]
 # ## Round 6: when does an attempt pay?
 #
 # > **Predict.** Add up the rewards of the rule's escape, second by second, and those of doing
@@ -536,8 +543,16 @@ check.bearable_risk(bearable_risk)
 
 # %% [markdown]
 # The agents of Round 5 **discount** rewards: one that comes t seconds later counts γᵗ as much, and
-# the paper's γ ("gamma") is {{ SETTINGS.gamma }}. What may an attempt risk that drives like the
-# rule, if its crash comes after 3 s? The last column is the answer of your exercise:
+# the paper's γ ("gamma") is {{ SETTINGS.gamma }}.
+#
+# **Drag** γ. From which γ on is the rule's way out worth more than staying?
+
+# %%
+explorable.discount()
+
+# %% [markdown]
+# What may an attempt risk that drives like the rule, if its crash comes after 3 s? The last column
+# is the answer of your exercise:
 
 # %% tags=["hide-input"]
 bearable, rows = own_code.yours_or_ours("bearable_risk", doing="Judging attempts"), []

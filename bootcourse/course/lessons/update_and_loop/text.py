@@ -28,7 +28,7 @@ import numpy as np
 import torch
 from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
 from bootcourse.course.lessons.discrete_sac import figures
-from bootcourse.course.lessons.update_and_loop import by_hand, left_out
+from bootcourse.course.lessons.update_and_loop import by_hand, explorable, left_out
 from bootcourse.learn import sac
 from bootcourse.research.experiments import checks
 
@@ -110,6 +110,13 @@ check.ReplayBuffer(ReplayBuffer)
 # %% [markdown]
 # ## Round 2: the whole algorithm
 #
+# A row says whether its episode ended there: *terminated*. **Drag** γ. What does a critic expect of
+# the last push before a fall if its target knows the end, and what if it does not?
+
+# %%
+explorable.the_end()
+
+# %% [markdown]
 # > **Soft actor-critic for a list of actions** (after each dash: the function that does it)
 # >
 # > *Start* with a policy π, two critics Q₁, Q₂, slow copies Q̄₁, Q̄₂, α, and an empty buffer.

@@ -1,0 +1,48 @@
+"""To drag in this lesson: the temperature α, with the paper's ξ = 200 α, and with a ξ that stays."""
+
+import numpy as np
+import torch
+
+from bootcourse.learn.bootstrap import log_stochastic_rule, regularised_policy
+from bootcourse.learn.settings import Settings
+from bootcourse.methods import style
+from bootcourse.panels.explorable import Axes, Curve, Explorable, bars
+from bootcourse.panels.number import Number
+from bootcourse.plots.svg import Drawing
+from bootcourse.scenario import ACTION_NAMES
+
+RULE, BETTER, LEAD = 3, 7, 1.0  # the action of the rule, another one, and what that is worth more
+AXES = Axes("", "probability of each action", (0.0, 1.0))
+
+
+def head_start(log_rule: np.ndarray, alpha: float, xi: float) -> float:
+    """How much the rule's action leads in the logits of the best policy before Q says anything: nats."""
+    return float((log_rule[RULE] - log_rule[BETTER]) * xi / (alpha + xi))
+
+
+def pull() -> Explorable:
+    """The best compromise between Q, in which another action is worth more, and the rule, while α falls.
+
+    With ξ = 200 α its logits are Q / 201α + (200/201) log π̃.
+    """
+    settings = Settings()
+    multiplier, p = settings.xi_multiplier, settings.rule_p
+    log_rule = log_stochastic_rule(torch.tensor([RULE]), torch.tensor(p, dtype=torch.float64))
+    q = torch.zeros(1, len(ACTION_NAMES), dtype=torch.float64)
+    q[0, BETTER] = LEAD
+
+    def draw(alpha: float) -> Drawing:
+        together, alone = (regularised_policy(q, log_rule, alpha, xi)[0] for xi in (multiplier * alpha, 2.0))
+        lead = head_start(log_rule[0].numpy(), alpha, multiplier * alpha)
+        says = (
+            f"α = {alpha:.2g}, ξ = {multiplier * alpha:.2g}: the rule's action leads by {lead:.2f} nats in the logits."
+        )
+        named = {
+            "the best policy, ξ = 200 α": Curve(together, style("soft").colour),
+            "the same with ξ = 2 for ever": Curve(alone, style("rule").colour),
+        }
+        return bars(says, AXES, ACTION_NAMES, named)
+
+    alpha = Number("α", settings.alpha_init, 1e-5, 0.1, 0.05, "The temperature; it falls while the agent learns.",
+                   logarithmic=True)  # fmt: skip
+    return Explorable("Another action is worth more than the rule's. When is it taken?", draw, alpha=alpha)

@@ -1,0 +1,32 @@
+"""To drag in this lesson: the time that a gap must last, against the distance in which the car can brake."""
+
+import numpy as np
+
+from bootcourse.colours import ALARM
+from bootcourse.methods import style
+from bootcourse.panels.explorable import Axes, Curve, Explorable, curves
+from bootcourse.panels.number import Number
+from bootcourse.plots.svg import Drawing
+from bootcourse.rule import safety_distance
+from bootcourse.scenario import DEFAULT
+
+SPEEDS = np.linspace(0, 8, 161)  # m/s by which the ego is faster than the car ahead
+AXES = Axes("faster than the car in the new lane by (m/s)", "gap (m)", (0.0, 35.0))
+
+
+def gap() -> Explorable:
+    """The gap that the rule wants over the closing speed, and the way on which the car brakes, while t_safe moves."""
+    brakes = SPEEDS**2 / (2 * DEFAULT.ego.acceleration)
+
+    def draw(t_safe: float) -> Drawing:
+        wanted = np.array([safety_distance(speed, 0.0, 0.0, t_safe, DEFAULT.rule.floor) for speed in SPEEDS])
+        safe = SPEEDS[np.maximum.accumulate(brakes > wanted) == 0][-1]
+        named = {
+            "the gap that the rule wants": Curve(wanted, style("rule").colour),
+            f"the way on which it brakes, at {DEFAULT.ego.acceleration:g} m/s²": Curve(brakes, ALARM, "--"),
+        }
+        says = f"t_safe = {t_safe:g} s: up to {safe:.1f} m/s the gap is long enough to brake in it."
+        return curves(says, AXES, SPEEDS, named, mark=float(safe))
+
+    t_safe = Number("t_safe", DEFAULT.rule.t_safe, 0.5, 4, 0.1, "The time for which the gap must last.", "s")
+    return Explorable("How large a gap is large enough?", draw, t_safe=t_safe)

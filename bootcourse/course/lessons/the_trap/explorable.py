@@ -1,0 +1,34 @@
+"""To drag in this lesson: the discount γ, and how far ahead a driver looks with it."""
+
+import numpy as np
+
+from bootcourse.episodes.record import record
+from bootcourse.methods import style
+from bootcourse.panels.explorable import Axes, Curve, Explorable, curves
+from bootcourse.panels.number import Number
+from bootcourse.plots.svg import Drawing
+from bootcourse.policies import idle_policy, rule_policy
+from bootcourse.scenario import DEFAULT
+
+ROAD, SECONDS = 10, 60  # the road of the lesson's drives, and how much of them is shown
+
+
+def discount() -> Explorable:
+    """The rewards of the rule's way out and of staying, weighed by γ^t and added up second by second, while γ moves."""
+    escape = record(rule_policy(DEFAULT), [ROAD], DEFAULT, "rule")[0].rewards
+    stay = record(idle_policy, [ROAD], DEFAULT, "idle")[0].rewards
+    times = np.arange(len(escape))
+
+    def draw(gamma: float) -> Drawing:
+        out, behind = (np.cumsum(gamma**times * rewards) for rewards in (escape, stay))
+        better = "The way out is worth more" if out[-1] > behind[-1] else "Staying is worth more"
+        named = {
+            f"the rule's way out: {out[-1]:.2f} in all": Curve(out[:SECONDS], style("rule").colour),
+            f"staying behind: {behind[-1]:.2f} in all": Curve(behind[:SECONDS], style("idle").colour, "--"),
+        }
+        what = "sum of the rewards until then, each × γ to the power of its second"
+        axes = Axes("second of the drive", what, (0.0, 1.15 * float(max(out[SECONDS], behind[SECONDS]))))
+        return curves(f"γ = {gamma:g}: {better}.", axes, times[:SECONDS], named)
+
+    gamma = Number("γ", 0.8, 0.5, 1, 0.01, "What a reward one second later is worth, as a share of one now.")
+    return Explorable("What is the way out worth at its start?", draw, gamma=gamma)

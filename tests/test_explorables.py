@@ -1,0 +1,102 @@
+"""What a lesson lets one drag before its first formula: moved as the page does, and compared with the library."""
+
+import importlib
+import re
+import time
+
+import numpy as np
+import pytest
+import torch
+
+from bootcourse.course.lessons import COURSE
+from bootcourse.learn import sac
+from bootcourse.learn.bootstrap import regularised_policy
+from bootcourse.panels.explorable import Explorable
+from bootcourse.statistics import rate
+from tests.panels import at_its_ends, from_page, inside, raise_in_callbacks  # noqa: F401
+from tools.course.numbering import text_file
+from tools.course.source import read
+
+pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
+SHOWN = {
+    "the_trap": "discount",
+    "discrete_sac": "undecided",
+    "update_and_loop": "the_end",
+    "the_barrier": "price",
+    "the_rule": "gap",
+    "demonstrations": "compounding",
+    "soft_constraint": "pull",
+    "how_many_seeds": "certainty",
+    "found_and_kept": "clocks",
+}
+
+
+def shown(lesson: str) -> Explorable:
+    return getattr(importlib.import_module(f"bootcourse.course.lessons.{lesson}.explorable"), SHOWN[lesson])()
+
+
+@pytest.mark.parametrize("lesson", SHOWN)
+def test_each_slider_changes_the_picture_and_refuses_nonsense(lesson):
+    panel = shown(lesson)
+    for number in panel.numbers.values():
+        before = panel.svg
+        from_page(number.slider, value=(number.slider.min + number.slider.max) / 2)
+        from_page(number.slider, value=number.slider.max)
+        assert panel.svg != before and panel.view.value == panel.svg
+        size = panel.svg.split(' role="img"')[0]
+        for value in (number.slider.min, number.slider.max):
+            from_page(number.slider, value=value)
+            assert panel.svg.split(' role="img"')[0] == size and "nan" not in panel.svg
+        from_page(number.field, value=float("nan"))
+        assert "bc-wrong" in number.help.value
+
+
+@pytest.mark.parametrize("lesson", COURSE[1:])
+def test_each_core_lesson_has_something_to_drag_before_the_formula_of_its_round(lesson):
+    cells = read(text_file(lesson))
+    shows = r"^explorable\.\w+\(\)|^bc\.panels\.bonus_panel\(\)"
+    place = next(i for i, cell in enumerate(cells) if cell.is_code and re.search(shows, cell.student, re.M))
+    begins = max(i for i, cell in enumerate(cells[:place]) if re.search("^## ", cell.text, re.M))
+    round_so_far = "\n".join(cell.text for cell in cells[begins:place])
+    assert lesson == "learning_from_demonstrations" or "$$" not in round_so_far
+    assert re.search(r"\*\*Drag\*\*", cells[place - 1].text), "a question that the sliders answer"
+
+
+def test_the_best_policy_of_two_numbers_is_the_one_of_the_learner_and_its_head_start_stays_while_alpha_falls():
+    panel, says = shown("soft_constraint"), []
+    for alpha in (1e-1, 1e-2, 1e-4):
+        from_page(panel.numbers["alpha"].field, value=alpha)
+        says.append(re.search(r"leads by ([\d.]+)", panel.svg.alt)[1])
+    assert says == ["4.26"] * 3
+    module = importlib.import_module("bootcourse.course.lessons.soft_constraint.explorable")
+    log_rule = torch.log(torch.tensor([[0.0125] * 9], dtype=torch.float64))
+    log_rule[0, module.RULE] = np.log(0.9)
+    q = torch.zeros(1, 9, dtype=torch.float64)
+    q[0, module.BETTER] = module.LEAD
+    for alpha, wanted in ((0.01, module.RULE), (0.0001, module.BETTER)):
+        assert int(regularised_policy(q, log_rule, alpha, 200 * alpha).argmax()) == wanted
+
+
+def test_the_numbers_in_the_sentences_are_those_of_the_library():
+    panel = shown("discrete_sac")
+    q = torch.tensor([[0.9, 1.0, 0.5]], dtype=torch.float64)
+    log_pi = sac.log_policy(q / 0.2)
+    assert f"by {sac.entropy(log_pi).item():.2f} nats" in panel.svg.alt
+    low, high = 100 * np.array(rate(np.arange(10) < 8)[1:])
+    assert f"{low:.0f} to {high:.0f} %" in shown("how_many_seeds").svg.alt
+    panel = shown("the_barrier")
+    for accidents, words in ((0, "pays"), (30, "does not pay")):
+        from_page(panel.numbers["accidents"].slider, value=accidents)
+        assert f"an attempt {words}" in panel.svg.alt
+
+
+def test_a_move_is_answered_at_once():
+    """Wanted is a tenth of a second; the best of some moves, because other programs may have the processor."""
+    for lesson in SHOWN:
+        panel, best = shown(lesson), np.inf
+        number = next(iter(panel.numbers.values()))
+        for value in np.linspace(number.slider.min, number.slider.max, 6):
+            begun = time.process_time()
+            from_page(number.slider, value=float(value))
+            best = min(best, time.process_time() - begun)
+        assert best < 0.1, lesson
