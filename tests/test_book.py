@@ -12,7 +12,7 @@ from bootcourse.course.lessons import LESSONS, stem
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
 from tools.course import claims
-from tools.course.source import sources
+from tools.course.source import lesson_of, sources
 
 FILES = [stem(name) for name in LESSONS]
 # What sticks out of the screen, and what scrolls sideways without a line that says so. Code is known to scroll.
@@ -52,7 +52,7 @@ def test_every_lesson_has_its_pages(made):
     assert [name for name in dict.fromkeys(listed) if name != stem("start")] == FILES[1:]
 
 
-@pytest.mark.parametrize("path", sources(), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sources(), ids=lesson_of)
 def test_what_a_lesson_cites_is_in_the_bibliography(path):
     known = re.findall(r"eprint = \{([\d.]+)\}", (book.ROOT / "book/references.bib").read_text(encoding="utf-8"))
     cited = re.findall(r"\barXiv[\s:#]+(\d{4}\.\d{4,5})", path.read_text(encoding="utf-8"))

@@ -22,7 +22,7 @@ from bootcourse.learn import bootstrap, sac
 from bootcourse.road import formulas
 from tests.answers import here
 from tools.course.problems import shown_sources
-from tools.course.source import read, sources
+from tools.course.source import lesson_of, read, sources
 
 EXERCISES = registry()
 
@@ -174,10 +174,10 @@ def names_in(code: str) -> set[str]:
     return named | {name.rpartition(".")[2] for name in shown_sources(code)}
 
 
-@pytest.mark.parametrize("path", sources(), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sources(), ids=lesson_of)
 def test_no_cell_above_an_exercise_calls_or_shows_the_library_s_function(path):
     """A student would find the answer there."""
-    own = {name: each for name, each in EXERCISES.items() if each.lesson == stem(path.stem)}
+    own = {name: each for name, each in EXERCISES.items() if each.lesson == stem(lesson_of(path))}
     above = set()
     for cell in read(path):
         for name in cell.checks:

@@ -150,9 +150,9 @@ def reading(computed: Computed) -> str:
         f"Theirs agree with ours on the teacher: of PPO's agents {escape['PPO alone']} escape alone and "
         f"{escape['PPO after cloning']} after cloning; of DQN's {escape['DQN alone']} alone, "
         f"{escape['DQN with demonstrations']} with the rule's drives in the buffer, and "
-        f"{escape['DQN with demonstrations and c']} with c on their rewards. DQN's agents get out and crash: even with c "
-        f"{crash['DQN with demonstrations and c']:.0f} % of their drives end in an accident. {DECISIONS['DQN']:,} decisions "
-        "are few, and one seed decided each search.\n"
+        f"{escape['DQN with demonstrations and c']} with c on their rewards. DQN's agents get out and crash: even "
+        f"with c {crash['DQN with demonstrations and c']:.0f} % of their drives end in an accident. "
+        f"{DECISIONS['DQN']:,} decisions are few, and one seed decided each search.\n"
     )
 
 
