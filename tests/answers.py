@@ -64,7 +64,7 @@ from torch.nn import functional
 import bootcourse as bc
 from bootcourse.learn.bootstrap import kl_to_rule
 from bootcourse.course.lessons.demonstrations import cloning
-from bootcourse.course.lessons.the_barrier import chain
+from bootcourse.course.lessons.values import chain
 from bootcourse.course.lessons.your_teacher.example_teachers import watchful
 """  # for the tables
 

@@ -20,6 +20,7 @@ from tools.course.source import read
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
 SHOWN = {
     "the_trap": "discount",
+    "values": "worths",
     "discrete_sac": "undecided",
     "update_and_loop": "the_end",
     "the_barrier": "price",

@@ -6,7 +6,7 @@ import statistics
 
 import pytest
 
-from bootcourse.course.predictions import FILE
+from bootcourse.course.predictions import FILE, number_of
 from tests.browser import ARTEFACTS, close_notice, is_blank, needs_browser
 from tests.jupyterlab import open_lab
 from tests.waiting import until
@@ -181,6 +181,30 @@ def test_a_training_is_watched_in_its_cell_and_the_road_s_button_stops_it(open_n
         it.page.get_by_role("button", name="Stop, and keep what was learned").click()
         it.page.get_by_text("interrupted 1").wait_for()
         assert "Stopped after" in it.page.locator(".jp-OutputArea").first.inner_text() and it.shown.errors == []
+
+
+def test_a_saved_result_is_folded_until_its_prediction_is_committed(open_notebook):
+    cells = ["from bootcourse.course import predict, predicted, progress\nprogress('the_rule')"]
+    for place in (1, 2):
+        cells += [
+            f'predict("the_rule.{place}", "Which?", ["none", "some"])',
+            f'predicted("the_rule.{place}")\nprint(7)',
+        ]
+    with open_notebook(*cells, saved="as it came") as it:
+        folded = it.page.locator(".jp-OutputPlaceholder")
+        assert folded.count() == 2
+        for _ in range(2):
+            it.run_selected()
+        it.page.locator("input[type=radio]").last.check()
+        assert folded.count() == 2
+        it.page.get_by_role("button", name="Commit").click()
+        it.page.wait_for_function("() => document.querySelectorAll('.jp-OutputPlaceholder').length === 1")
+        assert it.page.locator(".bc-progress").inner_text().startswith("This lesson: 1 of ")
+        it.page.locator(".jp-Cell").nth(2).locator(".jp-InputPrompt").click()  # select it
+        it.run_selected()
+        number = number_of("the_rule.1")
+        it.page.get_by_text(f"You predicted ({number}): some. Was it so?").wait_for()
+        it.page.screenshot(path=str(ARTEFACTS / "prediction.png"))
 
 
 # Panels

@@ -8,11 +8,13 @@ from types import SimpleNamespace
 
 import pytest
 
-from bootcourse.course import answer_files, compare_predictions, predict
+from bootcourse.course import answer_files, compare_predictions, predict, predicted, progress
 from bootcourse.course.edition import solutions_are_open
+from bootcourse.course.lessons import registry, stem
 from bootcourse.course.notebook import beside_the_notebook
 from bootcourse.course.prediction_form import PredictionForm
 from bootcourse.course.predictions import FILE, predictions
+from bootcourse.course.progress import note_passed
 from bootcourse.errors import BootcourseError
 from tests.panels import raise_in_callbacks, words  # noqa: F401
 
@@ -120,3 +122,28 @@ def test_the_end_of_a_lesson_compares_and_escapes_what_a_student_wrote():
     shown = compare_predictions("the_barrier", {1: "it `stays`", 2: 31.25, 3: "traps", 4: "nothing"}).data
     assert "What does it do? | it stays | it `stays` |" in shown and "How far? | 80 m | 31.25 m |" in shown
     assert "<script" not in shown and "&lt;script&gt;" in shown and "3 of 4 predictions" in shown
+
+
+def test_the_cell_that_answers_begins_with_what_was_predicted(capsys):
+    predicted("the_barrier.1")
+    ask(answer="it stays")
+    predicted("the_barrier.1")
+    before, after = capsys.readouterr().out.splitlines()
+    assert "you have not committed to one" in before and after.endswith("it stays. Was it so?")
+
+
+def test_a_card_counts_what_is_done_follows_it_and_says_the_same_after_a_restart(folder):
+    asks = ["predict(\n", '    "the_barrier.1", ...)\n', 'predict("the_barrier.2")']
+    (folder / f"{stem('the_barrier')}.ipynb").write_text(json.dumps({"cells": [{"source": asks}]}))
+    card, own = progress("the_barrier"), [each for each in registry().values() if each.lesson == stem("the_barrier")]
+    assert f"0 of 2 predictions committed, 0 of {len(own)} exercises right" in card.value and not FILE.exists()
+    ask(answer="it stays")
+    note_passed(own[0].name)
+    note_passed(own[0].name)
+    left = sum(each.minutes for each in own[1:])
+    said = f"1 of 2 predictions committed, 1 of {len(own)} exercises right, {left} minutes of exercises to go."
+    assert said in card.value and said in progress("the_barrier").value, "also in a new one"
+    assert "0 of 2 predictions" in card._repr_mimebundle_()["text/html"], "a saved notebook is nobody's"
+    assert f"1 of {len(registry())} exercises right" in progress().value, "the course"
+    (folder / "answers/progress.json").write_text("{")
+    assert "progress.json is damaged" in progress("the_barrier").value

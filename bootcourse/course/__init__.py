@@ -5,10 +5,17 @@ import textwrap
 from collections.abc import Sequence
 from pkgutil import resolve_name
 
-from bootcourse.course.predictions import compare_predictions, predict
+from bootcourse.course.predictions import compare_predictions, predict, predicted
 from bootcourse.terminal import printable
 
-__all__ = ["compare_predictions", "predict", "source", "table"]
+__all__ = ["compare_predictions", "predict", "predicted", "progress", "source", "table"]
+
+
+def progress(lesson: str | None = None):
+    """A card that says how far you are: see progress.py, which loads widgets."""
+    from bootcourse.course.progress import progress
+
+    return progress(lesson)
 
 
 def table(headings: Sequence[str], rows: Sequence[Sequence[str]], below: str = ""):

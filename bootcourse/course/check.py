@@ -21,6 +21,7 @@ from bootcourse.errors import BootcourseError, check_known, did_you_mean
 
 _hints_given: dict[str, int] = {}
 _strict = False
+_keeps = True
 if "ipykernel" in sys.modules:  # in a notebook the first check comes soon
     runner.get_ready()
 
@@ -33,6 +34,12 @@ def strict(on: bool = True) -> None:
     """From now on, an answer that does not pass raises NotPassed."""
     global _strict
     _strict = on
+
+
+def keep_nothing() -> None:
+    """From now on a passed answer is not noted, as where the notebooks are made."""
+    global _keeps
+    _keeps = False
 
 
 def hint(name: str) -> Verdict:
@@ -64,6 +71,10 @@ def _check(exercise: Exercise, answer: Callable) -> Verdict:
     verdict = judge(exercise, answer)
     if _strict and not verdict.passed:
         raise NotPassed(f"{exercise.name}: {verdict}")
+    if verdict.passed and not _strict and _keeps and "ipykernel" in sys.modules:
+        from bootcourse.course.progress import note_passed
+
+        note_passed(exercise.name)
     if verdict.passed and not _strict and (exercise.name in PARTS or "bootcourse.course.own_code" in sys.modules):
         from bootcourse.course import own_code
 

@@ -29,6 +29,20 @@ KEYS = """
     }
   }, true);  // on the way in: the field itself lets no key out
 """
+# The result that answers this prediction is folded in the notebook's file: open it once the form is locked.
+UNFOLD = """
+  const waits = setInterval(() => {
+    if (!panel.isConnected) { clearInterval(waits); return; }
+    if (!panel.querySelector('button')?.disabled) return;
+    clearInterval(waits);
+    const asks = cell => cell.querySelector('.cm-content')?.innerText.includes('predict("');
+    let cell = panel.closest('.jp-Cell')?.nextElementSibling;
+    for (; cell && !asks(cell); cell = cell.nextElementSibling) {
+      const folded = cell.querySelector('.jp-OutputPlaceholder');
+      if (folded) { folded.click(); return; }
+    }
+  }, 200);
+"""
 
 
 class PredictionForm(Panel):
@@ -40,7 +54,7 @@ class PredictionForm(Panel):
         help = "Keep this answer, with the time. It cannot be changed."
         self.button = self.make_button("Commit", "check", help, self.commit, "primary")
         # The question stands above, in the lesson and in the call.
-        text = widgets.HTML(Markup(STYLE) + in_page(KEYS, "bcForm"))
+        text = widgets.HTML(Markup(STYLE) + in_page(KEYS, "bcForm") + in_page(UNFOLD, "bcUnfold"))
         super().__init__(f"Prediction {question.number}", text, self.field, self.button)
         with self.saying_what_is_wrong():
             entry = predictions().get(question.name)

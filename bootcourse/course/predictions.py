@@ -8,7 +8,7 @@ as "the_barrier.1" that stays when a lesson gets another number. The first answe
 import contextlib
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -27,6 +27,7 @@ LONGEST = 2000  # characters of an answer
 PATIENCE = 20  # seconds that a notebook waits for another one that writes
 NAME = re.compile(rf"({'|'.join(LESSONS)})\.\d{{1,2}}")
 NOTHING = "You committed to no prediction in this lesson."
+after_commit: list[Callable[[], None]] = []  # called when something new is kept, such as by the card of progress.py
 
 
 @dataclass(frozen=True)
@@ -103,6 +104,8 @@ def commit(question: Question, answer: object) -> dict:
         entries = predictions()
         if question.name not in entries:
             write_json(file, entries | {question.name: one})
+    for call in after_commit:
+        call()
     return entries.get(question.name, one)
 
 
@@ -146,13 +149,24 @@ def committed(entry: dict, wanted: object = None) -> str:
     shown = worded(entry["answer"], entry.get("unit"))
     if wanted not in (None, entry["answer"]):
         return f"You have committed to “{shown}” before, and the first prediction stays."
-    return f"You predict: {shown}. The end of the lesson compares."
+    return f"You predict: {shown}."
 
 
 def worded(answer: object, unit: str | None = None) -> str:
     """An answer in words, with its unit."""
     words = f"{answer:.6g}" if isinstance(answer, float) and abs(answer) < 1e6 else str(answer)
     return f"{words} {unit}" if unit else words
+
+
+def predicted(name: str) -> None:
+    """Show what was predicted, on top of the cell that answers it. Raises BootcourseError for a damaged file."""
+    from IPython.display import display
+
+    number, one = Question(name).number, predictions().get(name)
+    if one is None:
+        display(Note(f"Prediction {number}: you have not committed to one."))
+    else:
+        display(Note(f"You predicted ({number}): {worded(one['answer'], one.get('unit'))}. Was it so?"))
 
 
 def compare_predictions(lesson: str, answers: Mapping[int, object]):

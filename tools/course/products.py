@@ -65,7 +65,8 @@ def solved_nodes(path: Path, cells: list[Cell]) -> list[nbformat.NotebookNode]:
 
 def node(cell: Cell, text: str) -> nbformat.NotebookNode:
     new = nbformat.v4.new_code_cell if cell.is_code else nbformat.v4.new_markdown_cell
-    return new(text, metadata=cell.metadata)
+    answers = cell.is_code and re.search(r"^predicted\(", text, re.M)  # JupyterLab folds it; prediction_form.py unfolds
+    return new(text, metadata=cell.metadata | ({"jupyter": {"outputs_hidden": True}} if answers else {}))
 
 
 def notebook(nodes: list[nbformat.NotebookNode]) -> nbformat.NotebookNode:
@@ -84,6 +85,9 @@ def notebook(nodes: list[nbformat.NotebookNode]) -> nbformat.NotebookNode:
 def make(path: Path) -> Path:
     """Execute a text and write the notebook. Raises what a cell raises, and where a solution's check fails."""
     document = student_notebook(path)
+    if not student_file(path).exists():
+        student_file(path).parent.mkdir(exist_ok=True)
+        write(path, document)  # the card of the lesson's progress counts the predictions in this file
     fill_in(document, execute(path))
     return write(path, document)
 
@@ -110,14 +114,13 @@ def make_solved(path: Path) -> list[Path]:
 
 def execute(path: Path) -> dict[str, list]:
     """Run every code cell, a solution after its stub: text of the cell -> its outputs, one for each time it stands."""
-    steps = []
+    steps = ["from bootcourse.course import check as _check; _check.keep_nothing(); del _check"]
     for cell in read(path):
         if cell.is_code:
             steps.append(cell.student)
             if cell.is_exercise:
                 steps += ["check.strict()", cell.solved, "check.strict(False)"]
     notebooks = student_file(path).parent
-    notebooks.mkdir(exist_ok=True)
     if answers := list(notebooks.glob("answers/*.*")):
         raise ValueError(f"Move {answers[0].parent} away: the notebooks would be made with these answers.")
     ran = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(step) for step in steps], metadata=PYTHON)

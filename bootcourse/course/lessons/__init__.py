@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 COURSE = (
     "start",
     "the_trap",
+    "values",
     "discrete_sac",
     "update_and_loop",
     "the_barrier",

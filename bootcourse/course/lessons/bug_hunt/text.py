@@ -26,11 +26,23 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.course import charts, check, compare_predictions, predict, shipped, source, table
+from bootcourse.course import (
+    charts,
+    check,
+    compare_predictions,
+    predict,
+    predicted,
+    progress,
+    shipped,
+    source,
+    table,
+)
 from bootcourse.course.lessons.bug_hunt import bugs
 
 hunt = bugs.Hunt()
 print(f"{len(hunt.names)} agents, 2 seeds each, {bugs.UPDATES:,} updates of each")
+
+progress("bug_hunt")
 
 # %% [markdown]
 # ## Look first
@@ -85,6 +97,7 @@ predict("bug_hunt.1", "How many of the broken agents still succeed in training?"
 # short episodes, so it drives more of them: hence the logarithmic axis.
 
 # %%
+predicted("bug_hunt.1")
 episode, share = "training episode (logarithmic)", "success in the last 30 episodes (%)"
 curves = {name: (x, 100 * each) for name, (x, each) in hunt.curves("success").items()}
 title = "Most of the agents with a bug succeed in training"
@@ -147,6 +160,7 @@ check.end_error(end_error)
 # <!-- claim: set(np.diff(hunt().updates)) == {bugs.EVERY} -->
 
 # %% tags=["hide-input"]
+predicted("bug_hunt.2")
 probes = hunt.probes("end")
 title = "One agent values its own accidents far below −10"
 bc.show(
@@ -170,6 +184,7 @@ bc.show(
 predict("bug_hunt.3", "What is the most that such a critic may promise?", unit="")
 
 # %%
+predicted("bug_hunt.3")
 gamma, c = 0.8, 2.0
 print(f"honest: {1 / (1 - gamma):.0f}; with the bonus in every second: {(1 + c) / (1 - gamma):.0f}")
 probes = hunt.probes("promise")
@@ -226,6 +241,7 @@ choices = ["it drops it", "it keeps it a little likely", "it makes it the favour
 predict("bug_hunt.4", "What does the policy do to such an action, with the flipped KL?", choices)
 
 # %%
+predicted("bug_hunt.4")
 early, rows = slice(2, 6), []  # after 500 to 1,250 updates
 for name in hunt.names:
     now, later = (100 * hunt.probe(name, what)[:, early].mean(1) for what in ("alike", "late"))

@@ -26,10 +26,21 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.course import charts, check, compare_predictions, predict, source, table
+from bootcourse.course import (
+    charts,
+    check,
+    compare_predictions,
+    predict,
+    predicted,
+    progress,
+    source,
+    table,
+)
 from bootcourse.course.lessons.demonstrations import cloning, explorable, figures
 from bootcourse.learn import demonstrations, replay_buffer
 from bootcourse.road.state import EGO, LANE, Y
+
+progress("demonstrations")
 
 # %% [markdown]
 # ## Look first
@@ -90,6 +101,7 @@ predict("demonstrations.1", "How many transitions does the stochastic rule give?
 
 # %%
 # NBVAL_CHECK_OUTPUT
+predicted("demonstrations.1")
 by_rule = bc.collect(200)
 unsure = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0))
 by_chance = bc.collect(200, policy=unsure)
@@ -138,6 +150,7 @@ predict(
 )
 
 # %%
+predicted("demonstrations.2")
 places = [drive.states[:: bc.DEFAULT.clock.steps, EGO, LANE] for drive in driven["the rule"]]
 in_free_lane = np.median([np.argmax(lanes == 0) for lanes in places])
 share = f"{100 * in_free_lane / 150:.0f} %"
@@ -204,6 +217,9 @@ predict("demonstrations.3", "How many of such a clone's drives end in an acciden
 
 
 # %%
+predicted("demonstrations.3")
+
+
 def shown(measured):
     """A table of what was measured: {name: (agreement, success, accidents)}."""
     rows = [
@@ -244,6 +260,7 @@ choices = ["in the first 20 s", "from 20 to 40 s", "after 40 s"]
 predict("demonstrations.4", "When do most of the clones' accidents happen?", choices)
 
 # %%
+predicted("demonstrations.4")
 times, crashed = np.arange(151), []
 for agent in rule_clones:
     test = bc.drive_episodes(agent.as_policy(), bc.held_out_seeds(6, 200))
@@ -333,6 +350,9 @@ predict("demonstrations.5", "By what factor does the worst case grow?", ["less t
 
 # %%
 # NBVAL_CHECK_OUTPUT
+predicted("demonstrations.5")
+
+
 def worst_case(error, decisions):
     """Expected wrong decisions: the first error is at or before the t-th with 1 - (1 - ε)^t."""
     return sum(1 - (1 - error) ** t for t in range(1, decisions + 1))
@@ -425,6 +445,7 @@ KINDS = [
 predict("demonstrations.6", "Clones of which drives have the fewest accidents?", KINDS)
 
 # %%
+predicted("demonstrations.6")
 ACTION, RULE_ACTION = cloning.ACTION, cloning.RULE_ACTION  # columns
 labelled = by_chance.clone()
 labelled[:, ACTION] = labelled[:, RULE_ACTION]
@@ -495,6 +516,9 @@ check.dagger(dagger)
 
 
 # %%
+predicted("demonstrations.7")
+
+
 def one_clone(rows):
     """One clone, trained from the beginning with 1,500 updates."""
     return cloning.clone(rows, seeds=1)[0]

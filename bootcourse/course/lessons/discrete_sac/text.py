@@ -25,10 +25,20 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.course import charts, check, compare_predictions, predict, table
+from bootcourse.course import (
+    charts,
+    check,
+    compare_predictions,
+    predict,
+    predicted,
+    progress,
+    table,
+)
 from bootcourse.course.lessons.discrete_sac import diagrams, explorable, figures
 from bootcourse.learn import sac
 from bootcourse.research.experiments import checks
+
+progress("discrete_sac")
 
 # %% [markdown]
 # ## Look first
@@ -111,6 +121,7 @@ explorable.undecided()
 predict("discrete_sac.1", "What is the smallest entropy that a policy can have?", unit="nats")
 
 # %%
+predicted("discrete_sac.1")
 rows = []
 for words, pi in (
     ("sure of one of two", [1 - 1e-9, 1e-9]),
@@ -155,6 +166,7 @@ check.soft_value(soft_value)
 predict("discrete_sac.2", "At which α are both worth the same?", ["0.5", "0.693", "1", "1.44", "2"])
 
 # %%
+predicted("discrete_sac.2")
 q, alphas, values = torch.tensor([[1.0, 3.0]]), np.linspace(0, 3, 31), {}
 for words, pi in (("the sure policy", [1e-12, 1.0]), ("the even policy", [0.5, 0.5])):
     log_pi = torch.tensor([pi]).log()
@@ -218,6 +230,7 @@ bc.show(charts.lines(alphas, values, title, "temperature α", "soft value V"))
 predict("discrete_sac.3", "What is the target y?", unit="")
 
 # %%
+predicted("discrete_sac.3")
 v = sac.soft_value(torch.tensor([[0.5, 0.5]]).log(), torch.tensor([[4.0, 6.0]]), torch.tensor(0.5))
 y = (1 + 0.9 * v).item()
 print(f"V(s') = 5 + 0.5 · {np.log(2):.3f} = {v.item():.2f}, so y = 1 + 0.9 · V(s') = {y:.2f}")
@@ -256,6 +269,7 @@ def critic_target(reward, terminated, next_value, gamma):
 check.critic_target(critic_target)
 
 # %%
+predicted("discrete_sac.4")
 terminated = torch.tensor([1.0, 0.0])  # it fell; the time was up
 print(sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0.99).tolist())
 
@@ -386,6 +400,7 @@ predict(
 )
 
 # %%
+predicted("discrete_sac.5")
 most, rows = np.log(9).item(), []  # nats: nine actions, all as likely
 for h in (most, 1.0, 0.1, 0.0):
     log_alpha = torch.tensor(0.01).log().requires_grad_()

@@ -26,11 +26,22 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import charts, check, compare_predictions, predict, shipped, table
+from bootcourse.course import (
+    charts,
+    check,
+    compare_predictions,
+    predict,
+    predicted,
+    progress,
+    shipped,
+    table,
+)
 from bootcourse.course.lessons.found_and_kept import exercises, explorable, figures
 from bootcourse.research import paper, tables
 from bootcourse.research.experiments import clocks
 from bootcourse.statistics import rolling_means
+
+progress("found_and_kept")
 
 # %% [markdown]
 # ## Look first
@@ -117,6 +128,7 @@ def forgetting(success, window):
 check.forgetting(forgetting)
 
 # %%
+predicted("found_and_kept.1")
 spans = exercises.forgetting(training, 50)
 scores = study.of("demos").scores("success")
 rows = [
@@ -157,6 +169,7 @@ who = ["plain SAC", "the soft constraint alone", "both about the same"]
 predict("found_and_kept.2", "Who chooses among more actions in episodes 200 to 300?", who)
 
 # %%
+predicted("found_and_kept.2")
 entropy = {m: rolling_means(study.of(m).curves["entropy"], 50) for m in methods}
 at = entropy["sac"][0]
 effective = {m: np.exp(means.mean(axis=0)) for m, (_, means) in entropy.items()}
@@ -240,6 +253,7 @@ predict(
 )
 
 # %% tags=["hide-input"]
+predicted("found_and_kept.3")
 ablations = shipped.shipped_experiment("ablations")
 ends = {"300": ablations["β over 300 episodes"], f"{gone:,}": study}
 ends["never"] = ablations["β for ever"]
@@ -332,6 +346,7 @@ predict(
 )
 
 # %%
+predicted("found_and_kept.4")
 kinds = {
     "soft constraint only": ("soft", "π̃"),
     "demonstrations only,\ndriver μ": ("demos", "μ"),
@@ -407,6 +422,9 @@ check.reads_as_printed(reads_as_printed)
 
 
 # %%
+predicted("found_and_kept.5")
+
+
 def percent(agents_of):
     value, low, high = (f"{100 * share:.0f}" for share in clocks.pattern(agents_of))
     return f"{value} [{low}, {high}]"

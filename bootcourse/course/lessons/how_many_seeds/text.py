@@ -25,10 +25,20 @@
 import bootcourse as bc
 import numpy as np
 import scipy.stats
-from bootcourse.course import check, compare_predictions, predict, shipped, table
+from bootcourse.course import (
+    check,
+    compare_predictions,
+    predict,
+    predicted,
+    progress,
+    shipped,
+    table,
+)
 from bootcourse.course.lessons.how_many_seeds import explorable
 from bootcourse.course.lessons.how_many_seeds import figures as figures_seeds
 from bootcourse.research import figures, paper, report, tables
+
+progress("how_many_seeds")
 
 # %% [markdown]
 # ## Look first
@@ -79,6 +89,7 @@ predict(
 # ends ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of them.
 
 # %%
+predicted("how_many_seeds.1")
 methods = ("sac", "soft", "demos", "bootstrapped")
 study, rule = bc.shipped_results(), report.rule_results(bc.DEFAULT, 200)
 agents, episodes = len(study.of("sac")), study.curves["success"].shape[1]
@@ -215,6 +226,7 @@ def power(first, second, shown):
 check.power(power)
 
 # %%
+predicted("how_many_seeds.2")
 bc.show(figures_seeds.powers(((0.8, 0.3), (0.8, 0.6)), (3, 5, 8, 10, 12, 15, 20, 25, 30)))
 
 # %% [markdown]
@@ -284,6 +296,7 @@ def interquartile_mean(scores):
 check.interquartile_mean(interquartile_mean)
 
 # %%
+predicted("how_many_seeds.3")
 returns = np.sort(study.of("bootstrapped").scores("returns"))
 worse = np.append(returns[:-1], returns[0])  # the best agent earns what the worst one earns
 numbers = {"mean": np.mean, "median": np.median, "IQM": bc.statistics.iqm}
@@ -334,6 +347,7 @@ def bootstrap_interval(scores, draws):
 check.bootstrap_interval(bootstrap_interval)
 
 # %% tags=["hide-input"]
+predicted("how_many_seeds.4")
 rows = []
 for method in methods:
     earned = study.of(method).scores("returns")
@@ -407,6 +421,7 @@ predict("how_many_seeds.5", "How often does the bootstrapped agent earn more?", 
 # the second, and count in which share of the pairs the first earns more. A tie counts half.
 
 # %%
+predicted("how_many_seeds.5")
 four = study.pick(i for i, a in enumerate(study.agents) if a["method"] in methods)
 table(*tables.improvement_rows(four))
 
@@ -455,6 +470,7 @@ check.difference_interval(difference_interval)
 predict("how_many_seeds.6", "By how many points does my change move the success?", unit="points")
 
 # %%
+predicted("how_many_seeds.6")
 CHANGE = {"bonus": 0.0}  # yours
 settings = {
     "as it is": bc.settings_for("bootstrapped"),

@@ -33,6 +33,8 @@ from bootcourse.course import (
     compare_predictions,
     own_code,
     predict,
+    predicted,
+    progress,
     shipped,
     table,
 )
@@ -40,6 +42,8 @@ from bootcourse.course.lessons.imitation import figures as figures_baselines
 from bootcourse.course.lessons.imitation.reachable_entropy import by_entropy
 from bootcourse.learn.gail import GAILLearner
 from bootcourse.research import paper, report, results, tables
+
+progress("imitation")
 
 # %% [markdown]
 # ## Look first
@@ -125,6 +129,7 @@ predict(
 # <!-- claim: 'bc' not in PRINTED and len(of('bc')) == 10 -->
 
 # %%
+predicted("imitation.1")
 study = bc.shipped_results()
 rule = report.rule_results(bc.DEFAULT, study.tested["returns"].shape[1])
 everyone = results.join([results.Results(study.agents, study.stopped, study.tested, {}), rule])
@@ -263,6 +268,7 @@ check.imitation_reward(imitation_reward)
 
 # %%
 # NBVAL_CHECK_OUTPUT
+predicted("imitation.2")
 rows = []
 for d in (0.1, 0.5, 0.9):
     pays = (-np.log(1 - d), np.log(d))
@@ -291,6 +297,7 @@ table(headings, rows, below="A crash ends both: 0 from then on.")
 predict("imitation.3", "What share of the drives that leave the road count as a success?", unit="%")
 
 # %% tags=["hide-input"]
+predicted("imitation.3")
 rows = []
 for label, its in (("BC", study.of("bc")), ("CQL", study.of("cql")), ("GAIL", study.of("gail"))):
     left, ahead = its.episodes("road_departure") > 0, its.episodes("success")
@@ -418,6 +425,9 @@ predict("imitation.4", "How many episodes does each agent drive if it is paid lo
 
 
 # %%
+predicted("imitation.4")
+
+
 class PaysLogD(GAILLearner):
     imitation_reward = staticmethod(F.logsigmoid)  # log D
 
@@ -454,6 +464,7 @@ choices = ["CQL", "GAIL", "about as many"]
 predict("imitation.5", "Who needs fewer updates until half of the drives succeed?", choices)
 
 # %%
+predicted("imitation.5")
 bc.show(figures_baselines.success_in_training(study))
 
 # %% [markdown]

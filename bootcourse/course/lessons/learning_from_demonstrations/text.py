@@ -35,11 +35,15 @@ from bootcourse.course import (
     compare_predictions,
     own_code,
     predict,
+    predicted,
+    progress,
     shipped,
     table,
 )
 from bootcourse.course.lessons.learning_from_demonstrations import figures
 from bootcourse.panels.bonus import bonus_numbers
+
+progress("learning_from_demonstrations")
 
 # %% [markdown]
 # ## Look first
@@ -145,6 +149,7 @@ predict(
 )
 
 # %%
+predicted("learning_from_demonstrations.2")
 rows = []
 for gamma in (0.8, 0.9, 0.95):
     settings = bc.settings_for("bootstrapped", gamma=gamma)
@@ -175,6 +180,7 @@ predict(
 )
 
 # %%
+predicted("learning_from_demonstrations.3")
 rows = []
 for c in (0.0, 0.05, 0.5, 2.0):
     each = bonus_numbers(by_rule[10], stays[10], bc.settings_for("bootstrapped", bonus=c))
@@ -263,6 +269,7 @@ def note(training):
 
 
 # %%
+predicted("learning_from_demonstrations.4")
 training = bc.Training(agents, episodes=20_000)
 result = training.run(callback=note, updates=UPDATES + 1)
 print(f"episodes of each agent: {training.curves.finished.tolist()}")
@@ -333,6 +340,7 @@ predict(
 )
 
 # %%
+predicted("learning_from_demonstrations.5")
 for expert in (0, 2):
     loss, gradient = figures.margin_example([3.0, 2.4, 0.0], expert)
     print(f"expert took {expert}: loss {loss:.1f}, gradient in Q {gradient}")
@@ -447,6 +455,7 @@ def ask(training):
 
 
 # %%
+predicted("learning_from_demonstrations.6")
 control = bc.with_seeds(bc.settings_for("bootstrapped", bonus=0.0), 2)
 training = bc.Training(bc.with_seeds(bc.settings_for("margin_soft"), 2) + control, episodes=20_000)
 training.run(callback=ask, updates=1001)
@@ -540,6 +549,7 @@ predict(
 )
 
 # %%
+predicted("learning_from_demonstrations.7")
 agents = bc.with_seeds(bc.settings_for("bootstrapped"), 2) + [bc.settings_for("margin_soft")]
 whole = own_code.training(agents, episodes=20_000)
 result = whole.run(updates=2500)

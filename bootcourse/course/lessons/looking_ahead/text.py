@@ -24,7 +24,16 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import check, compare_predictions, own_code, predict, source, table
+from bootcourse.course import (
+    check,
+    compare_predictions,
+    own_code,
+    predict,
+    predicted,
+    progress,
+    source,
+    table,
+)
 from bootcourse.course.lessons.looking_ahead import figures, imagined_road
 from bootcourse.course.lessons.looking_ahead.futures_figure import nine_futures, unharmed
 from bootcourse.course.shipped import beginning, shipped_experiment
@@ -34,6 +43,8 @@ from bootcourse.methods import style
 from bootcourse.research.experiments.distil import learned_rows
 from bootcourse.research.experiments.lookahead import Cell, score
 from bootcourse.road.state import Accident
+
+progress("looking_ahead")
 
 # %% [markdown]
 # ## Look first
@@ -92,6 +103,7 @@ predict(
 )
 
 # %%
+predicted("looking_ahead.1")
 BEFORE = 6  # seconds
 cars = drive.states[(len(drive.actions) - BEFORE) * bc.DEFAULT.clock.steps]
 title = f"{BEFORE} seconds before the accident there are ways to avoid it"
@@ -167,6 +179,7 @@ predict(
 )
 
 # %%
+predicted("looking_ahead.2")
 values_of = own_code.yours_or_ours("rollout_values", doing="Driving")
 improved = imagined_road.driver(values_of, agent, horizon=10)
 ahead = bc.drive_episodes(improved, roads)
@@ -241,6 +254,7 @@ choices = ["the rule", "plain SAC", "demonstrations only", "soft constraint only
 predict("looking_ahead.3", "Which of the four gets out least often with rollouts?", choices)
 
 # %%
+predicted("looking_ahead.3")
 study, gets_out, changed = shipped_experiment("look-ahead"), {}, {}
 bases = ("rule", "sac", "demos", "soft")
 for name, base in zip(choices, bases, strict=True):
@@ -385,6 +399,7 @@ predict("looking_ahead.4", "With how many models has the shield fewer accidents?
 #   form in ('rollouts', 'shield')) -->
 
 # %% tags=["nbval-ignore-output"]
+predicted("looking_ahead.4")
 bc.show(figures.wrong_models(study))
 
 # %% [markdown]

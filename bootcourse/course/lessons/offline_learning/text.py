@@ -26,11 +26,23 @@ import bootcourse as bc
 import numpy as np
 import torch
 from bootcourse.colours import OTHER
-from bootcourse.course import charts, check, compare_predictions, own_code, predict, shipped, table
+from bootcourse.course import (
+    charts,
+    check,
+    compare_predictions,
+    own_code,
+    predict,
+    predicted,
+    progress,
+    shipped,
+    table,
+)
 from bootcourse.course.lessons.imitation import figures as figures_baselines
 from bootcourse.course.lessons.imitation.reachable_entropy import by_entropy
 from bootcourse.course.lessons.offline_learning import figures
 from bootcourse.research import paper, report, tables
+
+progress("offline_learning")
 
 # %% [markdown]
 # ## Look first
@@ -197,6 +209,7 @@ way = np.concatenate([drive.observations[:20] for drive in by_rule])
 did = np.concatenate([drive.actions[:20] for drive in by_rule])
 
 # %%
+predicted("offline_learning.1")
 training = own_code.training(with_term + without + with_term)
 learner, replay = training.learner, training.replay  # which holds 200 drives of the rule
 paid = torch.tensor([1.0] * (2 * SEEDS) + [0] * SEEDS)[:, None]  # the last hear of no rewards
@@ -298,6 +311,7 @@ choices = ["the clone", "CQL", "both equally often"]
 predict("offline_learning.2", "Where the rule brakes, who brakes more often?", choices)
 
 # %% tags=["hide-input"]
+predicted("offline_learning.2")
 groups = {bc.display_name(m): bc.shipped_agents(m) for m in ("bc", "cql")}
 groups |= {"just trained, with rewards": agents[:SEEDS], "without rewards": agents[-SEEDS:]}
 headings, rows = figures_baselines.followers(groups, bc.held_out_seeds(11, 24))
@@ -322,6 +336,7 @@ of_ten = ["none", "1 to 5", "6 or more"]
 predict("offline_learning.3", "How many of ten agents of CQL with an actor escape?", of_ten)
 
 # %%
+predicted("offline_learning.3")
 study, rows = bc.shipped_results(), []
 for method in ("cql", "cql_sac"):
     its, success = study.of(method), study.of(method).scores("success")
@@ -387,6 +402,7 @@ table(headings, rows)
 predict("offline_learning.4", "Which share of the bound does the rule earn?", unit="%")
 
 # %%
+predicted("offline_learning.4")
 rule = report.rule_results(bc.DEFAULT, study.tested["returns"].shape[1])
 bound = shipped.shipped_bound()
 print(f"the planner's return: {bound.mean():.1f}, from {bound.min():.1f} to {bound.max():.1f}")

@@ -26,10 +26,21 @@
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.course import check, compare_predictions, own_code, predict, shipped, table
+from bootcourse.course import (
+    check,
+    compare_predictions,
+    own_code,
+    predict,
+    predicted,
+    progress,
+    shipped,
+    table,
+)
 from bootcourse.course.lessons.other_ways import figures
 from bootcourse.learn import ibrl
 from bootcourse.research import equal_decisions
+
+progress("other_ways")
 
 # %% [markdown]
 # ## Look first
@@ -83,6 +94,7 @@ choices = ["under 20 %", "about half", "more than 80 %"]
 predict("other_ways.1", "Of the 50 episodes after the first update, how many end ahead?", choices)
 
 # %% tags=["nbval-ignore-output"]
+predicted("other_ways.1")
 torch.set_num_threads(1)  # small matrices are faster on one thread
 training = own_code.training([bc.settings_for("rlpd")], 60)
 mine = training.run(progress=False)
@@ -291,6 +303,7 @@ predict("other_ways.2", "Which earns the least after 100,000 decisions?", learne
 # <!-- claim: {len(each) for each in equal_decisions.TRIES.values()} == {3} -->
 
 # %%
+predicted("other_ways.2")
 searched = shipped.shipped_experiment("beyond-search")
 tried = {method: equal_decisions.tried(results) for method, results in searched.items()}
 
@@ -351,6 +364,7 @@ predict("other_ways.3", question, choices)
 predict("other_ways.4", "Which earns most after 5 seconds of computing?", learners)
 
 # %%
+predicted("other_ways.3")
 compared = equal_decisions.by_method(shipped.shipped_experiment("beyond"))
 by_rule = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 200))
 title = (

@@ -33,11 +33,15 @@ from bootcourse.course import (
     compare_predictions,
     own_code,
     predict,
+    predicted,
+    progress,
     shipped,
     table,
 )
 from bootcourse.course.lessons.soft_constraint import explorable
 from bootcourse.course.lessons.soft_constraint.examples import kl_of
+
+progress("soft_constraint")
 
 # %% [markdown]
 # ## Look first
@@ -98,6 +102,7 @@ predict(
 )
 
 # %%
+predicted("soft_constraint.1")
 rows = []
 for p in (0.5, 0.9, 0.99, 0.999):
     rows.append([p, f"{-math.log(p):.3f}", f"{-math.log((1 - p) / 8):.2f}"])
@@ -148,6 +153,7 @@ predict(
 )
 
 # %%
+predicted("soft_constraint.2")
 rule_says = torch.tensor([bc.ACTION_NAMES.index("keep left")])
 sure = torch.full((1, 9), 1e-12).scatter(1, rule_says[:, None], 1.0)
 elsewhere = torch.full((1, 9), 1e-12).scatter(1, torch.tensor([[7]]), 1.0)
@@ -239,6 +245,7 @@ check.regularised_policy(regularised_policy)
 # Can an optimiser find something better, starting from an even policy?
 
 # %%
+predicted("soft_constraint.3")
 q = torch.tensor([[0.2, 0.1, 0.0, 0.6, 0.4, 0.1, 0.3, 1.2, 0.2]])
 alpha, xi = 0.1, 0.2
 log_rule = bc.bootstrap.log_stochastic_rule(rule_says, torch.tensor(0.9))
@@ -275,6 +282,7 @@ choices = ["half as large", "twice", "9 times", "40 times"]
 predict("soft_constraint.4", "How large is it, compared with the best reward of a second?", choices)
 
 # %%
+predicted("soft_constraint.4")
 step = math.log(8 * 0.9 / 0.1)
 rows = [[xi, f"{xi * step:.3f}"] for xi in (2.0, 0.2, 0.02, 0.002)]
 best_second = bc.formulas.weighted_reward(
@@ -398,6 +406,7 @@ predict(
 )
 
 # %%
+predicted("soft_constraint.5")
 idle = bc.record(bc.idle_policy, [ROAD], label="idle")[0]
 by_rule = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
 falls_back = by_rule.rewards[3]  # the reward of a second behind the traps
@@ -510,6 +519,7 @@ choices = ["far less than the rule", "about as much as the rule", "far more than
 predict("soft_constraint.6", "What do the agents earn whose ξ stays at 2?", choices)
 
 # %%
+predicted("soft_constraint.6")
 study = shipped.shipped_results()
 kinds = {"soft, ξ fades": study.of("soft")}
 kinds["soft, ξ stays at 2"] = shipped.shipped_experiment("ablations")["ξ stays at 2"]

@@ -21,7 +21,9 @@
 
 # %%
 import bootcourse as bc
-from bootcourse.course import compare_predictions, predict, shipped
+from bootcourse.course import compare_predictions, predict, progress, shipped
+
+progress()
 
 # %% [markdown]
 # ## Look first
@@ -55,8 +57,8 @@ bc.recording([shipped.beginning(trapped, 30), shipped.beginning(escape, 30)], he
 # the arrow keys. The faint car is a **ghost**: it shows how the rule drives the same road. Crash as
 # often as you like.
 #
-# The results that we got are saved below each cell of this course. So answer a prediction before
-# you scroll on, or hide all results first (*Edit*, *Clear Outputs of All Cells*).
+# The results that we got are saved below each cell of this course. Those that answer a prediction
+# are folded in JupyterLab until you commit to yours; a click on the three dots opens them, too.
 # <!-- claim: by_rule(10).success -->
 # <!-- claim: N_ACTIONS == 9 -->
 #
@@ -94,6 +96,7 @@ bc.world(road=10)
 # | lesson | an evening | a week | a researcher's |
 # |---|:---:|:---:|:---:|
 # | [[the_trap]] · [](the_trap.ipynb) | ● | ● | ◐ |
+# | [[values]] · [](values.ipynb) | | ● | known |
 # | [[discrete_sac]] · [](discrete_sac.ipynb) | picture | ● | known |
 # | [[update_and_loop]] · [](update_and_loop.ipynb) | | ● | known |
 # | [[the_barrier]] · [](the_barrier.ipynb) | ● | ● | ● |

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import TRAP
-from bootcourse.course.lessons.the_barrier import chain
 from bootcourse.course.lessons.the_barrier.attempts import Outcome
+from bootcourse.course.lessons.values import chain
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes, wrapped
 from bootcourse.research.results import Results

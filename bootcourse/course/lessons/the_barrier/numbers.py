@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 from scipy import stats
 
-from bootcourse.course.lessons.the_barrier import attempts, chain, easier, figures
+from bootcourse.course.lessons.the_barrier import attempts, easier, figures
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.policies import random_policy
 from bootcourse.research.planner import Search, discounted_values, plan_episodes
@@ -50,11 +50,6 @@ def lone_escaper(measure: str) -> float:
     """A measure of the one agent of twenty that escapes on the road as it is."""
     here = easy("as it is")
     return float(here.scores(measure)[here.scores("success") >= ESCAPES].item())
-
-
-def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
-    """How many learners of the barrier's chain have decided on its free road, whose every decision pays 1."""
-    return sum(map(chain.has_been_free, chain.learned(explore, gamma, walks=walks)))
 
 
 FOUR = "4 random actions, then accelerates"
@@ -196,31 +191,6 @@ def changed_agents(method: str) -> np.ndarray:
     return np.concatenate(scores) >= ESCAPES
 
 
-@cache
-def replayed(times: int, walks: int = 30) -> int:
-    """How many of the chain's learners with A's ε and γ leave if the way out is replayed before the first decision."""
-    q = np.zeros((chain.STATES, 2))
-    for s, a in chain.WAY_OUT * times:
-        q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
-    return sum(_leaves(q.copy(), 0.1, seed) for seed in range(walks))
-
-
 def crashing(kind: str) -> int:
     """How many agents of a kind have an accident in more than nine of ten drives."""
     return int((easy(kind).scores("accident") > 0.9).sum())
-
-
-def optimistic(explore: float, start: float, walks: int = 30) -> int:
-    """How many of the chain's learners leave at γ = 0.8 if Q begins at `start` instead of 0."""
-    return sum(_leaves(np.full((chain.STATES, 2), float(start)), explore, seed) for seed in range(walks))
-
-
-def _leaves(q: np.ndarray, explore: float, seed: int) -> bool:
-    """Does a learner of the chain that begins with this Q, which it changes, leave at γ = 0.8?"""
-    s = 0
-    for t, chance in enumerate(chain.chances(explore, 1000, seed)):
-        s = 0 if t % chain.EPISODE == 0 else s
-        a = int(q[s].argmax()) if chance < 0 else chance
-        q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
-        s = chain.NEXT[s, a]
-    return chain.leaves(q)

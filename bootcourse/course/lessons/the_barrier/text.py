@@ -16,9 +16,9 @@
 # **What you will be able to do**
 # - train plain SAC in the trap, live, and say where it ends;
 # - test three explanations of why it stays, and say what they rule out and what they leave open;
-# - write a learner for a barrier of five states, and find out what gets it across.
+# - compute how often chance would find a way out, and what an attempt to leave is worth.
 #
-# **Time** 65 minutes; running it takes about one minute. **It builds on** the trap of lesson
+# **Time** 37 minutes; running it takes about one minute. **It builds on** the trap of lesson
 # [[the_trap]], and on lesson [[discrete_sac]], at least the picture at its beginning.
 
 # %%
@@ -29,19 +29,21 @@ from bootcourse.course import (
     compare_predictions,
     live_curves,
     predict,
+    predicted,
+    progress,
     shipped,
     table,
 )
 from bootcourse.course.lessons.the_barrier import (
     attempts,
-    chain,
-    diagrams,
     easier,
     exercises,
     explorable,
     figures,
 )
 from bootcourse.research import planner, report
+
+progress("the_barrier")
 
 # %% [markdown]
 # ## Look first
@@ -165,6 +167,7 @@ choices = ["on none of four roads", "on some of them", "on all four"]
 predict("the_barrier.2", "On which roads does the best drive leave the trap at γ = 0.8?", choices)
 
 # %%
+predicted("the_barrier.2")
 rows = []
 for gamma in (0.8, 0.95):
     s = planner.is_staying_optimal(range(4), gamma=gamma, beam=50)
@@ -233,6 +236,7 @@ def luck(good, decisions, tries):
 check.luck(luck)
 
 # %%
+predicted("the_barrier.3")
 tried = bc.drive_episodes(bc.random_policy(np.random.default_rng(0)), bc.held_out_seeds(6, 5000))
 rows = []
 for good in range(1, 6):
@@ -275,6 +279,7 @@ choices = [
 predict("the_barrier.4", "Which attempts are worth more than staying?", choices)
 
 # %%
+predicted("the_barrier.4")
 TESTED, outcomes = bc.held_out_seeds(7, 500), {}
 for name, driver in attempts.kinds(len(TESTED)).items():
     outcomes[name] = attempts.drive(driver, TESTED)
@@ -349,6 +354,7 @@ choices = ["none", "1 to 4", "about 10", "nearly all"]
 predict("the_barrier.5", "How many of the twenty leave from mid-lane and earn more?", choices)
 
 # %%
+predicted("the_barrier.5")
 trained = shipped.shipped_experiment("easier")
 panels = {
     f"γ = {gamma}": {road: figures.ends(trained[road], gamma, staying[road]) for road in staying}
@@ -402,134 +408,11 @@ bc.show(figures.squares(panels, title, figures.AGENTS, "has an accident on most 
 # road's edge, a lane keeper and η = 1 were tried, too: `bootcourse study easier` ships all six.
 
 # %% [markdown]
-# ## Round 5: what gets a learner across a barrier of five states?
-#
-# A **chain** of five states keeps the detour and leaves out the rest. Its barrier is a sequence
-# that is rarely drawn, which alone does not explain our road. You start in the trap, and after 20
-# decisions the time is up. Each arrow is an action, 0 or 1. Staying pays, in the trap as a second
-# behind the traps, on the free road as one at 15 m/s; other moves pay 0.
-# <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
-#   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
-
-# %%
-bc.show(diagrams.five_states())
-
-# %% [markdown]
-# > **Predict.** Does leaving pay at γ = 0.8? From which γ on?
-
-# %%
-predict("the_barrier.6", "From which γ on does leaving the chain's trap pay?", unit="")
-
-# %% [markdown]
-# <details><summary>The answer</summary>
-#
-# To stay is worth $0.16 + 0.16\,\gamma + \dots = 0.16 / (1 - \gamma)$, which is {{ 0.16 / 0.2 |
-# .2f }} at γ = 0.8. To leave pays nothing for four decisions, and then 1 at each: $\gamma^4 / (1 -
-# \gamma)$, which is {{ 0.8**4 / 0.2 | .2f }}. So it pays where $\gamma^4 > 0.16$: from γ = {{
-# 0.16**0.25 | .2f }} on.
-#
-# </details>
-#
-# Now let a learner find the way: **Q-learning**, SAC's critic without networks and entropy, and
-# with the best next action in place of the policy's mean. After each decision it moves one number:
-#
-# $$ Q(s, a) \leftarrow Q(s, a)
-# + \text{step} \cdot \big(r + \gamma \max_{a'} Q(s', a') - Q(s, a)\big) $$
-#
-# The bracket is the **temporal difference** of lesson [[discrete_sac]]. Its target holds an
-# estimate, the largest Q of the next state: the learner **bootstraps**.
-#
-# **Exercise (20 min, ●●●).** Write this learner. `chain.NEXT[s, a]` and `chain.REWARD[s, a]` hold
-# the picture above. The random decisions have been drawn beforehand (`chances`). A demonstrator's
-# decisions (`taught`) are replayed after each of your own. After each 20 decisions the walk starts
-# again in state 0, since the time is up: does the target of the last decision change?
-
-
-# %%
-def learn_chain(chances, gamma, step, taught):
-    """Q (5, 2) after len(chances) decisions, from zeros.
-
-    chances: at each decision -1 for the greedy action (of two equal ones action 0), or the action
-    that is tried. taught: decisions (s, a) of a demonstrator, replayed in this order after each of
-    your own.
-    """
-    # solution
-    q, s = np.zeros((chain.STATES, 2)), 0
-    for t, chance in enumerate(chances):
-        if t % chain.EPISODE == 0:
-            s = 0
-        a = int(q[s].argmax()) if chance < 0 else chance
-        for state, action in [(s, a), *taught]:
-            target = chain.REWARD[state, action] + gamma * q[chain.NEXT[state, action]].max()
-            q[state, action] += step * (target - q[state, action])
-        s = chain.NEXT[s, a]
-    return q
-    # end solution
-
-
-check.learn_chain(learn_chain)
-
-# %% [markdown]
-# Thirty learners of each kind make 1,000 decisions, 50 episodes, with a step of 0.3. They act
-# greedily, except for a share ε of random decisions, half of which go on by chance. A learner has
-# learned to leave if in the end Q(0, 1) > Q(0, 0).
-#
-# - *A*: ε = 0.1 and γ = 0.8;
-# - *B*: as A, with γ = 0.95;
-# - *C* and *D*: as A, with ε = 0.5 and with ε = 1;
-# - *E*: as A, with a demonstration of the way out, replayed after each of the 1,000 decisions.
-#
-# > **Predict.** In which of the five kinds do more than half of the thirty learn to leave? (To get
-# > through takes four random decisions in a row; for a value to come back, several passages.)
-
-# %%
-predict("the_barrier.7", "In which kinds do more than half learn to leave? Letters, as in: A, C")
-
-# %%
-kinds = {
-    "A: ε = 0.1, γ = 0.8": (0.1, 0.8),
-    "B: A, but γ = 0.95": (0.1, 0.95),
-    "C: A, but ε = 0.5": (0.5, 0.8),
-    "D: A, but ε = 1": (1.0, 0.8),
-    "E: A, with replays": (0.1, 0.8, chain.WAY_OUT),
-}
-rows = {kind: figures.learners(chain.learned(*how)) for kind, how in kinds.items()}
-title = "More exploration or a replayed demonstration gets learners out, a longer view does not"
-bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
-
-# %% [markdown]
-# **Explain.** In A none leaves, although leaving is worth more than twice as much. In state 0
-# staying has paid, so Q(0, 0) rises. In states 1 to 3 going *back* is then worth γ Q(0, 0), and
-# going on still 0, where Q began. So the greedy action leads back, and to get through takes four
-# random decisions in a row, each right with a probability of ε / 2. A longer view does not help
-# (B): none of the thirty has been on the free road, so its value is not known.
-# <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
-# <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
-#
-# More exploration helps here (C, D), but one visit is not enough, since each passage moves the
-# value one state back: {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5,
-# 0.8) }} learn to leave. On the road, where a failed attempt costs 10, D is no recipe.
-# <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
-#
-# One demonstration gets all thirty across (E), because it is *replayed*: each time its values move
-# one state back. Replayed once, before the first decision, it gets {{ replayed(1) }} of thirty
-# across, five times {{ replayed(5) }}. Q-learning learns from it as from its own decisions: it is
-# **off-policy**, and so is SAC.
-# <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 and replayed(1) < replayed(5) -->
-
-# %% [markdown] tags=["instructor"] minutes=8
-# Draw the chain on the board and let them be the learner for two episodes, with γ = 0.8 and step 1,
-# before they write code. The question about the last decision separates two ideas that lesson
-# [[demonstrations]] needs: an accident *terminates* (nothing follows), the end of the time
-# *truncates* (we stop looking). Afterwards ask in which order the demonstration should be replayed
-# so that one pass is enough (backwards, with step 1).
-
-# %% [markdown]
 # ## What gets agents out on the road?
 #
-# The paper's answer is like E: somebody who knows a way, although not the best one. It uses the
-# rule as a **soft constraint** (lesson [[soft_constraint]]) and for **demonstrations** (lesson
-# [[demonstrations]]):
+# The paper's answer is like the replayed demonstration of lesson [[values]]: somebody who knows a
+# way, although not the best one. It uses the rule as a **soft constraint** (lesson
+# [[soft_constraint]]) and for **demonstrations** (lesson [[demonstrations]]):
 
 # %%
 study = bc.shipped_results()
@@ -549,8 +432,6 @@ compare_predictions(
         3: f"{tried.success.sum()}: about 20",
         4: "the plan at γ = 0.95 alone",
         5: f"1 to 4: {paying[easier.MIDDLE]}",
-        6: round(0.16**0.25, 2),
-        7: "D and E",
     },
 )
 
@@ -567,14 +448,14 @@ compare_predictions(
 #    accidents agents crash instead of staying. What keeps them in is open.
 # <!-- claim: all(paying(kind) <= 2 and len(easy(kind)) == 20 for kind in ('as it is', MIDDLE,
 #   FREE)) and not changed_agents('sac').any() -->
-# 4. Bootstrapping moves a value back one state at a time, from states that were visited.
-# 5. With the rule as a constraint and as data, most agents of the study escape.
+# 4. With the rule as a constraint and as data, most agents of the study escape.
 # <!-- claim: escaped('bootstrapped') > len(of('bootstrapped')) / 2 > escaped('sac') -->
 #
 # **Three questions to think about**
-# - If the chain's Q begins at 5 (*optimistic initial values*), {{ optimistic(0.1, 5) }} of thirty
-#   leave with A's ε and γ. Why, and what would it cost on the road?
-# - A replayed demonstration got all thirty across the chain. What could be different on the road?
+# - A replayed demonstration got all thirty learners across the chain of lesson [[values]]. What
+#   could be different on the road?
+# - You may choose in which state each drive begins. Where would you let an agent begin, so that it
+#   learns what a free road is worth?
 # - Which of the three explanations could ten times as much training refute?
 #
 # **Read on**: [the rule](the_rule.ipynb) that helps. Ecoffet et al., *First return, then explore*
@@ -583,13 +464,11 @@ compare_predictions(
 # %% [markdown] tags=["instructor"] minutes=5
 # **Model answers.**
 #
-# - *Optimistic values.* Even with ε = 0 {{ optimistic(0, 5) }} of thirty leave: an action that has
-#   not been tried looks best, so it is tried, until its value has
-#   fallen to what it pays. On the road each such trial can cost an accident, and networks
-#   generalise: a value that falls in one state falls in others, too.
 # - *On the road.* The rule's drives show a way that is worth less than staying at γ = 0.8, states
 #   are 26 numbers and rarely come twice, and the networks carry an error from one state to the
 #   next.
+# - *Where to begin.* Near the end of a way out, and then earlier and earlier: a value comes back from
+#   states that were visited. It needs a simulator that can begin anywhere.
 # - *Ten times as much training.* Less than it seems. It would refute luck only if the agents went
 #   on trying: look at the entropy first. In their last 100 episodes {{ decided() }} of the study's
 #   ten agents of plain SAC have an entropy of 0.01 nat or less, so they draw one action again and

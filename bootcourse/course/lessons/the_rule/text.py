@@ -26,9 +26,20 @@ import dataclasses
 
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import charts, check, compare_predictions, predict, shipped, table
+from bootcourse.course import (
+    charts,
+    check,
+    compare_predictions,
+    predict,
+    predicted,
+    progress,
+    shipped,
+    table,
+)
 from bootcourse.course.lessons.the_rule import explorable, figures
 from bootcourse.road.state import EGO, SPEED, TRAP_1, TRAP_2, X
+
+progress("the_rule")
 
 # %% [markdown]
 # ## Look first
@@ -96,6 +107,7 @@ check.target_speed(target_speed)
 
 # %%
 # NBVAL_CHECK_OUTPUT
+predicted("the_rule.1")
 numbers = bc.DEFAULT.rule
 grid = numbers.v_min, numbers.v_max, numbers.n
 rows = [["the five", ", ".join(f"{v:g}" for v in np.linspace(*grid))]]
@@ -176,6 +188,7 @@ choices = ["true now", "false now, true later", "false as long as you are slower
 predict("the_rule.3", "Is the printed condition true, now or later?", choices)
 
 # %%
+predicted("the_rule.3")
 v_ego, v_traps, dx_current, dx_new = 8.25, 10.0, 25.0, 12.0
 closing = (v_ego - v_traps) * numbers.t_safe
 printed = closing + dx_current - dx_new - dx_current  # d13 − Δx_current
@@ -277,6 +290,7 @@ check.room_to_change(room_to_change)
 predict("the_rule.4", "How far does the rule get in 150 s, on average?", unit="m")
 
 # %%
+predicted("the_rule.4")
 episodes = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 1000))
 result = bc.summarise(episodes)
 rows = []
@@ -321,6 +335,9 @@ predict("the_rule.5", "Which change helps most?", ["ten speeds", "a shorter sigh
 
 
 # %%
+predicted("the_rule.5")
+
+
 def changed(n=bc.DEFAULT.rule.n, sight=bc.DEFAULT.sight.distance, roads=200):
     """How the rule drives with n speeds and another sight (m), on the same roads."""
     rule = dataclasses.replace(bc.DEFAULT.rule, n=n)
@@ -356,6 +373,7 @@ choices = ["150 m", "100 m", "50 m", "30 m", "20 m"]
 predict("the_rule.6", "What is the shortest sight without an accident?", choices)
 
 # %% tags=["hide-input"]
+predicted("the_rule.6")
 sights = [20, 30, 50, 70, 100, 150, 200]
 by_sight = [changed(sight=float(sight)) for sight in sights]
 safe = [s for s, each in zip(sights, by_sight, strict=True) if not each.accident.any()]
@@ -458,6 +476,7 @@ choices = ["about 95 %", "about 50 %", "about 10 %"]
 predict("the_rule.7", "In how many episodes is the stochastic rule without an accident?", choices)
 
 # %%
+predicted("the_rule.7")
 rng = np.random.default_rng(0)
 noisy = bc.drive_episodes(bc.stochastic_rule_policy(bc.DEFAULT, rng), bc.held_out_seeds(2, 1000))
 rows = []

@@ -27,12 +27,23 @@ import bootcourse as bc
 import numpy as np
 import torch
 from bootcourse.colours import EDGE, OTHER, QUIET, Style
-from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
+from bootcourse.course import (
+    charts,
+    check,
+    compare_predictions,
+    own_code,
+    predict,
+    predicted,
+    progress,
+    table,
+)
 from bootcourse.course.lessons.the_second_trap import figures, ppo_kinds, second_trap
 from bootcourse.course.shipped import beginning
 from bootcourse.learn import ppo
 from bootcourse.methods import style
 from bootcourse.road.state import EGO, SPEED
+
+progress("the_second_trap")
 
 # %% [markdown]
 # ## Look first
@@ -101,6 +112,7 @@ choices = ["about half", "the same", "about twice as much", "almost four times a
 predict("the_second_trap.1", "What does changing between 5 and 15 m/s earn?", choices)
 
 # %% tags=["hide-input"]
+predicted("the_second_trap.1")
 title = "5 and 15 m/s in turn earn almost four times what a steady 10 m/s earns"
 bc.show(figures.convex(bc.formulas.speed_reward, title))
 
@@ -258,6 +270,7 @@ def clipped_loss(ratio, advantage, clip):
 check.clipped_loss(clipped_loss)
 
 # %%
+predicted("the_second_trap.2")
 title = "PPO stops paying once a ratio has moved by 0.2 in the direction that pays"
 bc.show(figures.hinges(ppo.clipped_loss, 0.2, title))
 
@@ -378,6 +391,7 @@ choices = ["it leaves", "it drives steadily behind trap 1", "it falls back and s
 predict("the_second_trap.3", "What does PPO do with the concave reward?", choices)
 
 # %%
+predicted("the_second_trap.3")
 concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD])[0]
 speeds = {
     name: each.states[:: bc.DEFAULT.clock.steps][1:, EGO, SPEED]
@@ -415,6 +429,7 @@ choices = ["none", "1 to 5", "6 to 10"]
 predict("the_second_trap.4", "How many of ten escape with the potential?", choices)
 
 # %% tags=["hide-input"]
+predicted("the_second_trap.4")
 names = {"alone": "the road's reward", "concave": "concave", "shaped": "the potential, too"}
 rows = []
 for kind, name in names.items():
@@ -457,6 +472,7 @@ choices = ["in less than half", "in about three quarters", "in nearly all"]
 predict("the_second_trap.5", "How often does it do what the rule would?", choices)
 
 # %% tags=["nbval-ignore-output"]
+predicted("the_second_trap.5")
 training = own_code.training([ppo_kinds.settings_of("cloned")], MOST)
 cloned = ppo_kinds.train(training, 200_000)
 found = bc.evaluate(cloned.agent.as_policy(), 100)

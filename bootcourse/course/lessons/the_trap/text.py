@@ -28,10 +28,20 @@ import itertools
 import bootcourse as bc
 import gymnasium as gym
 import numpy as np
-from bootcourse.course import check, compare_predictions, own_code, predict, table
+from bootcourse.course import (
+    check,
+    compare_predictions,
+    own_code,
+    predict,
+    predicted,
+    progress,
+    table,
+)
 from bootcourse.course.lessons.the_trap import diagrams, explorable, figures
 from bootcourse.research import report, tables
 from bootcourse.road import formulas, observation
+
+progress("the_trap")
 
 # %% [markdown]
 # ## Look first
@@ -179,6 +189,9 @@ check.find_plan(find_plan)
 
 
 # %%
+predicted("the_trap.1")
+
+
 def on_road(road):
     """gets_out(plans) for one road: each plan, five seconds of acceleration, then as it goes."""
 
@@ -276,6 +289,7 @@ choices = ["trap 1, and dy is 0", "trap 2, and dy is positive", "trap 2, and dy 
 predict("the_trap.2", "Which car is `car 1`, and what is its dy?", choices)
 
 # %%
+predicted("the_trap.2")
 env = gym.make("bootcourse:Trap-v0")
 seen, info = env.reset(seed=ROAD)
 names, scales = observation.names(bc.DEFAULT), observation.scales(bc.DEFAULT)
@@ -372,6 +386,7 @@ check.reward(reward)
 
 # %%
 # NBVAL_CHECK_OUTPUT
+predicted("the_trap.3")
 print(f"return {idle.rewards.sum():.4f}, distance {idle.distance:.0f} m, success {idle.success}")
 
 # %% [markdown]
@@ -447,6 +462,7 @@ for drive, who in ((before, "Untrained"), (after, f"After {training.updates:,} u
 predict("the_trap.4", "How many agents of plain SAC escape?", unit="of 10")
 
 # %%
+predicted("the_trap.4")
 study, rows = bc.shipped_results(), []
 for method in ("sac", "bootstrapped"):
     mine = study.of(method)
@@ -518,6 +534,7 @@ choices = ["about 10 s", "about 35 s", "about 60 s", "about 100 s"]
 predict("the_trap.5", "For how long has the escape earned less than doing nothing?", choices)
 
 # %%
+predicted("the_trap.5")
 lead = np.cumsum(escape.rewards) - np.cumsum(idle.rewards)
 behind = np.flatnonzero(lead < 0)[-1] + 1  # the last second in which it has earned less
 bc.show(figures.running_lead(lead, int(behind)))

@@ -27,9 +27,11 @@ import math
 
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import check, compare_predictions, predict, table
+from bootcourse.course import check, compare_predictions, predict, predicted, progress, table
 from bootcourse.course.lessons.traffic import figures as figures_traffic
 from bootcourse.course.lessons.traffic import simulation as traffic
+
+progress("traffic")
 
 # %% [markdown]
 # ## Look first
@@ -130,6 +132,7 @@ predict(
 # <!-- claim: formulas.idm_acceleration(12.5, 12.5, 25.0, 25.0, 0.5, 4.0) == -0.5 -->
 
 # %%
+predicted("traffic.3")
 t = bc.DEFAULT.traffic
 title = "At 10\u00a0m/s a driver who closes in brakes much earlier"
 bc.show(figures_traffic.following(10.0, title))
@@ -244,6 +247,7 @@ predict("traffic.4", "Which change prevents the jam?", choices)
 
 # %%
 # NBVAL_CHECK_OUTPUT
+predicted("traffic.4")
 tried = {"as it is": (1, 1), "A: stronger reactions": (3, 1 / 3)}
 tried |= {"B: minds the closing speed more": (1, 1 / 3), "minds it less": (1, 3)}
 rows = []
@@ -312,6 +316,7 @@ def heading_errors(error, tau, dt, steps):
 check.heading_errors(heading_errors)
 
 # %%
+predicted("traffic.5")
 bc.show(figures_traffic.swinging(taus=(0.2, 0.3, 0.6), dt=bc.DEFAULT.clock.dt))
 
 # %% [markdown]

@@ -26,11 +26,22 @@ import bootcourse as bc
 import gymnasium as gym
 import numpy as np
 import torch
-from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
+from bootcourse.course import (
+    charts,
+    check,
+    compare_predictions,
+    own_code,
+    predict,
+    predicted,
+    progress,
+    table,
+)
 from bootcourse.course.lessons.discrete_sac import figures
 from bootcourse.course.lessons.update_and_loop import by_hand, explorable, left_out
 from bootcourse.learn import sac
 from bootcourse.research.experiments import checks
+
+progress("update_and_loop")
 
 # %% [markdown]
 # ## Look first
@@ -198,6 +209,7 @@ check.train(train)
 # training, whose pushes are drawn, and in 20 new ones with the most probable pushes.
 
 # %%
+predicted("update_and_loop.1")
 PUSHES, SEED = 30_000, 0  # another seed is another agent
 loop, step, buffer = own_code.yours_or_ours("train", "update", "ReplayBuffer")
 agent, step = by_hand.SAC(seed=SEED), by_hand.Watched(step, every=750)
@@ -272,6 +284,7 @@ own_code.compare()
 predict("update_and_loop.2", "Without which part is the mean lowest?", list(left_out.KINDS[1:]))
 
 # %%
+predicted("update_and_loop.2")
 SEEDS, TARGET = 3, 0.3 * np.log(2).item()
 settings = bc.settings_for("sac", gamma=0.99, tau=0.05, target_entropy=TARGET)
 grid = left_out.training(settings, SEEDS, pushes=4_000)

@@ -29,13 +29,24 @@ from dataclasses import replace
 import bootcourse as bc
 import gymnasium as gym
 import numpy as np
-from bootcourse.course import charts, check, compare_predictions, own_code, predict, table
+from bootcourse.course import (
+    charts,
+    check,
+    compare_predictions,
+    own_code,
+    predict,
+    predicted,
+    progress,
+    table,
+)
 from bootcourse.course.lessons.your_own_problem import figures, loops
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.research.computed import experiment
 from bootcourse.research.elsewhere import settings_of
 from bootcourse.research.elsewhere_claims import Cells
 from bootcourse.research.problems import PROBLEMS
+
+progress("your_own_problem")
 
 # %% [markdown]
 # ## Look first
@@ -53,6 +64,7 @@ predict(
 )
 
 # %%
+predicted("your_own_problem.1")
 drives = loops.first_drives()
 longest = max(len(each) for each in drives.values())
 shown = {name: np.r_[x, np.full(longest - len(x), np.nan)] for name, x in drives.items()}
@@ -135,6 +147,7 @@ def majority_right(right, votes):
 check.majority_right(majority_right)
 
 # %% tags=["hide-input"]
+predicted("your_own_problem.2")
 cells = Cells(experiment("elsewhere"))
 rows = []
 for teacher in ("random", "systematic"):
@@ -177,6 +190,7 @@ predict("your_own_problem.3", "Which reaches the flag most often?", list(figures
 # keeps what is trained.
 
 # %% tags=["nbval-ignore-output"]
+predicted("your_own_problem.3")
 EPISODES = 30
 quick = replace(problem, episodes=EPISODES)
 compared = bc.compare(
@@ -335,6 +349,7 @@ predict(
 
 # %%
 # NBVAL_CHECK_OUTPUT
+predicted("your_own_problem.4")
 rows = []
 for seed, (states, reached) in enumerate(drives):
     earned = 1 - 0.9 * len(states) / 100 if reached else 0.0

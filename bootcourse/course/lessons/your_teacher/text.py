@@ -25,10 +25,21 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import check, compare_predictions, predict, shipped, source, table
+from bootcourse.course import (
+    check,
+    compare_predictions,
+    predict,
+    predicted,
+    progress,
+    shipped,
+    source,
+    table,
+)
 from bootcourse.course.lessons.your_teacher import example_teachers, figures, taught_agents
 from bootcourse.learn.teachers import ahead, course_rule, teacher_policy, toward
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
+
+progress("your_teacher")
 
 # %% [markdown]
 # ## Look first
@@ -164,6 +175,7 @@ check.my_rule(my_rule)
 # agents of Round 3 learn from *it*; until then from `careful`.
 
 # %%
+predicted("your_teacher.1")
 mine = my_rule if check.my_rule(my_rule).passed else example_teachers.careful
 
 print(example_teachers.examine(mine))
@@ -246,6 +258,7 @@ choices = ["less than those alone", "about as much", "more"]
 predict("your_teacher.3", "What do the students of the racer earn?", choices)
 
 # %%
+predicted("your_teacher.3")
 groups = taught_agents.reference()
 shown = dict(groups)
 shown[f"racer, {taught_agents.LONG:,} updates"] = taught_agents.longer()
@@ -303,6 +316,7 @@ predict(
 # <!-- claim: len(teacher_tests()) == 12 -->
 
 # %% tags=["hide-input"]
+predicted("your_teacher.4")
 scores, taught_by = ("success", "returns"), [name for name in groups if name != "alone"]
 pairs = [(groups[name][score], groups["alone"][score]) for name in taught_by for score in scores]
 adjusted = taught_agents.holm([taught_agents.p_value(*pair) for pair in pairs])
@@ -391,6 +405,7 @@ choices = ["none", "1 to 3", "4 to 7", "8 to 10"]
 predict("your_teacher.5", "How many of ten students of the half-random teacher escape?", choices)
 
 # %%
+predicted("your_teacher.5")
 four = ("rule", "random-50", "mirrored", "planner")
 three = ("dagger", "bootstrapped", "soft")
 worth = {

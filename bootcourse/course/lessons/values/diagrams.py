@@ -1,6 +1,6 @@
 """The chain of five states, as a diagram."""
 
-from bootcourse.course.lessons.the_barrier import chain
+from bootcourse.course.lessons.values import chain
 from bootcourse.plots.diagrams import Diagram, arrow, box, label, line
 
 WIDE, STEP, TOP, HIGH = 106, 142, 60, 52  # pixels: of a box, from box to box, its top and height

@@ -1,0 +1,46 @@
+"""What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
+
+from functools import cache
+
+import numpy as np
+
+from bootcourse.course.lessons.values import chain
+from bootcourse.course.lessons.values.exercises import bellman_sweep
+
+
+def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
+    """How many learners of the barrier's chain have decided on its free road, whose every decision pays 1."""
+    return sum(map(chain.has_been_free, chain.learned(explore, gamma, walks=walks)))
+
+
+@cache
+def replayed(times: int, walks: int = 30) -> int:
+    """How many of the chain's learners with A's ε and γ leave if the way out is replayed before the first decision."""
+    q = np.zeros((chain.STATES, 2))
+    for s, a in chain.WAY_OUT * times:
+        q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
+    return sum(_leaves(q.copy(), 0.1, seed) for seed in range(walks))
+
+
+def optimistic(explore: float, start: float, walks: int = 30) -> int:
+    """How many of the chain's learners leave at γ = 0.8 if Q begins at `start` instead of 0."""
+    return sum(_leaves(np.full((chain.STATES, 2), float(start)), explore, seed) for seed in range(walks))
+
+
+def _leaves(q: np.ndarray, explore: float, seed: int) -> bool:
+    """Does a learner of the chain that begins with this Q, which it changes, leave at γ = 0.8?"""
+    s = 0
+    for t, chance in enumerate(chain.chances(explore, 1000, seed)):
+        s = 0 if t % chain.EPISODE == 0 else s
+        a = int(q[s].argmax()) if chance < 0 else chance
+        q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
+        s = chain.NEXT[s, a]
+    return chain.leaves(q)
+
+
+def sweeps(times: int, gamma: float) -> np.ndarray:
+    """Q of the chain after so many sweeps of the Bellman equation, from zeros: (5, 2)."""
+    q = np.zeros((chain.STATES, 2))
+    for _ in range(times):
+        q = bellman_sweep.solution(q, gamma)
+    return q

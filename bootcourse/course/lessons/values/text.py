@@ -1,0 +1,355 @@
+# ---
+# jupyter:
+#   jupytext:
+#     text_representation:
+#       extension: .py
+#       format_name: percent
+#   kernelspec:
+#     display_name: Python 3 (ipykernel)
+#     language: python
+#     name: python3
+# ---
+
+# %% [markdown]
+# # Values
+#
+# **What you will be able to do**
+# - say what a state and an action are worth, and compute it by the Bellman equation;
+# - write a learner that finds these values from its own decisions: Q-learning;
+# - say why such a learner stays in a trap although leaving is worth more.
+#
+# **Time** 55 minutes; the machine computes for seconds. **It builds on** lesson [[the_trap]].
+
+# %%
+import bootcourse as bc
+import numpy as np
+from bootcourse.course import (
+    charts,
+    check,
+    compare_predictions,
+    own_code,
+    predict,
+    predicted,
+    progress,
+    table,
+)
+from bootcourse.course.lessons.the_barrier import figures
+from bootcourse.course.lessons.values import chain, diagrams, explorable
+
+progress("values")
+
+# %% [markdown]
+# ## Look first
+#
+# Here is the trap with everything left out but the detour: a **chain** of five states. You start in
+# the trap. Each arrow is an action, 0 or 1. Staying pays a little in the trap and much on the free
+# road, as on the road of lesson [[the_trap]]; the way from one to the other pays nothing.
+# <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
+#   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
+
+# %%
+bc.show(diagrams.five_states())
+
+# %% [markdown]
+# One walker goes to the trap and stays, the other goes on to the free road. A reward counts less
+# the later it comes: after one decision γ ("gamma") times as much, after two γ² times. **Drag** γ:
+# from where on does it pay to leave? And which states are worth leaving at every γ?
+
+# %%
+explorable.worths()
+
+# %% [markdown] tags=["instructor"] minutes=4
+# Draw the chain on the board and keep it there. Let two people walk it aloud, one who stays and one
+# who goes, and add up what they get.
+
+# %% [markdown]
+# ## Round 1: the return
+#
+# The **return** is the sum of all rewards from now on, each multiplied by γ to the power of the
+# decisions until it comes:
+#
+# $$ G = r_0 + \gamma\, r_1 + \gamma^2\, r_2 + \dots $$
+#
+# **Exercise (4 min, ●○○).** Write it.
+
+
+# %%
+def discounted_return(rewards, gamma):
+    """The return, a float: rewards (decisions,), the first one at once; gamma from 0 to 1."""
+    # solution
+    return float(np.sum(gamma ** np.arange(len(rewards)) * np.asarray(rewards)))
+    # end solution
+
+
+check.discounted_return(discounted_return)
+
+# %% [markdown]
+# To stay is worth $0.16 + 0.16\,\gamma + 0.16\,\gamma^2 + \dots$, a geometric series, which is
+# $0.16 / (1 - \gamma)$. To leave pays nothing for four decisions, and then 1 at each.
+#
+# > **Predict.** Leaving is worth $\gamma^4 / (1 - \gamma)$. From which γ on is that more?
+
+# %%
+predict("values.1", "From which γ on does leaving the chain's trap pay?", unit="")
+
+# %% tags=["hide-input"]
+predicted("values.1")
+worth, rows = own_code.yours_or_ours("discounted_return", doing="Adding up"), []
+for gamma in (0.5, 0.63, 0.64, 0.8, 0.95):
+    stays, leaves = worth([0.16] * 500, gamma), worth([0.0] * 4 + [1.0] * 496, gamma)
+    rows.append([gamma, f"{stays:.2f}", f"{leaves:.2f}", "leave" if leaves > stays else "stay"])
+table(["γ", "to stay is worth", "to leave is worth", "better"], rows, "Sums of 500 decisions.")
+
+# %% [markdown]
+# **Explain.** Leaving pays where $\gamma^4 > 0.16$: from γ = {{ 0.16**0.25 | .2f }} on. The paper's
+# γ is {{ SETTINGS.gamma }}; with it leaving is worth {{ 0.8**4 / 0.16 | .1f }} times as much as
+# staying. Remember that factor: the learner of Round 4 stays all the same.
+# <!-- claim: 0.8**4 > 2.5 * 0.16 and 0.63**4 < 0.16 < 0.64**4 -->
+
+# %% [markdown] tags=["instructor"] minutes=3
+# Ask what γ means in seconds: at 0.8 a reward in ten decisions counts {{ 0.8**10 | .2f }}. Nothing
+# in the trap of lesson [[the_trap]] forces this γ; it is a choice about how far to look.
+
+# %% [markdown]
+# ## Round 2: a value from the next value
+#
+# Nobody has to add up a sum without end. What an action is worth is its reward, plus γ times what
+# the next state is worth; and a state is worth as much as the better of its actions. That is the
+# **Bellman equation**, here with s' for the state that follows:
+#
+# $$ Q(s, a) = r(s, a) + \gamma \max_{a'} Q(s', a') $$
+#
+# It says what Q *is*, not how to find it. Begin with zeros everywhere and compute the right side
+# for all ten pairs (s, a) at once; put the result in on the right, and do it again. One such pass
+# is a **sweep**.
+#
+# > **Predict.** After which sweep does Q(0, 1), the value of leaving the trap, hold a part of the
+# > free road's reward for the first time?
+
+# %%
+choices = ["1", "2", "4", "5"]
+predict("values.2", "After which sweep does Q(0, 1) know of the free road?", choices)
+
+# %% [markdown]
+# **Exercise (8 min, ●●○).** Write one sweep. `chain.REWARD[s, a]` and `chain.NEXT[s, a]` hold the
+# picture above, each an array (5, 2).
+
+
+# %%
+def bellman_sweep(q, gamma):
+    """The right side of the equation for all pairs at once: q (5, 2) -> (5, 2)."""
+    # solution
+    return chain.REWARD + gamma * q.max(axis=1)[chain.NEXT]
+    # end solution
+
+
+check.bellman_sweep(bellman_sweep)
+
+# %%
+predicted("values.2")
+sweep, q = own_code.yours_or_ours("bellman_sweep", doing="Sweeping"), np.zeros((5, 2))
+found = [q]
+for _ in range(30):
+    found.append(q := sweep(q, 0.8))
+named = {"stay in the trap": np.array(found)[:, 0, 0], "leave it": np.array(found)[:, 0, 1]}
+looks = [bc.colours.OTHER, charts.Style("#56B4E9")]
+title = "The free road's value comes back one state in each sweep"
+bc.show(charts.lines(range(31), named, title, "sweep", "Q in state 0, γ = 0.8", looks=looks))
+
+# %% [markdown]
+# **Explain.** The first sweep knows the rewards alone, so only the two ends are worth something.
+# Each further sweep carries the free road's value one state back, and the fifth reaches the trap.
+# (Before that, Q(0, 1) holds only what the way back pays: leave, come back, stay.) Each time what
+# is still missing shrinks by the factor γ, so the numbers settle: on {{ sweeps(200, 0.8)[0, 0] |
+# .2f }} for staying and {{ sweeps(200, 0.8)[0, 1] | .2f }} for leaving.
+# <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
+# <!-- claim: abs(sweeps(200, 0.8)[0, 1] - 0.8**4 / 0.2) < 1e-9 -->
+#
+# Staying in the trap is worth {{ sweeps(200, 0.8)[0, 0] | .2f }} and not 0.80: Q(0, 0) says what it
+# is worth to stay *once* and to act as well as possible afterwards.
+# <!-- claim: abs(sweeps(200, 0.8)[0, 0] - (0.16 + 0.8 * 0.8**4 / 0.2)) < 1e-9 -->
+
+# %% [markdown] tags=["instructor"] minutes=4
+# Do two sweeps on the board with step γ = 1/2. Who asks why "at once" matters has seen the point of
+# the check's last sentence: with new values in the same sweep the result comes sooner, but it is
+# another algorithm.
+
+# %% [markdown]
+# ## Round 3: learning from one decision
+#
+# A sweep needs the whole map. A learner on the road has no map: it makes a decision, and sees a
+# reward and a next state. It can still ask whether this went better than expected. The answer is
+# the **temporal difference**:
+#
+# $$ \delta = r + \gamma \max_{a'} Q(s', a') - Q(s, a) $$
+#
+# The part before the minus is the **target**. It holds an estimate of the learner's own, the
+# largest Q of the next state: the learner **bootstraps**. Then it moves its number by a part of the
+# difference, the *step*: $Q(s, a) \leftarrow Q(s, a) + \text{step} \cdot \delta$. This is
+# **Q-learning**.
+#
+# **Exercise (4 min, ●○○).** Write the difference.
+
+
+# %%
+def temporal_difference(q, s, a, reward, s_next, gamma):
+    """How much better it went than Q(s, a) says, a float: q (5, 2); s, a, s_next whole numbers."""
+    # solution
+    return reward + gamma * q[s_next].max() - q[s, a]
+    # end solution
+
+
+check.temporal_difference(temporal_difference)
+
+# %% [markdown]
+# > **Predict.** All numbers are 0, but for Q(1, 1) = 0.1. The learner leaves the trap, from 0 to 1,
+# > and gets no reward. With γ = 0.8 and a step of 0.3, what is Q(0, 1) now?
+
+# %%
+predict("values.3", "What is Q(0, 1) after the decision?", unit="")
+
+# %%
+predicted("values.3")
+difference = own_code.yours_or_ours("temporal_difference", doing="Learning")
+q = np.zeros((5, 2))
+q[1, 1] = 0.1
+print(f"Q(0, 1) = 0 + 0.3 · {difference(q, 0, 1, 0.0, 1, 0.8):.2f} = ", end="")
+print(f"{0.3 * difference(q, 0, 1, 0.0, 1, 0.8):.3f}")
+
+# %% [markdown]
+# **Explain.** Nothing was paid, and the number still rises, because the next state is known to be
+# worth something. It rises by 0.3 of 0.8 · 0.1 only. So a value comes back one state at a time, and
+# a part of the way at a time: it takes several passages until a trap hears of a free road.
+
+# %% [markdown] tags=["instructor"] minutes=3
+# Let them say in one sentence what is different from Round 2: one pair instead of ten, what was
+# seen instead of a map, a part of the way instead of all of it.
+
+# %% [markdown]
+# ## Round 4: what gets a learner across?
+#
+# Which decisions does the learner make while it learns? Here it is **ε-greedy** ("epsilon"): with
+# probability 1 − ε it takes the action that now looks best, else one at random.
+#
+# **Exercise (20 min, ●●●).** Write this learner. The random decisions have been drawn beforehand
+# (`chances`). A demonstrator's decisions (`taught`) are replayed after each of your own. After each
+# 20 decisions the walk starts again in state 0, since the time is up: does the target of the last
+# decision change?
+
+
+# %%
+def learn_chain(chances, gamma, step, taught):
+    """Q (5, 2) after len(chances) decisions, from zeros.
+
+    chances: at each decision -1 for the greedy action (of two equal ones action 0), or the action
+    that is tried. taught: decisions (s, a) of a demonstrator, replayed in this order after each of
+    your own.
+    """
+    # solution
+    q, s = np.zeros((chain.STATES, 2)), 0
+    for t, chance in enumerate(chances):
+        if t % chain.EPISODE == 0:
+            s = 0
+        a = int(q[s].argmax()) if chance < 0 else chance
+        for state, action in [(s, a), *taught]:
+            target = chain.REWARD[state, action] + gamma * q[chain.NEXT[state, action]].max()
+            q[state, action] += step * (target - q[state, action])
+        s = chain.NEXT[s, a]
+    return q
+    # end solution
+
+
+check.learn_chain(learn_chain)
+
+# %% [markdown]
+# Thirty learners of each kind make 1,000 decisions, 50 episodes, with a step of 0.3. A learner has
+# learned to leave if in the end Q(0, 1) > Q(0, 0).
+#
+# - *A*: ε = 0.1 and γ = 0.8;
+# - *B*: as A, with γ = 0.95;
+# - *C* and *D*: as A, with ε = 0.5 and with ε = 1;
+# - *E*: as A, with a demonstration of the way out, replayed after each of the 1,000 decisions.
+#
+# > **Predict.** In which of the five kinds do more than half of the thirty learn to leave? (To get
+# > through takes four random decisions in a row; for a value to come back, several passages.)
+
+# %%
+predict("values.4", "In which kinds do more than half learn to leave? Letters, as in: A, C")
+
+# %%
+predicted("values.4")
+kinds = {
+    "A: ε = 0.1, γ = 0.8": (0.1, 0.8),
+    "B: A, but γ = 0.95": (0.1, 0.95),
+    "C: A, but ε = 0.5": (0.5, 0.8),
+    "D: A, but ε = 1": (1.0, 0.8),
+    "E: A, with replays": (0.1, 0.8, chain.WAY_OUT),
+}
+rows = {kind: figures.learners(chain.learned(*how)) for kind, how in kinds.items()}
+title = "More exploration or a replayed demonstration gets learners out, a longer view does not"
+bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
+
+# %% [markdown]
+# **Explain.** In A none of the thirty leaves, although leaving is worth more than twice as much. In
+# state 0 staying has paid, so Q(0, 0) rises. In states 1 to 3 going *back* is then worth γ Q(0, 0),
+# and going on still 0, where Q began. So the greedy action leads back, and to get through takes
+# four random decisions in a row, each right with a probability of ε / 2: a **barrier**. A longer
+# view does not help (B): none of the thirty has been on the free road, so its value is not known.
+# <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
+# <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
+#
+# More exploration helps here (C, D), but one visit is not enough, since each passage moves the
+# value one state back: {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5,
+# 0.8) }} learn to leave. On the road, where a failed attempt costs 10, D is no recipe.
+# <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
+#
+# One demonstration gets all thirty across (E), because it is *replayed*: each time its values move
+# one state back. Replayed once, before the first decision, it gets {{ replayed(1) }} of thirty
+# across, five times {{ replayed(5) }}. Q-learning learns from it as from its own decisions: it is
+# **off-policy**, and so is the learner of the next lessons.
+# <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 and replayed(1) < replayed(5) -->
+
+# %% [markdown] tags=["instructor"] minutes=3
+# The question about the last decision separates two ideas that lesson [[demonstrations]] needs: an
+# accident *terminates* (nothing follows), the end of the time *truncates* (we stop looking). Ask in
+# which order the demonstration should be replayed so that one pass is enough (backwards, with step
+# 1).
+
+# %%
+compare_predictions(
+    "values",
+    {1: round(0.16**0.25, 2), 2: "5", 3: 0.024, 4: "D and E"},
+)
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. The return is the sum of the rewards from now on, each × γ to the power of its delay.
+# 2. The Bellman equation makes a value of the reward and the next value; sweeps of it settle.
+# 3. A temporal difference says how much better one decision went than expected. Q-learning moves
+#    its number by a part of it, and needs no map.
+# 4. A value comes back one state at a time, from states that were visited.
+# 5. Behind a barrier ε-greedy decisions hardly visit what is worth most. More chance helps, and so
+#    does a demonstration that is replayed.
+#
+# **Three questions to think about**
+# - If the chain's Q begins at 5 (*optimistic initial values*), {{ optimistic(0.1, 5) }} of thirty
+#   leave with A's ε and γ. Why, and what would it cost on the road?
+# - A replayed demonstration got all thirty across the chain. What could be different on the road?
+# - The chain has ten numbers. Your car has 26 observations. What replaces the table?
+#
+# **Read on**: [](discrete_sac.ipynb), which puts networks in place of the table. Sutton and Barto,
+# *Reinforcement Learning*, chapters 3, 4 and 6.
+
+# %% [markdown] tags=["instructor"] minutes=2
+# **Model answers.**
+#
+# - *Optimistic values.* Even with ε = 0 {{ optimistic(0, 5) }} of thirty leave: an action that has
+#   not been tried looks best, so it is tried, until its value has fallen to what it pays. On the
+#   road each such trial can cost an accident, and networks generalise: a value that falls in one
+#   state falls in others, too.
+# - *On the road.* The rule's drives show a way that is worth less than staying at γ = 0.8 (lesson
+#   [[the_trap]]), states are 26 numbers and rarely come twice, and networks carry an error from one
+#   state to the next.
+# - *The table.* A function with fewer numbers than states: a network. It answers for states that it
+#   has not seen, which is its use and its danger.

@@ -1,0 +1,101 @@
+"""How far somebody is: predictions committed, exercises passed, and what these still take.
+
+Passed exercises are kept in `answers/progress.json` beside the notebooks, predictions in `answers/predictions.json`;
+so the card says the same after a restart. Nothing is written before something is committed or passes.
+"""
+
+import re
+from pathlib import Path
+
+import ipywidgets as widgets
+
+from bootcourse.course import predictions
+from bootcourse.course.lessons import LESSONS, registry, stem
+from bootcourse.course.notebook import beside_the_notebook
+from bootcourse.errors import BootcourseError, check_known
+from bootcourse.files import read_json, write_json
+from bootcourse.markup import Markup, html
+
+FILE = Path("answers/progress.json")  # in the folder of the notebooks
+_cards: list["ProgressCard"] = []
+CARD = (
+    '<div class="bc-progress" role="status" style="max-width: 560px; font: 13px system-ui">{}'
+    '<div style="height: 4px; background: #E3E7EB; margin-top: 3px">'
+    '<div style="height: 4px; width: {}%; background: #009E73"></div></div></div>'
+)
+
+
+def passed() -> set[str]:
+    """The exercises that have passed. Raises BootcourseError for a damaged file."""
+    path = beside_the_notebook() / FILE
+    return set(read_json(path, dict[str, list[str]]).get("passed", [])) if path.exists() else set()
+
+
+def note_passed(exercise: str) -> None:
+    """Keep that an exercise has passed, and show it in the open cards. Raises BootcourseError."""
+    path = beside_the_notebook() / FILE
+    with predictions.alone_with(path):
+        if exercise not in (before := passed()):
+            write_json(path, {"passed": sorted(before | {exercise})})
+    refresh()
+
+
+def asked_in(lesson: str) -> set[str]:
+    """The predictions that a lesson's notebook asks for; those that are committed where there is no notebook."""
+    file = beside_the_notebook() / f"{stem(lesson)}.ipynb"
+    text = file.read_text(encoding="utf-8", errors="replace") if file.exists() else ""
+    own = set(re.findall(rf'\bpredict\((?:\\n",)?\s*\\?"({lesson}\.\d+)', re.sub(r'\\n",\s*"', "", text)))
+    return own | {name for name in predictions.predictions() if name.startswith(f"{lesson}.")}
+
+
+class ProgressCard(widgets.HTML):
+    """The card of some lessons; it changes when a prediction is committed or an exercise passes."""
+
+    def __init__(self, lessons: tuple[str, ...]):
+        self.lessons = lessons
+        super().__init__()
+        self.refresh()
+        _cards.append(self)
+
+    def refresh(self) -> None:
+        """Read what is kept, and show it."""
+        self.value = self.page()
+
+    def page(self, kept: bool = True) -> Markup:
+        """The card's text; kept: False as somebody sees it who has done nothing yet."""
+        stems = {stem(lesson) for lesson in self.lessons}
+        exercises = [each for each in registry().values() if each.lesson in stems]
+        asked = {name for lesson in self.lessons for name in asked_in(lesson)}
+        try:
+            done = passed() if kept else set()
+            committed = asked & predictions.predictions().keys() if kept else set()
+        except BootcourseError as error:
+            return html('<div class="bc-progress" role="alert">{}</div>', str(error))
+        right = [each for each in exercises if each.name in done]
+        left = sum(each.minutes for each in exercises) - sum(each.minutes for each in right)
+        where = "This lesson" if len(self.lessons) == 1 else "The course"
+        words = f"{where}: {len(committed)} of {len(asked)} predictions committed, {len(right)} of {len(exercises)} "
+        words += f"exercises right, {left} minutes of exercises to go." if exercises else "exercises."
+        share = (len(committed) + len(right)) / max(1, len(asked) + len(exercises))
+        return html(CARD, words, round(100 * share))
+
+    def _repr_mimebundle_(self, **kwargs) -> dict:
+        """The same in every saved notebook, whatever is kept."""
+        page = str(self.page(kept=False))
+        return super()._repr_mimebundle_(**kwargs) | {"text/html": page, "text/plain": re.sub("<[^>]*>", "", page)}
+
+
+def refresh() -> None:
+    """Show in the open cards what is kept now."""
+    for card in _cards:
+        card.refresh()
+
+
+def progress(lesson: str | None = None) -> ProgressCard:
+    """A card that says how far you are in a lesson, or in the whole course. Raises BootcourseError for no lesson."""
+    if lesson is not None:
+        check_known("The lesson", lesson, LESSONS)
+    return ProgressCard(LESSONS if lesson is None else (lesson,))
+
+
+predictions.after_commit.append(refresh)
