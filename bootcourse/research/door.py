@@ -11,6 +11,7 @@ EXPERIMENTS = {  # in the order of the report
     "beyond": f"{_HERE}.experiments.beyond",
     "beyond-search": f"{_HERE}.experiments.beyond_search",
     "others": f"{_HERE}.experiments.others",
+    "stress": f"{_HERE}.experiments.stress",
     "teachers": f"{_HERE}.experiments.teacher_worth",
     "look-ahead": f"{_HERE}.experiments.lookahead",
     "distil": f"{_HERE}.experiments.distil",
