@@ -174,6 +174,15 @@ def found(success: np.ndarray, window: int = IN_A_ROW) -> np.ndarray:
     return found_after(success, window) > 0
 
 
+def holm(p: Sequence[float]) -> np.ndarray:
+    """Holm's adjusted p-values (Holm 1979), in the order of p: (tests,) -> (tests,)."""
+    order, m = np.argsort(p), len(p)
+    scaled = np.asarray(p)[order] * (m - np.arange(m))
+    adjusted = np.empty(m)
+    adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
+    return adjusted
+
+
 def significant(n: int) -> np.ndarray:
     """Whether Fisher's exact test tells k of n from j of n, with a p below 0.05: bool (n + 1, n + 1), by k and j."""
     counts = range(n + 1)

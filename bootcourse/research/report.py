@@ -10,8 +10,8 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import write_bytes, write_json
 from bootcourse.plots.figure import save
 from bootcourse.policies import rule_policy
+from bootcourse.research import claimed, claims, tables
 from bootcourse.research import figures as training_figures
-from bootcourse.research import tables
 from bootcourse.research.computed import StudyResults
 from bootcourse.research.experiment import experiment_named
 from bootcourse.research.fidelity import CLOSE, VERDICTS, fidelity, fidelity_table
@@ -37,6 +37,8 @@ def write_report(study: StudyResults, folder: Path) -> Path:
     if not study.results:
         raise BootcourseError("No job of this study is finished: run `bootcourse study --out DIR` first.")
     text, findings = [HEAD.format(escapes=100 * ESCAPES, window=IN_A_ROW)], {}
+    if study.experiments.get("stress"):
+        text += claims.section(claimed.claims(study))
     for name, results in study.results.items():
         rule = rule_results(STUDIES[name].scenario, results.sizes[0])
         everyone = join([Results(results.agents, results.stopped, results.tested, {}), rule])

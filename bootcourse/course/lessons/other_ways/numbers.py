@@ -7,7 +7,7 @@ import numpy as np
 
 from bootcourse.course.lessons.other_ways import figures
 from bootcourse.course.lessons.your_teacher import taught_agents
-from bootcourse.course.lessons.your_teacher.taught_agents import holm, p_value
+from bootcourse.course.lessons.your_teacher.taught_agents import p_value
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
@@ -23,6 +23,7 @@ from bootcourse.statistics import (
     ESCAPES,
     Estimate,
     found,  # noqa: F401
+    holm,
     interval,
 )
 from tools.course.known import shipped_experiment, shipped_teachers

@@ -5,7 +5,6 @@
 One training depends on the processor's rounding; the lesson's text rests on the results that ship.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -26,6 +25,7 @@ from bootcourse.research.experiment import Experiment
 from bootcourse.research.results import Results, agent_entries
 from bootcourse.research.teachers import RULE
 from bootcourse.scenario import Scenario
+from bootcourse.statistics import holm as holm
 
 SEEDS, UPDATES, EVERY = 10, 3500, 250  # students of each teacher; updates of each; updates between two notes
 ROADS = held_out_seeds(13, 200)  # that every student is tested on
@@ -134,12 +134,3 @@ def _shipped(name: str) -> dict[str, np.ndarray]:
 def p_value(taught: np.ndarray, alone: np.ndarray) -> float:
     """Mann and Whitney's two-sided p-value of the scores of two groups of agents, (m,) and (n,)."""
     return float(scipy.stats.mannwhitneyu(taught, alone).pvalue)
-
-
-def holm(p: Sequence[float]) -> np.ndarray:
-    """Holm's adjusted p-values (Holm 1979), in the order of p: (tests,) -> (tests,)."""
-    order, m = np.argsort(p), len(p)
-    scaled = np.asarray(p)[order] * (m - np.arange(m))
-    adjusted = np.empty(m)
-    adjusted[order] = np.minimum(np.maximum.accumulate(scaled), 1)
-    return adjusted

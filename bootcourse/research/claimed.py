@@ -1,0 +1,412 @@
+"""The course's claims. `claims.py` says what a claim is, and makes the report's part of them.
+
+Every claim is one function below, which reads its numbers from what was computed and names the attempts to refute it:
+twice the episodes with other seeds and another implementation (`experiments/stress.py`), other traps, the numbers that
+the paper leaves open, somebody else's learner, other roads, half the time step.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from scipy.stats import fisher_exact
+
+from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
+from bootcourse.policies import Policy, idle_policy, plan_policy, rule_policy
+from bootcourse.research.claims import Claim
+from bootcourse.research.computed import StudyResults
+from bootcourse.research.experiments.stress import FINER
+from bootcourse.research.results import Results
+from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
+from bootcourse.statistics import ESCAPES
+
+TWICE = "other seeds, another implementation of the learner, twice the episodes"
+OTHER_ROADS, HALF = "200 other roads", "half the time step"
+BLOCK, ROADS = 9, 200  # held-out roads that no lesson and no study uses
+BLIND = [("keep right", 1), ("keep left", 4), ("keep right", 3), ("accelerate straight", 5)]
+
+
+def claims(study: StudyResults) -> list[Claim]:
+    """All claims whose results were computed, in the order of the lessons."""
+    made = []
+    for claim in CLAIMS:
+        try:
+            made.append(claim(study))
+        except KeyError:  # a study or an experiment that was not computed
+            continue
+    return made
+
+
+# Numbers --------------------------------------------------------------------------------------------
+
+
+def told(results: Results, method: str = "") -> str:
+    """ "8 of 10 escape, return 102, accidents 29 %": the return and the accidents beside the success."""
+    agents = results.of(method) if method else results
+    escape = int((agents.scores("success") >= ESCAPES).sum())
+    crash = 100 * agents.scores("accident").mean()
+    return f"{escape} of {len(agents)} escape, return {agents.scores('returns').mean():.0f}, accidents {crash:.0f} %"
+
+
+def share(results: Results, method: str = "") -> float:
+    """The share of the agents that escape."""
+    agents = results.of(method) if method else results
+    return float((agents.scores("success") >= ESCAPES).mean())
+
+
+def twice(study: StudyResults, cell: str) -> Results:
+    """The agents of the stress experiment. Raises KeyError where they were not computed."""
+    return study.experiments["stress"][cell]
+
+
+def different(first: Results, second: Results, counted: Callable[[Results], np.ndarray]) -> float:
+    """Fisher's p for two groups of agents, some of which have what is counted, (agents,) bool."""
+    table = [[int(each.sum()), int((~each).sum())] for each in (counted(first), counted(second))]
+    return float(fisher_exact(table).pvalue)
+
+
+def escaping(results: Results) -> np.ndarray:
+    return results.scores("success") >= ESCAPES
+
+
+def driven(policy: Callable[[Scenario], Policy], scenario: Scenario = DEFAULT) -> Episodes:
+    """The drives of a policy, made for a scenario, on `ROADS` other roads."""
+    return drive_episodes(policy(scenario), held_out_seeds(BLOCK, ROADS), scenario)
+
+
+def rule_with(scenario: Scenario, sight: float | None = None, t_safe: float | None = None) -> Policy:
+    """The rule with another sight (m) or t_safe (s)."""
+    if sight is not None:
+        scenario = replace(scenario, sight=replace(scenario.sight, distance=sight))
+    if t_safe is not None:
+        scenario = replace(scenario, rule=replace(scenario.rule, t_safe=t_safe))
+    return rule_policy(scenario)
+
+
+# The claims -----------------------------------------------------------------------------------------
+
+
+def alone(study: StudyResults) -> Claim:
+    ours, more = study.results["default"], study.experiments["beyond"]
+    agents = [more[cell] for cell in ("sac-0", "sac-5")]
+    longer = np.concatenate([each.measured["success_200000"] for each in agents]) >= ESCAPES
+    views = study.experiments["sensitivity"]
+    other = {cell: views[cell] for cell in ("γ = 0.9", "γ = 0.95", "γ = 0.99")}
+    of = sum(len(each.of("sac")) for each in other.values())
+    out = sum(int(escaping(each.of("sac")).sum()) for each in other.values())
+    return Claim(
+        "alone", "the_trap", "Most agents of plain SAC do not leave the trap.", told(ours, "sac"),
+        {
+            TWICE: (share(twice(study, "sac")) < 0.5, told(twice(study, "sac"))),
+            "200,000 decisions, with a search of its own": (longer.mean() < 0.5, f"{longer.sum()} of 10 escape"),
+            "γ = 0.9, 0.95 and 0.99": (out < of / 2, f"{out} of {of} escape"),
+            "faster traps (10.9 m/s)": (
+                share(study.results["calibrated"], "sac") < 0.5, told(study.results["calibrated"], "sac")
+            ),
+        },
+        also=["What keeps them in is an open question: see the lesson on the barrier."],
+    )  # fmt: skip
+
+
+def constraint(study: StudyResults) -> Claim:
+    ours = study.results["default"]
+    return Claim(
+        "constraint", "soft_constraint",
+        "With one update for four decisions, most agents with the soft constraint alone escape.",
+        told(ours, "soft"),
+        {
+            TWICE: (share(twice(study, "soft")) > 0.5, told(twice(study, "soft"))),
+            "faster traps (10.9 m/s)": (
+                share(study.results["calibrated"], "soft") > 0.5, told(study.results["calibrated"], "soft")
+            ),
+        },
+        different(ours.of("soft"), ours.of("sac"), escaping),
+        ["With four updates for each decision none of ten escapes: see the claim on the two clocks."],
+    )  # fmt: skip
+
+
+def forgotten(study: StudyResults) -> Claim:
+    ours = study.results["default"]
+    return Claim(
+        "forgotten", "learning_from_demonstrations",
+        "With one update for four decisions, no agent with the rule's demonstrations alone keeps the way out.",
+        told(ours, "demos"),
+        {
+            TWICE: (share(twice(study, "demos")) == 0, told(twice(study, "demos"))),
+            "faster traps (10.9 m/s)": (
+                share(study.results["calibrated"], "demos") == 0, told(study.results["calibrated"], "demos")
+            ),
+        },
+    )  # fmt: skip
+
+
+def together(study: StudyResults) -> Claim:
+    ours, paper = study.results["default"], study.results["paper"]
+    return Claim(
+        "together", "learning_from_demonstrations", "With both aids most agents escape.", told(ours, "bootstrapped"),
+        {
+            TWICE: (share(twice(study, "bootstrapped")) > 0.5, told(twice(study, "bootstrapped"))),
+            "faster traps (10.9 m/s)": (
+                share(study.results["calibrated"], "bootstrapped") > 0.5,
+                told(study.results["calibrated"], "bootstrapped"),
+            ),
+            "two updates for each decision, drives by the stochastic rule": (
+                share(paper, "bootstrapped") > 0.5, told(paper, "bootstrapped")
+            ),
+        },
+        different(ours.of("bootstrapped"), ours.of("sac"), escaping),
+    )  # fmt: skip
+
+
+def ends(study: StudyResults) -> Claim:
+    """Who loses a way out that it had found."""
+    lasting = study.experiments["ablations"]["β for ever"]
+
+    def lost(results: Results, method: str) -> tuple[int, int]:
+        found, kept = results.found_and_kept(method)
+        return int((found & ~kept).sum()), int(found.sum())
+
+    def words(fading: Results, staying: Results, method: str) -> tuple[bool, str]:
+        (a, n), (b, m) = lost(fading, method), lost(staying, method)
+        return a * max(m, 1) > b * max(n, 1), f"{a} of {n} that found it, against {b} of {m}"
+
+    def at_twice(method: str) -> tuple[bool, str]:
+        return words(twice(study, method), twice(study, f"{method}, β for ever"), method)
+
+    ours = study.results["default"]
+    (a, n), (b, m) = lost(ours, "bootstrapped"), lost(lasting, "bootstrapped")
+    (c, o), (d, q) = lost(ours, "demos"), lost(lasting, "demos")
+    return Claim(
+        "ends", "found_and_kept",
+        "Agents lose the way out more often if the demonstrations end than if they stay.",
+        f"with both aids {a} of {n} lose it, against {b} of {m}; with demonstrations alone {c} of {o}, against {d} of "
+        f"{q}",
+        {f"both aids: {TWICE}": at_twice("bootstrapped"), f"demonstrations alone: {TWICE}": at_twice("demos")},
+        float(fisher_exact([[a + c, n + o - a - c], [b + d, m + q - b - d]]).pvalue),
+        ["With β for ever the return stays low: 68 with both aids, because the rule is slow."],
+    )  # fmt: skip
+
+
+def clocks(study: StudyResults) -> Claim:
+    cells, paper = study.experiments["clocks"], study.results["paper"]
+    quarter = {"soft": cells["1/4 updates, no demonstrations"], "demos": cells["1/4 updates, demonstrations by μ"]}
+    two = {"soft": cells["2 updates, no demonstrations"], "demos": cells["2 updates, demonstrations by π̃"]}
+    few, many = ({m: share(each, m) for m, each in group.items()} for group in (quarter, two))
+    return Claim(
+        "clocks", "found_and_kept",
+        "Which aid alone gets more agents out depends on the updates for each decision and on who demonstrates.",
+        f"soft against demonstrations: {10 * few['soft']:.0f} and {10 * few['demos']:.0f} of ten with one update for "
+        f"four decisions, {10 * many['soft']:.0f} and {10 * many['demos']:.0f} with two for each",
+        {
+            "other seeds: the study, and the study with the paper's two updates": (
+                share(study.results["default"], "soft") > share(study.results["default"], "demos")
+                and share(paper, "demos") > share(paper, "soft"),
+                f"soft {told(study.results['default'], 'soft')}; demonstrations {told(paper, 'demos')}",
+            ),
+        },
+        different(two["demos"].of("demos"), two["soft"].of("soft"), escaping),
+    )  # fmt: skip
+
+
+def strength(study: StudyResults) -> Claim:
+    ours, stays = study.results["default"].of("soft"), study.experiments["ablations"]["ξ stays at 2"]
+    rule = driven(rule_policy).returns.mean()
+
+    def holds(fading: Results, fixed: Results) -> tuple[bool, str]:
+        high, low = fading.scores("returns")[escaping(fading)], fixed.scores("returns")
+        words = f"escaping agents {high.min():.0f} to {high.max():.0f}, with ξ fixed {low.min():.0f} to {low.max():.0f}"
+        return bool(high.min() > 2 * rule and low.max() < 1.1 * rule), words
+
+    def finer(name: str) -> np.ndarray:
+        return twice(study, name).measured["finer_returns"]
+
+    out = escaping(twice(study, "soft"))
+    step = finer("soft")[out].min(), finer("soft, ξ stays at 2").max()
+    return Claim(
+        "strength", "soft_constraint",
+        "With a ξ that stays at 2 an agent earns about what the rule earns; with ξ = 200 α those that escape earn more "
+        "than twice as much.",
+        f"{holds(ours, stays)[1]}; the rule {rule:.0f}",
+        {
+            TWICE: holds(twice(study, "soft"), twice(study, "soft, ξ stays at 2")),
+            HALF: (bool(step[0] > 2 * rule and step[1] < 1.1 * rule), f"at least {step[0]:.0f}, at most {step[1]:.0f}"),
+        },
+        also=["The rule's head start in the logits stays 4.26; the temperature 201 α is what fades."],
+    )  # fmt: skip
+
+
+def second_trap(study: StudyResults) -> Claim:
+    more, theirs = study.experiments["beyond"], study.experiments["others"]
+
+    def out(method: str, decisions: int) -> str:
+        agents = np.concatenate([more[f"{method}-{i}"].measured[f"success_{decisions}"] for i in (0, 5)])
+        earned = np.concatenate([more[f"{method}-{i}"].measured[f"returns_{decisions}"] for i in (0, 5)])
+        return f"{(agents >= ESCAPES).sum()} of {len(agents)} escape, return {earned.mean():.0f}"
+
+    def count(method: str, decisions: int) -> int:
+        return sum(int((more[f"{method}-{i}"].measured[f"success_{decisions}"] >= ESCAPES).sum()) for i in (0, 5))
+
+    other = theirs["PPO alone"], theirs["PPO after cloning"]
+    return Claim(
+        "second-trap", "the_second_trap", "PPO alone does not leave the trap; after cloning the rule most agents do.",
+        f"after 200,000 decisions alone {out('ppo', 200_000)}; after cloning {out('ppo_cloned', 200_000)}",
+        {
+            "four times the decisions": (
+                count("ppo", 800_000) == 0 and count("ppo_cloned", 800_000) > 5,
+                f"{out('ppo', 800_000)}; {out('ppo_cloned', 800_000)}",
+            ),
+            "somebody else's PPO, with a search of its own": (
+                share(other[0]) == 0 and share(other[1]) > 0.5, f"{told(other[0])}; {told(other[1])}"
+            ),
+        },
+        different(*other, escaping),
+    )  # fmt: skip
+
+
+def margin(study: StudyResults) -> Claim:
+    ours = study.results["default"]
+    others = {"faster traps (10.9 m/s)": "calibrated", "two updates for each decision": "paper"}
+
+    def both(results: Results) -> tuple[bool, str]:
+        few, many = share(results, "margin"), share(results, "margin_soft")
+        return few <= 0.1 and many > 0.5, f"without {told(results, 'margin')}; with {told(results, 'margin_soft')}"
+
+    return Claim(
+        "margin", "learning_from_demonstrations",
+        "The large-margin loss gets agents out together with the KL, and hardly any without it.", both(ours)[1],
+        {words: both(study.results[name]) for words, name in others.items()},
+        different(ours.of("margin_soft"), ours.of("margin"), escaping),
+    )  # fmt: skip
+
+
+def copies(study: StudyResults) -> Claim:
+    ours, rule = study.results["default"], driven(rule_policy).returns.mean()
+
+    def holds(results: Results, most: float) -> bool:
+        return share(results, "bc") >= 0.9 and results.of("bc").scores("returns").mean() < most
+
+    faster = drive_episodes(rule_policy(CALIBRATED), held_out_seeds(BLOCK, ROADS), CALIBRATED).returns.mean()
+    return Claim(
+        "copies", "demonstrations", "Clones of the rule escape, and earn less than the rule itself.",
+        f"{told(ours, 'bc')}; the rule {rule:.0f}",
+        {
+            "faster traps (10.9 m/s)": (
+                holds(study.results["calibrated"], faster),
+                f"{told(study.results['calibrated'], 'bc')}; the rule {faster:.0f}",
+            ),
+            "drives by the stochastic rule": (holds(study.results["paper"], rule), told(study.results["paper"], "bc")),
+        },
+    )  # fmt: skip
+
+
+def sight(study: StudyResults) -> Claim:
+    def at(scenario: Scenario) -> tuple[bool, str]:
+        far, near = (driven(lambda s, d=d: rule_with(s, sight=d), scenario) for d in (200.0, 30.0))
+        crash = 100 * (near.accident > 0).mean()
+        words = f"{far.returns.mean():.0f} at 200 m, {near.returns.mean():.0f} at 30 m, accidents {crash:.1f} %"
+        return bool(near.returns.mean() > 2 * far.returns.mean()), words
+
+    lesson = [
+        drive_episodes(rule_with(DEFAULT, sight=distance), held_out_seeds(1, ROADS)).returns.mean()
+        for distance in (200.0, 30.0)
+    ]
+    return Claim(
+        "sight", "the_rule",
+        "The rule is slow because it sees far: with a sight of 30 m it earns more than twice as much.",
+        f"{lesson[0]:.0f} at 200 m, {lesson[1]:.0f} at 30 m",
+        {OTHER_ROADS: at(DEFAULT), HALF: at(FINER)},
+    )  # fmt: skip
+
+
+def room(study: StudyResults) -> Claim:
+    def at(scenario: Scenario, block: int = BLOCK) -> tuple[bool, str]:
+        crashes = [
+            int(
+                (
+                    drive_episodes(rule_with(scenario, 20.0, t), held_out_seeds(block, ROADS), scenario).accident > 0
+                ).sum()
+            )
+            for t in (1.5, 2.0)
+        ]
+        return crashes[1] < crashes[0] / 10, f"{crashes[0]} accidents with t_safe = 1.5 s, {crashes[1]} with 2 s"
+
+    return Claim(
+        "room", "the_rule",
+        "At a sight of 20 m the rule's accidents come from t_safe = 1.5 s: with 2 s hardly any is left.",
+        f"{at(DEFAULT, 1)[1]}, of {ROADS} drives", {OTHER_ROADS: at(DEFAULT), HALF: at(FINER)},
+    )  # fmt: skip
+
+
+def discount(study: StudyResults) -> Claim:
+    def at(scenario: Scenario, gamma: float, block: int = BLOCK) -> tuple[float, float]:
+        roads = held_out_seeds(block, ROADS)
+        weights = gamma ** np.arange(scenario.clock.decisions)
+        values = []
+        for policy in (rule_policy(scenario), idle_policy):
+            drives = record(policy, roads, scenario)
+            values.append(float(np.mean([weights[: len(d.rewards)] @ d.rewards for d in drives])))
+        return values[0], values[1]
+
+    lesson, other, half, far = at(DEFAULT, 0.8, 1), at(DEFAULT, 0.8), at(FINER, 0.8), at(DEFAULT, 0.99)
+    return Claim(
+        "discount", "the_trap",
+        "At the paper's γ = 0.8 the rule's way out is worth less than staying behind, at γ = 0.99 more.",
+        f"{lesson[0]:.2f} against {lesson[1]:.2f}; at 0.99 {far[0]:.1f} against {far[1]:.1f}",
+        {
+            OTHER_ROADS: (other[0] < other[1] and far[0] > far[1], f"{other[0]:.2f} against {other[1]:.2f}"),
+            HALF: (half[0] < half[1], f"{half[0]:.2f} against {half[1]:.2f}"),
+        },
+        also=["Quicker ways out are worth more than staying at γ = 0.8, too."],
+    )  # fmt: skip
+
+
+def blind(study: StudyResults) -> Claim:
+    sac = study.results["default"].of("sac").scores("returns").mean()
+
+    def at(scenario: Scenario, block: int = BLOCK) -> tuple[bool, str]:
+        drives = drive_episodes(plan_policy(BLIND), held_out_seeds(block, ROADS), scenario)
+        success, crash = 100 * drives.success.mean(), 100 * (drives.accident > 0).mean()
+        words = f"return {drives.returns.mean():.0f}, ahead on {success:.0f} % of the roads, accidents {crash:.0f} %"
+        return bool(drives.returns.mean() > sac and crash > 10), words
+
+    return Claim(
+        "blind", "the_trap",
+        "A plan of 13 actions that looks at nothing earns more than plain SAC's mean agent, and crashes on every tenth "
+        "road or more.",
+        f"{at(DEFAULT, 1)[1]}; plain SAC {sac:.0f}", {OTHER_ROADS: at(DEFAULT), HALF: at(FINER)},
+    )  # fmt: skip
+
+
+def ahead(study: StudyResults) -> Claim:
+    cells = study.experiments["look-ahead"]
+
+    def crashes(cell: str) -> str:
+        measured = cells[cell].measured
+        return f"{measured['accidents'].sum():.0f} in {measured['roads'].sum():,.0f}"
+
+    before, after = "ppo_cloned, alone", "ppo_cloned, rollouts"
+    more, wrong = "ppo_cloned, shield, 10000 roads", "ppo_cloned, rollouts, others keep speed and lane"
+    return Claim(
+        "ahead", "looking_ahead",
+        "With the right model, looking ten seconds ahead before each decision leaves PPO after cloning hardly an "
+        "accident.",
+        f"alone {crashes(before)}; looking ahead {crashes(after)}; it earns "
+        f"{cells[after].measured['returns'].mean():.0f} instead of {cells[before].measured['returns'].mean():.0f}",
+        {
+            "ten times the roads, as a shield": (
+                cells[more].measured["accidents"].sum() < 1e-3 * cells[more].measured["roads"].sum(), crashes(more)
+            ),
+            "each agent by itself": (
+                bool((cells[after].measured["accidents"] <= cells[before].measured["accidents"]).all()),
+                f"at most {cells[after].measured['accidents'].max():.0f} in 1,000",
+            ),
+        },
+        also=[f"With a model in which the others keep speed and lane: {crashes(wrong)}."],
+    )  # fmt: skip
+
+
+CLAIMS = (
+    alone, discount, blind, sight, room, copies, constraint, strength, forgotten, together, margin, ends, clocks,
+    second_trap, ahead,
+)  # fmt: skip

@@ -1,0 +1,51 @@
+"""What we claim, and what it survived: the sentences that a reader will repeat, each with its evidence and its stress.
+
+The claims themselves stand in `claimed.py`. `section` is the report's part about them.
+"""
+
+from dataclasses import dataclass, field
+
+from bootcourse.research import tables
+from bootcourse.statistics import holm
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One sentence. It stands as long as all attempts to refute it have failed."""
+
+    name: str
+    lesson: str  # the lesson in which a reader meets it
+    sentence: str
+    evidence: str
+    stress: dict[str, tuple[bool, str]]  # {what was tried: (it still holds, what was seen)}
+    p: float | None = None  # of Fisher's exact test, two-sided, where two groups of agents are compared
+    also: list[str] = field(default_factory=list)  # what it does not say
+
+    @property
+    def stands(self) -> bool:
+        """Has it survived all of its stress?"""
+        return all(holds for holds, _ in self.stress.values())
+
+
+def section(made: list[Claim]) -> list[str]:
+    """The report's part: every claim with its evidence, its stress, and Holm's p over the family."""
+    compared = [claim for claim in made if claim.p is not None]
+    adjusted = dict(zip((claim.name for claim in compared), holm([claim.p for claim in compared]), strict=True))
+    text = ["## What we claim, and what it survived\n", HEAD.format(claims=len(made), compared=len(compared))]
+    for claim in made:
+        text += [f"### {claim.sentence}\n", f"*Evidence:* {claim.evidence}.\n"]
+        rows = [[what, "holds" if holds else "**falls**", seen] for what, (holds, seen) in claim.stress.items()]
+        text.append(tables.markdown(["tried", "", "seen"], rows))
+        if claim.name in adjusted:
+            text.append(f"Fisher's p, adjusted by Holm: {adjusted[claim.name]:.2g}.\n")
+        text += [f"{words}\n" for words in claim.also]
+        if not claim.stands:
+            text.append("**Not all of it holds: take it as an open question.**\n")
+    return text
+
+
+HEAD = """These {claims} sentences are the ones to repeat. Each was attacked: with twice the episodes, other seeds and
+another implementation of the learner (ten agents of each kind), with other traps, other roads, somebody else's learner
+or half the time step. *Escape*: ahead of trap 1 on nine of ten of 1,000 held-out roads. The return and the accidents
+stand beside the success. Where two groups of agents are compared, the p value is Holm's over these {compared}.
+"""
