@@ -5,6 +5,7 @@ twice the episodes with other seeds and another implementation (`experiments/str
 the paper leaves open, somebody else's learner, other roads, half the time step.
 """
 
+import contextlib
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -27,14 +28,12 @@ BLOCK, ROADS = 9, 200  # held-out roads that no lesson and no study uses
 BLIND = [("keep right", 1), ("keep left", 4), ("keep right", 3), ("accelerate straight", 5)]
 
 
-def claims(study: StudyResults) -> list[Claim]:
-    """All claims whose results were computed, in the order of the lessons."""
+def claims(study: StudyResults, lesson: str = "") -> list[Claim]:
+    """The claims of a lesson, by default all in the order of the lessons, whose results were computed."""
     made = []
-    for claim in CLAIMS:
-        try:
+    for claim in CLAIMS.get(lesson, ()) if lesson else (claim for own in CLAIMS.values() for claim in own):
+        with contextlib.suppress(KeyError):  # a study or an experiment that was not computed
             made.append(claim(study))
-        except KeyError:  # a study or an experiment that was not computed
-            continue
     return made
 
 
@@ -96,7 +95,7 @@ def alone(study: StudyResults) -> Claim:
     of = sum(len(each.of("sac")) for each in other.values())
     out = sum(int(escaping(each.of("sac")).sum()) for each in other.values())
     return Claim(
-        "alone", "the_trap", "Most agents of plain SAC do not leave the trap.", told(ours, "sac"),
+        "alone", "Most agents of plain SAC do not leave the trap.", told(ours, "sac"),
         {
             TWICE: (share(twice(study, "sac")) < 0.5, told(twice(study, "sac"))),
             "200,000 decisions, with a search of its own": (longer.mean() < 0.5, f"{longer.sum()} of 10 escape"),
@@ -112,7 +111,7 @@ def alone(study: StudyResults) -> Claim:
 def constraint(study: StudyResults) -> Claim:
     ours = study.results["default"]
     return Claim(
-        "constraint", "soft_constraint",
+        "constraint",
         "With one update for four decisions, most agents with the soft constraint alone escape.",
         told(ours, "soft"),
         {
@@ -129,7 +128,7 @@ def constraint(study: StudyResults) -> Claim:
 def forgotten(study: StudyResults) -> Claim:
     ours = study.results["default"]
     return Claim(
-        "forgotten", "learning_from_demonstrations",
+        "forgotten",
         "With one update for four decisions, no agent with the rule's demonstrations alone keeps the way out.",
         told(ours, "demos"),
         {
@@ -144,7 +143,7 @@ def forgotten(study: StudyResults) -> Claim:
 def together(study: StudyResults) -> Claim:
     ours, paper = study.results["default"], study.results["paper"]
     return Claim(
-        "together", "learning_from_demonstrations", "With both aids most agents escape.", told(ours, "bootstrapped"),
+        "together", "With both aids most agents escape.", told(ours, "bootstrapped"),
         {
             TWICE: (share(twice(study, "bootstrapped")) > 0.5, told(twice(study, "bootstrapped"))),
             "faster traps (10.9 m/s)": (
@@ -178,7 +177,7 @@ def ends(study: StudyResults) -> Claim:
     (a, n), (b, m) = lost(ours, "bootstrapped"), lost(lasting, "bootstrapped")
     (c, o), (d, q) = lost(ours, "demos"), lost(lasting, "demos")
     return Claim(
-        "ends", "found_and_kept",
+        "ends",
         "Agents lose the way out more often if the demonstrations end than if they stay.",
         f"with both aids {a} of {n} lose it, against {b} of {m}; with demonstrations alone {c} of {o}, against {d} of "
         f"{q}",
@@ -194,7 +193,7 @@ def clocks(study: StudyResults) -> Claim:
     two = {"soft": cells["2 updates, no demonstrations"], "demos": cells["2 updates, demonstrations by π̃"]}
     few, many = ({m: share(each, m) for m, each in group.items()} for group in (quarter, two))
     return Claim(
-        "clocks", "found_and_kept",
+        "clocks",
         "Which aid alone gets more agents out depends on the updates for each decision and on who demonstrates.",
         f"soft against demonstrations: {10 * few['soft']:.0f} and {10 * few['demos']:.0f} of ten with one update for "
         f"four decisions, {10 * many['soft']:.0f} and {10 * many['demos']:.0f} with two for each",
@@ -224,7 +223,7 @@ def strength(study: StudyResults) -> Claim:
     out = escaping(twice(study, "soft"))
     step = finer("soft")[out].min(), finer("soft, ξ stays at 2").max()
     return Claim(
-        "strength", "soft_constraint",
+        "strength",
         "With a ξ that stays at 2 an agent earns about what the rule earns; with ξ = 200 α those that escape earn more "
         "than twice as much.",
         f"{holds(ours, stays)[1]}; the rule {rule:.0f}",
@@ -249,7 +248,7 @@ def second_trap(study: StudyResults) -> Claim:
 
     other = theirs["PPO alone"], theirs["PPO after cloning"]
     return Claim(
-        "second-trap", "the_second_trap", "PPO alone does not leave the trap; after cloning the rule most agents do.",
+        "second-trap", "PPO alone does not leave the trap; after cloning the rule most agents do.",
         f"after 200,000 decisions alone {out('ppo', 200_000)}; after cloning {out('ppo_cloned', 200_000)}",
         {
             "four times the decisions": (
@@ -273,7 +272,7 @@ def margin(study: StudyResults) -> Claim:
         return few <= 0.1 and many > 0.5, f"without {told(results, 'margin')}; with {told(results, 'margin_soft')}"
 
     return Claim(
-        "margin", "learning_from_demonstrations",
+        "margin",
         "The large-margin loss gets agents out together with the KL, and hardly any without it.", both(ours)[1],
         {words: both(study.results[name]) for words, name in others.items()},
         different(ours.of("margin_soft"), ours.of("margin"), escaping),
@@ -288,7 +287,7 @@ def copies(study: StudyResults) -> Claim:
 
     faster = drive_episodes(rule_policy(CALIBRATED), held_out_seeds(BLOCK, ROADS), CALIBRATED).returns.mean()
     return Claim(
-        "copies", "demonstrations", "Clones of the rule escape, and earn less than the rule itself.",
+        "copies", "Clones of the rule escape, and earn less than the rule itself.",
         f"{told(ours, 'bc')}; the rule {rule:.0f}",
         {
             "faster traps (10.9 m/s)": (
@@ -312,7 +311,7 @@ def sight(study: StudyResults) -> Claim:
         for distance in (200.0, 30.0)
     ]
     return Claim(
-        "sight", "the_rule",
+        "sight",
         "The rule is slow because it sees far: with a sight of 30 m it earns more than twice as much.",
         f"{lesson[0]:.0f} at 200 m, {lesson[1]:.0f} at 30 m",
         {OTHER_ROADS: at(DEFAULT), HALF: at(FINER)},
@@ -332,7 +331,7 @@ def room(study: StudyResults) -> Claim:
         return crashes[1] < crashes[0] / 10, f"{crashes[0]} accidents with t_safe = 1.5 s, {crashes[1]} with 2 s"
 
     return Claim(
-        "room", "the_rule",
+        "room",
         "At a sight of 20 m the rule's accidents come from t_safe = 1.5 s: with 2 s hardly any is left.",
         f"{at(DEFAULT, 1)[1]}, of {ROADS} drives", {OTHER_ROADS: at(DEFAULT), HALF: at(FINER)},
     )  # fmt: skip
@@ -350,7 +349,7 @@ def discount(study: StudyResults) -> Claim:
 
     lesson, other, half, far = at(DEFAULT, 0.8, 1), at(DEFAULT, 0.8), at(FINER, 0.8), at(DEFAULT, 0.99)
     return Claim(
-        "discount", "the_trap",
+        "discount",
         "At the paper's γ = 0.8 the rule's way out is worth less than staying behind, at γ = 0.99 more.",
         f"{lesson[0]:.2f} against {lesson[1]:.2f}; at 0.99 {far[0]:.1f} against {far[1]:.1f}",
         {
@@ -371,7 +370,7 @@ def blind(study: StudyResults) -> Claim:
         return bool(drives.returns.mean() > sac and crash > 10), words
 
     return Claim(
-        "blind", "the_trap",
+        "blind",
         "A plan of 13 actions that looks at nothing earns more than plain SAC's mean agent, and crashes on every tenth "
         "road or more.",
         f"{at(DEFAULT, 1)[1]}; plain SAC {sac:.0f}", {OTHER_ROADS: at(DEFAULT), HALF: at(FINER)},
@@ -388,7 +387,7 @@ def ahead(study: StudyResults) -> Claim:
     before, after = "ppo_cloned, alone", "ppo_cloned, rollouts"
     more, wrong = "ppo_cloned, shield, 10000 roads", "ppo_cloned, rollouts, others keep speed and lane"
     return Claim(
-        "ahead", "looking_ahead",
+        "ahead",
         "With the right model, looking ten seconds ahead before each decision leaves PPO after cloning hardly an "
         "accident.",
         f"alone {crashes(before)}; looking ahead {crashes(after)}; it earns "
@@ -406,7 +405,13 @@ def ahead(study: StudyResults) -> Claim:
     )  # fmt: skip
 
 
-CLAIMS = (
-    alone, discount, blind, sight, room, copies, constraint, strength, forgotten, together, margin, ends, clocks,
-    second_trap, ahead,
-)  # fmt: skip
+CLAIMS = {  # by the lesson in which a reader meets them
+    "the_trap": (alone, discount, blind),
+    "the_rule": (sight, room),
+    "demonstrations": (copies,),
+    "soft_constraint": (constraint, strength),
+    "learning_from_demonstrations": (forgotten, together, margin),
+    "found_and_kept": (ends, clocks),
+    "the_second_trap": (second_trap,),
+    "looking_ahead": (ahead,),
+}

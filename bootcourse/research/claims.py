@@ -14,7 +14,6 @@ class Claim:
     """One sentence. It stands as long as all attempts to refute it have failed."""
 
     name: str
-    lesson: str  # the lesson in which a reader meets it
     sentence: str
     evidence: str
     stress: dict[str, tuple[bool, str]]  # {what was tried: (it still holds, what was seen)}
@@ -33,15 +32,17 @@ def section(made: list[Claim]) -> list[str]:
     adjusted = dict(zip((claim.name for claim in compared), holm([claim.p for claim in compared]), strict=True))
     text = ["## What we claim, and what it survived\n", HEAD.format(claims=len(made), compared=len(compared))]
     for claim in made:
-        text += [f"### {claim.sentence}\n", f"*Evidence:* {claim.evidence}.\n"]
-        rows = [[what, "holds" if holds else "**falls**", seen] for what, (holds, seen) in claim.stress.items()]
-        text.append(tables.markdown(["tried", "", "seen"], rows))
-        if claim.name in adjusted:
-            text.append(f"Fisher's p, adjusted by Holm: {adjusted[claim.name]:.2g}.\n")
-        text += [f"{words}\n" for words in claim.also]
-        if not claim.stands:
-            text.append("**Not all of it holds: take it as an open question.**\n")
+        text += [f"### {claim.sentence}\n", *of_claim(claim, adjusted.get(claim.name))]
     return text
+
+
+def of_claim(claim: Claim, adjusted: float | None = None) -> list[str]:
+    """Its evidence, and what was tried to refute it. adjusted: Holm's p value, where groups of agents are compared."""
+    rows = [[what, "holds" if holds else "**falls**", seen] for what, (holds, seen) in claim.stress.items()]
+    text = [f"*Evidence:* {claim.evidence}.\n", tables.markdown(["tried", "", "seen"], rows)]
+    text += [f"Fisher's p, adjusted by Holm: {adjusted:.2g}.\n"] if adjusted is not None else []
+    text += [f"{words}\n" for words in claim.also]
+    return text + ["**Not all of it holds: take it as an open question.**\n"] * (not claim.stands)
 
 
 HEAD = """These {claims} sentences are the ones to repeat. Each was attacked: with twice the episodes, other seeds and

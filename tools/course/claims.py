@@ -13,6 +13,8 @@ from pathlib import Path
 
 from tools.course.numbering import LESSON_FOLDERS
 from tools.course.source import CLAIM, NUMBER, Cell, lesson_of, read, sources, title
+from tools.course.stressed import HEAD as HEAD_OF_LAST
+from tools.course.stressed import survived
 
 HEAD = """# Where the numbers come from
 
@@ -28,6 +30,7 @@ def filled(path: Path) -> list[Cell]:
     cells, lesson = read(path), lesson_of(path)
     check_claims("\n".join(cell.text for cell in cells), lesson)
     both = ((cell, fill_in(cell.text, lesson)) for cell in cells)
+    both = ((cell, text + survived(lesson) * text.startswith(HEAD_OF_LAST)) for cell, text in both)
     return [cell if cell.is_code else replace(cell, student=text, solved=text) for cell, text in both]
 
 
