@@ -21,14 +21,15 @@ def discount() -> Explorable:
 
     def draw(gamma: float) -> Drawing:
         out, behind = (np.cumsum(gamma**times * rewards) for rewards in (escape, stay))
-        better = "The way out is worth more" if out[-1] > behind[-1] else "Staying is worth more"
+        better = "the way out is worth more" if out[-1] > behind[-1] else "staying is worth more"
         named = {
             f"the rule's way out: {out[-1]:.2f} in all": Curve(out[:SECONDS], style("rule").colour),
             f"staying behind: {behind[-1]:.2f} in all": Curve(behind[:SECONDS], style("idle").colour, "--"),
         }
         what = "sum of the rewards until then, each × γ to the power of its second"
         axes = Axes("second of the drive", what, (0.0, 1.15 * float(max(out[SECONDS], behind[SECONDS]))))
-        return curves(f"γ = {gamma:g}: {better}.", axes, times[:SECONDS], named)
+        says = f"γ = {gamma:g}: {better}, at the start of the drive."
+        return curves(says, axes, times[:SECONDS], named)
 
     gamma = Number("γ", 0.8, 0.5, 1, 0.01, "What a reward one second later is worth, as a share of one now.")
     return Explorable("What is the way out worth at its start?", draw, gamma=gamma)
