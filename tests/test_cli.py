@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from bootcourse.cli.driving import Driver, alike
+from bootcourse.course.lessons import LESSONS
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for
@@ -22,6 +23,7 @@ from bootcourse.storage.runs import load_run
 from bootcourse.storage.work import locked
 from tests.waiting import until
 
+LAST = len(LESSONS) - 1  # the number of the last lesson
 COMMAND = [sys.executable, "-m", "bootcourse"]
 
 
@@ -115,7 +117,10 @@ REFUSED = {
     "a folder that is not there": (["evaluate", "runs/nope"], "'runs/nope' is unknown"),
     "the folder above the runs": (["evaluate", "deep"], "deep holds no run itself: name a folder in it, such as deep/"),
     "a study among runs": (["study", "--out", "deep/runs"], "deep/runs holds runs of `bootcourse train`: choose"),
-    "a lesson that is not there": (["handout", "new", "--lessons", "4-99"], "there is no lesson 99, the last is 19."),
+    "a lesson that is not there": (
+        ["handout", "new", "--lessons", "4-99"],
+        f"there is no lesson 99, the last is {len(LESSONS) - 1}.",
+    ),
     "no rollout": (["replay", "full/file.txt", "--text"], "file.txt is not a rollout: record one with"),
     "a held-out block that does not exist": (["evaluate", "rule", "--seed", "5000"], "seed = 5000"),
     "a rollout that exists": (["drive", "rule", "--out", "full/file.txt"], "exists already"),
