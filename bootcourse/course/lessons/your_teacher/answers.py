@@ -28,6 +28,18 @@ def nothing_in_the_free_lane(cars, scenario):
         return the_course_s(cars, scenario)
 
 
+@wrong("my_rule", "on 1 it collides")
+def at_a_place_of_its_own(cars, scenario):
+    """Changes lane where it has come 60 m and 120 m far, whatever is beside it."""
+    lane = int(cars[EGO, LANE])
+    gap, speed = teacher.ahead(cars, lane, scenario)
+    if lane == 0:
+        return teacher.toward(cars, 15.0 if gap > 25 else min(15.0, speed - 0.5), 0, scenario)
+    beside = teacher.ahead(cars, lane - 1, scenario)[1]
+    goes = abs(cars[EGO, Y] - 4 * lane) < 0.5 and cars[EGO, X] > 60 * (3 - lane)
+    return teacher.toward(cars, min(speed, beside, 14.0) - 1.5, lane - goes, scenario)
+
+
 @right("my_rule")
 def late_and_slow(cars, scenario):
     """Waits until 12 m are free ahead on the left, and keeps 30 m distance there; whole numbers of NumPy's."""
