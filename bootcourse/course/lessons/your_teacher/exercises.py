@@ -24,7 +24,7 @@ def slow_in_the_free_lane(cars, scenario):
 
 # Of the first 500 roads those that separate. On 141 a rule that drives up to 18 m/s in the free lane has its one
 # accident of 500, on 157 one that changes lane at some x of its own, whatever is beside it. On the others rules fail
-# that drive up to 20 m/s there (11 % of 500), or that see 22 m (5 %). `careful` and the course's rule get out on all 500.
+# that drive up to 20 m/s there (11 % of 500), or that see 22 m (5 %). `careful` and the course's rule get out on all.
 NUMBERS = (4, 18, 27, 31, 51, 61, 62, 65, 72, 126, 133, 141, 151, 157, 161, 178, 198, 201, 233, 283, 310, 374)
 my_rule = exercise(
     "μ(s), a controller of your own in place of Algorithm 1", name="my_rule", minutes=12, difficulty=2,
