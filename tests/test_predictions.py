@@ -134,7 +134,7 @@ def test_the_cell_that_answers_begins_with_what_was_predicted(capsys):
 
 def test_a_card_counts_what_is_done_follows_it_and_says_the_same_after_a_restart(folder):
     asks = ["predict(\n", '    "the_barrier.1", ...)\n', 'predict("the_barrier.2")']
-    (folder / f"{stem('the_barrier')}.ipynb").write_text(json.dumps({"cells": [{"source": asks}]}))
+    (folder / f"{stem('the_barrier')}.ipynb").write_text(json.dumps({"cells": [{"cell_type": "code", "source": asks}]}))
     card, own = progress("the_barrier"), [each for each in registry().values() if each.lesson == stem("the_barrier")]
     assert f"0 of 2 predictions committed, 0 of {len(own)} exercises right" in card.value and not FILE.exists()
     ask(answer="it stays")
@@ -147,3 +147,6 @@ def test_a_card_counts_what_is_done_follows_it_and_says_the_same_after_a_restart
     assert f"1 of {len(registry())} exercises right" in progress().value, "the course"
     (folder / "answers/progress.json").write_text("{")
     assert "progress.json is damaged" in progress("the_barrier").value
+    (folder / "answers/progress.json").unlink()
+    FILE.write_text("{")
+    assert "predictions.json is damaged" in progress("the_barrier").value, "and no traceback in a lesson's first cell"

@@ -9,20 +9,24 @@ from pathlib import Path
 
 import ipywidgets as widgets
 
+from bootcourse import one_per_cell
+from bootcourse.colours import GRID
 from bootcourse.course import predictions
-from bootcourse.course.lessons import LESSONS, registry, stem
+from bootcourse.course.classroom.answers import read_notebook
+from bootcourse.course.lessons import LESSONS, exercises_of, stem
 from bootcourse.course.notebook import beside_the_notebook
 from bootcourse.errors import BootcourseError, check_known
-from bootcourse.files import read_json, write_json
+from bootcourse.files import COPY, read_json, write_json
 from bootcourse.markup import Markup, html
+from bootcourse.methods import style
 
 FILE = Path("answers/progress.json")  # in the folder of the notebooks
-_cards: list["ProgressCard"] = []
 CARD = (
     '<div class="bc-progress" role="status" style="max-width: 560px; font: 13px system-ui">{}'
-    '<div style="height: 4px; background: #E3E7EB; margin-top: 3px">'
-    '<div style="height: 4px; width: {}%; background: #009E73"></div></div></div>'
+    f'<div style="height: 4px; background: {GRID}; margin-top: 3px">'
+    f'<div style="height: 4px; width: {{}}%; background: {style("rule").colour}"></div></div></div>'
 )
+ASKS = r"(?<![\w.])predict\(\s*\"({}\.\d+)"
 
 
 def passed() -> set[str]:
@@ -41,11 +45,10 @@ def note_passed(exercise: str) -> None:
 
 
 def asked_in(lesson: str) -> set[str]:
-    """The predictions that a lesson's notebook asks for; those that are committed where there is no notebook."""
+    """The predictions that a lesson's notebook asks for. Raises BootcourseError for a notebook that cannot be read."""
     file = beside_the_notebook() / f"{stem(lesson)}.ipynb"
-    text = file.read_text(encoding="utf-8", errors="replace") if file.exists() else ""
-    own = set(re.findall(rf'\bpredict\((?:\\n",)?\s*\\?"({lesson}\.\d+)', re.sub(r'\\n",\s*"', "", text)))
-    return own | {name for name in predictions.predictions() if name.startswith(f"{lesson}.")}
+    code = read_notebook(file, COPY).code if file.exists() else []
+    return {name for cell in code for name in re.findall(ASKS.format(lesson), cell.text)}
 
 
 class ProgressCard(widgets.HTML):
@@ -55,7 +58,7 @@ class ProgressCard(widgets.HTML):
         self.lessons = lessons
         super().__init__()
         self.refresh()
-        _cards.append(self)
+        one_per_cell.replace_with(self)
 
     def refresh(self) -> None:
         """Read what is kept, and show it."""
@@ -63,16 +66,16 @@ class ProgressCard(widgets.HTML):
 
     def page(self, kept: bool = True) -> Markup:
         """The card's text; kept: False as somebody sees it who has done nothing yet."""
-        stems = {stem(lesson) for lesson in self.lessons}
-        exercises = [each for each in registry().values() if each.lesson in stems]
-        asked = {name for lesson in self.lessons for name in asked_in(lesson)}
+        exercises = [each for lesson in self.lessons for each in exercises_of(lesson).values()]
         try:
-            done = passed() if kept else set()
-            committed = asked & predictions.predictions().keys() if kept else set()
+            done, known = (passed(), predictions.predictions()) if kept else ((), ())
+            asked = {name for lesson in self.lessons for name in asked_in(lesson)}
         except BootcourseError as error:
             return html('<div class="bc-progress" role="alert">{}</div>', str(error))
+        committed = {name for name in known if name.partition(".")[0] in self.lessons}
+        asked |= committed  # where there is no notebook
         right = [each for each in exercises if each.name in done]
-        left = sum(each.minutes for each in exercises) - sum(each.minutes for each in right)
+        left = sum(each.minutes for each in exercises if each.name not in done)
         where = "This lesson" if len(self.lessons) == 1 else "The course"
         words = f"{where}: {len(committed)} of {len(asked)} predictions committed, {len(right)} of {len(exercises)} "
         words += f"exercises right, {left} minutes of exercises to go." if exercises else "exercises."
@@ -87,8 +90,9 @@ class ProgressCard(widgets.HTML):
 
 def refresh() -> None:
     """Show in the open cards what is kept now."""
-    for card in _cards:
-        card.refresh()
+    for card in one_per_cell.running():
+        if isinstance(card, ProgressCard):
+            card.refresh()
 
 
 def progress(lesson: str | None = None) -> ProgressCard:

@@ -62,8 +62,8 @@ class Registry(Mapping):
 
     def __getitem__(self, name: str) -> "Exercise":
         for lesson in LESSONS:
-            if re.search(rf"\b{re.escape(name)}\b", _text(lesson)) and name in _exercises(lesson):
-                return _exercises(lesson)[name]
+            if re.search(rf"\b{re.escape(name)}\b", _text(lesson)) and name in exercises_of(lesson):
+                return exercises_of(lesson)[name]
         raise KeyError(name)
 
     def __iter__(self) -> Iterator[str]:
@@ -90,7 +90,7 @@ def _text(lesson: str) -> str:
 
 
 @functools.cache
-def _exercises(lesson: str) -> "dict[str, Exercise]":
+def exercises_of(lesson: str) -> "dict[str, Exercise]":
     """The exercises of a lesson."""
     from bootcourse.course.exercise import Exercise  # loads torch, which a lesson's number does not need
 
@@ -105,7 +105,7 @@ def _all() -> dict[str, str]:
     """name -> lesson. Raises ValueError if two exercises have one name."""
     lessons: dict[str, str] = {}
     for lesson in LESSONS:
-        for name in _exercises(lesson):
+        for name in exercises_of(lesson):
             if name in lessons:
                 raise ValueError(f"Two exercises are called {name}: {stem(lessons[name])}, {lesson}")
             lessons[name] = lesson
