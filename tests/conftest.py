@@ -13,6 +13,15 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # a shell ignores Ctrl-C 
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+@pytest.fixture(autouse=True)
+def nothing_stays_open():
+    """Every replay, panel, world and card that a test showed is closed after it."""
+    yield
+    if (register := sys.modules.get("bootcourse.one_per_cell")) is not None:
+        for shown in register.running():
+            shown.close()
+
+
 def drive_road_3(driver, label: str):
     from bootcourse.episodes.record import record
     from bootcourse.scenario import DEFAULT

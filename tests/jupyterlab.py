@@ -72,25 +72,21 @@ class Notebook:
 
     def run_all(self, timeout: float = 120.0) -> None:
         """Run every cell and wait until the kernel is idle. Fails if a cell raised."""
-        self.page.evaluate("jupyterapp.commands.execute('notebook:run-all-cells')")
+        self._run("notebook:run-all-cells", timeout)
+
+    def run_selected(self) -> None:
+        """Run the selected cell, wait until the kernel is idle, and select the next one."""
+        self._run("notebook:run-cell-and-select-next", 60.0)
+
+    def _run(self, command: str, timeout: float) -> None:
+        """Do one of JupyterLab's commands, and wait until no cell runs. Fails if a cell raised."""
+        self.page.evaluate("command => { jupyterapp.commands.execute(command); }", command)
         self.page.wait_for_timeout(300)
         self.page.wait_for_function(
             "() => document.querySelectorAll('.jp-InputPrompt').length > 0 && "
             "![...document.querySelectorAll('.jp-InputPrompt')].some(p => p.innerText.includes('*'))",
             timeout=1000 * timeout,
         )
-        self.no_error()
-
-    def run_selected(self) -> None:
-        """Run the selected cell, wait until the kernel is idle, and select the next one."""
-        self.page.evaluate("() => { jupyterapp.commands.execute('notebook:run-cell-and-select-next'); }")
-        self.page.wait_for_timeout(300)
-        prompts = "[...document.querySelectorAll('.jp-InputPrompt')].some(p => p.innerText.includes('*'))"
-        self.page.wait_for_function(f"() => !{prompts}", timeout=60_000)
-        self.no_error()
-
-    def no_error(self) -> None:
-        """Fails if a cell raised."""
         errors = self.page.locator('.jp-OutputArea-output[data-mime-type="application/vnd.jupyter.error"]')
         assert errors.count() == 0, errors.first.inner_text()
 

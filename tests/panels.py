@@ -12,21 +12,16 @@ import ipywidgets as widgets
 import pytest
 from ipywidgets.widgets.widget import CallbackDispatcher
 
-from bootcourse import one_per_cell
-
 
 @pytest.fixture
 def raise_in_callbacks(monkeypatch):
-    """Callbacks of buttons and of messages raise; every panel of the test is closed after it."""
+    """Callbacks of buttons and of messages raise."""
 
     def call_all(self, *args, **kwargs):
         for callback in list(self.callbacks):
             callback(*args, **kwargs)
 
     monkeypatch.setattr(CallbackDispatcher, "__call__", call_all)
-    yield
-    for shown in one_per_cell.running():
-        shown.close()
 
 
 def from_page(widget: widgets.Widget, **state) -> None:

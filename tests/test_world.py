@@ -26,7 +26,7 @@ def agent():
 
 @pytest.fixture
 def world():
-    """Makes worlds that are closed after the test; `.said` is what Python says to the page."""
+    """Makes worlds; `.said` is what Python says to the page."""
 
     def make(*arguments, **options):
         made = bc.world(*arguments, **options)
@@ -34,9 +34,7 @@ def world():
         made.send = made.said.append
         return made
 
-    yield make
-    for shown in one_per_cell.running():
-        shown.close()
+    return make
 
 
 def driven(world, actions, drive="a 1", over=False, driver="you"):

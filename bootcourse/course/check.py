@@ -72,11 +72,13 @@ def _check(exercise: Exercise, answer: Callable) -> Verdict:
     verdict = judge(exercise, answer)
     if _strict and not verdict.passed:
         raise NotPassed(f"{exercise.name}: {verdict}")
-    if verdict.passed and not _strict and _keeps and this_cell() is not None:
+    if not verdict.passed or _strict:
+        return verdict
+    if _keeps and this_cell() is not None:
         from bootcourse.course.progress import note_passed
 
         note_passed(exercise.name)
-    if verdict.passed and not _strict and (exercise.name in PARTS or "bootcourse.course.own_code" in sys.modules):
+    if exercise.name in PARTS or "bootcourse.course.own_code" in sys.modules:
         from bootcourse.course import own_code
 
         verdict = replace(verdict, footer=own_code.keep(exercise.name, answer))

@@ -35,7 +35,7 @@ UNFOLD = """
     if (!panel.isConnected) { clearInterval(waits); return; }
     if (!panel.querySelector('button')?.disabled) return;
     clearInterval(waits);
-    const asks = cell => cell.querySelector('.cm-content')?.innerText.includes('predict("');
+    const asks = cell => cell.querySelector('.cm-content')?.innerText.match(/\\bpredict\\(/);
     let cell = panel.closest('.jp-Cell')?.nextElementSibling;
     for (; cell && !asks(cell); cell = cell.nextElementSibling) {
       const folded = cell.querySelector('.jp-OutputPlaceholder');

@@ -64,6 +64,11 @@ class ProgressCard(widgets.HTML):
         """Read what is kept, and show it."""
         self.value = self.page()
 
+    def close(self) -> None:
+        """Close the card; nothing changes it any more."""
+        one_per_cell.forget(self)
+        super().close()
+
     def page(self, kept: bool = True) -> Markup:
         """The card's text; kept: False as somebody sees it who has done nothing yet."""
         exercises = [each for lesson in self.lessons for each in exercises_of(lesson).values()]

@@ -10,6 +10,7 @@ import ipywidgets as widgets
 import numpy as np
 
 from bootcourse.colours import INK, QUIET
+from bootcourse.errors import BootcourseError
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.plots.svg import Drawing, SvgAxes, drawing, line, text
@@ -23,14 +24,27 @@ class Explorable(Panel):
     """A picture that `draw` makes of its numbers, anew with each move. `svg` is the picture."""
 
     def __init__(self, title: str, draw: Callable[..., Drawing], **numbers: Number):
-        """draw: takes the values of `numbers` by their names."""
+        """draw: takes the values of `numbers` by their names, each from its slider's low to its high end."""
         self.draw, self.numbers, self.view = draw, numbers, widgets.HTML()
+        for number in numbers.values():
+            number.check = within(number, number.check)
         super().__init__(title, beside(*numbers.values()), self.view)
         self.update_with(*numbers.values())
 
     def update(self, change=None) -> None:
         """Draw the present numbers."""
         self.svg = self.view.value = self.draw(**{name: number.value for name, number in self.numbers.items()})
+
+
+def within(number: Number, also: Callable[[float], object]) -> Callable[[float], None]:
+    """A check that refuses what lies beyond the number's slider, where a picture need not have a meaning."""
+
+    def check(value: float) -> None:
+        if not number.low <= value <= number.high:
+            raise BootcourseError(f"{number.symbol} = {value:g}: give a number from {number.low:g} to {number.high:g}.")
+        also(value)
+
+    return check
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 import torch
 
-from bootcourse.errors import BootcourseError
 from bootcourse.learn import sac
 from bootcourse.methods import style
 from bootcourse.panels.explorable import Axes, Curve, Explorable, bars
@@ -11,11 +10,6 @@ from bootcourse.plots.svg import Drawing
 
 ACTIONS = ("left", "straight", "right")
 AXES = Axes("", "probability of each action", (0.0, 1.0))
-
-
-def above_zero(alpha: float) -> None:
-    if alpha <= 0:
-        raise BootcourseError(f"α = {alpha:g}: give a temperature above 0.")
 
 
 def undecided() -> Explorable:
@@ -35,5 +29,5 @@ def undecided() -> Explorable:
         for name, start in zip(ACTIONS, (0.9, 1.0, 0.5), strict=True)
     }
     help = "The temperature: what one nat of indecision is worth."
-    alpha = Number("α", 0.2, 0.01, 10, 0.05, help, check=above_zero, logarithmic=True)
+    alpha = Number("α", 0.2, 0.01, 10, 0.05, help, logarithmic=True)
     return Explorable("What does an agent do that is paid for being undecided?", draw, alpha=alpha, **values)

@@ -3,7 +3,6 @@
 import numpy as np
 
 from bootcourse.course.lessons.values import chain
-from bootcourse.errors import BootcourseError
 from bootcourse.methods import style
 from bootcourse.panels.explorable import Axes, Curve, Explorable, bars
 from bootcourse.panels.number import Number
@@ -28,12 +27,5 @@ def worths() -> Explorable:
         says = f"γ = {gamma:.2f}: from the trap {back[0]:.2f} against {on[0]:.2f}, {better}."
         return bars(says, AXES, STATES, named)
 
-    gamma = Number("γ", 0.5, 0, 0.8, 0.01, "What a reward one decision later is worth, as a share of one now.",
-                   check=below_one)  # fmt: skip
+    gamma = Number("γ", 0.5, 0, 0.8, 0.01, "What a reward one decision later is worth, as a share of one now.")  # fmt: skip
     return Explorable("What is each state worth?", draw, gamma=gamma)
-
-
-def below_one(gamma: float) -> None:
-    """Refuse a γ with which the sums have no end."""
-    if not 0 <= gamma < 1:
-        raise BootcourseError(f"γ = {gamma:g}: give a discount of 0 or more, below 1.")
