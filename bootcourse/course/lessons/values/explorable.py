@@ -27,5 +27,6 @@ def worths() -> Explorable:
         says = f"γ = {gamma:.2f}: from the trap {back[0]:.2f} against {on[0]:.2f}, {better}."
         return bars(says, AXES, STATES, named)
 
-    gamma = Number("γ", 0.5, 0, 0.8, 0.01, "What a reward one decision later is worth, as a share of one now.")  # fmt: skip
+    help = "What a reward one decision later is worth, as a share of one now."
+    gamma = Number("γ", 0.5, 0, 0.8, 0.01, help)
     return Explorable("What is each state worth?", draw, gamma=gamma)
