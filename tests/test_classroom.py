@@ -25,6 +25,7 @@ from bootcourse.course.classroom.grading import MISSING, Verdicts, handed_out, j
 from bootcourse.course.classroom.pages import write_report
 from bootcourse.course.classroom.sandbox import HOLDS, shut_in
 from bootcourse.course.classroom.submission import Submission, collect, fingerprint, from_notebooks
+from bootcourse.course.exercise import source_of
 from bootcourse.course.judge import judge
 from bootcourse.course.lessons import number, registry, stem
 from bootcourse.course.predictions import FILE
@@ -354,6 +355,25 @@ def test_each_student_is_graded_whatever_the_others_do(graded):
     assert "damaged: not all could be read. damaged.json is damaged" in (graded / "said").read_text()
     endless = (graded / "grades-pages/endless.html").read_text(encoding="utf-8")
     assert ", in line 2, <code>while True:</code>" in endless or ", in line 3, <code>pass</code>" in endless
+
+
+def test_a_probe_that_returns_one_answer_for_each_row_costs_no_other_student(bootcourse, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    imports = "import numpy as np\n"
+    rows = "\n".join(line for line in source_of(registry()["unmasks"].solution).splitlines() if "return" not in line)
+    rows = f"{imports}{rows}\n    return target(reward, demo, 3.0, end, value, 0.5) != right\n"
+    right = imports + source_of(registry()["unmasks"].solution)
+    many = "def unmasks(target):\n    return 20\n"
+    Path("class").mkdir()
+    for student, text in (("ada", right), ("by row", rows), ("how many", many)):
+        Path(f"class/{student}.json").write_text(json.dumps(submission(answers={"unmasks": text})))
+    lesson = str(number(registry()["unmasks"].lesson.partition("_")[2]))
+    assert bootcourse("grade", "class", "--lessons", lesson, "--workers", "1").status == 0
+    table = Path("grades.csv").read_text(encoding="utf-8-sig").splitlines()
+    points = {row["id"]: float(row["unmasks"]) for row in csv.DictReader(table)}
+    assert points["ada"] > 0 and points["by row"] == points["how many"] == 0
+    said = [Path(f"grades-pages/{student}.html").read_text(encoding="utf-8") for student in ("by row", "how many")]
+    assert all("Your function returns" in page or "Your probe returns" in page for page in said), said
 
 
 def test_the_page_about_the_class_says_what_to_look_at_and_escapes_what_students_wrote(graded):

@@ -75,7 +75,7 @@ def soft_value(log_pi, q, alpha):
 
 
 def target_cases(rng):
-    """All ended, none ended, a batch of one, γ = 1 and γ = 0; values of training, up to 200; then 60 at random."""
+    """All ended, none ended, a batch of one, γ = 1 and γ = 0; values of training, and up to 600; then 60 at random."""
 
     def batch(size, ended, gamma, scale=3.0):
         reward, value = torch.tensor(rng.normal(0, scale, (2, size)))
@@ -83,7 +83,7 @@ def target_cases(rng):
 
     yield from (batch(4, 1.0, 0.8), batch(4, 0.0, 0.8), batch(1, 0.0, 0.9), batch(3, 0.5, 1.0), batch(3, 0.5, 0.0))
     yield torch.tensor([0.16, -10.0, 1.0, -1.0]), torch.tensor([0.0, 1, 0, 0]), torch.tensor([-54.0, 5, 200, -200]), 0.8
-    yield from (batch(8, 0.4, 0.99, scale=60.0), batch(8, 0.4, 0.8, scale=20.0))
+    yield from (batch(8, 0.4, 0.99, scale=60.0), batch(8, 0.4, 0.8, scale=20.0), batch(8, 0.4, 0.99, scale=300.0))
     yield from (batch(rng.integers(1, 7), 0.4, rng.uniform(0.1, 0.99)) for _ in range(60))
 
 

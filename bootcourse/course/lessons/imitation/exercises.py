@@ -93,5 +93,8 @@ imitation_reward = exercise(
         "return torch.log(1 + torch.exp(own_logits))":
             "This is right on paper, but in float32 e^x is infinite (and σ(-x) is 0) from x = 89 on, so your reward is "
             "infinite there. `softplus` computes log (1 + e^x) safely.",
+        "return -torch.log(1 - torch.sigmoid(own_logits) + 1e-8)":
+            "Your reward stops growing where the discriminator is certain: what you add inside the logarithm is then "
+            "larger than 1 - D. `softplus` computes log (1 + e^x), the same, and needs no such number.",
     },
 )(gail.imitation_reward)  # fmt: skip

@@ -13,10 +13,11 @@ def q_cases(rng):
     q = torch.zeros(4, 9)
     q[0, 2], q[1, 2], q[2, 2] = 3.0, 0.4, -1.0
     yield q, torch.full((4,), 2)
-    level = torch.zeros(3, 9)
-    level[:, [1, 5]] = torch.tensor([[2.0, 2.0], [2.0, 2.0 - 1e-5], [2.0 - 1e-5, 2.0]])
-    yield level, torch.full((3,), 5)
-    yield level + 198, torch.full((3,), 5)
+    for less in (1e-5, 2.0**-23):  # 2 - 2⁻²³ is the float32 before 2
+        level = torch.zeros(3, 9)
+        level[:, [1, 5]] = torch.tensor([[2.0, 2.0], [2.0, 2.0 - less], [2.0 - less, 2.0]])
+        yield level, torch.full((3,), 5)
+        yield level + 198, torch.full((3,), 5)
     yield torch.tensor([[-200.0, 200.0, 0.0], [-43.0, -12.0, -60.0], [200.0, -200.0, 199.5]]), torch.tensor([0, 0, 0])
     yield torch.tensor([[0.3, -0.2, 0.1]]), torch.tensor([1])
     yield torch.tensor([[-5.0, -7.0, -6.0], [-5.0, -7.0, -6.0]]), torch.tensor([0, 1])

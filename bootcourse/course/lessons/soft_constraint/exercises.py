@@ -226,7 +226,7 @@ def target_cases(rng):
 
     yield from (case(4, ended=1.0), case(4, ended=0.0), case(3, xi=0.0), case(3, alpha=0.0), case(1, ended=0.0))
     yield case(9)
-    yield from (case(6, scale=100.0), case(6, scale=30.0, most=12.0), case(6, xi=10.0, most=12.0), case(6, alpha=10.0))
+    yield from (case(6, scale=300.0), case(6, scale=30.0, most=12.0), case(6, xi=10.0, most=12.0), case(6, alpha=10.0))
     yield from (case(6, alpha=1e-4, xi=0.002, scale=0.01), case(6, alpha=0.002, xi=0.0, scale=0.01))
     reward, terminated, _, q_pair, kl, *numbers = case(2, ended=0.0)
     yield reward, terminated, torch.cat([sure(3, -120.0), sure(0, -120.0)]), q_pair, kl, *numbers

@@ -14,7 +14,7 @@ def speed_cases(rng):
         yield v_current, v_new, 6.0, 15.0, 5
     yield 16.0, 14.9, 6.0, 15.0, 2
     for v in (6.0, 8.25, 15.0):  # just above and just below a speed of the grid
-        yield from ((v + near, 20.0, 6.0, 15.0, 5) for near in (0.001, -0.001))
+        yield from ((v + near, 20.0, 6.0, 15.0, 5) for near in (0.001, -0.001, 1e-6, -1e-6))
     for _ in range(60):
         low = rng.uniform(3, 8)
         yield *rng.uniform(4, 18, 2), low, low + rng.uniform(3, 10), rng.integers(2, 9)
@@ -58,7 +58,7 @@ def target_speed(v_current, v_new, v_min, v_max, n):
 def distance_cases(rng):
     """No car ahead, equal speeds, closing in on one of the two only, by far and by little; then 60 at random."""
     yield from ((12.0, v_current, v_new, 2.0, 3.0) for v_current, v_new in ((INF, INF), (10.0, INF), (INF, 9.0)))
-    yield 10.0, 10.0, 10.0, 2.0, 3.0
+    yield from ((10.0, 10.0, 10.0, 2.0, 3.0), (55.0, 4.0, 6.0, 4.0, 3.0))
     yield from ((30.0, 5.0, 6.0, 4.0, 3.0), (30.0, 29.0, 30.0, 4.0, 0.0), (12.0, 10.0, 11.0, 1.5, 2.999))
     yield from ((15.0, v_current, v_new, 2.5, 4.0) for v_current, v_new in ((8.0, 14.0), (14.0, 8.0)))
     yield from (rng.uniform([5, 5, 5, 0.5, 1], [20, 20, 20, 4, 8]) for _ in range(60))
@@ -111,7 +111,7 @@ def change_cases(rng):
     yield INF, 11.1, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0
     yield INF, 6.8, 5.0, 3.0, 8.0, 10.0, 1.0, 1.5  # 1.8 m behind: more than the floor, and it closes in 2 m
     yield INF, 9.2, 5.0, 3.0, 8.0, 12.0, 1.0, 4.5  # 4.2 m behind: it closes in 4 m, less than the floor
-    for near in (0.001, -0.001):  # a millimetre more than needed, or less: ahead, behind, behind at the floor
+    for near in (0.001, -0.001, 1e-6, -1e-6):  # a little more than needed, or less: ahead, behind, at the floor
         yield 8.0 + near, INF, 5.0, 3.0, 8.25, 0.0, 1.5, 3.0
         yield INF, 11.0 + near, 5.0, 3.0, 8.0, 12.0, 1.5, 3.0
         yield INF, 8.0 + near, 5.0, 3.0, 8.25, 8.0, 1.5, 3.0

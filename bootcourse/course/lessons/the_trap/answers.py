@@ -126,6 +126,10 @@ wrong_lines("""find_plan
             plan = trials[gets_out(trials).argmax()]
         plan
     a generator of its own: plans = np.random.default_rng().integers(3, 6, (20_000, 8))
+        plans[gets_out(plans)][0]  # draws none with `rng`
+    the same plans again and again: plans = np.random.default_rng(0).integers(3, 6, (20_000, 8))
+        plans[gets_out(plans)][0]  # draws none with `rng`
+    half of it without the generator: plans = np.random.default_rng().integers(3, 6, (20_000, 8)); rng.random()
         plans[gets_out(plans)][0]  # Two equal generators give different plans
     many plans: plans = rng.integers(3, 6, (6000, 8)); plans[gets_out(plans)]  # one plan is (8,)
     one plan alone: gets_out(rng.integers(3, 6, 8))  # takes many at once

@@ -162,6 +162,7 @@ def locks(rng):
 MANY = 100_000  # actions
 TOGETHER = np.array([1, 2, 1, 1, 2, 2, 1, 2])  # how much each second steers, where all decide together
 NOT_AGAIN = "Two equal generators give different plans: draw with `rng`, so that a search can be repeated."
+NOT_DRAWN = "Your planner asks about some plans twice and draws none with `rng`: draw with the generator it is given."
 
 
 def found_on(answer, seconds, actions, rest):
@@ -172,7 +173,10 @@ def found_on(answer, seconds, actions, rest):
     """
     asked = {3: 0, 4: 0, 5: 0}  # how often each action stood in a plan
 
+    asked_twice, known = False, np.zeros(3**8, dtype=bool)  # by the plan's number
+
     def gets_out(plans):
+        nonlocal asked_twice
         plans = np.asarray(plans)
         if plans.ndim != 2 or plans.shape[1] != 8:
             raise NotAsAsked(f"You asked about plans of shape {plans.shape}: `gets_out` takes many at once, (n, 8).")
@@ -184,11 +188,20 @@ def found_on(answer, seconds, actions, rest):
             missing = min(asked, key=asked.get)
             raise NotAsAsked(f"None of your plans holds action {missing}. `rng.integers(low, high)` leaves out `high`: "
                              "3, 4 and 5 are `rng.integers(3, 6)`.")  # fmt: skip
+        numbers = (plans.astype(int) - 3) @ 3 ** np.arange(8)
+        asked_twice |= bool(known[numbers].any()) or len(np.unique(numbers)) < len(numbers)
+        known[numbers] = True
         out = (plans[:, list(seconds)] == actions).all(axis=1)
         return out if rest is None else out & (plans @ TOGETHER % 3 == rest)
 
     def planned():
-        plan = answer(gets_out, np.random.default_rng(0))
+        nonlocal asked_twice
+        asked_twice, known[:] = False, False
+        rng = np.random.default_rng(0)
+        before = str(rng.bit_generator.state)
+        plan = answer(gets_out, rng)
+        if asked_twice and str(rng.bit_generator.state) == before:  # who asks about each plan once needs no generator
+            raise NotAsAsked(NOT_DRAWN)
         if plan is None:
             return None
         plan = np.asarray(plan)
