@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+import torch
 from gymnasium.vector import AutoresetMode
 
 from bootcourse.learn import compiled_training, records
 from bootcourse.learn.compiled_training import MU, NEXT_MU, TERMINATED, A, R
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.settings import settings_for
+from bootcourse.learn.training import Training
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import CALIBRATED, DEFAULT
@@ -81,6 +83,38 @@ def test_a_batch_has_a_share_beta_of_demonstrations_drawn_evenly_from_all_rows(f
     demonstrations, own = np.stack(drawn)[:, :share], np.stack(drawn)[:, share:]
     assert set(own.ravel()) == set(100.0 + np.arange(70))
     assert set(demonstrations.ravel()) == (set(np.arange(50.0)) if share else set())
+
+
+class SplitMix:
+    """The random numbers of the compiled training in place of a NumPy generator."""
+
+    def __init__(self, run: np.ndarray):
+        self.run = run.copy()
+
+    def random(self, count: int) -> np.ndarray:
+        return np.array([compiled_training.uniform(self.run[0]) for _ in range(count)])
+
+
+@pytest.mark.parametrize("method", ["sac", "soft", "demos", "bootstrapped"])
+def test_with_the_same_random_numbers_the_library_s_loop_drives_and_learns_the_same(method):
+    """On one road both loops draw in the same order: an action, a new road at an episode's end, a batch."""
+    fades = {"beta_episodes": 40} if method in ("demos", "bootstrapped") else {}
+    settings = settings_for(method, seed=5, envs_per_agent=1, **fades)
+    compiled, rows = Under(settings, episodes=80), None
+    if settings.needs_demonstrations:
+        rows = torch.from_numpy(compiled.demonstrate(200).copy())
+    ours = Training([settings], episodes=80, learner="compiled", demonstrations=rows)
+    ours.learner.records[:] = compiled.agent
+    ours.env.cars[0] = compiled.run["cars"][0, 0]
+    ours.states = ours.env.observe()
+    ours.rule_actions = ours.taught()
+    ours.act_rngs = ours.sample_rngs = ours.env._generators = [SplitMix(compiled.run)]
+    curves = ours.run(progress=False).curves
+    while compiled.run["finished"][0] < 80:
+        compiled.advance(100)
+    assert ours.updates == compiled.run["updates"][0] > 100
+    for column, name in enumerate(NAMES):
+        np.testing.assert_allclose(curves[name][0], compiled.curves["values"][0, :80, column], rtol=1e-4, atol=1e-5)
 
 
 def test_the_same_seed_gives_the_same_training_and_another_seed_another():

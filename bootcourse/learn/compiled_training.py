@@ -294,9 +294,8 @@ def plan_of(settings: Settings, episodes: int) -> np.ndarray:
 def train(settings: Settings, episodes: int = 1000, scenario: Scenario = DEFAULT) -> Trained:
     """Train one agent on the trap, taught by the course's rule.
 
-    Its curves are not those of `Training` with this seed, whose random numbers are others. Plain SAC, the soft
-    constraint and both aids agree in the mean. With demonstrations alone more of these agents keep the way out (5 of
-    ten in `bootcourse study stress`, 0 of ten in the study); the cause is not known.
+    Its curves are not those of `Training` with this seed, whose random numbers are others. With the same random
+    numbers on one road both loops drive and learn the same (tests/test_compiled_training.py).
     Raises BootcourseError for settings that the compiled learner does not accept, and for a scenario of another size.
     """
     same = (scenario.vehicles, scenario.road.lanes, scenario.observation_size, scenario.clock.decisions)

@@ -58,7 +58,7 @@ def printed(expression: str, form: str | None, lesson: str) -> str:
     result = value(expression := " ".join(expression.split()), lesson)
     form = form or ("g" if isinstance(result, float) else "")
     try:
-        return format(result, form).replace("-", "−")
+        return re.sub(r"(?<!\w)-(?=[\d.])", "−", format(result, form))
     except (TypeError, ValueError) as error:
         raise ValueError(f"`{expression}` cannot be printed as {form} ({error})") from error
 

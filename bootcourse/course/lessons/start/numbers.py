@@ -2,29 +2,53 @@
 
 import re
 
+from bootcourse.course.lessons import COURSE, ELECTIVES
 from tools.course.known import code_of, minutes, talk
+from tools.course.numbering import resolved
 
-ROUTES = ("evening", "week", "researcher")  # the table's columns
-ALL, READ, PICTURE, KNOWN = "●", "◐", "picture", "known"  # what a route has of a lesson
+ALL, READ, PICTURE, KNOWN = (
+    "",
+    "the text, without the exercises",
+    "the picture at its beginning",
+    "known",
+)
+SAC = dict.fromkeys(("values", "discrete_sac", "update_and_loop"), KNOWN)
+ROUTES = {  # {lesson: what a route has of it}, in their order
+    "evening": {"the_trap": ALL, "discrete_sac": PICTURE, "the_barrier": ALL},
+    "week": dict.fromkeys(
+        (*COURSE[1:], "imitation", "offline_learning", "bug_hunt", "your_teacher"), ALL
+    ),
+    "researcher": dict.fromkeys((*COURSE[1:], *ELECTIVES), ALL)
+    | SAC
+    | dict.fromkeys(("the_trap", "the_rule", "demonstrations", "your_teacher"), READ),
+}
 
 
-def marks(route: str) -> dict[str, str]:
-    """{lesson: what a route has of it}, as this lesson's table says."""
-    rows = re.findall(r"^# \| \[\[(\w+)\]\](.*)\|$", code_of("start"), re.M)
-    cells = {name: row.split("|")[1 + ROUTES.index(route)].strip() for name, row in rows}
-    return {name: mark for name, mark in cells.items() if mark in (ALL, READ, PICTURE, KNOWN)}
+def time_of(lesson: str, part: str) -> int:
+    """The minutes that a part of a lesson takes."""
+    return {ALL: minutes, READ: talk, PICTURE: lambda name: 5, KNOWN: lambda name: 0}[part](lesson)
 
 
-def long(route: str) -> int:
-    """The minutes of a route: of a lesson that is read, those without its exercises; 5 for a picture."""
-    each = {ALL: minutes, READ: talk, PICTURE: lambda name: 5, KNOWN: lambda name: 0}
-    return minutes("start") + sum(each[mark](name) for name, mark in marks(route).items())
+def hours(route: str) -> str:
+    """The hours of a route, this page included."""
+    return f"{(minutes('start') + sum(time_of(*each) for each in ROUTES[route].items())) / 60:.1f}"
+
+
+def way(route: str) -> str:
+    """The lessons of a route with their times, as a list."""
+    rows = [
+        f"* [[{name}]] · []({name}.ipynb), {time_of(name, part)} minutes" + f": {part}" * (part != ALL)
+        for name, part in ROUTES[route].items() if part != KNOWN
+    ]  # fmt: skip
+    return resolved("\n".join(rows))
 
 
 def missing(route: str) -> list[tuple[str, str]]:
     """Lessons that one of the route's needs, as it says at its top, and that the route has nothing of."""
-    taken, needed = marks(route), []
-    for name in (name for name, mark in taken.items() if mark == ALL):
+    taken, needed = ROUTES[route], []
+    for name in (name for name, part in taken.items() if part == ALL):
         time = re.search(r"\*\*Time\*\*.*?(?=\n#\n|\n\n)", code_of(name), re.S)[0]
-        needed += [(name, other) for other in re.findall(r"\[\[(\w+)\]\]", time) if other != "start"]
+        needed += [
+            (name, other) for other in re.findall(r"\[\[(\w+)\]\]", time) if other != "start"
+        ]
     return [(name, other) for name, other in needed if other not in taken]
