@@ -6,6 +6,7 @@ the paper leaves open, somebody else's learner, other roads, half the time step.
 """
 
 import contextlib
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -19,11 +20,13 @@ from bootcourse.research.claims import Claim
 from bootcourse.research.computed import StudyResults
 from bootcourse.research.experiments.stress import FINER
 from bootcourse.research.results import Results
-from bootcourse.scenario import CALIBRATED, DEFAULT, Scenario
+from bootcourse.scenario import CALIBRATED, DEFAULT, N_ACTIONS, Scenario
 from bootcourse.statistics import ESCAPES
 
 TWICE = "other seeds, another implementation of the learner, twice the episodes"
 OTHER_ROADS, HALF = "200 other roads", "half the time step"
+FOUR = "4 updates, no demonstrations"  # a cell of the experiment with the clocks
+HEAD_START = 200 / 201 * math.log(0.9 / (0.1 / (N_ACTIONS - 1)))  # of the rule's action, with p = 0.9 and ξ = 200 α
 BLOCK, ROADS = 9, 200  # held-out roads that no lesson and no study uses
 BLIND = [("keep right", 1), ("keep left", 4), ("keep right", 3), ("accelerate straight", 5)]
 
@@ -121,22 +124,25 @@ def constraint(study: StudyResults) -> Claim:
             ),
         },
         different(ours.of("soft"), ours.of("sac"), escaping),
-        ["With four updates for each decision none of ten escapes: see the claim on the two clocks."],
+        [f"With four updates for each decision {told(study.experiments['clocks'][FOUR], 'soft')}."],
     )  # fmt: skip
 
 
 def forgotten(study: StudyResults) -> Claim:
-    ours = study.results["default"]
+    def fewer(results: Results, both: Results) -> tuple[bool, str]:
+        return share(results, "demos") < share(both, "bootstrapped"), told(results, "demos")
+
+    ours, faster = study.results["default"], study.results["calibrated"]
     return Claim(
         "forgotten",
-        "With one update for four decisions, no agent with the rule's demonstrations alone keeps the way out.",
-        told(ours, "demos"),
+        "With one update for four decisions, fewer agents escape with demonstrations alone than with both aids.",
+        f"{told(ours, 'demos')}; with both aids {told(ours, 'bootstrapped')}",
         {
-            TWICE: (share(twice(study, "demos")) == 0, told(twice(study, "demos"))),
-            "faster traps (10.9 m/s)": (
-                share(study.results["calibrated"], "demos") == 0, told(study.results["calibrated"], "demos")
-            ),
+            TWICE: fewer(twice(study, "demos"), twice(study, "bootstrapped")),
+            "faster traps (10.9 m/s)": fewer(faster, faster),
         },
+        different(ours.of("demos"), ours.of("bootstrapped"), escaping),
+        ["Withdrawn: that none keeps the way out. It held for the study's ten agents, and fell with the other ten."],
     )  # fmt: skip
 
 
@@ -174,16 +180,15 @@ def ends(study: StudyResults) -> Claim:
         return words(twice(study, method), twice(study, f"{method}, β for ever"), method)
 
     ours = study.results["default"]
-    (a, n), (b, m) = lost(ours, "bootstrapped"), lost(lasting, "bootstrapped")
+    both = "; ".join([words(ours, lasting, "bootstrapped")[1], f"of the other agents {at_twice('bootstrapped')[1]}"])
     (c, o), (d, q) = lost(ours, "demos"), lost(lasting, "demos")
     return Claim(
         "ends",
-        "Agents lose the way out more often if the demonstrations end than if they stay.",
-        f"with both aids {a} of {n} lose it, against {b} of {m}; with demonstrations alone {c} of {o}, against {d} of "
-        f"{q}",
-        {f"both aids: {TWICE}": at_twice("bootstrapped"), f"demonstrations alone: {TWICE}": at_twice("demos")},
-        float(fisher_exact([[a + c, n + o - a - c], [b + d, m + q - b - d]]).pvalue),
-        ["With β for ever the return stays low: 68 with both aids, because the rule is slow."],
+        "With demonstrations alone, agents lose the way out more often if the demonstrations end than if they stay.",
+        words(ours, lasting, "demos")[1],
+        {TWICE: at_twice("demos")},
+        float(fisher_exact([[c, o - c], [d, q - d]]).pvalue),
+        [f"Withdrawn: that the same holds with both aids. There {both}."],
     )  # fmt: skip
 
 
@@ -231,7 +236,7 @@ def strength(study: StudyResults) -> Claim:
             TWICE: holds(twice(study, "soft"), twice(study, "soft, ξ stays at 2")),
             HALF: (bool(step[0] > 2 * rule and step[1] < 1.1 * rule), f"at least {step[0]:.0f}, at most {step[1]:.0f}"),
         },
-        also=["The rule's head start in the logits stays 4.26; the temperature 201 α is what fades."],
+        also=[f"The rule's head start in the logits stays {HEAD_START:.2f}; the temperature 201 α is what fades."],
     )  # fmt: skip
 
 

@@ -12,6 +12,7 @@ from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
+from bootcourse.research.experiments import stress as study_stress  # noqa: F401 (the text names it)
 from bootcourse.research.results import Results
 from bootcourse.rule import stochastic_rule
 from bootcourse.statistics import ESCAPES
@@ -34,6 +35,11 @@ def rule_actions() -> float:
 def ablations() -> dict[str, Results]:
     """The ten agents of each method with one choice of the method changed, by what was changed."""
     return shipped_experiment("ablations")
+
+
+def others(method: str, stays: bool = False) -> Results:
+    """Ten other agents, with other seeds. stays: β does not end."""
+    return shipped_experiment("stress")[f"{method}, β for ever" if stays else method]
 
 
 class Counted(NamedTuple):

@@ -15,9 +15,7 @@ ALL, READ, PICTURE, KNOWN = (
 SAC = dict.fromkeys(("values", "discrete_sac", "update_and_loop"), KNOWN)
 ROUTES = {  # {lesson: what a route has of it}, in their order
     "evening": {"the_trap": ALL, "discrete_sac": PICTURE, "the_barrier": ALL},
-    "week": dict.fromkeys(
-        (*COURSE[1:], "imitation", "offline_learning", "bug_hunt", "your_teacher"), ALL
-    ),
+    "week": dict.fromkeys((*COURSE[1:], "imitation", "offline_learning", "bug_hunt", "your_teacher"), ALL),
     "researcher": dict.fromkeys((*COURSE[1:], *ELECTIVES), ALL)
     | SAC
     | dict.fromkeys(("the_trap", "the_rule", "demonstrations", "your_teacher"), READ),
@@ -48,7 +46,5 @@ def missing(route: str) -> list[tuple[str, str]]:
     taken, needed = ROUTES[route], []
     for name in (name for name, part in taken.items() if part == ALL):
         time = re.search(r"\*\*Time\*\*.*?(?=\n#\n|\n\n)", code_of(name), re.S)[0]
-        needed += [
-            (name, other) for other in re.findall(r"\[\[(\w+)\]\]", time) if other != "start"
-        ]
+        needed += [(name, other) for other in re.findall(r"\[\[(\w+)\]\]", time) if other != "start"]
     return [(name, other) for name, other in needed if other not in taken]

@@ -39,8 +39,7 @@ progress()
 predict("start.1", "How many attempts until you are ahead of trap 1?", unit="attempts")
 
 # %% tags=["nbval-ignore-output"]
-mine = bc.world(road=10, ghosts=[])
-mine
+(mine := bc.world(road=10, ghosts=[]))
 
 # %% [markdown]
 # Not out after five attempts? Choose *the rule* as a **ghost**, a faint car that drives the same
@@ -56,7 +55,8 @@ mine
 
 # %% tags=["nbval-ignore-output"]
 def on_this_road(method):
-    return [bc.record(agent, [10], label=method)[0] for agent in bc.shipped_agents(method)]
+    policies = [agent.as_policy() for agent in bc.shipped_agents(method)]
+    return [bc.record(policy, [10], label=method)[0] for policy in policies]
 
 
 stays = next(drive for drive in on_this_road("sac") if not drive.success)
