@@ -14,7 +14,7 @@ from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import CRASHED, EGO, HEADING, SPEED, TRAP_1, Accident, X, Y
 from bootcourse.rule import stochastic_rule
-from bootcourse.scenario import CALIBRATED, DEFAULT, Clock
+from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, Clock
 from tests.replays import SHORT, thinking
 
 
@@ -106,6 +106,19 @@ def test_the_numbers_are_those_of_the_rollout(rule_drive):
     policy, rule = rollout.policy[7], stochastic_rule(rollout.rule_actions[7], 0.9)
     assert f"KL(π‖π̃) = {(policy * np.log(policy / rule)).sum():.2f} nats" in shown
     assert f"{rollout.q_values[7, 3]:.2f}" in shown and "Rule:" in shown
+
+
+def test_without_details_the_numbers_are_plain_words_and_only_the_rule_says_why(rule_drive):
+    agent, rule = Timeline(thinking(rule_drive)), Timeline(replace(rule_drive, label="rule"))
+    alone = text(hud.page([agent], 7.5, details=False))
+    doing = ACTION_NAMES[rule_drive.actions[7]]
+    assert f"return {rule_drive.rewards[:7].sum():.1f} · {doing}" in alone
+    both = text(hud.page([rule, agent], 7.5, details=False))
+    assert doing in both
+    for shown in (alone, both):
+        assert not any(symbol in shown for symbol in ("π", "KL", "Q", "r v")), shown
+    assert "Rule:" in text(hud.page([rule], 7.5, details=False)) and "Rule:" not in alone
+    assert "KL(π‖π̃)" in text(hud.page([agent, rule], 7.5, details=True))
 
 
 def test_a_driver_shows_the_thoughts_that_it_has_and_says_which_are_missing(rule_drive):

@@ -36,6 +36,8 @@ class ReplayControls:
         self.cursor = gui.add_html(str(hud.cursor(0.0)))
         with gui.add_folder("More"):
             self._switches(gui)
+            details = gui.add_checkbox("Details", replay.details, hint="What the driver thinks, and its reward's terms")
+            details.on_update(lambda event: self._detail(bool(event.target.value)))
 
     def _playback(self, gui) -> None:
         player = self.player
@@ -73,6 +75,10 @@ class ReplayControls:
         self.followed, self._shown = index, None
         self.replay.restage()
 
+    def _detail(self, details: bool) -> None:
+        self.replay.details, self._shown = details, None
+        self.replay.restage()
+
     def refresh(self, t: float) -> None:
         """Show time t: the cursor in every frame, the numbers when a tenth of a second of the replay has passed."""
         with self.replay.server.atomic():
@@ -83,6 +89,6 @@ class ReplayControls:
             self._shown = round(t, 1)
             if not self.player.held:
                 self.time.value = min(self._shown, self.player.duration)
-            self.card.content = str(hud.card(self.timelines[self.followed], t))
+            self.card.content = str(hud.card(self.timelines[self.followed], t, self.replay.details))
             if self.table is not None:
                 self.table.content = str(hud.table(self.timelines, t))

@@ -1,6 +1,7 @@
 """The head-up display: the numbers of a drive at time t, as HTML, for the live panel and the exported file.
 
-It is HTML and CSS without scripts, and takes its text colour from the page.
+In plain words, or with what a driver thinks (π, π̃, Q, the KL) and the terms of its reward. It is HTML and CSS without
+scripts, and takes its text colour from the page.
 """
 
 import scipy
@@ -57,13 +58,23 @@ def status(timeline: Timeline, t: float) -> tuple[str, str]:
     return ("trapped" if over else ""), TRAP
 
 
-def card(timeline: Timeline, t: float) -> Markup:
+def page(timelines: list[Timeline], t: float, details: bool) -> Markup:
+    """The drives at time t: in plain words a table of several or the card of one; with details the first one's too."""
+    if len(timelines) == 1:
+        return card(timelines[0], t, details)
+    return table(timelines, t) + (card(timelines[0], t, details) if details else Markup(""))
+
+
+def card(timeline: Timeline, t: float, details: bool = True) -> Markup:
     """One drive's numbers at time t."""
     rollout, (words, colour) = timeline.rollout, status(timeline, t)
     badge = html('<span class="badge" style="background:{}">{}</span>', colour, words) if words else ""
     road = html('<span class="dim">road {}</span>', rollout.seed)
     parts = [html("<h4>{}{} {}{}</h4>", _dot(rollout), display_name(rollout.label), road, badge)]
-    parts += [part(timeline, t) for part in (_numbers, _reward, _choice)]
+    shown = (_numbers, _reward, _choice, _reason) if details else (_numbers, _does)
+    parts += [part(timeline, t) for part in shown]
+    if not details and rollout.label == "rule":
+        parts.append(_reason(timeline, t))
     if timeline.imagined is not None:
         parts.append(html('<div class="dim">imagined drives: {}; broad: driven</div>', LEGEND))
     return html('<div class="bc">{}</div>', joined(parts))
@@ -89,6 +100,14 @@ def _numbers(timeline: Timeline, t: float) -> Markup:
     return html('<div class="big">{}</div>', joined(each))
 
 
+def _does(timeline: Timeline, t: float) -> Markup:
+    """What it has earned, and what it does now, in words."""
+    rollout = timeline.rollout
+    earned = rollout.rewards[: timeline.earned(t)].sum()
+    action = ACTION_NAMES[rollout.actions[timeline.decision(t)]]
+    return html("<div>return <b>{:.1f}</b> · {}</div>", earned, action)
+
+
 def _reward(timeline: Timeline, t: float) -> Markup:
     rollout, weights, earned = timeline.rollout, timeline.rollout.scenario.reward, timeline.earned(t)
     total = html("return <b>{:.2f}</b>", rollout.rewards[:earned].sum())
@@ -103,7 +122,7 @@ def _reward(timeline: Timeline, t: float) -> Markup:
 
 
 def _choice(timeline: Timeline, t: float) -> Markup:
-    """The nine actions with π, π̃ and Q, KL(π ‖ π̃), and the rule's reason; π and Q if the driver has them."""
+    """The nine actions with π, π̃ and Q, and KL(π ‖ π̃); π and Q if the driver has them."""
     rollout, k = timeline.rollout, timeline.decision(t)
     own, columns = style(rollout.label).colour, {}  # {heading: (its colour, the nine numbers)}
     if rollout.policy is not None:
@@ -127,23 +146,30 @@ def _choice(timeline: Timeline, t: float) -> Markup:
         page += html("<div>KL(π‖π̃) = <b>{:.2f}</b> nats</div>", kl)
     if rollout.policy is not None and rollout.q_values is None:
         page += Markup('<div class="dim">No Q: this agent has none, or it was not recorded.</div>')
+    return page
+
+
+def _reason(timeline: Timeline, t: float) -> Markup:
+    """What the rule would do now, and why."""
+    rollout, k = timeline.rollout, timeline.decision(t)
     aim = f"(lane {int(rollout.rule_lanes[k])}, {rollout.rule_speeds[k]:.1f} m/s)"
     why = '<div class="why"><b>Rule:</b> {} <span class="dim">{}</span></div>'
-    return page + html(why, SENTENCES[Reason(int(rollout.rule_reasons[k]))], aim)
+    return html(why, SENTENCES[Reason(int(rollout.rule_reasons[k]))], aim)
 
 
 def table(timelines: list[Timeline], t: float) -> Markup:
     """A table that compares the drives at time t, one row each."""
-    rows = [Markup("<tr><th>driver</th><th>m/s</th><th>m</th><th>lane</th><th>return</th><th></th></tr>")]
+    rows = [Markup("<tr><th>driver</th><th>m/s</th><th>m</th><th>return</th><th>does</th></tr>")]
     for timeline in timelines:
         rollout, ego, (words, colour) = timeline.rollout, timeline.at(t)[EGO], status(timeline, t)
         cells = [
             html("{} {}", _dot(rollout), display_name(rollout.label)),
             f"{ego[SPEED]:.1f}",
             _driven(timeline, t),
-            f"{ego[LANE]:.0f}",
             f"{rollout.rewards[: timeline.earned(t)].sum():.1f}",
-            html('<span style="color:{};font-weight:650">{}</span>', colour, words.removesuffix(" of trap 1")),
+            html('<span style="color:{};font-weight:650">{}</span>', colour, words.removesuffix(" of trap 1"))
+            if words
+            else ACTION_NAMES[rollout.actions[timeline.decision(t)]],
         ]
         rows.append(html("<tr>{}</tr>", joined(html("<td>{}</td>", cell) for cell in cells)))
     return html('<div class="bc"><table>{}</table></div>', joined(rows))

@@ -78,10 +78,12 @@ border-radius:4px;margin:2px 4px 2px 0;padding:1px 7px;cursor:pointer;opacity:.8
 """
 
 
-def to_html(rollouts: Rollout | Sequence[Rollout], dark: bool = False, futures: Policy | None = None) -> str:
+def to_html(
+    rollouts: Rollout | Sequence[Rollout], dark: bool = False, futures: Policy | None = None, details: bool = False
+) -> str:
     """The replay as an HTML document. Raises BootcourseError if the drives cannot be shown together.
 
-    futures: see `viewer.replay`.
+    futures, details: see `viewer.replay`.
     """
     timelines = scene.timelines_of(rollouts, futures)
     duration = max(timeline.duration for timeline in timelines)
@@ -97,8 +99,7 @@ def to_html(rollouts: Rollout | Sequence[Rollout], dark: bool = False, futures: 
             t = min(frame / rate, duration)
             stage.show(t)
             if frame % (rate // HUD_RATE) == 0 or frame == frames:
-                numbers = hud.table(timelines, t) if len(timelines) > 1 else Markup("")
-                shown = (numbers + hud.card(timelines[0], t), hud.cursor(t / duration))
+                shown = (hud.page(timelines, t, details), hud.cursor(t / duration))
                 script = f"window.bootcourseHud&&bootcourseHud({','.join(map(json.dumps, shown))})"
                 recorder.scene._websock_interface.queue_message(_messages.RunJavascriptMessage(script))
             recording.insert_sleep(1 / rate)
@@ -130,11 +131,15 @@ def _with_overlay(page: str, timelines: list[Timeline], dark: bool, span: float)
 
 
 def export(
-    rollouts: Rollout | Sequence[Rollout], path: Path, dark: bool = False, futures: Policy | None = None
+    rollouts: Rollout | Sequence[Rollout],
+    path: Path,
+    dark: bool = False,
+    futures: Policy | None = None,
+    details: bool = False,
 ) -> Path:
     """Write the replay as a whole file. Returns the path. Raises BootcourseError if it does not end in .html."""
     path = check_replaceable(path, ".html")
-    write_bytes(path, to_html(rollouts, dark, futures).encode())
+    write_bytes(path, to_html(rollouts, dark, futures, details).encode())
     return path
 
 
@@ -164,10 +169,15 @@ class Recording:
 
 
 def recording(
-    rollouts: Rollout | Sequence[Rollout], *, height: int = 560, dark: bool = False, futures: Policy | None = None
+    rollouts: Rollout | Sequence[Rollout],
+    *,
+    height: int = 560,
+    dark: bool = False,
+    futures: Policy | None = None,
+    details: bool = False,
 ) -> Recording:
     """Like `replay`, but as a recording that is saved in the notebook (about 1.5 MB for each drive)."""
     drives = [timeline.rollout for timeline in scene.timelines_of(rollouts)]
     picture = key_frame(drives)
     alt = f"A replay in 3D; where it cannot play, one moment of it from above. {picture.alt}"
-    return Recording(to_html(drives, dark, futures), png(picture), height, alt, transcripts(drives))
+    return Recording(to_html(drives, dark, futures, details), png(picture), height, alt, transcripts(drives))

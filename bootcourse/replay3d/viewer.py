@@ -22,8 +22,11 @@ HUD_RATE = 10.0  # Hz, of real time, at most: how often the numbers in the panel
 class Replay(contextlib.AbstractContextManager):
     """A replay of rollouts on a server. A notebook shows it as the cell's output; `close()` ends it. See `replay`."""
 
-    def __init__(self, rollouts, height: int = 640, dark: bool = False, futures: Policy | None = None):
+    def __init__(
+        self, rollouts, height: int = 640, dark: bool = False, futures: Policy | None = None, details: bool = False
+    ):
         self.timelines, self.futures = scene.timelines_of(rollouts, futures), futures
+        self.details = details
         self.height, self.closed = height, False
         self._lock = threading.RLock()  # held while a frame is shown or the scene changes, in whichever thread
         self._hud_due, self._greeted = 0.0, False
@@ -64,7 +67,7 @@ class Replay(contextlib.AbstractContextManager):
         """Write the same drives as one HTML file that a browser opens without a server. Returns the path."""
         from bootcourse.replay3d.recorder import export
 
-        return export([line.rollout for line in self.timelines], path, self.stage.dark, self.futures)
+        return export([line.rollout for line in self.timelines], path, self.stage.dark, self.futures, self.details)
 
     def _watched(self) -> bool:
         return bool(self.server.get_clients())
@@ -121,18 +124,19 @@ def address_for_browser(port: int) -> tuple[str | None, str]:
 
 def replay(
     rollouts: Rollout | Sequence[Rollout], *, height: int = 640, dark: bool = False,
-    futures: Policy | None = None,
+    futures: Policy | None = None, details: bool = False,
 ) -> Replay:  # fmt: skip
     """Show a rollout, or several of the same seed side by side, in 3D.
 
     height: of the cell's output, pixels. futures: a base policy: at each decision, draw the
     nine imagined drives that it would go on with, those that crash in red, that of the driven action bold.
+    details: show also what the driver thinks, π, π̃, Q and the KL, and the terms of its reward.
     Running the same notebook cell again replaces its replay.
     Raises BootcourseError if the drives cannot be shown together.
     """
     scene.timelines_of(rollouts)  # a refused replay leaves the one before alone
     cell = one_per_cell.this_cell()
     one_per_cell.close_shown_by(cell)
-    shown = Replay(rollouts, height, dark, futures)
+    shown = Replay(rollouts, height, dark, futures, details)
     one_per_cell.note(cell, shown)
     return shown

@@ -568,7 +568,8 @@ yours = bc.record(result.agents[0].as_policy(), [10], label="bootstrapped, here"
 ours = bc.record(
     bc.shipped_agents("bootstrapped")[0].as_policy(), [10], label="bootstrapped, study"
 )
-bc.recording([shipped.beginning(drive, 60) for drive in (yours, *ours)], height=480)
+drives = [shipped.beginning(drive, 60) for drive in (yours, *ours)]
+bc.recording(drives, height=480, details=True)
 
 # %% [markdown]
 # **See.** (Yours will differ.) In our run these agents had learned the rule's way, and earned about

@@ -15,7 +15,7 @@ ALL, READ, PICTURE, KNOWN = (
 SAC = dict.fromkeys(("values", "discrete_sac", "update_and_loop"), KNOWN)
 ROUTES = {  # {lesson: what a route has of it}, in their order
     "evening": {"the_trap": ALL, "discrete_sac": PICTURE, "the_barrier": ALL},
-    "week": dict.fromkeys((*COURSE[1:], "imitation", "offline_learning", "bug_hunt", "your_teacher"), ALL),
+    "week": dict.fromkeys(COURSE[1:], ALL),
     "researcher": dict.fromkeys((*COURSE[1:], *ELECTIVES), ALL)
     | SAC
     | dict.fromkeys(("the_trap", "the_rule", "demonstrations", "your_teacher"), READ),
