@@ -44,8 +44,8 @@ def words(widget: widgets.Widget) -> str:
 def at_its_ends(panel, number) -> None:
     """Enter a number's ends and nonsense: each is taken or refused, and the drawing keeps its size and stays whole."""
     size = panel.svg.split(' role="img"')[0]
-    low = number.slider.min
-    for value in (low, number.slider.max, -7.5, 1e9 + 0.5, math.nan):
+    low = number.low
+    for value in (low, number.high, -7.5, 1e9 + 0.5, math.nan):
         from_page(number.field, value=value)
         ElementTree.fromstring(panel.svg)
         assert panel.svg.split(' role="img"')[0] == size and "nan" not in panel.svg

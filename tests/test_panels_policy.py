@@ -1,6 +1,7 @@
 """`policy_panel` and `bonus_panel`: numbers worked by hand, and one walk through the controls of each."""
 
 import math
+import re
 from dataclasses import replace
 from xml.etree import ElementTree
 
@@ -8,14 +9,18 @@ import numpy as np
 import pytest
 import torch
 
+from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import record
+from bootcourse.errors import BootcourseError
 from bootcourse.learn.bootstrap import kl_to_rule
 from bootcourse.learn.settings import Settings
 from bootcourse.panels import bonus_panel, policy_panel
 from bootcourse.panels.bonus import bonus_numbers, targets
+from bootcourse.panels.compromise import compromise
 from bootcourse.panels.policy_numbers import policy_numbers
 from bootcourse.policies import plan_policy, rule_policy
+from bootcourse.road.state import EGO, X
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 from tests.panels import at_its_ends, from_page, raise_in_callbacks, words  # noqa: F401
 from tests.replays import thinking
@@ -69,6 +74,26 @@ def test_every_control_moves_its_own_numbers_and_the_picture_and_refuses_nonsens
     assert np.array_equal(panel.seen.policy, agents_drive.policy[7])
     for number in (panel.moment, panel.p, panel.xi):
         at_its_ends(panel, number)
+
+
+def test_the_car_drives_on_by_the_compromise_between_the_agent_s_way_and_the_rule_s():
+    agent = shipped_agents("soft")[0]
+    [drive] = record(agent.as_policy(with_q=True), [10], label="soft")
+    panel = policy_panel(drive, agent=agent, t=6.0, xi=0.001)
+    metres = []
+    for xi in (0.001, 10.0):
+        from_page(panel.xi.slider, value=xi)
+        own, rule, chosen = re.findall(r"(?:way|compromise): (\d+) m in 40 s", panel.svg.alt)
+        metres.append(int(chosen))
+        driven = drive.states[46 * drive.scenario.clock.steps, EGO, X] - drive.cars[6, EGO, X]
+        assert abs(int(own) - driven) < 1, "its own way is the recorded one"
+    assert abs(metres[0] - int(own)) < 10 and metres[1] == int(rule) < int(own) - 100
+    [by_rule] = record(compromise(agent, DEFAULT, 0.9, 1e6, 0.01), [10])
+    assert np.array_equal(by_rule.actions, record(rule_policy(DEFAULT), [10])[0].actions), "a large ξ is the rule"
+    with pytest.raises(BootcourseError, match="This agent has no Q"):
+        policy_panel(drive, agent=replace(agent, critics=[]))
+    with pytest.raises(BootcourseError, match="this drive has its decisions from 0 to 149 s"):
+        policy_panel(drive, t=200)
 
 
 def test_a_drive_shows_what_there_is_of_policy_and_q_and_says_what_is_missing(agents_drive, escape):

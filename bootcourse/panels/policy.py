@@ -1,6 +1,6 @@
 """One decision of a drive, and what the soft constraint does to each action while you move p and ξ.
 
-`policy_numbers.py` computes the numbers.
+`policy_numbers.py` computes the numbers; `compromise.py` lets the car drive on by them.
 """
 
 import ipywidgets as widgets
@@ -10,9 +10,11 @@ from matplotlib.colors import to_hex
 from bootcourse.colours import ALARM
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.errors import BootcourseError
+from bootcourse.errors import BootcourseError, require
+from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import display_name, style
+from bootcourse.panels import compromise
 from bootcourse.panels.number import Number
 from bootcourse.panels.panel import Panel, beside
 from bootcourse.panels.policy_numbers import PolicyNumbers, check_weights, policy_numbers
@@ -37,22 +39,26 @@ BEST = to_hex(SHADES(1.0))
 class PolicyPanel(Panel):
     """A view on `policy_numbers` at one decision of a drive; `svg` is what it shows, `seen` the numbers."""
 
-    def __init__(self, rollout: Rollout, p: float, xi: float, alpha: float, futures: Policy | None = None):
+    def __init__(
+        self, rollout: Rollout, p: float, xi: float, alpha: float, futures: Policy | None = None,
+        agent: Agent | None = None, t: float = 0.0,
+    ):  # fmt: skip
+        self.ways = None if agent is None else compromise.Ways(rollout, agent)
         self.rollout, self.rate = rollout, rollout.scenario.clock.decision_rate
         self.imagined = None if futures is None else nine_drives(rollout.cars, futures, rollout.scenario)
         self.width = WIDTH if futures is None else WIDTH + ROLLOUTS
-        self.moment = self._moment()
+        self.moment = self._moment(t)
         self.p = Number("p", p, 0.12, 0.99, 0.01, "Probability that π̃ gives to the rule's own action.", check=check_p)
-        self.xi = Number("ξ", xi, 0, 5, 0.05, "Weight of the KL, which pulls π to the rule.",
-                         check=lambda xi: check_weights(xi, alpha))  # fmt: skip
+        self.xi = Number("ξ", xi, 0.001, 10, 0.1, "Weight of the KL, which pulls π to the rule; 0 may be typed.",
+                         check=lambda xi: check_weights(xi, alpha), logarithmic=True)  # fmt: skip
         self.alpha, self.view = alpha, widgets.HTML()
         numbers = (self.moment, self.p, self.xi)
         super().__init__("What the rule's pull does to each action", beside(*numbers), self.view)
         self.update_with(*numbers)
         self.say(missing(rollout))
 
-    def _moment(self) -> Number:
-        """The time (s) of the decision that is shown, to be moved."""
+    def _moment(self, t: float) -> Number:
+        """The time (s) of the decision that is shown, to be moved; first t."""
         last = (len(self.rollout.actions) - 1) / self.rate
 
         def check(t: float) -> None:
@@ -60,7 +66,8 @@ class PolicyPanel(Panel):
                 raise BootcourseError(f"t = {t:g} s: this drive has its decisions from 0 to {last:g} s.")
 
         step = 1 / self.rate
-        return Number("t", 0, 0, max(last, step), step, "The time of the decision.", "s", check)
+        check(t)
+        return Number("t", t, 0, max(last, step), step, "The time of the decision.", "s", check)
 
     def update(self, change=None) -> None:
         """Compute and draw the present moment."""
@@ -70,13 +77,18 @@ class PolicyPanel(Panel):
         self.seen = policy_numbers(policy, q, int(self.rollout.rule_actions[k]), p, xi, alpha)
         scenario, colour = self.rollout.scenario, style(self.rollout.label).colour
         scale = ROAD / (scenario.road.lanes * scenario.road.lane_width)
-        ahead = [] if self.imagined is None else trails(self.imagined, int(self.rollout.actions[k]), k)
+        ways = {} if self.ways is None else self.ways.at(k, p, xi, alpha)
+        ahead = self.ways.trails(ways) if ways else []
+        if self.imagined is not None:
+            ahead = trails(self.imagined, int(self.rollout.actions[k]), k)
         road, _ = road_svg(self.rollout.cars[k], scenario, colour, self.width, scale, trails=ahead)
         table = action_table(self.seen, p, xi, alpha, display_name(self.rollout.label), colour)
         if self.imagined is not None:
             table += rollout_bars(self.imagined.values[k], self.imagined.accidents[k] > 0)
-        inner = ['<g transform="translate(8 0)">', *road, *self._head(k), *table, *self._marks(k, colour), "</g>"]
-        self.svg = self.view.value = drawing(self.width + 16, BOTTOM + 50, inner, self._alt(k))
+        on = [text(0, BOTTOM + 58, compromise.in_words(ways), bold=True)] if ways else []
+        inner = ['<g transform="translate(8 0)">', *road, *self._head(k), *table, *self._marks(k, colour), *on, "</g>"]
+        alt = self._alt(k) + (f" {compromise.in_words(ways)}" if ways else "")
+        self.svg = self.view.value = drawing(self.width + 16, BOTTOM + (70 if ways else 50), inner, alt)
 
     def _head(self, k: int) -> list[str]:
         """The time, the car's speed, and why the rule does what it does."""
@@ -202,12 +214,15 @@ def policy_panel(
     xi: float = 2.0,
     alpha: float | None = None,
     futures: Policy | None = None,
+    agent: Agent | None = None,
+    t: float = 0.0,
 ) -> PolicyPanel:
     """See π, π̃ and their best compromise at each decision of a drive, while you move p and ξ.
 
     rollout: a recorded drive; only an agent with Q and `with_q=True` gives all that is shown. p: the drive's own
     `rule_p` if None. alpha: the paper's start value, 0.01, if None. xi: the paper's 200 α, 2. futures: the base policy
-    of nine imagined drives at each decision, which are drawn on the road with their values.
+    of nine imagined drives at each decision, which are drawn on the road with their values. agent: the driver, with
+    critics: the car drives on by the compromise, beside the agent's own way and the rule's. t: the decision's time (s).
     Raises BootcourseError for anything but a recorded drive, and for values out of range.
     """
     if not isinstance(rollout, Rollout):
@@ -217,4 +232,6 @@ def policy_panel(
     alpha = Settings().alpha_init if alpha is None else alpha
     check_p(p)
     check_weights(xi, alpha)
-    return PolicyPanel(rollout, p, xi, alpha, futures)
+    if agent is not None:
+        require(bool(agent.critics), "This agent has no Q to compromise with: give one of SAC.")
+    return PolicyPanel(rollout, p, xi, alpha, futures, agent, t)

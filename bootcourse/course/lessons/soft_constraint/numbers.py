@@ -4,6 +4,9 @@ import math
 
 import numpy as np
 
+from bootcourse.course.shipped import shipped_agents
+from bootcourse.episodes.record import record
+from bootcourse.panels.compromise import Ways
 from bootcourse.research.results import Results
 from tools.course.known import RULE_P, escapers, of, shipped_experiment
 
@@ -31,3 +34,11 @@ def entropy_of_the_rule() -> float:
 def with_target(entropy: float) -> np.ndarray:
     """The returns of the study's agents with the soft constraint and another target entropy, (agents,)."""
     return shipped_experiment("sensitivity")[f"target entropy {entropy:g}"].of("soft").scores("returns")
+
+
+def compromised(xi: float) -> bool:
+    """Does the drive of the panel, by the compromise of the first agent's Q and the rule from the start of road 10,
+    end in an accident?"""
+    helped = shipped_agents("soft")[0]
+    drive = record(helped.as_policy(with_q=True), [10])[0]
+    return Ways(drive, helped).at(0, 0.9, xi, 0.01)["this compromise"].accident != 0

@@ -320,11 +320,20 @@ bc.show(charts.lines(strengths, probability, title, x_label, y_label, "x", looks
 # <!-- claim: all(SETTINGS.xi_multiplier * run.curves['alpha'][-1] < 0.0002
 #   for run in shipped_runs('soft')) -->
 #
-# Move the numbers yourself: the untrained agent's π, the rule's π̃, and the best compromise
-# (*optimum*). Set ξ to 0, and back to 2.
+# **Drag** ξ. You see a trained agent's π and Q, the rule's π̃, and the best compromise (*optimum*).
+# From here the car drives on by the compromise (black; red if it ends in an accident), beside the
+# agent's own way and the rule's (green). Both of these lead out. Does each compromise between them?
 
 # %%
-bc.panels.policy_panel(first_drive)
+helped = bc.shipped_agents("soft")[0]
+its_drive = bc.record(helped.as_policy(with_q=True), [ROAD], label="soft")[0]
+bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
+
+# %% [markdown]
+# **See.** Near ξ = 0.1 it leaves the road. Each second is then the best of two wishes, and a drive
+# made of some seconds of one plan and some of another is neither. So the rule pulls *while the agent
+# learns*: it is the learner's business to find a plan of its own beside it.
+# <!-- claim: compromised(0.1) and not compromised(0.001) and not compromised(10) -->
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Do the derivation on the board up to the line in which π log π is collected, then let them finish.
