@@ -159,13 +159,12 @@ def _reason(timeline: Timeline, t: float) -> Markup:
 
 def table(timelines: list[Timeline], t: float) -> Markup:
     """A table that compares the drives at time t, one row each."""
-    rows = [Markup("<tr><th>driver</th><th>m/s</th><th>m</th><th>return</th><th>does</th></tr>")]
+    rows = [Markup("<tr><th>driver</th><th>m/s</th><th>return</th><th>does</th></tr>")]
     for timeline in timelines:
         rollout, ego, (words, colour) = timeline.rollout, timeline.at(t)[EGO], status(timeline, t)
         cells = [
             html("{} {}", _dot(rollout), display_name(rollout.label)),
             f"{ego[SPEED]:.1f}",
-            _driven(timeline, t),
             f"{rollout.rewards[: timeline.earned(t)].sum():.1f}",
             html('<span style="color:{};font-weight:650">{}</span>', colour, words.removesuffix(" of trap 1"))
             if words

@@ -32,7 +32,7 @@ LINGER = 2.0  # s for which the last frame stays before the replay starts again
 
 OVERLAY = """
 <style>
-#bc-hud {position:fixed;right:8px;top:8px;width:300px;max-height:calc(100% - 64px);overflow:auto;z-index:500;
+#bc-hud {position:fixed;right:8px;top:8px;width:324px;max-height:calc(100% - 64px);overflow:auto;z-index:500;
 border-radius:8px;color:@INK@;background:@PAPER@;box-shadow:0 1px 8px #0003;backdrop-filter:blur(6px)}
 #bc-hud summary {cursor:pointer;padding:5px 10px 1px;font:600 12px system-ui,sans-serif}
 #bc-hud button {font:11px system-ui,sans-serif;color:inherit;background:none;border:1px solid currentColor;
@@ -107,10 +107,11 @@ def to_html(
         page = recording.as_html(dark_mode=dark)
     finally:
         recorder.stop()
-    return _with_overlay(page, timelines, dark, stage.span)
+    plots = hud.plots(timelines) if details else Markup("")
+    return _with_overlay(page, timelines, dark, stage.span, plots)
 
 
-def _with_overlay(page: str, timelines: list[Timeline], dark: bool, span: float) -> str:
+def _with_overlay(page: str, timelines: list[Timeline], dark: bool, span: float, plots: Markup) -> str:
     drivers = " · ".join(display_name(timeline.rollout.label) for timeline in timelines)
     title = html("{} on road {}", drivers, timelines[0].rollout.seed)
     poses = {name: [*pose(name, span).position, *pose(name, span).look_at] for name in (CHASE, BIRD, SIDE)}
@@ -118,7 +119,7 @@ def _with_overlay(page: str, timelines: list[Timeline], dark: bool, span: float)
         "INK": "#EEF1F4" if dark else "#14181C",
         "PAPER": "#10161Ecc" if dark else "#FFFFFFd8",
         "STYLE": hud.STYLE,
-        "PLOTS": hud.plots(timelines),
+        "PLOTS": plots,
         "CAMERAS": json.dumps(poses),
         "TITLE": title,  # last, since it comes from a file and nothing in it may be replaced
     }
