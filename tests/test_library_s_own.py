@@ -12,6 +12,7 @@ import pytest
 import torch
 
 import bootcourse
+from bootcourse import rule
 from bootcourse.course import check, runner
 from bootcourse.course.exercise import call_it
 from bootcourse.course.judge import judge, outcomes
@@ -19,7 +20,6 @@ from bootcourse.course.lessons import registry, stem
 from bootcourse.course.library import LIBRARY, named
 from bootcourse.course.values import fitted, plain, same
 from bootcourse.learn import bootstrap, sac
-from bootcourse.road import formulas
 from tests.answers import here
 from tools.course.problems import shown_sources
 from tools.course.source import lesson_of, read, sources
@@ -81,7 +81,7 @@ def test_the_library_s_function_is_known_under_every_name(how):
 def test_a_text_that_calls_it_and_a_compiled_one_are_known_too():
     text = "import bootcourse as bc\n\ndef soft_value(a, b, c):\n    return bc.learn.sac.soft_value(a, b, c)\n"
     assert judge(EXERCISES["soft_value"], text).kind == "library"
-    assert judge(EXERCISES["desired_gap"], lambda *six: formulas.desired_gap(*six)).kind == "library"
+    assert judge(EXERCISES["target_speed"], lambda *five: rule.target_speed(*five)).kind == "library"
 
 
 def test_other_functions_of_the_library_may_be_used():

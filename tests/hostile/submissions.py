@@ -24,7 +24,7 @@ NOTEBOOK = {
     "metadata": {}, "nbformat": 4,
 }  # fmt: skip
 HANDED_IN = {
-    "format": Submission.FORMAT, "name": "Ada", "time": "2030-01-01", "lessons": ["traffic"],
+    "format": Submission.FORMAT, "name": "Ada", "time": "2030-01-01", "lessons": ["values"],
     "exercises": "a", "answers": {"luck": CELL}, "right": ["luck"], "problems": ["a"],
     "predictions": {"the_barrier.1": {"answer": 3.5, "question": "Why?", "unit": "m"}},
 }  # fmt: skip

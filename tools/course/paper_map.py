@@ -64,7 +64,7 @@ def row(item: dict) -> list[str]:
         raise ValueError(f"{label} needs code, and a note goes with a heading of left_open.md.")
     for name in item["code"]:
         pkgutil.resolve_name(name)  # raises if it is gone
-    taught = [lesson_link(label, **each) for each in item["taught"]]
+    taught = [lesson_link(label, **each) for each in item["taught"]] or ["only in the code"]
     note = f"{item['note']} ([more](#{item['see']}))" if "note" in item else ""
     label, lessons = (text.replace(" ", SPACE) for text in (label, "<br>".join(taught)))
     return [f"**{label}**", "<br>".join([item["what"], *(f"`{name}`" for name in item["code"])]), lessons, note]

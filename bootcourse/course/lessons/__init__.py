@@ -39,8 +39,7 @@ ELECTIVES = (
     "other_ways",
     "your_own_problem",
 )
-APPENDIX = ("traffic",)
-LESSONS = COURSE + ELECTIVES + APPENDIX
+LESSONS = COURSE + ELECTIVES
 
 
 def number(lesson: str) -> int:

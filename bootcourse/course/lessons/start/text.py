@@ -53,6 +53,7 @@ predict("start.1", "How many attempts until you are ahead of trap 1?", unit="att
 # stays behind; the other, *bootstrapped SAC*, was helped by the rule while it learned, and gets
 # out. Press play, and turn the road with the mouse.
 
+
 # %% tags=["nbval-ignore-output"]
 def on_this_road(method):
     policies = [agent.as_policy() for agent in bc.shipped_agents(method)]
