@@ -3,6 +3,7 @@
 import contextlib
 import re
 import shutil
+import subprocess
 
 import nbformat
 import pytest
@@ -50,6 +51,29 @@ def test_every_lesson_has_its_pages(made):
         assert all((made / f"{folder}/{name}.html").exists() for folder in ("lessons", "lessons/instructor"))
     listed = re.findall(r'href="lessons/(\w+)\.html"', (made / "index.html").read_text(encoding="utf-8"))
     assert [name for name in dict.fromkeys(listed) if name != stem("start")] == FILES[1:]
+
+
+def test_a_notebook_that_somebody_has_worked_in_is_shown_as_it_came(tmp_path, monkeypatch):
+    came, worked = (
+        nbformat.v4.new_notebook(
+            cells=[nbformat.v4.new_code_cell("predict()", outputs=[nbformat.v4.new_output("stream", text=said)])]
+        )
+        for said in ("as it came", "worked in")
+    )
+    (tmp_path / "notebooks").mkdir()
+    notebook = tmp_path / "notebooks" / "00_start.ipynb"
+    nbformat.write(came, notebook)
+    without_git = book.as_it_came(notebook)
+    for command in (["init", "-q"], ["add", "."]):
+        subprocess.run(["git", "-C", str(tmp_path), *command], check=True)
+    nbformat.write(worked, notebook)
+    monkeypatch.setattr(book, "ROOT", tmp_path)
+    assert book.worked_in() == ["00_start.ipynb"]
+    book.with_live_worlds(notebook, tmp_path / "shown.ipynb")
+    assert "as it came" in (tmp_path / "shown.ipynb").read_text() and "as it came" in without_git.decode()
+    subprocess.run(["git", "-C", str(tmp_path), "add", "."], check=True)
+    book.with_live_worlds(notebook, tmp_path / "shown.ipynb")
+    assert "worked in" in (tmp_path / "shown.ipynb").read_text() and book.worked_in() == []
 
 
 @pytest.mark.parametrize("path", sources(), ids=lesson_of)

@@ -5,6 +5,7 @@ the rest (book/conf.py). `make book EDITION=instructor` adds the exam and the in
 solutions, in build/book/instructor.
 """
 
+import contextlib
 import json
 import re
 import shutil
@@ -89,8 +90,8 @@ def frame(address: str) -> str:
 
 
 def with_live_worlds(notebook: Path, to: Path) -> None:
-    """Copy a notebook, with the page that drives in the place of each world, which needs a kernel."""
-    content = json.loads(notebook.read_text(encoding="utf-8"))
+    """Copy a notebook as it came, with the page that drives in the place of each world, which needs a kernel."""
+    content = json.loads(as_it_came(notebook))
     for cell in content["cells"]:
         for output in cell.get("outputs", []):
             shown = output.get("data", {})
@@ -131,14 +132,18 @@ def build(source: Path, html: Path) -> int:
     return main(["-b", "html", "-q", "-W", "--keep-going", "-d", str(html.parent / "doctrees"), str(source), str(html)])
 
 
-def changed_notebooks() -> list[str]:
-    """The lessons' notebooks that differ from the last commit; none where git does not say."""
-    command = ["git", "-C", str(ROOT), "diff", "--name-only", "HEAD", "--", "notebooks/*.ipynb"]
-    try:
-        told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    except (OSError, subprocess.CalledProcessError):
-        return []
-    return [Path(name).name for name in told.splitlines() if Path(name).parent.name == "notebooks"]
+def as_it_came(notebook: Path) -> bytes:
+    """A notebook as git has it in its index, without what somebody has worked in it since; the file without git."""
+    command = ["git", "-C", str(notebook.parent), "show", f":./{notebook.name}"]
+    with contextlib.suppress(OSError, subprocess.CalledProcessError):
+        return subprocess.run(command, capture_output=True, check=True).stdout
+    return notebook.read_bytes()
+
+
+def worked_in() -> list[str]:
+    """The lessons' notebooks that differ from the index."""
+    files = sorted((ROOT / "notebooks").glob("*.ipynb"))
+    return [file.name for file in files if as_it_came(file) != file.read_bytes()]
 
 
 def main(edition: str = "student") -> int:
@@ -146,9 +151,9 @@ def main(edition: str = "student") -> int:
         print(f"EDITION={edition}: choose student or instructor.", file=sys.stderr)
         return 2
     html = BUILD / ("html" if edition == "student" else edition)
-    if changed := changed_notebooks():
-        print(f"The book shows these notebooks as you changed them: {', '.join(changed)}.", file=sys.stderr)
-        print("`git checkout notebooks` brings back the lessons as they came, and drops your changes.", file=sys.stderr)
+    if worked := worked_in():
+        print(f"The book shows these notebooks as they came, without your work: {', '.join(worked)}.", file=sys.stderr)
+        print("To show one as it is now: `git add` it.", file=sys.stderr)
     gather(BUILD / "source", edition)
     status = build(BUILD / "source", html)
     if status == 0:
