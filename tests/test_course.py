@@ -61,8 +61,8 @@ def test_a_text_names_lessons_and_its_tables_are_in_their_order():
 
 def test_two_lessons_that_change_places_change_their_numbers(monkeypatch):
     list(registry())  # as the lessons stand
-    places = {"the_rule": number("imitation"), "imitation": number("the_rule")}
-    order = tuple({"the_rule": "imitation", "imitation": "the_rule"}.get(name, name) for name in LESSONS)
+    places = {"the_rule": number("recorded_drives"), "recorded_drives": number("the_rule")}
+    order = tuple({"the_rule": "recorded_drives", "recorded_drives": "the_rule"}.get(name, name) for name in LESSONS)
     for module in (lessons, numbering):
         monkeypatch.setattr(module, "LESSONS", order)
     for name, place in places.items():

@@ -4,16 +4,24 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import torch
 
-from bootcourse.course.lessons.imitation.figures import (
+from bootcourse.course.lessons.recorded_drives import choosing
+from bootcourse.course.lessons.recorded_drives.figures import (
     as_the_rule_would,
-    still_going,
     success_around,
     updates_made,
 )
-from bootcourse.course.lessons.imitation.reachable_entropy import REACHABLE, by_entropy
+from bootcourse.course.lessons.recorded_drives.reachable_entropy import REACHABLE, by_entropy
 from bootcourse.course.shipped import shipped_drive, shipped_experiment
+from bootcourse.learn.replay_buffer import Batch
+from bootcourse.policies import PolicyOutput
 from bootcourse.research.results import Results
+
+
+def plan(action: int):
+    """A driver that always does the same."""
+    return lambda observations, cars: PolicyOutput(np.full(len(observations), action))
 
 
 def results(seconds: np.ndarray) -> Results:
@@ -47,9 +55,14 @@ def test_the_success_around_an_update_is_that_of_the_episodes_next_to_it():
     assert success_around(success, updates, 101)[0] == pytest.approx(0.5)
 
 
-def test_the_figure_says_which_share_of_the_drives_an_accident_ended():
-    figure = still_going(results([[150, 150.0001, 20, 149.5], [150, 150, 150, 150]]), methods=("gail",))
-    assert "25.0 % of GAIL's" in figure.alt and "50, 100 at 150" in figure.alt
+def test_what_a_policy_is_worth_is_read_from_recorded_decisions_where_it_acts_as_they_did():
+    """A leads to B and pays 1; B ends and pays 2; γ = 0.5, so A is worth 1 + 0.5 · 2."""
+    states, after = torch.eye(2), torch.tensor([[0.0, 1.0], [0.0, 1.0]])
+    none = torch.zeros(2, dtype=torch.int64)
+    data = Batch(states, after, none + 4, torch.tensor([1.0, 2.0]), torch.tensor([0.0, 1.0]), none, none, none.float())
+    assert choosing.overlap(plan(4), data) == 1 and choosing.overlap(plan(7), data) == 0
+    assert choosing.estimate(plan(4), data, states[:1], gamma=0.5) == pytest.approx(2, abs=0.02)
+    assert choosing.estimate(plan(4), data, states[1:], gamma=0.5) == pytest.approx(2, abs=0.02)
 
 
 def test_agents_with_a_reachable_target_entropy_ship_beside_agents_that_differ_from_them_in_it_alone():

@@ -13,5 +13,5 @@ EXPERIMENTS = {  # of the lessons
     "students": f"{_HERE}.lessons.your_teacher.taught_agents",
     "second-trap": f"{_HERE}.lessons.the_second_trap.ppo_kinds",
     "easier": f"{_HERE}.lessons.the_barrier.easier",
-    "reachable-entropy": f"{_HERE}.lessons.imitation.reachable_entropy",
+    "reachable-entropy": f"{_HERE}.lessons.recorded_drives.reachable_entropy",
 }

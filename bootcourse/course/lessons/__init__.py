@@ -30,8 +30,7 @@ COURSE = (
     "found_and_kept",
 )
 ELECTIVES = (
-    "imitation",
-    "offline_learning",
+    "recorded_drives",
     "bug_hunt",
     "your_teacher",
     "the_second_trap",

@@ -243,7 +243,7 @@ shown({f"clone, seed {i}": three for i, three in enumerate(measured["the rule's 
 # <!-- claim: 0.9 < study_agreement().min() and study_agreement().max() < 0.94 -->
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Ask what the study's clones do and do not show: all ten escape (lesson [[imitation]]), so training
+# Ask what the study's clones do and do not show: all ten escape (lesson [[recorded_drives]]), so training
 # longer helps. But a clone is trained on the rule's states and drives in its own, and the loss does
 # not say when the training is long enough.
 # <!-- claim: len(of('bc')) == 10 -->

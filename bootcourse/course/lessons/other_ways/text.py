@@ -20,7 +20,7 @@
 #
 # **Time** 55 minutes; running it takes about one minute. **It builds on** learning from
 # demonstrations (lesson [[learning_from_demonstrations]]) and the number of seeds
-# ([[how_many_seeds]]); Round 1 refers to [[offline_learning]].
+# ([[how_many_seeds]]); Round 1 refers to [[recorded_drives]].
 
 # %%
 import bootcourse as bc
@@ -63,7 +63,7 @@ bc.show(figures.what_is_taken())
 # ## Round 1: half of each batch, to the end
 #
 # RLPD (*reinforcement learning with prior data*) is SAC with half of each batch demonstrations,
-# from the first update to the last, without bonus, margin and KL. Lesson [[offline_learning]]
+# from the first update to the last, without bonus, margin and KL. Lesson [[recorded_drives]]
 # showed what goes wrong with such data: the target follows the highest of nine guesses, and untried
 # actions are guessed too high. RLPD's remedy is **layer normalisation**: what goes through each
 # hidden layer is normalised, which bounds the values that a critic can give to what the data do not

@@ -346,7 +346,7 @@ table(["rows, all with terminated = 0", "Q after 4,000 pushes"], rows, "One agen
 # 30,000 pushes.) These agents, too, use a network, learn estimates from estimates, and do so on
 # rows of older policies. Sutton and Barto, chapter 11, call these three the *deadly triad*:
 # together they *can* diverge. A target that reads values which no row corrects comes back in lesson
-# [[offline_learning]].
+# [[recorded_drives]].
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Let groups predict the whole order, not only the first place. A belief to name: "the second critic

@@ -5,8 +5,11 @@ from functools import cache
 import numpy as np
 from scipy import stats
 
-from bootcourse.course.lessons.imitation.figures import half_success, updates_made
-from bootcourse.course.lessons.imitation.reachable_entropy import REACHABLE, UPDATES, by_entropy  # noqa: F401
+from bootcourse.course.lessons.recorded_drives import choosing
+from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
+from bootcourse.course.lessons.recorded_drives.figures import half_success, updates_made
+from bootcourse.course.lessons.recorded_drives.reachable_entropy import REACHABLE, UPDATES, by_entropy  # noqa: F401
+from bootcourse.course.shipped import shipped_agents
 from bootcourse.storage.assets import FOLDER
 from tools.course.known import of, shipped_experiment
 
@@ -19,12 +22,6 @@ def checked(row: int, column: str) -> str:
     return dict(zip(["ours" if name.startswith("ours") else name for name in names], rows[row], strict=True))[column]
 
 
-def own_decisions(method: str) -> float:
-    """How many decisions of its own an agent of a method learned from, the mean over agents."""
-    agent, updates = of(method).agents[0], updates_made(of(method))[:, -1].mean()
-    return float(updates * agent["envs_per_agent"] / agent["updates"])
-
-
 def slower(axis: str) -> float:
     """How many times CQL's episodes, or updates, GAIL needs until half of its drives succeed: of the medians."""
     medians = []
@@ -35,12 +32,24 @@ def slower(axis: str) -> float:
     return float(medians[0] / medians[1])
 
 
-def with_entropy(entropy: float):
-    """The GAIL agents that were trained with this target entropy (nats), beside others with another."""
-    return by_entropy(shipped_experiment("reachable-entropy")["gail"])[entropy]
+def with_entropy(method: str, entropy: float):
+    """The agents of GAIL, or of CQL with an actor, that were trained with this target entropy (nats)."""
+    return by_entropy(shipped_experiment("reachable-entropy")[method])[entropy]
 
 
 def accidents_p() -> float:
     """The exact rank-sum p of these agents' accidents: a reachable target entropy against -1."""
-    first, second = (with_entropy(each).scores("accident") for each in (-1.0, REACHABLE))
+    first, second = (with_entropy("gail", each).scores("accident") for each in (-1.0, REACHABLE))
     return float(stats.mannwhitneyu(first, second, method="exact").pvalue)
+
+
+@cache
+def worth_of(method: str) -> float:
+    """What the first agent of a method is worth from the start at γ = 0.8, the mean of 100 roads."""
+    return choosing.worth(shipped_agents(method)[0].as_policy(), range(100), 0.8)[0]
+
+
+@cache
+def overlap_of(method: str) -> float:
+    """In which share of the recorded seconds it would do what was done."""
+    return choosing.overlap(shipped_agents(method)[0].as_policy(), choosing.recorded())

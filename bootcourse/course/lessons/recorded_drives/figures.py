@@ -13,8 +13,6 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.learner import SACLearner
 from bootcourse.methods import display_name, style
 from bootcourse.research.results import Results
-from bootcourse.road.state import EGO, TRAP_1, X
-from bootcourse.scenario import N_ACTIONS
 from bootcourse.statistics import rolling_means
 
 WINDOW = 50  # training episodes that a success rate is taken over
@@ -45,20 +43,6 @@ def as_the_rule_would(drives: Sequence[Rollout]) -> tuple[float, float, float]:
     brakes, accelerates = (float(np.mean((done // 3 == kind)[rule // 3 == kind])) for kind in (0, 2))
     return float(np.mean(done == rule)), brakes, accelerates
 
-
-def occupancy(drives: Sequence[Rollout], edges: Sequence[float], seconds: int = 20) -> np.ndarray:
-    """The share of all decisions in the first seconds that fall into a stretch of road, by action: (stretches, 9).
-
-    edges (stretches + 1,) m ahead of trap 1.
-    """
-    place, action = [], []
-    for drive in drives:
-        cars = drive.cars[:seconds]
-        place.append(cars[:, EGO, X] - cars[:, TRAP_1, X])
-        action.append(drive.actions[:seconds])
-    place, action = np.concatenate(place), np.concatenate(action)
-    counts, _, _ = np.histogram2d(place, action, bins=[edges, np.arange(N_ACTIONS + 1) - 0.5])
-    return counts / len(place)
 
 
 def followers(groups: Mapping[str, Sequence[Agent]], roads: Sequence[int]) -> tuple[list[str], list[list[str]]]:
@@ -116,30 +100,4 @@ def success_in_training(results: Results, methods: Sequence[str] = ("bc", "cql",
     figure = lines(budgets, named, title, "update (logarithmic)", words, "x", limits=(0, 101), looks=looks)
     for method, label in zip(methods, named, strict=True):
         figure.axes[0].plot(halves[label], 50, "o", color=style(method).colour, mec=INK, ms=7, zorder=5)
-    return figure
-
-
-def still_going(results: Results, methods: Sequence[str] = ("bc", "cql", "gail"), single: str = "gail") -> Figure:
-    """The share of test drives that have not ended, over time: a mean for each method, thin lines for one's agents."""
-    longest = round(float((results.tested["distance"] / results.tested["speed"]).max()))
-    seconds, named, looks, ended = np.arange(longest + 1), {}, [], {}
-    for method in methods:
-        tested, label = results.of(method).tested, SHORT.get(method, method)
-        going = 100 * ((tested["distance"] / tested["speed"])[..., None] >= seconds - 0.25).mean(axis=1)
-        if method == single:
-            named[""] = going
-            looks.append(style(method)._replace(marker=None))
-        named[label] = going.mean(axis=0)
-        looks.append(style(method)._replace(marker=None))
-        ended[label] = 100 * np.mean(results.of(method).episodes("accident") > 0)
-    title = f"An accident ends {ended.pop(SHORT[single]):.1f} % of {SHORT[single]}'s drives"
-    if ended:  # the other methods
-        whose = " and ".join(f"{label}'s" for label in ended)
-        title += f", under {np.floor(max(ended.values())) + 1:.0f} % of {whose}"
-    words = "test drives that still go on (%); thin: GAIL's agents"
-    figure = lines(seconds, named, title, "second of the drive", words, limits=(0, 101), looks=looks)
-    for line in figure.axes[0].lines[len(methods) - 1 : -1]:
-        line.set(alpha=0.5, linewidth=0.8)
-    figure.axes[0].lines[-1].set_linewidth(3)
-    figure.alt = figure.alt.replace(" : ", f" {SHORT[single]}, single agents: ")
     return figure
