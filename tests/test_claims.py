@@ -46,3 +46,8 @@ def test_what_is_wrong_with_an_expression_is_said(text, words):
     with pytest.raises(ValueError, match=words):
         check_claims(text)
         fill_in(text)
+
+
+def test_the_page_of_claims_has_no_links_to_lessons_and_a_list_is_not_printed_twice():
+    page = claims.entry("Lessons:\n\n{{ way('evening') }}", "start")
+    assert "](" not in page and "- `way('evening')`: the list above" in page

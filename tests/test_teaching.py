@@ -30,16 +30,19 @@ def lessons_in(text: str) -> list[str]:
 @pytest.mark.parametrize(("heading", "cell"), [("One week", 1), ("One term", 2)])
 def test_a_plan_has_every_lesson_once_and_its_minutes(heading, cell):
     *parts, total = rows(heading)
+    named = [name for part in parts for name in lessons_in(part[cell])]
+    assert not set(LESSONS) - set(named), f"plans.md, '{heading}', lacks {set(LESSONS) - set(named)}: add them to a row"
+    assert sorted(named) == sorted(LESSONS), f"plans.md, '{heading}', names a lesson twice"
     for part in parts:
         assert int(part[cell + 1]) == minutes(*lessons_in(part[cell])), part
     assert sum(int(part[cell + 1]) for part in parts) == int(total[cell + 1])
-    assert sorted(name for part in parts for name in lessons_in(part[cell])) == sorted(LESSONS)
 
 
 def test_the_readme_gives_each_lesson_its_minutes():
     readme = (book.ROOT / "README.md").read_text(encoding="utf-8")
     table = re.findall(r"^\| \d+ \|.*\(notebooks/(\w+)\.ipynb\).* (\d+) \|$", readme, re.M)
-    assert dict(table) == {stem(name): str(minutes(name)) for name in LESSONS}
+    stated = {stem(name): str(minutes(name)) for name in LESSONS}
+    assert dict(table) == stated, f"README's table of lessons: correct {set(stated.items()) ^ set(table)}"
 
 
 @pytest.mark.parametrize(("route", "shown"), [("evening", "| an evening | "), ("week", "| a week | ")])
@@ -61,7 +64,8 @@ def test_the_evening_and_the_homework_add_up_and_a_meeting_fits_into_90_minutes(
 
 def test_the_board_has_a_sketch_for_every_lesson_in_their_order():
     sketches = rows("The board and one question for each lesson")
-    assert [lessons_in(row[0]) for row in sketches] == [[name] for name in LESSONS]
+    drawn = [name for row in sketches for name in lessons_in(row[0])]
+    assert drawn == list(LESSONS), f"plans.md's board has no row for {set(LESSONS) - set(drawn)}, or another order"
     assert sketches[0][0].startswith(f"[{number(LESSONS[0])}]")
 
 

@@ -92,11 +92,17 @@ def claims_page() -> str:
     return "\n\n".join(parts) + "\n"
 
 
+def without_links(text: str) -> str:
+    """The text with the words of its links alone."""
+    return re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", text)
+
+
 def entry(paragraph: str, lesson: str) -> str:
     """A paragraph, quoted without its links, and a point for each of its expressions."""
-    words = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", fill_in(paragraph, lesson))
+    words = without_links(fill_in(paragraph, lesson))
     quoted = re.sub(r"^(?:> ?)?", "> ", words, flags=re.M)
-    points = [f"- `{' '.join(match[1].split())}` = {printed(*match.groups(), lesson)}"
-              for match in NUMBER.finditer(paragraph)]  # fmt: skip
+    values = [(" ".join(match[1].split()), printed(*match.groups(), lesson)) for match in NUMBER.finditer(paragraph)]
+    points = [f"- `{expression}` = {value}" if "\n" not in value else f"- `{expression}`: the list above"
+              for expression, value in values]  # fmt: skip
     points += [f"- `{claim}` is true" for claim in claims(paragraph)]
     return "\n".join([quoted, "", *dict.fromkeys(points)])
