@@ -5,7 +5,7 @@ That the lessons themselves are made from what the expressions yield now is test
 
 import pytest
 
-from tools.course.claims import check_claims, fill_in
+from tools.course.claims import check_claims, entry, fill_in
 
 TEXT = """\
 The rule falls back at {{ 8.2479 | .2f }} m/s, and pays {{ 999.6 | ,.0f }} times,
@@ -49,5 +49,5 @@ def test_what_is_wrong_with_an_expression_is_said(text, words):
 
 
 def test_the_page_of_claims_has_no_links_to_lessons_and_a_list_is_not_printed_twice():
-    page = claims.entry("Lessons:\n\n{{ way('evening') }}", "start")
+    page = entry("Lessons:\n\n{{ way('evening') }}", "start")
     assert "](" not in page and "- `way('evening')`: the list above" in page
