@@ -7,6 +7,7 @@
 # make notebooks  execute the lessons' texts again and write the notebooks
 # make solved     the notebooks with the solutions, and the instructor's pages, in notebooks/solved and notebooks/instructor
 # make doctor what is right and wrong with this machine
+# make types  the types of the road, the rule and the learners (mypy)
 # make lock   resolve environment.lock and student.lock again
 # make clean  remove .venv and the caches
 #
@@ -23,7 +24,7 @@ NOTEBOOKS := $(sort $(wildcard notebooks/*.ipynb))
 # So that a notebook finds this `bootcourse` and this `python`.
 WITH_PATH := PATH="$(CURDIR)/$(BIN):$$PATH"
 
-.PHONY: help lab drive check test bench book notebooks solved doctor lock clean
+.PHONY: help lab drive check test bench book notebooks solved doctor types lock clean
 
 help:
 	@sed -n '/^$$/q;s/^# \{0,1\}//p' Makefile
@@ -61,6 +62,10 @@ book: .venv/installed
 
 doctor: .venv/installed
 	@$(BIN)/bootcourse doctor
+
+types: .venv/installed
+	@$(PIP) install --quiet mypy==2.4.1
+	@$(BIN)/python -m mypy
 
 lock: .venv/installed
 	@$(PIP) install --quiet uv

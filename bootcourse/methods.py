@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pkgutil import resolve_name
 from types import MappingProxyType
+from typing import Any
 
 from bootcourse.colours import OTHER, Style
 from bootcourse.errors import require
@@ -70,7 +71,7 @@ _PPO = {
     "critic_lr": 7e-4,
     "buffer_size": 2048,
 }
-_ON_POLICY = {"kind": "bootcourse.learn.ppo:PPOSettings", "on_policy": True, "episodes": 20_000}
+_ON_POLICY: dict[str, Any] = {"kind": "bootcourse.learn.ppo:PPOSettings", "on_policy": True, "episodes": 20_000}
 
 _METHODS = {
     "sac": Method("plain SAC", Style("#0072B2"), {"xi_multiplier": 0.0, "beta_start": 0.0}),

@@ -7,6 +7,7 @@ course; in `CALIBRATED` the traps drive at the speed that the paper's results su
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass
+from typing import Any
 
 from bootcourse.errors import check_known, require
 from bootcourse.limits import Range, check_limits, limited
@@ -258,7 +259,8 @@ def scenario_from(given: Scenario | str | Mapping) -> Scenario:
 
 def _built(kind: type, given: Mapping):
     """A part of the scenario from a dictionary; JSON has lists for its ranges."""
-    types, values = {f.name: f.type for f in fields(kind)}, {}
+    types: dict[str, Any] = {f.name: f.type for f in fields(kind)}
+    values = {}
     for name, value in given.items():
         check_known(f"{kind.__name__}: field", name, types)
         is_part = is_dataclass(types[name]) and isinstance(value, Mapping)

@@ -38,10 +38,10 @@ def steps(policy: Policy, env: VectorEnv, seeds: Sequence[int] | int) -> Iterato
 
     A policy with a method `reset(roads)` is reset first. Raises BootcourseError for what is no policy.
     """
-    if hasattr(check_policy(policy), "reset"):
-        policy.reset(env.num_envs)
+    if (reset := getattr(check_policy(policy), "reset", None)) is not None:
+        reset(env.num_envs)
     place = place_of(env)
-    observations, _ = env.reset(seed=seeds)
+    observations, _ = env.reset(seed=seeds)  # type: ignore[arg-type]
     running = np.ones(env.num_envs, dtype=bool)
     while running.any():
         cars = place.state(env, observations).copy()

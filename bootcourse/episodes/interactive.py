@@ -55,7 +55,8 @@ class InteractiveEpisode:
     @property
     def terms(self) -> tuple[float, float, float]:
         """r_v, r_y, r_θ of the last decision, unweighted; zeros before the first."""
-        return tuple(map(float, self.recorder.terms[-1])) if self.recorder.terms else (0.0, 0.0, 0.0)
+        r_v, r_y, r_theta = self.recorder.terms[-1] if self.recorder.terms else (0.0, 0.0, 0.0)
+        return float(r_v), float(r_y), float(r_theta)
 
     def rollout(self) -> Rollout:
         """The drive so far. Raises BootcourseError before the first decision."""

@@ -132,7 +132,9 @@ class LookAhead:
         self._begin()
 
     def _begin(self) -> None:
-        self.rng, self.earlier, self.imagined = np.random.default_rng(self.seed), None, None
+        self.rng = np.random.default_rng(self.seed)
+        self.earlier: np.ndarray | None = None
+        self.imagined: Imagined | None = None
         self.overruled = np.zeros(0, dtype=bool)
         self.believed = [model.scenarios(self.scenario, self.rng) for model in self.models]
 

@@ -49,8 +49,8 @@ class Model:
         if self.drawn:
             ways = rng.uniform((-1, -1, 0), (1, 1, 2), (self.drawn, 3))
             believed = [(speed + SPEED_OFF * a, gap * GAP_OFF**b, politeness * c) for a, b, c in ways]
-        names = ("desired_speed", "time_gap", "politeness")
-        return [replace(scenario, traffic=replace(true, **dict(zip(names, one, strict=True)))) for one in believed]
+        drivers = [replace(true, desired_speed=v, time_gap=gap, politeness=polite) for v, gap, polite in believed]
+        return [replace(scenario, traffic=each) for each in drivers]
 
     def seen(
         self, cars: np.ndarray, earlier: np.ndarray | None, scenario: Scenario, rng: np.random.Generator

@@ -4,9 +4,9 @@ Everything that depends on the difference asks here; `place_of` finds it out.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
-from gymnasium.vector import VectorEnv
 
 from bootcourse.road.state import EGO, SPEED, X, Y
 from bootcourse.scenario import DEFAULT, Scenario
@@ -35,11 +35,11 @@ class Place:
         """How long so many decisions take; off the trap a second each."""
         return decisions / (self.scenario or DEFAULT).clock.decision_rate
 
-    def state(self, env: VectorEnv, observations: np.ndarray) -> np.ndarray:
+    def state(self, env: Any, observations: np.ndarray) -> np.ndarray:
         """What a teacher sees now: the cars (roads, vehicles, 10), which the environment will change; observations."""
         return env.cars if self.is_trap else observations
 
-    def state_reached(self, env: VectorEnv, reached: np.ndarray, infos: dict) -> np.ndarray:
+    def state_reached(self, env: Any, reached: np.ndarray, infos: dict) -> np.ndarray:
         """What a teacher saw after a step, where autoreset has restarted: the old episode's last state.
 
         reached: see `driving.reached_observations`. infos: as returned by `step`.
@@ -57,7 +57,7 @@ class Place:
         return f"with the ego at x = {state[EGO, X]:.1f} m, y = {state[EGO, Y]:.1f} m, {state[EGO, SPEED]:.1f} m/s"
 
 
-def place_of(env: VectorEnv) -> Place:
+def place_of(env: Any) -> Place:
     """Where an environment is. One that has `cars` is the trap, or a road that was made from it."""
     if hasattr(env, "cars"):
         return Place(env.scenario)

@@ -77,13 +77,13 @@ def record(
         if not recorders:
             recorders = [EpisodeRecorder(*start) for start in zip(step.cars, step.observations, strict=True)]
         terms = np.stack([step.infos[name] for name in ("r_v", "r_y", "r_theta")], axis=1)
-        for road in np.flatnonzero(step.running):
+        for road in map(int, np.flatnonzero(step.running)):
             accidents[road] = step.infos["accident"][road]
             states = driven(env.trace[road], accidents[road])
             outcome = states, step.next_observations[road], step.rewards[road], terms[road]
             recorders[road].add(step.output, *outcome, road)
     each = zip(recorders, seeds, accidents, strict=True)
-    return [recorder.rollout(scenario, label, seed, accident) for recorder, seed, accident in each]
+    return [recorder.rollout(scenario, label, seed, int(accident)) for recorder, seed, accident in each]
 
 
 def driven(trace: np.ndarray, accident: int) -> np.ndarray:

@@ -123,7 +123,7 @@ class Rollout:
     def load(cls, path: Path) -> "Rollout":
         """Read and check a rollout. Raises BootcourseError, with the file and the remedy, if it is damaged."""
         is_one = Path(path).suffix == ".npz" or not Path(path).is_file()  # a missing file has its own sentence
-        arrays = read_arrays(path, RECORD_AGAIN) if is_one else {}
+        arrays: dict[str, Any] = read_arrays(path, RECORD_AGAIN) if is_one else {}
         if "header" not in arrays:
             raise BootcourseError(f"{path} is not a rollout: record one with `bootcourse drive`.")
         if odd := (arrays.keys() - set(OPTIONAL)) ^ {*REQUIRED, "header"}:

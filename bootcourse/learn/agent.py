@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 import torch
@@ -26,7 +27,7 @@ class Agent:
     learner: type | None = None  # the class of its learner, if it is your own; None: that of its method
 
     @property
-    def kind(self) -> type:
+    def kind(self) -> type[Any]:
         """The class of its learner, which says how its networks decide."""
         return self.learner or METHODS[self.settings.method].learner_class()
 

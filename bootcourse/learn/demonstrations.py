@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import torch
@@ -79,7 +80,8 @@ def demonstrate(
     For the stochastic rule give `stochastic_rule_policy`.)
     """
     env, mu = one_episode_each(episodes, scenario, make_env), None
-    teach = teacher_of(teacher or no_teacher, scenario, int(env.single_action_space.n))
+    space: Any = env.single_action_space
+    teach = teacher_of(teacher or no_teacher, scenario, int(space.n))
 
     def follow_teacher(observations, cars):
         return PolicyOutput(teach(cars) if mu is None else mu)  # mu was computed after the last step
@@ -97,8 +99,9 @@ def demonstrate(
         roads.append(np.flatnonzero(step.running))
         mu = next_mu
     by_drive = np.argsort(np.concatenate(roads), kind="stable")
-    columns = (np.concatenate(column)[by_drive] for column in zip(*decisions, strict=True))
-    return Demonstrations(*columns, seeds=tuple(range(first_seed, first_seed + episodes)))
+    arrays = (np.concatenate(column)[by_drive] for column in zip(*decisions, strict=True))
+    roads_driven = tuple(range(first_seed, first_seed + episodes))
+    return Demonstrations(*arrays, seeds=roads_driven)  # type: ignore[misc, arg-type]
 
 
 def collect(

@@ -10,6 +10,7 @@ any learner.
 """
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import torch
@@ -137,7 +138,7 @@ class SACLearner(Learner):
 
     def margin_loss(self, q_pair: Tensor, log_pi: Tensor, batch: Batch) -> Tensor:
         """The filtered large-margin loss of the demonstrations (Equations 17 to 19), summed over critics: (agents,)."""
-        total = 0.0
+        total: Any = 0.0
         for q in q_pair:  # (agents, batch, 9)
             loss = bootstrap.large_margin_loss(q, batch.actions)
             printed = bootstrap.paper_q_filter(q.detach(), batch.actions)

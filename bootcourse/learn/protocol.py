@@ -132,7 +132,8 @@ def adam(*groups: tuple[list[Tensor], float]) -> torch.optim.Adam:
 
 def total_loss(terms: dict[str, Tensor]) -> Tensor:
     """The sum of all agents' losses: of the terms whose names end in "loss"."""
-    return sum(values for name, values in terms.items() if name.endswith("loss")).sum()
+    first, *others = (values for name, values in terms.items() if name.endswith("loss"))
+    return sum(others, first).sum()
 
 
 def of_agent(parameters: Sequence[Tensor], i: int, agents: int) -> list[Tensor]:

@@ -87,8 +87,8 @@ class ReplayBuffer:
     def state(self) -> dict[str, np.ndarray]:
         """What a checkpoint keeps: all filled rows, and the place of the next."""
         own, demonstrations = self._read(self.first[:, None] + np.arange(self.size)), self.table[: self.demonstrations]
-        own, demonstrations = own.cpu().numpy(), demonstrations.cpu().numpy()
-        return {"own": own, "demonstrations": demonstrations, "place": np.array([self.size, self.next])}
+        arrays = {"own": own.cpu().numpy(), "demonstrations": demonstrations.cpu().numpy()}
+        return arrays | {"place": np.array([self.size, self.next])}
 
     def restore(self, state: dict[str, np.ndarray]) -> None:
         """Set a new buffer to a state. Raises ValueError or RuntimeError if it does not fit."""

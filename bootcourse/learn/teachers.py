@@ -18,6 +18,7 @@ import operator
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -29,7 +30,7 @@ from bootcourse.road.state import EGO, LANE, SPEED, X
 from bootcourse.rule import rule, track
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 
-Rule = Callable[..., int]  # one road's cars (vehicles, 10) and the scenario -> an action, 0..8
+Rule = Callable[..., Any]  # one road's cars (vehicles, 10) and the scenario -> an action, 0..8
 Teacher = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
 ALL = "in a call for all roads"  # where such a rule failed
 
@@ -157,7 +158,7 @@ class _Questions:
             raise self._failed(f"raised {described(error)}", state, where) from error
 
     def _failed(self, how: str, state: np.ndarray, where: str = "") -> RuleFailed:
-        return RuleFailed(self.rule.__name__, how, where or self.place.in_words(state), state)
+        return RuleFailed(vars(self.rule)["__name__"], how, where or self.place.in_words(state), state)
 
     @property
     def _an_action_is(self) -> str:

@@ -90,9 +90,9 @@ class TextbookSAC:
             target = self.critic_target(batch, alpha, xi)  # (batch,)
         log_pi = F.log_softmax(self.actor(batch.states), dim=1)  # (batch, 9)
         values = [critic(batch.states) for critic in self.critics]  # two of (batch, 9)
-        critic_loss = sum(self.critic_loss(q, target, log_pi.detach(), batch) for q in values)
+        one, other = (self.critic_loss(q, target, log_pi.detach(), batch) for q in values)
         actor_loss = self.actor_loss(log_pi, torch.min(*values).detach(), alpha, xi, batch)
-        minimise(self.critic_optimiser, critic_loss)
+        minimise(self.critic_optimiser, one + other)
         minimise(self.actor_optimiser, actor_loss)
         minimise(self.alpha_optimiser, self.temperature_loss(log_pi.detach()))
         with torch.no_grad():  # Polyak averaging

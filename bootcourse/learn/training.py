@@ -16,6 +16,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pkgutil import resolve_name
+from typing import Any
 
 import numpy as np
 import torch
@@ -114,9 +115,10 @@ class Training:
         self.settings, self.make_env = list(settings), make_env
         self.n_agents, self.envs_per_agent = len(settings), settings[0].envs_per_agent
         n_envs = self.n_agents * self.envs_per_agent
-        self.env = TrapVectorEnv(n_envs, scenario) if make_env is None else copies_of(make_env, n_envs)
+        self.env: Any = TrapVectorEnv(n_envs, scenario) if make_env is None else copies_of(make_env, n_envs)
         self.place = place_of(self.env)
-        size, self.n_actions = self.env.single_observation_space.shape[0], int(self.env.single_action_space.n)
+        seen, chosen = self.env.single_observation_space, self.env.single_action_space  # type: Any, Any
+        size, self.n_actions = seen.shape[0], int(chosen.n)
         self._make_learner(make_learner, learner, device, size)
         self._set_teacher(default_teacher(self.place) if teacher is None else teacher)
         rows = demonstrations_for(settings, demonstrations, self.teacher, self.scenario, make_env, self.n_actions)
@@ -227,9 +229,9 @@ class Training:
         self.decisions += len(actions)
         for _ in range(self.learner.updates_due(self.replay, self.decisions // self.n_agents)):
             self.update()
-        for agent in np.flatnonzero(self.curves.finished >= self.episodes):
+        for agent in map(int, np.flatnonzero(self.curves.finished >= self.episodes)):
             if agent not in self.finished_agents:
-                self.finished_agents[int(agent)] = self.agent(agent)
+                self.finished_agents[agent] = self.agent(agent)
 
     @torch.enable_grad()  # also where somebody has switched gradients off
     def update(self) -> None:
@@ -242,10 +244,10 @@ class Training:
         self.last_finite |= {i: agent for i, agent in snapshots.items() if finite[i] or i not in self.last_finite}
         if finite.all():
             return
-        for i in np.flatnonzero(~finite.numpy()):
+        for i in map(int, np.flatnonzero(~finite.numpy())):
             if i not in self.finished_agents:
-                self.stopped[int(i)] = decision = self.decisions // self.n_agents
-                self.finished_agents[int(i)] = self.last_finite[i]
+                self.stopped[i] = decision = self.decisions // self.n_agents
+                self.finished_agents[i] = self.last_finite[i]
                 self.curves.finished[i] = self.episodes  # the curves record no more episodes
                 label = f"{self.settings[i].method}, seed {self.settings[i].seed}"
                 warnings.warn(f"{label}: its loss was not finite at decision {decision}; it stops there.", stacklevel=2)

@@ -18,6 +18,7 @@ import sys
 import tempfile
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import numba
 from llvmlite.binding import get_host_cpu_features, get_host_cpu_name
@@ -55,7 +56,12 @@ def make_temporary_place() -> None:
     with suppress(OSError):
         folder, owner = tempfile.mkdtemp(prefix="bootcourse-"), os.getpid()
         os.environ["NUMBA_CACHE_DIR"] = folder
-        atexit.register(lambda: os.getpid() == owner and shutil.rmtree(folder, ignore_errors=True))
+
+        def remove() -> None:
+            if os.getpid() == owner:
+                shutil.rmtree(folder, ignore_errors=True)
+
+        atexit.register(remove)
 
 
 CACHE_FOLDER, UNWRITABLE = cache_folder(sources(PACKAGE), cache_places())
@@ -100,12 +106,12 @@ def compiled_loop(function):
 
 def compile_into(folder: Path | None, function, **options):
     """The function compiled with these options of numba, cached in a folder; None: not cached."""
-    before = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(folder)
+    config: Any = numba.config
+    before, config.CACHE_DIR = config.CACHE_DIR, str(folder)
     try:
         made = numba.njit(cache=folder is not None, error_model="numpy", nogil=True, **options)(function)
         if folder is not None:
             made._cache = Cache(function)
         return made
     finally:
-        numba.config.CACHE_DIR = before
+        config.CACHE_DIR = before

@@ -41,7 +41,7 @@ class OneCar(gym.Env):
         self.observation_space = gym.spaces.Box(low, high, dtype=np.float32)
         self.action_space = gym.spaces.Discrete(N_ACTIONS)
         self.decisions, self.accident, self.trace, self.was_reset = 0, 0, [], False
-        self._spec = None
+        self._spec: EnvSpec | None = None
 
     @property
     def spec(self) -> EnvSpec | None:

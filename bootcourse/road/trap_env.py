@@ -6,6 +6,8 @@ step (highway-env also counts an overlap predicted for the next step, half a sec
 backwards. The episode ends at the simulation step of the accident.
 """
 
+from typing import Any
+
 import numpy as np
 from highway_env.envs.common.graphics import EnvViewer
 from highway_env.road.lane import LineType, StraightLane
@@ -48,7 +50,7 @@ class _CollidesByOverlap:
     """A collision is an overlap at this step, not one predicted for the next step."""
 
     def _is_colliding(self, other, dt: float):
-        overlapping, _, _ = super()._is_colliding(other, 0.0)
+        overlapping, _, _ = super()._is_colliding(other, 0.0)  # type: ignore[misc]
         return overlapping, False, None
 
 
@@ -137,12 +139,13 @@ class TrapEnv(OneCar):
     def render(self) -> np.ndarray | None:
         """Draw the road by highway-env's viewer; in the mode "rgb_array", the picture (160, 1000, 3) uint8."""
         self.check_rendered()
-        if self.viewer is None:
-            self.viewer = EnvViewer(self)
-        self.viewer.display()
+        viewer: Any = self.viewer or EnvViewer(self)
+        self.viewer = viewer
+        viewer.display()
         if self.render_mode == "rgb_array":
-            return self.viewer.get_image()
-        self.viewer.handle_events()
+            return viewer.get_image()
+        viewer.handle_events()
+        return None
 
     def __getstate__(self) -> dict:
         """What a copy gets, also in another process: all but the window, for which it opens its own."""

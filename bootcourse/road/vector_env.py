@@ -84,7 +84,7 @@ class TrapVectorEnv(VectorEnv):
         BootcourseError, before any road is reset, for a wrong seed, number of seeds or mask, and for another option.
         """
         mask = mask_of(options or {}, self.num_envs)
-        require(self.was_reset or mask.all(), "There are no cars on the other roads yet: first reset all roads.")
+        require(self.was_reset or bool(mask.all()), "There are no cars on the other roads yet: first reset all roads.")
         if seed is not None:
             seeds = seeds_of(seed, self.num_envs)
             super().reset(seed=seeds[0])
@@ -180,7 +180,7 @@ def mask_of(options: dict, roads: int) -> np.ndarray:
     for name in options:
         check_known("Option", name, ("reset_mask",))
     mask = options.get("reset_mask", np.ones(roads, dtype=bool))
-    is_mask = isinstance(mask, np.ndarray) and mask.shape == (roads,) and mask.dtype == bool and mask.any()
+    is_mask = isinstance(mask, np.ndarray) and mask.shape == (roads,) and mask.dtype == bool and bool(mask.any())
     require(is_mask, f"reset_mask = {mask!r:.80}: give an array of {roads} booleans, at least one of them True.")
     return mask
 

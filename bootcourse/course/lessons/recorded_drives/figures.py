@@ -44,7 +44,6 @@ def as_the_rule_would(drives: Sequence[Rollout]) -> tuple[float, float, float]:
     return float(np.mean(done == rule)), brakes, accelerates
 
 
-
 def followers(groups: Mapping[str, Sequence[Agent]], roads: Sequence[int]) -> tuple[list[str], list[list[str]]]:
     """Headings and a row for each group of agents: how far they do what the rule would, and what they earn."""
     rows = []
