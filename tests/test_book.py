@@ -145,12 +145,13 @@ def test_on_a_phone_what_is_wider_than_the_screen_scrolls_inside_itself_and_says
 def test_a_replay_plays_in_the_book(made, new_page):
     page = new_page()
     page.page.goto((made / f"lessons/{stem('start')}.html").as_uri())
-    frame = page.page.frames[1]  # sandboxed: the page itself cannot look into it
+    shown = page.page.locator("iframe[title='Replay in 3D']")
+    shown.scroll_into_view_if_needed()  # out of sight it is not laid out
+    frame = shown.element_handle().content_frame()  # sandboxed: the page itself cannot look into it
     frame.wait_for_function("() => window.__viserMutable?.nodeRefFromName['/drive0/car0/paint']")
-    page.page.locator("iframe").first.scroll_into_view_if_needed()  # out of sight it is not laid out
-    before = frame.text_content("#bc-numbers .big b >> nth=0")
-    frame.wait_for_function("before => document.querySelector('#bc-numbers .big b').textContent !== before", arg=before)
-    picture = page.page.locator("iframe").first.screenshot(path=ARTEFACTS / "book-replay.png")
+    before = frame.text_content("#bc-numbers table")
+    frame.wait_for_function("before => document.querySelector('#bc-numbers table').textContent !== before", arg=before)
+    picture = shown.screenshot(path=ARTEFACTS / "book-replay.png")
     assert not is_blank(picture) and page.errors == []
     page.page.close()
 

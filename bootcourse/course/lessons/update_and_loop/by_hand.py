@@ -183,26 +183,30 @@ def after_updates(update, kind: str, times: int, seed: int) -> tuple[np.ndarray,
     """An agent after some updates, each on a batch of its own: log π, Q, Q̄ in a few states, and log α.
 
     kind: "zeros", all networks are 0, and so are the states; "drawn"; "sure", the policy is so sure in some states that
-    exp(log π) is 0 in float32; "large", rewards and Q of 30 and more; "one", batches of one row.
+    exp(log π) is 0 in float32; "large" and "huge", rewards and Q of 30 and more, and of hundreds; "one" and "wide",
+    batches of one row and of 256; "other", another γ, τ and η; "cold", an α of 1e-4.
     """
-    zeros, size = kind == "zeros", 1 if kind == "one" else 64
-    rate = 0.001 if kind == "large" else 0.1
+    zeros, size = kind == "zeros", {"one": 1, "wide": 256}.get(kind, 64)
+    scale = {"large": 300, "huge": 1500}.get(kind, 1)  # of the critics' last layer
+    rate = 0.001 if scale > 1 else 0.1
     agent, draw = SAC(seed, Descent, (rate, rate, 0.1)), torch.Generator().manual_seed(seed)
     with torch.no_grad():
-        agent.log_alpha.fill_(np.log(0.5))
+        agent.log_alpha.fill_(np.log(1e-4 if kind == "cold" else 0.5))
+        if kind == "other":
+            agent.gamma, agent.tau, agent.target_entropy = 0.7, 0.3, 0.9 * float(np.log(2))
         for parameter in agent.copies.parameters():  # copies that lag behind
             parameter.add_(0.1 * torch.randn(parameter.shape, generator=draw))
         for parameter in [*agent.actor.parameters(), *agent.critics.parameters(), *agent.copies.parameters()] * zeros:
             parameter.zero_()
         if kind == "sure":
             agent.actor[-1].weight.mul_(300)
-        for critic in [*agent.critics, *agent.copies] * (kind == "large"):
-            critic[-1].weight.mul_(300)
+        for critic in [*agent.critics, *agent.copies]:
+            critic[-1].weight.mul_(scale)
     for _ in range(times):
         states, next_states = (1 - zeros) * torch.randn(2, size, 4, generator=draw)
         actions = torch.randint(2, (size,), generator=draw) * (1 - zeros)
         ended = torch.ones(size) if zeros else (torch.rand(size, generator=draw) < 0.4).float()
-        rewards = torch.ones(size) if zeros else torch.randn(size, generator=draw) * (30 if kind == "large" else 1)
+        rewards = torch.ones(size) if zeros else torch.randn(size, generator=draw) * (30 if scale > 1 else 1)
         update(agent, Batch(states, actions, rewards, ended, next_states))
     probe = torch.zeros(1, 4) if zeros else torch.randn(5, 4, generator=draw)
     with torch.no_grad():

@@ -17,7 +17,8 @@ temperature_loss, LOG_2, OF_NOTHING = losses.temperature_loss.solution, losses.L
 def update_cases(rng):
     """One update and several, of a few agents, and in training's extremes: see `by_hand.after_updates`."""
     yield from (("drawn", times, seed) for times in (1, 2, 4) for seed in range(3))
-    yield from ((kind, 1, seed) for kind in ("sure", "large", "one") for seed in range(2))
+    kinds = ("sure", "large", "huge", "one", "wide", "other", "cold")
+    yield from ((kind, 1, seed) for kind in kinds for seed in range(2))
 
 
 NETWORKS = ("the policy", "the critics", "the copies", "log α")

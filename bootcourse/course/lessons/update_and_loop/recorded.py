@@ -101,6 +101,8 @@ class Notes:
     def reset(self, seed: int | None) -> None:
         self.departs("Your loop resets in the middle of an episode: reset once at the start, and after each end.",
                      self.push > 0 and not self.ended)  # fmt: skip
+        self.departs("Your loop resets twice where an episode begins: once is enough.",
+                     self.episode >= 0 and self.push == 0 and not self.ended)  # fmt: skip
         self.departs(SAME_START, seed is not None and seed in self.seeds)
         self.seeds.append(seed)
         self.episode, self.push, self.ended, self.drawn = self.episode + 1, 0, "", None
@@ -109,6 +111,7 @@ class Notes:
         if not isinstance(state, np.ndarray) or state.shape != (4,):
             raise NotAsAsked("Hand `agent.draw` the state as the environment gives it: a NumPy array (4,).")
         self.departs("Hand `agent.draw` the generator `rng` that your loop gets.", rng is not self.rng)
+        self.departs("Your loop draws two actions for one push: draw one, and do it.", self.drawn is not None)
         if self.episode >= 0 and not np.array_equal(state, self.state()):
             is_old = self.push == 0 and self.kept and np.array_equal(state, self.kept[-1][7:])
             is_before = self.kept and np.array_equal(state, self.kept[-1][:4])

@@ -32,7 +32,8 @@ def filled_and_drawn(answer, size, added, batch):
     Returns the shape of a batch; the rows that are ever drawn, as in "2 3"; whether each is drawn about equally often;
     whether they come back unchanged; whether two equal generators give the same batch; whether the rows of a batch are
     independent of each other; whether a row comes twice in some batch; whether batches differ; whether rows that are
-    drawn stay in the buffer; whether adding and drawing leave the table where it is (all 1 or 0).
+    drawn stay in the buffer; whether it draws from all of many rows, and none that has been overwritten; whether adding
+    and drawing leave the table where it is (all 1 or 0).
     """
     buffer = answer(size)
     if not (hasattr(buffer, "add") and hasattr(buffer, "sample")):
@@ -68,8 +69,28 @@ def filled_and_drawn(answer, size, added, batch):
     # draws that are uneven, or never twice the same, are not independent either: those have their own sentences
     apart = independent(number, held) or (drawn_apart(number, held) and not (even and twice))
     judged = even, intact, same, apart, twice, differ, stay
-    judged = *judged, not copies_the_table(answer)
+    judged = *judged, draws_from_all_of_many(answer), forgets_what_is_overwritten(answer), not copies_the_table(answer)
     return np.array(first.shape), known_rows, *map(float, judged)
+
+
+@functools.cache
+def draws_from_all_of_many(answer) -> bool:
+    """Do 300 draws of 3,000 rows reach the first and the last quarter? A right buffer misses one in 10³⁷ times."""
+    buffer, rng = answer(4000), np.random.default_rng(0)
+    for number in range(3000):
+        buffer.add(torch.full((3,), float(number)))
+    numbers = torch.cat([buffer.sample(100, rng)[:, 0] for _ in range(3)])
+    return bool(numbers.min() < 750 and numbers.max() >= 2250)
+
+
+@functools.cache
+def forgets_what_is_overwritten(answer) -> bool:
+    """Does a full buffer that has been drawn from give new rows alone, once all its rows are overwritten?"""
+    buffer, rng = answer(4), np.random.default_rng(0)
+    for number in range(8):
+        buffer.add(torch.full((3,), float(number)))
+        drawn = buffer.sample(20, rng)[:, 0]
+    return bool(drawn.min() >= 4)
 
 
 @functools.cache
@@ -115,7 +136,7 @@ def of_the_buffer(cases, answers):
     """A sentence on a buffer that gives back the wrong rows."""
     same_batch = [not answer[7].data for answer in answers]
     for (size, added, batch), answer in zip(cases, answers, strict=True):
-        shape, known_rows, even, intact, same, apart, twice, differ, stay, _ = (part.data for part in answer)
+        shape, known_rows, even, intact, same, apart, twice, differ, stay, far, new, _ = (part.data for part in answer)
         if shape[0] != batch:
             return f"A batch of {batch} rows was asked for, and your buffer gave {shape[0]:.0f}."
         if not differ and sum(same_batch) > len(same_batch) / 2:  # not by chance in a small one
@@ -134,6 +155,10 @@ def of_the_buffer(cases, answers):
             return ONCE
         if not even:
             return "Your buffer draws some rows more often than others: each row has the same chance."
+        if not far:
+            return "Of 3,000 rows your buffer draws a part only: each row has the same chance, however many there are."
+        if not new:
+            return "Your buffer gives back rows that have been overwritten since it was last drawn from."
     return COPIES
 
 
@@ -141,7 +166,7 @@ def of_the_buffer(cases, answers):
     "the last D transitions, of which N are drawn, Table of RL hyper-parameters",
     minutes=4, difficulty=1, cases=buffer_cases, run=filled_and_drawn, explain=of_the_buffer,
     worked=[
-        ((2, 3, 4), (np.array([4, 3]), "2 3", *[1.0] * 8)),  # the oldest of three rows is gone
+        ((2, 3, 4), (np.array([4, 3]), "2 3", *[1.0] * 10)),  # the oldest of three rows is gone
     ],
     hints=(
         "First draw the places of the rows: `batch` whole numbers below `len(self.rows)`, with `rng`.",

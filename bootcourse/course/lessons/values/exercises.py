@@ -7,8 +7,9 @@ from bootcourse.course.lessons.values import chain
 
 
 def return_cases(rng):
-    """One reward, none discounted, all but the first worthless, an accident at the end; then 40 at random."""
+    """One reward, none discounted, only the first counts, an accident, a late reward; then 40 at random."""
     yield from (([3.0], 0.5), ([1.0, 2.0, 4.0], 1.0), ([1.0, 2.0, 4.0], 0.0), ([0.16] * 3 + [-10.0], 0.8))
+    yield [0.0] * 400 + [50.0], 0.995
     for _ in range(40):
         yield rng.normal(0, rng.choice([1, 10]), rng.integers(1, 150)).tolist(), rng.uniform(0.3, 1)
 
@@ -132,6 +133,8 @@ def chain_cases(rng):
     yield np.full(3, -1), 0.9, 0.5, chain.WAY_OUT
     yield np.array([1] * 45), 0.8, 0.3, ()
     yield np.array([1, 1, 0] * 15), 0.8, 1.0, chain.WAY_OUT[3:]
+    yield np.full(60, -1), 0.9, 0.002, chain.WAY_OUT  # differences of a thousandth decide
+    yield np.array([0, 1] * 10), 0.7, 0.4, ((4, 1), (2, 1), (4, 1), (0, 0), (2, 1))  # in no order, some twice
     for k in range(30):
         taught = chain.WAY_OUT if k % 2 else ()
         drawn = chain.chances(rng.uniform(0.2, 1), rng.integers(5, 90), rng.integers(1000))
