@@ -312,8 +312,9 @@ bc.show(charts.lines(strengths, probability, title, x_label, y_label, "x", looks
 # %% [markdown]
 # **Explain.** While ξ is near 2 the rule's action stays the most probable one, whatever a higher
 # speed earns: the head start of one second is larger than the discounted rewards of the best drive.
-# (An accident, {{ DEFAULT.reward.accident }}, outweighs it.) At ξ = 0.002 the rule decides where
-# the values of two actions are almost equal. In the study ξ falls from 2 to far below 0.002.
+# (An accident in the same second, {{ DEFAULT.reward.accident }}, outweighs it.) At ξ = 0.002 the
+# rule decides where the values of two actions are almost equal. In the study ξ falls from 2 to far
+# below 0.002.
 # <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident
 #   -->
 # <!-- claim: 0.002 * math.log(8 * 0.9 / 0.1) < 0.01 -->
@@ -330,9 +331,10 @@ its_drive = bc.record(helped.as_policy(with_q=True), [ROAD], label="soft")[0]
 bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 
 # %% [markdown]
-# **See.** Near ξ = 0.1 it leaves the road. Each second is then the best of two wishes, and a drive
-# made of some seconds of one plan and some of another is neither. So the rule pulls *while the agent
-# learns*: it is the learner's business to find a plan of its own beside it.
+# **See.** Near ξ = 0.1 this drive leaves the road, although its two ends lead out. A compromise of
+# two drivers is a third driver, and has to be tried like any other. (This is one agent on one road;
+# to drive by the largest Q alone, ξ = 0, has more accidents than the agent's own π, too.) So the
+# rule pulls *while the agent learns*, and the agent can find a plan of its own beside it.
 # <!-- claim: compromised(0.1) and not compromised(0.001) and not compromised(10) -->
 
 # %% [markdown] tags=["instructor"] minutes=6

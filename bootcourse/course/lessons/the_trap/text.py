@@ -487,7 +487,7 @@ table(["", "who gets out", "mean return", "drives that end in an accident"], row
 # **See.** Most agents of plain SAC miss a way out that the rule, which learns nothing, finds on
 # each of these roads. With help more get out. The helped agents' accidents are a mean of two
 # groups: those that escape crash in at most {{ 100 * of('bootstrapped').scores('accident')[
-# of('bootstrapped').scores('success') >= ESCAPES].max() | .0f }} % of their drives, the others in
+# of('bootstrapped').scores('success') >= ESCAPES].max() | .1f }} % of their drives, the others in
 # {{ 100 * of('bootstrapped').scores('accident')[of('bootstrapped').scores('success') <
 # ESCAPES].min() | .0f }} % or more. In brackets is the 95 % *interval*: the mean over very many
 # such agents probably lies in it. It is wide because ten agents in two such groups are few.
@@ -541,8 +541,7 @@ bc.show(figures.running_lead(lead, int(behind)))
 
 # %% [markdown]
 # **See.** Below 10 m/s the escape loses a little in each second, {{ -(by_rule().rewards -
-# idle().rewards).cumsum().min() | .1f }} in all. As soon as it is fast, a second or two make up for
-# that.
+# idle().rewards).cumsum().min() | .1f }} in all. Its first fast seconds make up for that.
 #
 # **Exercise (8 min, ●●○).** A driver that stays behind the traps earns the return `stay`. An
 # attempt to escape ends in an accident with probability q, and then returns `crash`; otherwise it

@@ -14,10 +14,10 @@ def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
 
 
 @cache
-def replayed(times: int, walks: int = 30) -> int:
+def replayed(times: int, walks: int = 30, backwards: bool = False) -> int:
     """How many of the chain's learners with A's ε and γ leave if the way out is replayed before the first decision."""
     q = np.zeros((chain.STATES, 2))
-    for s, a in chain.WAY_OUT * times:
+    for s, a in chain.WAY_OUT[:: -1 if backwards else 1] * times:
         q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
     return sum(_leaves(q.copy(), 0.1, seed) for seed in range(walks))
 

@@ -101,7 +101,7 @@ for gamma in (0.5, 0.63, 0.64, 0.8, 0.95):
 table(["γ", "to stay is worth", "to leave is worth", "better"], rows, "Sums of 500 decisions.")
 
 # %% [markdown]
-# **Explain.** Leaving pays where $\gamma^4 > 0.16$: from γ = {{ 0.16**0.25 | .2f }} on. The paper's
+# **Explain.** Leaving pays where $\gamma^4 > 0.16$: from γ = {{ 0.16**0.25 | .4f }} on. The paper's
 # γ is {{ SETTINGS.gamma }}; with it leaving is worth {{ 0.8**4 / 0.16 | .1f }} times as much as
 # staying. Remember that factor: the learner of Round 4 stays all the same.
 # <!-- claim: 0.8**4 > 2.5 * 0.16 and 0.63**4 < 0.16 < 0.64**4 -->
@@ -159,9 +159,9 @@ bc.show(charts.lines(range(31), named, title, "sweep", "Q in state 0, γ = 0.8",
 # %% [markdown]
 # **Explain.** The first sweep knows the rewards alone, so only the two ends are worth something.
 # Each further sweep carries the free road's value one state back, and the fifth reaches the trap.
-# (Before that, Q(0, 1) holds only what the way back pays: leave, come back, stay.) Each time what
-# is still missing shrinks by the factor γ, so the numbers settle: on {{ sweeps(200, 0.8)[0, 0] |
-# .2f }} for staying and {{ sweeps(200, 0.8)[0, 1] | .2f }} for leaving.
+# (Before that, Q(0, 1) holds only what the way back pays: leave, come back, stay.) The largest
+# error shrinks to γ times as much or less in each sweep, so the numbers settle: on {{ sweeps(200,
+# 0.8)[0, 0] | .2f }} for staying and {{ sweeps(200, 0.8)[0, 1] | .2f }} for leaving.
 # <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
 # <!-- claim: abs(sweeps(200, 0.8)[0, 1] - 0.8**4 / 0.2) < 1e-9 -->
 #
@@ -300,14 +300,19 @@ bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
 #
 # More exploration helps here (C, D), but one visit is not enough, since each passage moves the
 # value one state back: {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5,
-# 0.8) }} learn to leave. On the road, where a failed attempt costs 10, D is no recipe.
+# 0.8) }} learn to leave in these 1,000 decisions; with more decisions more of C would. On the road,
+# where a failed attempt costs 10, D is no recipe.
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 #
-# One demonstration gets all thirty across (E), because it is *replayed*: each time its values move
-# one state back. Replayed once, before the first decision, it gets {{ replayed(1) }} of thirty
-# across, five times {{ replayed(5) }}. Q-learning learns from it as from its own decisions: it is
-# **off-policy**, and so is the learner of the next lessons.
-# <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 and replayed(1) < replayed(5) -->
+# One demonstration, *replayed* after each decision, gets all thirty across (E): each time its
+# values move one state back. Replayed once, before the first decision, it gets {{ replayed(1) }} of
+# thirty across, five times {{ replayed(5) }}, and once in *backward* order {{ replayed(1,
+# backwards=True) }}: then the value of the free road comes all the way in one pass. Q-learning
+# learns from it as from its own decisions: it is **off-policy**, and so is the learner of the next
+# lessons.
+# <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 and replayed(1) < replayed(5) and replayed(1,
+#   backwards=True) > 20 and sum(chain.leaves(chain.learn_chain(chain.chances(0.5, 4000, seed), 0.8, 0.3,
+#   ())) for seed in range(30)) > leaving(0.5, 0.8) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The question about the last decision separates two ideas that lesson [[demonstrations]] needs: an
