@@ -135,6 +135,8 @@ def chain_cases(rng):
     yield np.array([1, 1, 0] * 15), 0.8, 1.0, chain.WAY_OUT[3:]
     yield np.full(60, -1), 0.9, 0.002, chain.WAY_OUT  # differences of a thousandth decide
     yield np.array([0, 1] * 10), 0.7, 0.4, ((4, 1), (2, 1), (4, 1), (0, 0), (2, 1))  # in no order, some twice
+    for seed in range(4):  # as long as the lesson's
+        yield chain.chances(0.1, 1000, seed), 0.8, 0.3, chain.WAY_OUT
     for k in range(30):
         taught = chain.WAY_OUT if k % 2 else ()
         drawn = chain.chances(rng.uniform(0.2, 1), rng.integers(5, 90), rng.integers(1000))
