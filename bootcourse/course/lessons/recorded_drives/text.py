@@ -529,14 +529,15 @@ headings = ["acts as the data do", "estimate, γ = 0.8", "on the road, γ = 0.8"
 table(["first agent of", *headings], rows)
 
 # %% [markdown]
-# **See.** (The estimates were made on your machine and will differ a little.) Compare the misses
-# with the first column. Where a driver does what the data hold, the estimate has something to stand
-# on. Where it does something else, Q is a guess about states in which nothing was recorded, and no
-# row contradicts it: the same guess as in Round 3. So print the overlap beside such an estimate.
+# **See.** (Yours will differ, most where a driver acts unlike the data: another seed of FQE moves
+# such an estimate by a half and more.) Where a driver does what the data hold, the estimate has
+# something to stand on. Where it does something else, Q is a guess about states in which nothing
+# was recorded, and no row contradicts it. Such a guess may be near the truth, and nothing tells. So
+# print the overlap beside it.
 #
-# And look at the last column. Even the true worth at γ = 0.8 puts drivers that stay behind trap 1
-# above those that get out (lesson [[the_barrier]]): a choice is no better than the number that it
-# is made by.
+# And look at the last column. At γ = 0.8 this driver that stays behind trap 1, CQL with an actor,
+# is truly worth more than the clone and CQL, which get out slowly: a choice is no better than the
+# number that it is made by.
 # <!-- claim: worth_of('cql_sac') > worth_of('bc') and worth_of('cql_sac') > worth_of('cql') -->
 # <!-- claim: overlap_of('bc') > 0.85 and overlap_of('cql') > 0.8 and max(overlap_of(m) for m in
 #   ('cql_sac', 'sac', 'bootstrapped')) < 0.7 -->
