@@ -1,19 +1,16 @@
 """What the lesson on the baselines measures."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import torch
 
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.lessons.recorded_drives.figures import (
-    as_the_rule_would,
     success_around,
     updates_made,
 )
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import REACHABLE, by_entropy
-from bootcourse.course.shipped import shipped_drive, shipped_experiment
+from bootcourse.course.shipped import shipped_experiment
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.policies import PolicyOutput
 from bootcourse.research.results import Results
@@ -34,15 +31,6 @@ def results(seconds: np.ndarray) -> Results:
     drives = {"speed": np.full_like(seconds, 10), "distance": 10 * seconds}
     drives["accident"] = (seconds < 150).astype(np.int8)
     return Results(agents, np.full(len(seconds), -1), drives, drives)
-
-
-def test_the_rule_does_what_the_rule_would_and_a_driver_that_steers_otherwise_may_brake_with_it():
-    drive = shipped_drive("rule")
-    assert as_the_rule_would([drive]) == (1, 1, 1)
-    turned = drive.actions // 3 * 3 + (drive.actions + 1) % 3
-    assert as_the_rule_would([replace(drive, actions=turned)]) == (0, 1, 1)
-    never = replace(drive, actions=np.full_like(drive.actions, 4))
-    assert as_the_rule_would([never])[1:] == (0, 0) and as_the_rule_would([drive, never])[1:] == (0.5, 0.5)
 
 
 def test_updates_are_counted_from_the_seconds_that_the_episodes_lasted():

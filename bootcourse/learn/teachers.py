@@ -158,7 +158,8 @@ class _Questions:
             raise self._failed(f"raised {described(error)}", state, where) from error
 
     def _failed(self, how: str, state: np.ndarray, where: str = "") -> RuleFailed:
-        return RuleFailed(vars(self.rule)["__name__"], how, where or self.place.in_words(state), state)
+        name: str = self.rule.__name__  # type: ignore[attr-defined]
+        return RuleFailed(name, how, where or self.place.in_words(state), state)
 
     @property
     def _an_action_is(self) -> str:

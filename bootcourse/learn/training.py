@@ -117,8 +117,8 @@ class Training:
         n_envs = self.n_agents * self.envs_per_agent
         self.env: Any = TrapVectorEnv(n_envs, scenario) if make_env is None else copies_of(make_env, n_envs)
         self.place = place_of(self.env)
-        seen, chosen = self.env.single_observation_space, self.env.single_action_space  # type: Any, Any
-        size, self.n_actions = seen.shape[0], int(chosen.n)
+        actions: Any = self.env.single_action_space
+        size, self.n_actions = self.env.single_observation_space.shape[0], int(actions.n)
         self._make_learner(make_learner, learner, device, size)
         self._set_teacher(default_teacher(self.place) if teacher is None else teacher)
         rows = demonstrations_for(settings, demonstrations, self.teacher, self.scenario, make_env, self.n_actions)

@@ -85,10 +85,11 @@ class PolicyPanel(Panel):
         table = action_table(self.seen, p, xi, alpha, display_name(self.rollout.label), colour)
         if self.imagined is not None:
             table += rollout_bars(self.imagined.values[k], self.imagined.accidents[k] > 0)
-        on = [text(0, BOTTOM + 58, compromise.in_words(ways), bold=True)] if ways else []
+        words = compromise.in_words(ways) if ways else ""
+        on = [text(0, BOTTOM + 58, words, bold=True)] if words else []
         inner = ['<g transform="translate(8 0)">', *road, *self._head(k), *table, *self._marks(k, colour), *on, "</g>"]
-        alt = self._alt(k) + (f" {compromise.in_words(ways)}" if ways else "")
-        self.svg = self.view.value = drawing(self.width + 16, BOTTOM + (70 if ways else 50), inner, alt)
+        alt = f"{self._alt(k)} {words}".strip()
+        self.svg = self.view.value = drawing(self.width + 16, BOTTOM + (70 if words else 50), inner, alt)
 
     def _head(self, k: int) -> list[str]:
         """The time, the car's speed, and why the rule does what it does."""

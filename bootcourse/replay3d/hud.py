@@ -100,17 +100,22 @@ def _numbers(timeline: Timeline, t: float) -> Markup:
     return html('<div class="big">{}</div>', joined(each))
 
 
+def _return(timeline: Timeline, t: float) -> float:
+    return timeline.rollout.rewards[: timeline.earned(t)].sum()
+
+
+def _action(timeline: Timeline, t: float) -> str:
+    return ACTION_NAMES[timeline.rollout.actions[timeline.decision(t)]]
+
+
 def _does(timeline: Timeline, t: float) -> Markup:
     """What it has earned, and what it does now, in words."""
-    rollout = timeline.rollout
-    earned = rollout.rewards[: timeline.earned(t)].sum()
-    action = ACTION_NAMES[rollout.actions[timeline.decision(t)]]
-    return html("<div>return <b>{:.1f}</b> · {}</div>", earned, action)
+    return html("<div>return <b>{:.1f}</b> · {}</div>", _return(timeline, t), _action(timeline, t))
 
 
 def _reward(timeline: Timeline, t: float) -> Markup:
     rollout, weights, earned = timeline.rollout, timeline.rollout.scenario.reward, timeline.earned(t)
-    total = html("return <b>{:.2f}</b>", rollout.rewards[:earned].sum())
+    total = html("return <b>{:.2f}</b>", _return(timeline, t))
     if earned == 0:
         return html('<div>{} <span class="dim">no reward yet</span></div>', total)
     r_v, r_y, r_theta = rollout.terms[earned - 1]
@@ -165,10 +170,10 @@ def table(timelines: list[Timeline], t: float) -> Markup:
         cells = [
             html("{} {}", _dot(rollout), display_name(rollout.label)),
             f"{ego[SPEED]:.1f}",
-            f"{rollout.rewards[: timeline.earned(t)].sum():.1f}",
+            f"{_return(timeline, t):.1f}",
             html('<span style="color:{};font-weight:650">{}</span>', colour, words.removesuffix(" of trap 1"))
             if words
-            else ACTION_NAMES[rollout.actions[timeline.decision(t)]],
+            else _action(timeline, t),
         ]
         rows.append(html("<tr>{}</tr>", joined(html("<td>{}</td>", cell) for cell in cells)))
     return html('<div class="bc"><table>{}</table></div>', joined(rows))

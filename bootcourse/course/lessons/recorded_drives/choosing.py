@@ -4,19 +4,19 @@ from copy import deepcopy
 
 import numpy as np
 import torch
-from torch import nn
 
 from bootcourse.episodes.record import record
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
-from bootcourse.learn.textbook import mlp
+from bootcourse.learn.textbook import minimise, mlp
 from bootcourse.policies import Policy
+from bootcourse.scenario import DEFAULT, N_ACTIONS
 
 
 def recorded(drives: int = 200) -> Batch:
     """The rule's drives, as the three pupils learned from them: every field (transitions, ...)."""
     rows = collect(drives)
-    return decode_transitions(rows, (rows.shape[1] - 5) // 2, torch.zeros(len(rows)))
+    return decode_transitions(rows, DEFAULT.observation_size, torch.zeros(len(rows)))
 
 
 def actions_of(policy: Policy, states: torch.Tensor) -> torch.Tensor:
@@ -35,8 +35,7 @@ def fitted_q(policy: Policy, data: Batch, gamma: float, updates: int = 2000, bat
     A network that gives Q, (n, 9), of states (n, observation). Nothing is driven.
     """
     torch.manual_seed(seed)
-    rng, n_actions = np.random.default_rng(seed), 9
-    network: nn.Module = mlp(data.states.shape[1], n_actions, (64, 64))
+    rng, network = np.random.default_rng(seed), mlp(data.states.shape[1], N_ACTIONS, (64, 64))
     slow, optimiser = deepcopy(network), torch.optim.Adam(network.parameters(), lr=1e-3)
     next_actions = actions_of(policy, data.next_states)
     for _ in range(updates):
@@ -45,21 +44,18 @@ def fitted_q(policy: Policy, data: Batch, gamma: float, updates: int = 2000, bat
             next_q = slow(data.next_states[i]).gather(1, next_actions[i, None])[:, 0]
             target = data.rewards[i] + gamma * (1 - data.terminated[i]) * next_q
         loss = (network(data.states[i]).gather(1, data.actions[i, None])[:, 0] - target).square().mean()
-        optimiser.zero_grad()
-        loss.backward()
-        optimiser.step()
+        minimise(optimiser, loss)
         with torch.no_grad():
             for average, parameter in zip(slow.parameters(), network.parameters(), strict=True):
                 average.lerp_(parameter, 0.01)
     return network
 
 
-@torch.no_grad()
 def estimate(policy: Policy, data: Batch, starts: torch.Tensor, gamma: float) -> float:
     """What the driver is worth from these first states, (n, observation), on average, by the recorded drives alone."""
-    with torch.enable_grad():
-        network = fitted_q(policy, data, gamma)
-    return float(network(starts).gather(1, actions_of(policy, starts)[:, None]).mean())
+    network = fitted_q(policy, data, gamma)
+    with torch.no_grad():
+        return float(network(starts).gather(1, actions_of(policy, starts)[:, None]).mean())
 
 
 def worth(policy: Policy, roads, gamma: float) -> tuple[float, float]:

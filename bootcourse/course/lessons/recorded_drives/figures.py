@@ -1,14 +1,12 @@
-"""The lesson on the baselines: what critics believe, when pupils first escape, who stays on the road."""
+"""The lesson on recorded drives: what critics believe, and when pupils first escape."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import INK
 from bootcourse.course.charts import lines
-from bootcourse.episodes.record import record
-from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.learner import SACLearner
 from bootcourse.methods import display_name, style
@@ -16,7 +14,6 @@ from bootcourse.research.results import Results
 from bootcourse.statistics import rolling_means
 
 WINDOW = 50  # training episodes that a success rate is taken over
-SHORT = {"bc": "BC", "cql": "CQL", "gail": "GAIL"}
 
 
 def agents_of(learner: SACLearner) -> list[Agent]:
@@ -31,27 +28,6 @@ def believed(agents: Sequence[Agent], observations: np.ndarray, actions: np.ndar
     given = np.take_along_axis(q, places, 2).mean((1, 2))
     np.put_along_axis(q, places, -np.inf, 2)
     return given, q.max(2).mean(1)
-
-
-def as_the_rule_would(drives: Sequence[Rollout]) -> tuple[float, float, float]:
-    """The share of the decisions in which these drives do what the rule would do there.
-
-    Overall; where the rule would brake, how often they brake, too; where it would accelerate, how often they do.
-    """
-    done = np.concatenate([drive.actions for drive in drives])
-    rule = np.concatenate([drive.rule_actions for drive in drives])
-    brakes, accelerates = (float(np.mean((done // 3 == kind)[rule // 3 == kind])) for kind in (0, 2))
-    return float(np.mean(done == rule)), brakes, accelerates
-
-
-def followers(groups: Mapping[str, Sequence[Agent]], roads: Sequence[int]) -> tuple[list[str], list[list[str]]]:
-    """Headings and a row for each group of agents: how far they do what the rule would, and what they earn."""
-    rows = []
-    for name, agents in groups.items():
-        drives = [drive for agent in agents for drive in record(agent.as_policy(), roads)]
-        shares = [f"{100 * share:.0f} %" for share in as_the_rule_would(drives)]
-        rows.append([name, *shares, f"{np.mean([drive.rewards.sum() for drive in drives]):.1f}"])
-    return ["agents", "act as the rule would", "where the rule brakes", "where the rule speeds up", "return"], rows
 
 
 def updates_made(results: Results) -> np.ndarray:

@@ -8,7 +8,7 @@ from scipy import stats
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.figures import half_success, updates_made
-from bootcourse.course.lessons.recorded_drives.reachable_entropy import REACHABLE, UPDATES, by_entropy  # noqa: F401
+from bootcourse.course.lessons.recorded_drives.reachable_entropy import REACHABLE, by_entropy
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.storage.assets import FOLDER
 from tools.course.known import of, shipped_experiment

@@ -146,9 +146,10 @@ bc.show(figures.success_in_training(study))
 # ## Round 2: a judge instead of a reward
 #
 # A clone copies actions, one state at a time. GAIL asks for more: the agent should *visit* the same
-# states as the rule, and do there what the rule does. It trains two networks against each other. A
-# **discriminator** gives each state and action a probability D that they come from the rule and not
-# from the agent. Its loss is
+# states as the rule, and do there what the rule does. (A driver's **occupancy measure** ρ(s, a) is
+# the share of its decisions in which it is in state s and takes action a.) It trains two networks
+# against each other. A **discriminator** gives each state and action a probability D that they come
+# from the rule and not from the agent. Its loss is
 #
 # $$ -\mathbb{E}_\text{rule}[\log D(s,a)] - \mathbb{E}_\text{own}[\log (1 - D(s,a))] $$
 #
@@ -230,7 +231,7 @@ table(headings, rows, below="A crash ends both: 0 from then on.")
 # worth something, however bad the imitation is; with log D each second costs something, and an
 # early crash is the cheapest drive. On this road, where a drive that ends early is one with an
 # accident, we want the first.
-
+#
 # > **Predict.** GAIL is paid for staying on the road, and yet its ten agents leave the road in
 # > {{ 100 * of('gail').episodes('road_departure').mean() | .0f }} % of their test drives. What
 # > share of *these* drives counts as a success? (The table of Round 1 gives a lower bound.)
@@ -259,7 +260,8 @@ table(headings, rows)
 # overtaking counts as a success. One reading, which we have not tested: no demonstration contains
 # an accident, so GAIL loses by one only what the seconds after it would have paid. (The study's
 # GAIL has η = −1, which nine actions cannot reach. With a reachable η four of five agents hardly
-# have accidents, the fifth in almost half of its drives; p = {{ accidents_p() | .2f }}.)
+# have accidents, the fifth in almost half of its drives; p of a rank-sum test {{ accidents_p() |
+# .2f }}.)
 # <!-- claim: drive_episodes(rule_policy(DEFAULT), range(200)).accident.max() == 0 -->
 # <!-- claim: np.sort(with_entropy('gail', REACHABLE).scores('accident'))[3] < 0.015 and
 #   with_entropy('gail', REACHABLE).scores('accident').max() > 0.4 and accidents_p() > 0.05 -->
@@ -282,7 +284,8 @@ result = training.run(callback=note, stop=lambda: training.updates >= 2500)
 loss = torch.stack([each["discriminator_loss"] for each in noted]).T.numpy()
 smooth = loss[:, : len(noted) // 50 * 50].reshape(len(agents), -1, 50).mean(-1)
 updates, marks = np.arange(smooth.shape[1]) * 50, {"guessing: D = ½": 2 * np.log(2)}
-title, words = "The discriminator learns to recognise its agent", "discriminator's loss"
+later = ", then less and less" if (smooth[:, -1] > smooth.min(1)).all() else " to the end"
+title, words = f"The discriminator recognises its agent{later}", "discriminator's loss"
 named = {f"gail, seed {a.seed}": each for a, each in zip(agents, smooth, strict=True)}
 bc.show(charts.lines(updates, named, title, "update", words, marks=marks))
 
@@ -298,8 +301,8 @@ table(headings, rows)
 
 # %% [markdown]
 # **See.** (Trained on your machine: your numbers will differ from ours.) A discriminator that says
-# D = ½ to everything has a loss of 2 log 2, the dotted line. Compare the curves with the rows: does
-# the loss tell a good agent from a bad one?
+# D = ½ to everything has a loss of 2 log 2, the dotted line. Compare the curves with the rows. The
+# loss says how well the agent is told from the rule, and not what it earns.
 
 # %% [markdown] tags=["instructor"] minutes=9
 # Let them say in one sentence what a clone is told in a state that no demonstration holds, and what
@@ -307,7 +310,7 @@ table(headings, rows)
 # what the loss will do if the agent becomes as good as the rule.
 
 # %% [markdown]
-# ## Round 3: what is an action worth that nobody tried?
+# ## Round 3: what is an untried action worth?
 #
 # Q-learning asks of each next state: what is the best action worth? Offline, the action with the
 # highest Q may be one that is missing from the data, so its value is a guess. An agent that drives
@@ -335,9 +338,10 @@ def conservative_loss(q, actions):
 check.conservative_loss(conservative_loss)
 
 # %% [markdown]
-# Why is that *conservative*? With π = softmax(Q) the minimum of the loss values an action that π
-# prefers more than the data do *below* its target, one that π prefers less above it. The value of
-# the policy, Σ π Q, is then at most what the targets say.
+# Why is that *conservative*? Let π = softmax(Q), and let the data hold each action. Where the loss
+# is smallest, an action that π takes more often than the data do has a Q *below* its target. An
+# action that π takes more rarely has one above it. The value of the policy, Σ π Q, is then at most
+# what the targets say.
 #
 # <details><summary>The derivation</summary>
 #
@@ -350,6 +354,19 @@ check.conservative_loss(conservative_loss)
 # above it. Weigh the bracket by π: its mean is $\sum_a (\pi - \hat\pi)^2 / \hat\pi$, which
 # is 0 or more. So the *value of the policy*, Σ π Q, is at most Σ π y. The bound holds for the
 # policy's value, and not for each Q(a).
+#
+# </details>
+#
+# <details><summary>Two limits of the formula</summary>
+#
+# An action that the data do not hold has π̂ = 0, and for it the formula gives no smallest Q: the
+# term pushes it down at each update, ever more weakly, since the push is w π(a). The rule's drives
+# hold one action in a state, so this happens to the eight others.
+#
+# And the bound is for the policy softmax(Q), against the *targets*, which contain values of Q
+# themselves. The action with the highest Q can lie *above* its target. Whether the critic is
+# careful for an agent that takes that action has to be measured: the last table of this round does
+# it.
 #
 # </details>
 
@@ -453,10 +470,11 @@ table(headings, rows)
 # %% [markdown]
 # **See.** (These six were trained on your machine: your numbers will differ from ours.) Without the
 # term Q-learning values the best untried action highest, and promises far more than it then earns:
-# each target contains a guess that was chosen because it is high, and the guesses raise each other.
-# (The figure asks about the rule's states, the last table where the agents drive.) With the term
-# both agents promise less than they earn. Data, network and number of updates are the same: in
-# these four agents one term makes the difference.
+# each target contains the highest of nine guesses, and such guesses raise each other. (That an
+# untried action stands highest needs no targets: of eight outputs that nothing fits one is high by
+# chance.) (The figure asks about the rule's states, the last table where the agents drive.) With
+# the term both agents promise less than they earn. Data, network and number of updates are the
+# same: in these four agents one term makes the difference.
 #
 # **Explain.** What does the term do to the car? It *is* the cloning loss of softmax(Q), as lesson
 # [[demonstrations]] has it. So **CQL is Q-learning and cloning in one.** At γ = {{
@@ -492,17 +510,17 @@ table(["", "agents that escape", "mean speed", "returns of the agents, sorted"],
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Let each group say in one sentence what the term does to an action that is missing from the data,
-# to one that is there, and to the car. Who says "it makes Q a lower bound"? Ask: of which policy,
-# and against what. For the fast: `settings_for("cql", cql_weight=5.0)`; a very large weight is a
-# clone.
+# to one that is there, and to the car. If somebody says that it makes Q a lower bound, ask of which
+# policy, and against what. For the fast: `settings_for("cql", cql_weight=5.0)`; a very large weight
+# is a clone.
 
 # %% [markdown]
 # ## Round 4: choosing without a simulator
 #
 # You have six trained drivers, the recorded drives, and no road on which to try them. Which one do
-# you let out? **Fitted Q evaluation** (FQE) asks the data: what is a *given* policy π worth? It fits
-# Q(s, a) to r + γ Q(s', π(s')) over the recorded seconds, with no maximum. Where the drives begin,
-# Q(s, π(s)) is the estimate (`choosing.fitted_q`, twenty lines).
+# you let out? **Fitted Q evaluation** (FQE) asks the data: what is a *given* policy π worth? It
+# fits Q(s, a) to r + γ Q(s', π(s')) over the recorded seconds, with no maximum. Where the drives
+# begin, Q(s, π(s)) is the estimate (`choosing.fitted_q`, twenty lines).
 #
 # > **Predict.** For which of the six will the estimate be nearest to the truth?
 

@@ -7,7 +7,7 @@ import numpy as np
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
-from bootcourse.panels.compromise import Ways
+from bootcourse.panels.compromise import CHOSEN, Ways
 from bootcourse.policies import stochastic_rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
@@ -44,7 +44,7 @@ def compromised(xi: float) -> bool:
     end in an accident?"""
     helped = shipped_agents("soft")[0]
     drive = record(helped.as_policy(with_q=True), [10])[0]
-    return Ways(drive, helped).at(0, 0.9, xi, 0.01)["this compromise"].accident != 0
+    return Ways(drive, helped).at(0, 0.9, xi, 0.01)[CHOSEN].accident != 0
 
 
 def drawn_rule() -> float:

@@ -6,12 +6,7 @@ from bootcourse.course.lessons import COURSE, ELECTIVES
 from tools.course.known import code_of, minutes, talk
 from tools.course.numbering import resolved
 
-ALL, READ, PICTURE, KNOWN = (
-    "",
-    "the text, without the exercises",
-    "the picture at its beginning",
-    "known",
-)
+ALL, READ, PICTURE, KNOWN = "", "the text, without the exercises", "the picture at its beginning", "known"
 SAC = dict.fromkeys(("values", "discrete_sac", "update_and_loop"), KNOWN)
 ROUTES = {  # {lesson: what a route has of it}, in their order
     "evening": {"the_trap": ALL, "discrete_sac": PICTURE, "the_barrier": ALL},

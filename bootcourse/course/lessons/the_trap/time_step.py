@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.record import record
 from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.road.state import TRAFFIC, Y
@@ -32,6 +33,5 @@ def seen(taus: tuple[float, float], rate: int, roads: int = 100) -> Seen:
     middle, half = road.lane_width * (road.lanes - 1) / 2, road.lane_width * road.lanes / 2
     idle = record(idle_policy, range(roads), scenario)
     leaves = [np.any(abs(drive.states[:, TRAFFIC:, Y] - middle) > half) for drive in idle]
-    by_rule = record(rule_policy(scenario), range(roads), scenario)
-    out = [drive.success for drive in by_rule]
-    return Seen(float(np.mean(leaves)), float(np.mean(out)), float(np.mean([drive.rewards.sum() for drive in by_rule])))
+    by_rule = drive_episodes(rule_policy(scenario), range(roads), scenario)
+    return Seen(float(np.mean(leaves)), float(by_rule.success.mean()), float(by_rule.returns.mean()))

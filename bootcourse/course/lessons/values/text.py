@@ -170,9 +170,8 @@ bc.show(charts.lines(range(31), named, title, "sweep", "Q in state 0, γ = 0.8",
 # <!-- claim: abs(sweeps(200, 0.8)[0, 0] - (0.16 + 0.8 * 0.8**4 / 0.2)) < 1e-9 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Do two sweeps on the board with γ = 1/2. Who asks why "at once" matters has seen the point of
-# the check's last sentence: with new values in the same sweep the result comes sooner, but it is
-# another algorithm.
+# Do two sweeps on the board with γ = 1/2. Ask why "at once" matters: with new values in the
+# same sweep the result comes sooner, but it is another algorithm.
 
 # %% [markdown]
 # ## Round 3: learning from one decision
