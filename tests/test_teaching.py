@@ -38,13 +38,6 @@ def test_a_plan_has_every_lesson_once_and_its_minutes(heading, cell):
     assert sum(int(part[cell + 1]) for part in parts) == int(total[cell + 1])
 
 
-def test_the_readme_gives_each_lesson_its_minutes():
-    readme = (book.ROOT / "README.md").read_text(encoding="utf-8")
-    table = re.findall(r"^\| \d+ \|.*\(notebooks/(\w+)\.ipynb\).* (\d+) \|$", readme, re.M)
-    stated = {stem(name): str(minutes(name)) for name in LESSONS}
-    assert dict(table) == stated, f"README's table of lessons: correct {set(stated.items()) ^ set(table)}"
-
-
 @pytest.mark.parametrize(("route", "shown"), [("evening", "| an evening | "), ("week", "| a week | ")])
 def test_the_readme_says_how_long_a_route_is_and_which_lessons_it_has(route, shown):
     [row] = [line for line in (book.ROOT / "README.md").read_text(encoding="utf-8").splitlines() if shown in line]

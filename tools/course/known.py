@@ -43,6 +43,7 @@ from bootcourse.rule import Reason, target_speed
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
 from bootcourse.storage.assets import FOLDER
+from tools.course import numbering
 from tools.course.source import read, sources
 
 shipped_results = cache(shipped.shipped_results)
@@ -61,7 +62,7 @@ def roads() -> int:
 
 def minutes(*lessons: str) -> int:
     """The time of these lessons together, as they state it at their top."""
-    return sum(int(re.search(r"^# \*\*Time\*\* (\d+) minutes", code_of(name), re.M)[1]) for name in lessons)
+    return sum(map(numbering.minutes, lessons))
 
 
 def talk(*lessons: str) -> int:

@@ -4,9 +4,11 @@
     [the rule](the_rule.ipynb)   [the rule](03_the_rule.ipynb)
     [](the_rule.ipynb)           [The rule](03_the_rule.ipynb)
 
-Rows of a table that begin with the number of a lesson are put in the order of the lessons.
+Rows of a table that begin with the number of a lesson are put in the order of the lessons. README's table of lessons is
+made: what a lesson offers stands in its folder's `__init__.py`, its title and its time in its text.
 """
 
+import ast
 import re
 from functools import cache
 from itertools import groupby
@@ -66,10 +68,30 @@ def title(lesson: str) -> str:
     return re.search(r"^# # (.+)", text_file(lesson).read_text(encoding="utf-8"), re.M)[1]
 
 
+def minutes(lesson: str) -> int:
+    """The time of a lesson, as it states it at its top."""
+    return int(re.search(r"^# \*\*Time\*\* (\d+) minutes", text_file(lesson).read_text(encoding="utf-8"), re.M)[1])
+
+
+def offer(lesson: str) -> str:
+    """What a student will do in a lesson: the docstring of its folder. Raises ValueError for a folder without one."""
+    said = ast.get_docstring(ast.parse((LESSON_FOLDERS / lesson / "__init__.py").read_text(encoding="utf-8"))) or ""
+    if not said.startswith("You will "):
+        raise ValueError(f'{lesson}/__init__.py says {said!r}: write one sentence there, """You will ...""".')
+    return " ".join(said.split()).removeprefix("You will ").removesuffix(".")
+
+
+def table_row(lesson: str) -> str:
+    """A lesson's row in README's table."""
+    file = f"notebooks/{stem(lesson)}.ipynb"
+    return f"| {number(lesson)} | [{title(lesson)}]({file}) | {offer(lesson)} | {minutes(lesson)} |\n"
+
+
 def refreshed(text: str) -> str:
-    """A page that holds the numbers itself, brought up to date: file names, and the rows of a table of lessons."""
-    text = re.sub(rf"\b\d\d_({NAME})(?=\.ipynb)", r"\1", text)
-    return resolved(re.sub(rf"^\| \d+ (?=\| \[[^]]*\]\([^)]*?\b({NAME})\.ipynb)", r"| [[\1]] ", text, flags=re.M))
+    """A page that holds the numbers itself, brought up to date: names of files, and README's table of lessons."""
+    text = re.sub(rf"\b\d\d_({NAME})(?=\.ipynb)", lambda match: stem(match[1]), text)
+    rows = "".join(table_row(lesson) for lesson in LESSONS)
+    return re.sub(r"(^\| \d+ \| \[[^]]*\]\(notebooks/\w+\.ipynb\).*\n)+", lambda _: rows, text, flags=re.M)
 
 
 def refresh_kept() -> None:
