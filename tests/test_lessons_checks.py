@@ -273,6 +273,26 @@ LARGE = {  # what an argument reaches in some case: (its smallest, its largest);
 }
 
 
+def first_axes(exercise) -> dict[str, set[int]]:
+    """How many rows each array among the arguments of an exercise has, in its cases."""
+    found: dict[str, set[int]] = {}
+    for case in exercise.all_arguments:
+        for name, value in zip(exercise.case_names, case, strict=True):
+            if isinstance(value, (np.ndarray, torch.Tensor)) and np.ndim(value):
+                found.setdefault(name, set()).add(len(value))
+    return found
+
+
+def test_an_answer_that_looks_at_the_first_rows_alone_passes_no_check_of_batches():
+    few = {"power", "dagger", "forgetting", "rollout_values", "smallest_of"}  # n by n; rounds; agents; roads; critics
+    short = {
+        exercise.name
+        for exercise in EXERCISES.values()
+        if (rows := [each for each in first_axes(exercise).values() if len(each) > 1]) and max(map(max, rows)) < 65
+    }
+    assert short <= few, f"no case has {exercise_module.MANY_ROWS} rows: {sorted(short - few)}"
+
+
 def test_every_argument_that_training_makes_large_is_large_in_some_case():
     seen = 0
     for exercise in EXERCISES.values():

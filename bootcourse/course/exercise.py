@@ -45,6 +45,8 @@ from bootcourse.course.library import LIBRARY, Place, named, places
 from bootcourse.course.values import plain
 from bootcourse.errors import BootcourseError
 
+MANY_ROWS = 130  # of a case as long as a batch in training, or longer; no multiple of 64
+
 
 class logits(str):
     """Marks the name of an argument that holds log-probabilities: its slope is taken through its logits."""

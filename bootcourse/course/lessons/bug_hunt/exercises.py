@@ -2,14 +2,15 @@
 
 import numpy as np
 
-from bootcourse.course.exercise import exercise
+from bootcourse.course.exercise import MANY_ROWS, exercise
 from bootcourse.course.lessons.bug_hunt import target_probe
 
 
 def end_cases(rng):
     """No accident at all, only accidents, one row; then 40 at random, half of them on a road with other rewards.
 
-    In every fourth case Q is far beyond any return, as without the stop-gradient.
+    In every fourth case Q is far beyond any return, as without the stop-gradient. The last has 130 rows and rewards in
+    the thousands.
     """
     shares = [0.0, 1.0, 1.0, *rng.uniform(0.2, 0.8, 40)]
     for number, share in enumerate(shares):
@@ -17,6 +18,8 @@ def end_cases(rng):
         terminated = (rng.random(n) < share).astype(float)
         rewards = rng.uniform(-10, 5, n) if number % 2 else np.where(terminated > 0, -10.0, rng.uniform(0, 1, n))
         yield rng.normal(-10, 300 if number % 4 == 3 else 6, (n, 9)), rng.integers(0, 9, n), rewards, terminated
+    ended = (rng.random(MANY_ROWS) < 0.5).astype(float)
+    yield rng.normal(0, 3000, (MANY_ROWS, 9)), rng.integers(0, 9, MANY_ROWS), rng.normal(0, 3000, MANY_ROWS), ended
 
 
 @exercise(

@@ -3,7 +3,7 @@
 import numpy as np
 import torch
 
-from bootcourse.course.exercise import NotAsAsked, exercise, logits, refuse
+from bootcourse.course.exercise import MANY_ROWS, NotAsAsked, exercise, logits, refuse
 from bootcourse.course.lessons.demonstrations import cloning
 from bootcourse.course.lessons.demonstrations.cloning import ACTION, RULE_ACTION
 from bootcourse.course.lessons.discrete_sac.exercises import OF_NOTHING
@@ -16,6 +16,7 @@ def transitions_cases(rng):
         decisions = 1 if k == 4 else rng.integers(2, 6)
         observations = rng.normal(size=(decisions + 1, rng.integers(2, 4)))
         yield observations, rng.integers(0, 9, decisions), rng.normal(size=decisions), accident
+    yield rng.normal(0, 50, (MANY_ROWS + 1, 2)), rng.integers(0, 9, MANY_ROWS), rng.normal(0, 50, MANY_ROWS), 1
 
 
 @exercise(

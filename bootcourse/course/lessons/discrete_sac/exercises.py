@@ -4,7 +4,7 @@ import math
 
 import torch
 
-from bootcourse.course.exercise import exercise, logits
+from bootcourse.course.exercise import MANY_ROWS, exercise, logits
 from bootcourse.learn import sac
 
 LOG_2 = math.log(2)
@@ -37,6 +37,7 @@ def value_cases(rng):
         yield log_pi, 200 * torch.tensor(rng.choice([-1.0, 1.0], (size, 9))), torch.tensor(alpha)
     for size in (9, *rng.integers(1, 6, 40)):
         yield case(states(size, rng.uniform(0.3, 3)), rng.uniform(0.01, 1))
+    yield case(states(MANY_ROWS, 3), 0.1, scale=100.0)
 
 
 HALF = torch.full((1, 2), -LOG_2)
@@ -85,6 +86,7 @@ def target_cases(rng):
     yield torch.tensor([0.16, -10.0, 1.0, -1.0]), torch.tensor([0.0, 1, 0, 0]), torch.tensor([-54.0, 5, 200, -200]), 0.8
     yield from (batch(8, 0.4, 0.99, scale=60.0), batch(8, 0.4, 0.8, scale=20.0), batch(8, 0.4, 0.99, scale=300.0))
     yield from (batch(rng.integers(1, 7), 0.4, rng.uniform(0.1, 0.99)) for _ in range(60))
+    yield batch(MANY_ROWS, 0.4, 0.9, scale=100.0)
 
 
 critic_target = exercise(
@@ -133,6 +135,7 @@ def pair_cases(rng):
     yield torch.zeros(2, 1, 2), torch.tensor([1]), torch.tensor([-43.0])
     for _ in range(30):
         yield case(rng.integers(2, 8))
+    yield case(MANY_ROWS, scale=100.0)
 
 
 @exercise(
@@ -212,6 +215,7 @@ def temperature_cases(rng):
         yield torch.tensor(rng.uniform(-5, 0.5)), state_entropy, torch.tensor(target)
     for alpha, middle, target in ((1e-5, 2.0, -1.0), (1e-4, 0.02, 2.0), (10.0, 0.3, 1.0), (0.3, 0.505, 0.5)):
         yield torch.tensor(math.log(alpha)), torch.full((1,), middle), torch.tensor(target)
+    yield torch.tensor(-2.0), torch.tensor(rng.uniform(0, 2.2, MANY_ROWS)), torch.tensor(0.5)
 
 
 temperature_loss = exercise(

@@ -5,7 +5,7 @@ import functools
 import numpy as np
 import scipy
 
-from bootcourse.course.exercise import exercise
+from bootcourse.course.exercise import MANY_ROWS, exercise
 from bootcourse.course.values import NUMERIC, plain
 from bootcourse.statistics import significant
 
@@ -105,6 +105,7 @@ def score_cases(rng):
     for number in range(40):
         scores = rng.exponential(20, rng.integers(2, 21)) - 10
         yield (scores if number % 2 else 15 * np.rint(scores / 15),)
+    yield (rng.exponential(100, MANY_ROWS) - 10,)
 
 
 @exercise(

@@ -2,7 +2,7 @@
 
 import torch
 
-from bootcourse.course.exercise import exercise
+from bootcourse.course.exercise import MANY_ROWS, exercise
 from bootcourse.course.lessons.learning_from_demonstrations import batches
 
 mixed_batch = batches.mixed_batch
@@ -24,6 +24,7 @@ def q_cases(rng):
     for number in range(40):
         size = rng.integers(1, 6)
         yield torch.tensor(rng.normal(0, (1, 40)[number % 4 == 3], (size, 9))), torch.tensor(rng.integers(0, 9, size))
+    yield torch.tensor(rng.normal(0, 100, (MANY_ROWS, 9))), torch.tensor(rng.integers(0, 9, MANY_ROWS))
 
 
 @exercise(
@@ -107,10 +108,10 @@ FEWER = (
 def margin_cases(rng):
     """No demonstration, all demonstrations; then 41 at random. Experts lead by about 1, are level, behind.
 
-    A third of the critics have a Q of about 60.
+    A third of the critics have a Q of about 60. The last batch has many rows.
     """
-    for number in range(43):
-        size = rng.integers(2, 9)
+    for number in range(44):
+        size = rng.integers(2, 9) if number < 43 else MANY_ROWS
         q_pair = torch.tensor(rng.normal(0, (1, 1, 60)[number % 3], (2, size, 9))).float()
         action = torch.tensor(rng.integers(0, 9, size))
         lead = torch.tensor(rng.choice([2.0, 1.05, 0.95, 0.4, 0.0, -1e-3, -0.02, -1.0], (2, size, 1))).float()

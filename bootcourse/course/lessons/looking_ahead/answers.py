@@ -3,7 +3,7 @@
 import numpy as np
 
 from bootcourse.course.lessons.looking_ahead import imagined_road
-from tests.answers import right, right_lines, wrong_lines
+from tests.answers import right, right_lines, wrong, wrong_lines
 
 
 @right("rollout_values")
@@ -30,3 +30,19 @@ wrong_lines("""shield
     the first road alone: solution(actions, values, accidents)[:1]
     by a low value: np.where(values[np.arange(len(actions)), actions] < 1, values.argmax(1), actions)
 """)
+
+
+@wrong("rollout_values")
+def all_roads_stop_at_a_late_accident_of_one(cars, policy, horizon):
+    values = np.zeros((len(cars), 9))
+    for action in range(9):
+        imagined, alive = cars, np.ones(len(cars), dtype=bool)
+        for decision in range(horizon):
+            actions = np.full(len(cars), action) if decision == 0 else policy(imagined)
+            imagined, rewards, crashed = imagined_road.step(imagined, actions)
+            values[:, action] += alive * rewards
+            alive &= ~crashed
+            if decision >= 4 and crashed.any():
+                break
+        values[:, action] += alive * imagined_road.worth(imagined[:, 0, 3])
+    return values

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bootcourse.course.exercise import exercise
+from bootcourse.course.exercise import MANY_ROWS, exercise
 from bootcourse.course.lessons.looking_ahead import imagined_road
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -50,7 +50,10 @@ def blocked() -> np.ndarray:
 
 
 def cases(rng):
-    """One decision; accidents for some actions; a policy that must be asked again; then 16 at random."""
+    """One decision; accidents for some actions; a policy that must be asked again; then 16 at random.
+
+    At last eight roads on which drives end early, late, and not at all within 20 decisions, also of one action.
+    """
     yield reached(2, 0, IDLE, 3), keep, 1
     yield reached(2, 4, FAST, 5), keep, 4
     yield reached(2, 3, FAST, 7), accelerate, 6
@@ -60,6 +63,9 @@ def cases(rng):
     for seed in range(16):
         policy = (keep, accelerate, by_lane, by_rule)[rng.integers(4)]
         yield reached(2, int(rng.integers(5)), FAST, 20 + 2 * seed), policy, int(rng.integers(1, 9))
+    cars = reached(8, 1, IDLE, 60)
+    cars[4:, EGO + 1 :, X] += 500.0  # m: nobody is near
+    yield cars, keep, 20
 
 
 @exercise(
@@ -112,7 +118,10 @@ SECOND_CRASHES = np.array([[False, True] + [False] * 4 + [True] + [False] * 2])
 
 
 def shield_cases(rng):
-    """The base's action safe, or not, or all nine not; several roads; the best one is the base's; then 30 at random."""
+    """The base's action safe, or not, or all nine not; several roads; the best one is the base's; then 30 at random.
+
+    At last 130 roads with values in the thousands, the best of them often that of a drive with an accident.
+    """
     everywhere = np.ones((1, 9), dtype=bool)
     yield np.array([6]), NINE_VALUES, SECOND_CRASHES
     yield np.array([2]), NINE_VALUES, SECOND_CRASHES
@@ -124,6 +133,7 @@ def shield_cases(rng):
         accidents = rng.random((roads, 9)) < rng.choice([0.1, 0.5, 0.9])
         values = np.where(accidents, rng.uniform(-10, 10, (roads, 9)), rng.uniform(100, 160, (roads, 9)))
         yield rng.integers(0, 9, roads), values, accidents
+    yield rng.integers(0, 9, MANY_ROWS), rng.normal(0, 3000, (MANY_ROWS, 9)), rng.random((MANY_ROWS, 9)) < 0.5
 
 
 @exercise(

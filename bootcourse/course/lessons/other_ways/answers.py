@@ -54,6 +54,7 @@ def action_by_action(pi, q, rule_actions):
 
 wrong_lines("""smallest_of
     capped: solution(q, chosen).clamp(-100, 100)
+    from a large number down: torch.minimum(torch.full_like(q[0], 1e4), q[chosen].amin(0))
 """)
 
 wrong_lines("""better_of_two
@@ -63,9 +64,13 @@ wrong_lines("""better_of_two
     nearly as good: q_rule = q.gather(-1, rule_actions[:, None]); own = functional.one_hot(rule_actions, q.shape[-1])
         stays = pi * (q > q_rule + 9e-4)
         stays + own * (1 - stays.sum(-1, keepdim=True))
+    all but equal: q_rule = q.gather(-1, rule_actions[:, None]); own = functional.one_hot(rule_actions, q.shape[-1])
+        stays = pi * ((q > q_rule) & ~torch.isclose(q, q_rule))
+        stays + own * (1 - stays.sum(-1, keepdim=True))
 """)
 
 wrong_lines("""guide_shrinks
+    the last three: len(returns) >= window and np.mean(returns[-min(window, 3):]) >= best - tolerance * abs(best)
     with some slack: len(returns) >= window and np.mean(returns[-window:]) >= best - tolerance * abs(best) - 9e-4
     with a bar: len(returns) >= window and np.mean(returns[-window:]) >= best - tolerance * abs(best) + 9e-4
 """)

@@ -3,11 +3,14 @@
 import numpy as np
 import torch
 
-from bootcourse.course.exercise import exercise
+from bootcourse.course.exercise import MANY_ROWS, exercise
 
 
 def ensemble_cases(rng):
-    """Two of five critics, one of them, all, the same critic lowest everywhere, Q of ±200; then 20 at random."""
+    """Two of five critics, one of them, all, the same critic lowest everywhere, Q of ±200; then 20 at random.
+
+    At last a batch of 130 rows whose Q are all above 3,000, or all below -3,000.
+    """
     five = torch.tensor(rng.normal(0, 2, (5, 4, 9)))
     for chosen in ([1, 4], [3], [4, 0, 1, 2, 3]):
         yield five, torch.tensor(chosen)
@@ -17,6 +20,8 @@ def ensemble_cases(rng):
         critics = rng.integers(2, 8)
         chosen = rng.choice(critics, rng.integers(1, critics + 1), replace=False)
         yield torch.tensor(rng.normal(0, 2, (critics, rng.integers(1, 6), 9))), torch.tensor(chosen)
+    for middle in (1e5, -1e5):
+        yield torch.tensor(rng.normal(middle, 3000, (5, MANY_ROWS, 9))), torch.tensor([4, 2])
 
 
 # Three critics, one state
@@ -58,7 +63,10 @@ def smallest_of(q, chosen):
 
 
 def two_cases(rng):
-    """The rule best, worst, in the middle, no chance for the better ones, ties and near ties; then 30 at random."""
+    """The rule best, worst, in the middle, no chance for the better ones, ties and near ties; then 30 at random.
+
+    At last 130 rows with Q in the thousands, and the nearest tie that float32 has.
+    """
     q = torch.arange(9.0)[None]
     for action in (8, 0, 4):
         yield torch.full((1, 9), 1 / 9), q, torch.tensor([action])
@@ -71,6 +79,14 @@ def two_cases(rng):
         n, size = rng.integers(1, 7), 80 if number % 3 == 2 else 2
         pi = torch.tensor(rng.normal(0, 2, (n, 9))).softmax(-1)
         yield pi, torch.tensor(rng.normal(0, size, (n, 9))), torch.tensor(rng.integers(0, 9, n))
+    pi, q = (
+        torch.tensor(rng.normal(0, 2, (MANY_ROWS, 9))).softmax(-1),
+        torch.tensor(rng.normal(0, 3000, (MANY_ROWS, 9))),
+    )
+    yield pi, q, torch.tensor(rng.integers(0, 9, MANY_ROWS))
+    next_to = torch.full((2, 9), 1.0)  # better, and worse, than the rule's by one step of a float32
+    next_to[0, 2], next_to[1, 2] = torch.tensor(1.0).nextafter(torch.tensor([2.0, 0.0]))
+    yield torch.full((2, 9), 1 / 9), next_to, torch.tensor([4, 4])
 
 
 def one_hot(actions, pi):
@@ -152,6 +168,10 @@ def curriculum_cases(rng):
     yield from (([mean, mean], -40.0, 2, 0.25) for mean in (-50.0, -50.00001, -49.99999))
     yield from (([mean], 0.0, 1, 0.05) for mean in (0.0, -1e-5))
     yield [40.0] * 60 + [50.0] * 100, 50.0, 100, 0.0
+    rising = [float(number) for number in range(100)]  # the last 20 have the mean 89.5
+    yield from ((rising, best, 20, 0.0) for best in (89.5, 89.6))
+    yield from ((rising[::-1], best, 20, 0.0) for best in (9.5, 9.6))
+    yield from (([-500.0] * 30, best, 25, 0.0) for best in (-500.0, -499.0))
     yield [5.0, 7.0], -np.inf, 2, 0.1
     for _ in range(40):
         window = rng.integers(1, 5)

@@ -5,7 +5,7 @@ import math
 import torch
 import torch.nn.functional as F
 
-from bootcourse.course.exercise import exercise
+from bootcourse.course.exercise import MANY_ROWS, exercise
 from bootcourse.learn import gail, sac
 
 FLOAT32 = (
@@ -15,7 +15,7 @@ FLOAT32 = (
 
 
 def judged_cases(rng):
-    """D near 1/2, right and wrong, very certain, batches of two lengths; then 30 at random."""
+    """D near 1/2, right and wrong, very certain, batches of two lengths; then 30 at random, and one as in training."""
     yield torch.tensor([0.01, -0.01]), torch.tensor([0.01, 0.0, -0.01])
     yield torch.tensor([3.0, 1.0]), torch.tensor([-2.0, -4.0])
     yield torch.tensor([-3.0, -1.0]), torch.tensor([2.0, 4.0])
@@ -23,6 +23,7 @@ def judged_cases(rng):
     yield torch.tensor([100.0, -100.0]), torch.tensor([-100.0, 100.0, 0.0])  # e^100 is infinite
     for _ in range(30):
         yield tuple(torch.tensor(rng.normal(0, 3, n)) for n in rng.integers(1, 8, 2))
+    yield tuple(torch.tensor(rng.normal(0, 300, n)) for n in (MANY_ROWS, 70))
 
 
 @exercise(
@@ -62,9 +63,10 @@ def discriminator_loss(rule_logits, own_logits):
 
 
 def own_cases(rng):
-    """D = 1/2, near 0 and 1, D = 1 in floating point, e^x infinite; then 40 at random."""
+    """D = 1/2, near 0 and 1, D = 1 in floating point, e^x infinite; then 40 at random, and one of 130 rows."""
     yield from ((torch.tensor(x),) for x in ([0.0], [5.0, -5.0], [60.0, -60.0, 1.0], [100.0, -100.0, 2.0]))
     yield from ((torch.tensor(rng.normal(0, 3, rng.integers(1, 8))),) for _ in range(40))
+    yield (torch.tensor(rng.normal(0, 300, MANY_ROWS)),)
 
 
 imitation_reward = exercise(
@@ -106,7 +108,10 @@ imitation_reward = exercise(
 
 
 def offline_cases(rng):
-    """All equal, the data's action far ahead, far behind, Q of 200 and of -200, also in one batch; 40 at random."""
+    """All equal, the data's action far ahead, far behind, Q of 200 and of -200, also in one batch; 40 at random.
+
+    At last a batch of 130 rows with Q in the thousands.
+    """
     ahead = 8.0 * torch.eye(9)[[2, 5]]
     yield torch.zeros(3, 9), torch.tensor([0, 4, 8])
     yield ahead, torch.tensor([2, 5])
@@ -118,6 +123,7 @@ def offline_cases(rng):
     for _ in range(40):
         n = rng.integers(2, 8)
         yield torch.tensor(rng.normal(0, 2, (n, 9))), torch.tensor(rng.integers(0, 9, n))
+    yield torch.tensor(rng.normal(0, 3000, (MANY_ROWS, 9))), torch.tensor(rng.integers(0, 9, MANY_ROWS))
 
 
 conservative_loss = exercise(
@@ -162,13 +168,16 @@ conservative_loss = exercise(
 def critic_cases(rng):
     """No weight, no next value, both ends; critics that disagree on the best action; then 30 at random.
 
-    In every third case Q, targets and errors are as large as in a training, up to 200.
+    In every third case Q, targets and errors are as large as in a training, up to 200. The last has 130 rows, and
+    rewards, Q and targets in the thousands.
     """
-    for case in range(34):
-        n, size = rng.integers(2, 7), 80 if case % 3 == 2 else 2
+    for case in range(35):
+        n, size, paid = rng.integers(2, 7), 80 if case % 3 == 2 else 2, 5
+        if case == 34:
+            n, size, paid = MANY_ROWS, 3000, 3000
         q, next_q, next_target = (torch.tensor(rng.normal(0, size, (n, 9))) for _ in range(3))
         terminated = torch.tensor((rng.random(n) < (0.0, 1.0, 0.5)[case % 3]).astype(float))
-        actions, rewards = torch.tensor(rng.integers(0, 9, n)), torch.tensor(rng.normal(0, 5, n))
+        actions, rewards = torch.tensor(rng.integers(0, 9, n)), torch.tensor(rng.normal(0, paid, n))
         gamma, weight = rng.choice([0.5, 0.8, 0.99]), (0.0, 1.0, 0.3, 5.0)[case % 4]
         yield q, next_q, next_target, actions, rewards, terminated, gamma, weight
 

@@ -4,7 +4,7 @@ import math
 
 import torch
 
-from bootcourse.course.exercise import exercise, logits
+from bootcourse.course.exercise import MANY_ROWS, exercise, logits
 from bootcourse.course.lessons.discrete_sac.exercises import OF_NOTHING
 from bootcourse.learn import bootstrap
 
@@ -22,6 +22,7 @@ def rule_cases(rng):
     yield from ((torch.tensor([7, 2]), p) for p in (0.112, 0.999, 0.9999))
     for _ in range(40):
         yield torch.tensor(rng.integers(0, 9, rng.integers(1, 6))), rng.uniform(0.15, 0.99)
+    yield torch.tensor(rng.integers(0, 9, MANY_ROWS)), 0.9
 
 
 @exercise(
@@ -71,6 +72,11 @@ def constraint_cases(rng):
     for size in (9, 1, *rng.integers(1, 5, 50)):
         log_pi = torch.tensor(rng.normal(0, rng.uniform(0.5, 4), (size, 9))).log_softmax(-1)
         yield log_pi, torch.tensor(rng.integers(0, 9, size)), rng.uniform(0.15, 0.99)
+    yield (
+        torch.tensor(rng.normal(0, 4, (MANY_ROWS, 9))).log_softmax(-1),
+        torch.tensor(rng.integers(0, 9, MANY_ROWS)),
+        0.9,
+    )
 
 
 @exercise(
@@ -128,6 +134,7 @@ def policy_cases(rng):
     yield from (case(3, 1e-5, 0.002, scale=0.002, p=0.999), case(3, 0.002, 0.0, scale=0.002))
     yield case(3, 0.05, 2.0, p=0.999)
     yield from (case(rng.integers(1, 5), rng.uniform(0.2, 2), rng.uniform(0.05, 3)) for _ in range(40))
+    yield case(MANY_ROWS, 0.5, 0.7, scale=20.0)
 
 
 regularised_policy = exercise(
@@ -178,6 +185,7 @@ def loss_cases(rng):
     yield torch.full((2, 9), -math.log(9)), torch.zeros(2, 9), 1e-4, 0.002, torch.tensor([9.0, 0.01])
     yield from (case(4, 0.05, 10.0, most=12.0), case(4, 10.0, 0.5), case(4, 0.01, 2.0, scale=60.0))
     yield from (case(size, 0.1, 0.7) for size in range(1, 31))
+    yield case(MANY_ROWS, 0.1, 0.7, scale=100.0, most=12.0)
 
 
 @exercise(
@@ -232,6 +240,7 @@ def target_cases(rng):
     yield reward, terminated, torch.cat([sure(3, -120.0), sure(0, -120.0)]), q_pair, kl, *numbers
     for _ in range(40):
         yield case(rng.integers(2, 7))
+    yield case(MANY_ROWS, scale=100.0, most=12.0)
 
 
 EVEN = torch.full((2, 9), -math.log(9))

@@ -3,7 +3,7 @@
 import numpy as np
 import torch
 
-from bootcourse.course.exercise import exercise, logits
+from bootcourse.course.exercise import MANY_ROWS, exercise, logits
 from bootcourse.learn import ppo
 
 
@@ -14,7 +14,7 @@ def rows(*numbers):
 def advantage_cases(rng):
     """No ending, an accident, time over, one decision, λ = 0 and 1, both endings on two roads; then 30 at random.
 
-    At last 80 decisions with rewards and values of a training.
+    At last 80 decisions with rewards and values of a training, and 40 on many roads.
     """
     three, zeros = torch.tensor(rng.normal(0, 2, (3, 3, 2))), torch.zeros(3, 2)
     ends = zeros.clone()
@@ -33,6 +33,8 @@ def advantage_cases(rng):
     rewards = torch.where(ended > 0, -10.0, 1.0)
     values, next_values = (torch.tensor(rng.normal(30, 40, (80, 2))) for _ in range(2))
     yield rewards, values, next_values, ended, ended, 0.99, 0.97
+    ended = torch.tensor((rng.random((40, MANY_ROWS)) < 0.05).astype(float))
+    yield *(torch.tensor(rng.normal(0, 30, (40, MANY_ROWS))) for _ in range(3)), ended, ended, 0.99, 0.97
 
 
 NONE = rows([0.0], [0.0], [0.0])
@@ -81,7 +83,10 @@ advantages = exercise(
 
 
 def clipped_cases(rng):
-    """Inside the limits, above and below them with both signs, another ε, far outside; then 30 at random."""
+    """Inside the limits, above and below them with both signs, another ε, far outside; then 30 at random.
+
+    At last many decisions, with ratios from e⁻⁹ to e⁹ and advantages in the thousands.
+    """
     good, changed = rows(2.0, 1.0), rows(1.5, 0.5)
     yield from ((rows(0.9, 1.1), good, 0.2), (changed, good, 0.2), (changed, -good, 0.2))
     yield changed, rows(3.0, -1.0), 0.6
@@ -91,6 +96,7 @@ def clipped_cases(rng):
         n, size = rng.integers(2, 9), 20 if number % 3 == 2 else 2
         ratio, advantage = torch.tensor(np.exp(rng.normal(0, 0.5, n))), torch.tensor(rng.normal(0, size, n))
         yield ratio, advantage, rng.choice([0.1, 0.2, 0.3])
+    yield torch.tensor(np.exp(rng.normal(0, 3, MANY_ROWS))), torch.tensor(rng.normal(0, 3000, MANY_ROWS)), 0.2
 
 
 clipped_loss = exercise(
@@ -135,7 +141,8 @@ clipped_loss = exercise(
 def loss_cases(rng):
     """A policy that has not changed, no entropy, one that has changed much; then 20 at random.
 
-    At last policies that are sure: log π down to -250, also of actions that were taken, and returns of a training.
+    At last policies that are sure: log π down to -250, also of actions that were taken, and returns of a training; and
+    130 rows with returns in the thousands.
     """
 
     def case(n, change, entropy_weight, spread=1.0, size=2.0):
@@ -150,6 +157,7 @@ def loss_cases(rng):
     yield from (case(6, 0.0, 0.01), case(5, 0.3, 0.0), case(8, 1.0, 0.5))
     yield from (case(rng.integers(3, 9), 0.3, rng.choice([0.0, 0.01, 0.2])) for _ in range(20))
     yield from (case(6, 0.3, weight, spread, 30.0) for weight, spread in ((0.01, 20.0), (0.2, 60.0), (0.01, 1.0)))
+    yield case(MANY_ROWS, 0.3, 0.2, 1.0, 3000.0)
 
 
 EVEN = torch.full((2, 9), 1 / 9).log()

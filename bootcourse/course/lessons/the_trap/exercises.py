@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bootcourse.course.exercise import NotAsAsked, exercise
+from bootcourse.course.exercise import MANY_ROWS, NotAsAsked, exercise
 from bootcourse.road import formulas
 
 
@@ -10,6 +10,7 @@ def action_cases(rng):
     """All nine at once, each alone; then 20 at random."""
     yield from ((np.arange(9),), *((np.array([action]),) for action in range(9)))
     yield from ((rng.integers(0, 9, rng.integers(1, 8)),) for _ in range(20))
+    yield (rng.integers(0, 9, MANY_ROWS),)
 
 
 @exercise(
