@@ -79,13 +79,23 @@ def test_every_method_of_the_study_and_other_ways_has_its_row(monkeypatch):
     assert rows["idle driver"].returns.value == pytest.approx(IDLE_EARNS) and rows["planner"].success is None
 
 
+def test_on_the_roads_of_another_block_stand_one_s_own_drivers_and_those_that_are_not_trained(few_roads):
+    rows = {row.method: row for row in bc.board(block=7, rule_again=bc.rule_policy(DEFAULT)).rows}
+    names = {"rule controller", "idle driver", "random driver", "gap acceptance (rule)", "rule_again"}
+    assert rows.keys() == names and rows["rule_again"].returns == rows["rule controller"].returns
+    driven = bc.drive_episodes(bc.rule_policy(DEFAULT), bc.held_out_seeds(7, 5))
+    assert rows["rule controller"].returns.value == driven.returns.mean()
+    with pytest.raises(BootcourseError, match="seed = -1"):
+        bc.board(block=-1)
+
+
 def test_agents_that_differ_in_their_seed_share_a_row_and_others_do_not(few_roads, training, tmp_path):
-    (together,) = own_rows(training, course_rule)
+    (together,) = own_rows(training, course_rule, module.ROADS)
     bc.save_runs(training, tmp_path)
-    (stored,) = own_rows(tmp_path, course_rule)
+    (stored,) = own_rows(tmp_path, course_rule, module.ROADS)
     assert stored.returns == together.returns
     bc.save_runs(bc.Training([bc.settings_for("sac", gamma=0.9, seed=7)], 1).run(progress=False), tmp_path)
-    assert [row.method for row in own_rows(str(tmp_path), course_rule)] == [f"plain SAC, {tmp_path}"] * 2
+    assert [row.method for row in own_rows(str(tmp_path), course_rule, module.ROADS)] == [f"plain SAC, {tmp_path}"] * 2
 
 
 def test_agents_that_drive_with_a_teacher_of_one_s_own_are_entered_with_it(few_roads, tmp_path):

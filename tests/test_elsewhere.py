@@ -154,6 +154,18 @@ def test_a_comparison_trains_each_entry_and_shows_a_table_and_curves():
     assert "success" in compared.figure("Cloning is enough").alt
 
 
+def test_methods_are_compared_at_equal_decisions_though_their_episodes_differ_in_length():
+    entries = {name: bc.settings_for(name, **QUICK) for name in ("sac", "soft")}
+    rule = PROBLEMS["chain"].rule
+    compared = bc.compare(entries, 2, tests=3, decisions=400, make_env=Chain, teacher=rule, progress=False)
+    assert [row[4] for row in compared.rows()[1:]] == ["400", "400"]
+    assert not any(result.interrupted for result in compared.results.values())
+    finished = [np.nansum(result.curves["decisions"], axis=1) for result in compared.results.values()]
+    assert all((each == 240).all() for each in finished), "each of four roads has finished one episode of 60"
+    with pytest.raises(BootcourseError, match="decisions = 0: give a whole number from 1"):
+        bc.compare(entries, decisions=0)
+
+
 def presses_ctrl_c_after(calls: int):
     """A teacher of the chain that interrupts the training once, when it has been asked so often."""
     asked = []

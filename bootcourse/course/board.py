@@ -3,8 +3,10 @@
     board()                                 # what ships
     board("runs/mine", my_rule)             # and the agents in a folder, and a rule of your own
     board(mine=look_ahead(...))             # and any policy, under a name
+    board("class/anna", "class/ben", block=4711)   # a class, on roads that nobody has seen before
 
-Everyone drives the 1,000 roads of block 1 of the default scenario, on which no agent of the kit trains.
+Everyone drives 1,000 held-out roads of the default scenario, on which no agent of the kit trains: those of block 1,
+unless you name another.
 """
 
 from collections.abc import Sequence
@@ -36,7 +38,7 @@ from bootcourse.terminal import printable
 
 ROADS = held_out_seeds(HELD_OUT, 1000)
 HEADINGS = ("method", "return", "success %", "accidents %")
-LONGEST = 34  # letters of a name
+LONGEST = 32  # letters of a name
 BELOW = (
     f"{len(ROADS):,} held-out roads, [95 % interval]. One driver: over roads. Several agents: over agents, the",
     "interquartile mean of returns, the mean of rates.",
@@ -78,7 +80,7 @@ class Board:
     def __repr__(self) -> str:
         lines = [("", HEADINGS), *((">" if row.own else "", row.cells) for row in self.rows)]
         text = [
-            f"{mark:2}{name:{LONGEST}}" + "".join(f"{cell:>20}" for cell in cells) for mark, (name, *cells) in lines
+            f"{mark:2}{name:{LONGEST}}" + "".join(f"{cell:>22}" for cell in cells) for mark, (name, *cells) in lines
         ]
         return printable("\n".join([*text, "", *BELOW]))
 
@@ -91,16 +93,21 @@ class Board:
         return str(html("<table>{}</table><p>{}</p>", joined(lines), " ".join(BELOW)))
 
 
-def board(*own: str | Path | Result | Rule, teacher: Rule = course_rule, **drivers: Policy) -> Board:
+def board(
+    *own: str | Path | Result | Rule, teacher: Rule = course_rule, block: int = HELD_OUT, **drivers: Policy
+) -> Board:
     """The leaderboard of what ships, with rows of your own.
 
     own: a folder that `bootcourse train` wrote, the result of a `Training`, or a rule `my_rule(cars, scenario) ->
     action`. Agents that differ in nothing but their seed share a row. drivers: policies by name. teacher: of the
-    agents in folders, if they need it to drive. Raises BootcourseError for anything else, for a damaged file, and for
-    agents that see another number of cars or need another teacher.
+    agents in folders, if they need it to drive. block: of held-out roads; in another than block 1 the kit's rows are
+    those of its rules, since its trained agents were tested in block 1. Raises BootcourseError for anything else, for a
+    damaged file, and for agents that see another number of cars or need another teacher.
     """
-    rows = [*shipped_rows(), *(row for one in own for row in own_rows(one, teacher))]
-    rows += [row_of(name, [drive_episodes(policy, ROADS)], own=True) for name, policy in drivers.items()]
+    roads = ROADS if block == HELD_OUT else held_out_seeds(block, len(ROADS))
+    rows = [*(shipped_rows() if block == HELD_OUT else untrained_rows(roads))]
+    rows += [row for one in own for row in own_rows(one, teacher, roads)]
+    rows += [row_of(name, [drive_episodes(policy, roads)], own=True) for name, policy in drivers.items()]
     return Board(tuple(sorted(rows, key=lambda row: (-row.returns.value, row.method))))
 
 
@@ -114,13 +121,18 @@ def row_of(name: str, agents: Sequence[Episodes], own: bool = False) -> Row:
     return Row(name, interval(returns), interval(success, np.mean), interval(accidents, np.mean), own)
 
 
+def untrained_rows(roads: Sequence[int]) -> list[Row]:
+    """The rows of the drivers that are not trained."""
+    drivers = {"rule": rule_policy(DEFAULT), "idle": idle_policy, "random": random_policy(np.random.default_rng(0))}
+    named = {display_name(name): policy for name, policy in drivers.items()}
+    named["gap acceptance (rule)"] = teacher_policy(gap_rule)
+    return [row_of(name, [drive_episodes(policy, roads)]) for name, policy in named.items()]
+
+
 @cache
 def shipped_rows() -> tuple[Row, ...]:
-    """The rows of what ships, and of the drivers that are not trained."""
-    study = in_assets(shipped())
-    drivers = {"rule": rule_policy(DEFAULT), "idle": idle_policy, "random": random_policy(np.random.default_rng(0))}
-    rows = [row_of(display_name(name), [drive_episodes(policy, ROADS)]) for name, policy in drivers.items()]
-    rows.append(row_of("gap acceptance (rule)", [drive_episodes(teacher_policy(gap_rule), ROADS)]))
+    """The rows of what ships, and of the drivers that are not trained, in block 1."""
+    study, rows = in_assets(shipped()), untrained_rows(ROADS)
     rows.append(Row(display_name("planner"), mean(study.bound[DEFAULT.name])))
     default, later = study.results["default"], by_method(study.experiments["beyond"])
     for method, results in (later | {method: default.of(method) for method in default.methods}).items():
@@ -143,8 +155,8 @@ def lookahead_rows(cells: dict[str, Results]) -> list[Row]:
     return rows
 
 
-def own_rows(one: str | Path | Result | Rule, teacher: Rule) -> list[Row]:
-    """The rows of an entry, see `board`."""
+def own_rows(one: str | Path | Result | Rule, teacher: Rule, roads: Sequence[int]) -> list[Row]:
+    """The rows of an entry on these roads, see `board`."""
     if isinstance(one, Result):
         agents = [(agent, one.scenario) for agent in one.agents]
     elif isinstance(one, str | Path):
@@ -152,7 +164,7 @@ def own_rows(one: str | Path | Result | Rule, teacher: Rule) -> list[Row]:
         agents = [(run.agent.taught_by(teacher_of(teacher, DEFAULT)), run.scenario) for run in runs]
     elif callable(one) and not isinstance(one, type):
         name = str(getattr(one, "__name__", type(one).__name__))
-        return [row_of(name, [drive_episodes(teacher_policy(one), ROADS)], own=True)]
+        return [row_of(name, [drive_episodes(teacher_policy(one), roads)], own=True)]
     else:
         raise BootcourseError(f"{one!r:.80} cannot be entered: give a folder of runs, a training's result, or a rule.")
     where, groups = "this training" if isinstance(one, Result) else str(one), {}
@@ -167,7 +179,7 @@ def own_rows(one: str | Path | Result | Rule, teacher: Rule) -> list[Row]:
     return [
         row_of(
             f"{display_name(settings.method)}, {where}",
-            [drive_episodes(agent.as_policy(), ROADS) for agent in group],
+            [drive_episodes(agent.as_policy(), roads) for agent in group],
             own=True,
         )
         for (settings, _), group in groups.items()

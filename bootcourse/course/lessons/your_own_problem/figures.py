@@ -1,4 +1,4 @@
-"""How five agents of each method did, what each method closes of the gap on some problems, and a drive of DoorKey."""
+"""How five agents of each method did, and a drive of DoorKey."""
 
 from collections.abc import Mapping, Sequence
 
@@ -8,9 +8,7 @@ from matplotlib.patches import Arc, Rectangle
 
 from bootcourse.colours import ALARM, Style
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
-from bootcourse.research.elsewhere_claims import TEACHER, Cells
-from bootcourse.research.problems import PROBLEMS
+from bootcourse.plots.figure import INK, TEXT, axes_at, finish, new_figure, plain_axes
 
 NAMES = {
     "cloning": "cloning",
@@ -44,53 +42,6 @@ def agents(success: Mapping[str, np.ndarray], title: str) -> Figure:
         f"{NAMES[name]}: {', '.join(f'{100 * v:.0f}' for v in np.sort(each))}" for name, each in success.items()
     )
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
-
-
-def decisions_of(cells: Cells, problem: str, teacher: str, method: str) -> np.ndarray:
-    """How many decisions each agent made in training, (agents,), where each pays 1 or −1: MountainCar and CartPole."""
-    return np.abs(np.nansum(cells.get(problem, teacher, method).curves["return"], axis=1, dtype=float))
-
-
-def gap(cells: Cells, problems: Sequence[str], title: str) -> Figure:
-    """For each problem and teacher, what four methods close of the gap in return from plain SAC to the problem's best.
-
-    A green line: the teacher itself. What earns less than plain SAC stands at the left edge.
-    """
-    rows = [row for row in cells.rows() if row[0] in problems]
-    rows.sort(key=lambda row: problems.index(row[0]))
-    figure = new_figure(HEAD + ROW * len(rows) + 0.12 * len(problems) + FOOT)
-    ax = axes_at(figure, 2.15, HEAD, 4.55, ROW * len(rows) + 0.12 * len(problems))
-    places, alt_parts = [], []
-    for row, (problem, teacher) in enumerate(rows):
-        place = row + 0.45 * problems.index(problem)
-        places.append(place)
-        if not row or rows[row - 1][0] != problem:
-            ax.axhline(place - 0.72, color=QUIET, linewidth=0.5)
-            ax.text(-0.46, place, PROBLEMS[problem].name, transform=ax.get_yaxis_transform(), fontsize=TEXT,
-                    fontweight="bold", color=INK, va="center")  # fmt: skip
-        shares = {name: 100 * cells.share(problem, teacher, name) for name in NAMES}
-        own = 100 * cells.share(problem, teacher, TEACHER)
-        ax.plot([np.clip(own, -4, 100)] * 2, [place - 0.42, place + 0.42], color=style("rule").colour, linewidth=3,
-                solid_capstyle="butt", zorder=2)  # fmt: skip
-        for shift, (name, share) in zip((-0.27, -0.09, 0.09, 0.27), shares.items(), strict=True):
-            at = np.clip(share, -4, 100)
-            ax.scatter(at, place + shift, s=20, color=look(name).colour, marker=MARKS[name], zorder=3, clip_on=False)
-        if (full := sum(share > 99.5 for share in shares.values())) > 1:
-            ax.text(97, place, f"{full} at 100 %", fontsize=SMALL, color=QUIET, ha="right", va="center")
-        words = ", ".join(f"{NAMES[name]} {share:.0f} %" for name, share in shares.items() if np.isfinite(share))
-        alt_parts.append(f"{PROBLEMS[problem].name}, {teacher} teacher ({own:.0f} %): {words}")
-    plain_axes(ax, "", grid="x")
-    ax.set_yticks(places, [teacher for _, teacher in rows])
-    ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-    ax.set(xlim=(-6, 103), ylim=(places[-1] + 0.7, -0.8))
-    ax.set_xticks([0, 25, 50, 75, 100], ["plain SAC", "25", "50", "75", "the best"])
-    ax.set_xlabel("share of the gap in return that is closed (%); green line: the teacher", fontsize=TEXT, color=INK)
-    for x, (name, words) in zip((0.31, 0.43, 0.63, 0.81), NAMES.items(), strict=True):
-        y = 1 - 0.7 / figure.get_figheight()
-        ax.scatter([x - 0.017], [y], s=34, color=look(name).colour, marker=MARKS[name], clip_on=False,
-                   transform=figure.transFigure)  # fmt: skip
-        figure.text(x, y, words, fontsize=SMALL, color=INK, va="center")
-    return finish(figure, title, f"{'; '.join(alt_parts)}.")
 
 
 def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
