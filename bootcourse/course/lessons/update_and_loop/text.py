@@ -65,8 +65,8 @@ entropy = sac.entropy(beginner.log_pi(torch.zeros(1, 4))).item()  # the pole sta
 print(f"Entropy of the untrained policy: {entropy:.3f} of at most {np.log(2):.3f} nats")
 
 # %% [markdown]
-# > **Predict.** Your learner will know nothing about poles. It trains for 30,000 pushes, and is
-# > tested about every 3,000. Does each test last at least as long as the one before?
+# > **Predict.** Your learner will know nothing about poles. It trains until it has solved this one,
+# > and is tested every 2,000 pushes. Does each test last at least as long as the one before?
 
 # %%
 choices = [
@@ -205,35 +205,37 @@ check.train(train)
 # Now your agent learns, with your parts as far as they have passed; the rest is ours. When has it
 # *solved* the pole? Gymnasium's mark for this environment is a mean of {{
 # gym.spec('CartPole-v1').reward_threshold | .0f }} of at most {{
-# gym.spec('CartPole-v1').max_episode_steps }} pushes. We ask for it in the last 20 episodes of the
-# training, whose pushes are drawn, and in 20 new ones with the most probable pushes.
+# gym.spec('CartPole-v1').max_episode_steps }} pushes. We ask for it in 20 episodes of the training
+# in a row, whose pushes are drawn, and stop there. (To stop at a good moment is a choice: what
+# further training would keep of it is a question of its own, see lesson [[found_and_kept]].)
 
 # %%
 predicted("update_and_loop.1")
-PUSHES, SEED = 30_000, 0  # another seed is another agent
+BLOCK, MOST, SEED = 2_000, 60_000, 0  # pushes; another seed is another agent
 loop, step, buffer = own_code.yours_or_ours("train", "update", "ReplayBuffer")
-agent, step = by_hand.SAC(seed=SEED), by_hand.Watched(step, every=750)
-env, untrained = gym.wrappers.RecordEpisodeStatistics(checks.cartpole()), by_hand.balanced(agent)
-loop(agent, env, buffer(50_000), step, PUSHES, np.random.default_rng(SEED))
-last = np.mean(list(env.return_queue)[-20:]), by_hand.balanced(agent, episodes=20)
-tests = np.array([untrained, *step.balanced, last[1]])
-pushes = [0, *(256 + 3000 * (k + 1) for k in range(len(step.balanced))), PUSHES]
-falls = int((np.diff(tests) < 0).sum())
+agent, step, rng = by_hand.SAC(seed=SEED), by_hand.Watched(step), np.random.default_rng(SEED)
+env, kept = gym.wrappers.RecordEpisodeStatistics(checks.cartpole()), buffer(50_000)
+tests, last = [by_hand.balanced(agent)], 0.0
+while last < 475 and len(tests) * BLOCK <= MOST:
+    loop(agent, env, kept, step, BLOCK, rng)
+    tests.append(by_hand.balanced(agent))
+    last = np.mean(list(env.return_queue)[-20:])
+pushes, falls = np.arange(len(tests)) * BLOCK, int((np.diff(tests) < 0).sum())
 title = f"From {tests[0]:.0f} pushes to {tests[-1]:.0f}; {falls} tests are worse than before"
 x_label, y_label = "pushes in training", "pushes balanced, mean of 10 episodes"
 looks = [bc.colours.OTHER._replace(marker="o")]
-bc.show(charts.lines(pushes, {"your agent": tests}, title, x_label, y_label, looks=looks))
-solved = "solved" if min(last) >= 475 else "not solved"
-print(
-    f"{solved}: {last[0]:.0f} pushes in training's last 20 episodes, {last[1]:.0f} in 20 new ones"
-)
+bc.show(charts.lines(pushes, {"your agent": np.array(tests)}, title, x_label, y_label, looks=looks))
+solved = f"solved after {pushes[-1]:,} pushes" if last >= 475 else f"not solved in {pushes[-1]:,}"
+new = by_hand.balanced(agent, episodes=20)
+print(f"{solved}: {last:.0f} in training's last 20 episodes, {new:.0f} in 20 new ones")
 
 # %% [markdown]
 # **See.** (Yours will differ from another machine's.) The untrained agent lets the pole fall sooner
-# than a random driver does, since its most probable push is nearly always the same one. Does a test
-# fall below the one before? A network that changes for one state changes for others, too, so an
-# update can make a policy worse. Train again with `SEED = 1` before you judge: one agent is one
-# sample, and its last test is one moment.
+# than a random driver does, since its most probable push is nearly always the same one. The tests
+# take the most probable pushes, too; the training draws them, and its episodes reach the mark
+# later. Does a test fall below the one before? A network that changes for one state changes for
+# others, too, so an update can make a policy worse. Train again with `SEED = 1`: one agent is one
+# sample.
 #
 # Did the thermostat work? Lesson [[discrete_sac]] computed its direction only. Here its target is
 # η = 0.3 log 2 = {{ 0.3 * math.log(2) | .2f }}, which a policy over two actions can reach:
@@ -354,7 +356,7 @@ table(["rows, all with terminated = 0", "Q after 4,000 pushes"], rows, "One agen
 
 # %%
 worst = left_out.KINDS[1 + scores[1:].mean(1).argmin()]
-course = choices[1 if tests.max() > 100 else 2] if falls else choices[0]
+course = choices[1 if max(tests) > 100 else 2] if falls else choices[0]
 compare_predictions("update_and_loop", {1: course, 2: worst})
 
 # %% [markdown]
