@@ -14,7 +14,7 @@ EXPERIMENTS = {  # in the order of the report
     "stress": f"{_HERE}.experiments.stress",
     "teachers": f"{_HERE}.experiments.teacher_worth",
     "look-ahead": f"{_HERE}.experiments.lookahead",
-    "distil": f"{_HERE}.experiments.distil",
+    "learned-model": f"{_HERE}.experiments.learned_model",
     "elsewhere": f"{_HERE}.experiments.elsewhere",
     "checks": f"{_HERE}.experiments.checks",
 }

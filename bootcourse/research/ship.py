@@ -46,14 +46,17 @@ def command(name: str) -> str:
 
 
 class Shipment:
-    """The new folder while it is filled. Files that the study has not computed are taken from today's folder."""
+    """The new folder while it is filled. Files that the study has not computed are taken from today's folder; a file
+    that was removed from it is no longer listed.
+    """
 
     def __init__(self, study: Path | None, today: Path, new: Path):
         self.study, self.new = study or new / "no study", new
         self.entries: dict[str, dict] = {}  # of the manifest, by file
         if (today / MANIFEST).exists():
             shutil.copytree(today, new)
-            self.entries = {entry["file"]: entry for entry in read_manifest(today)["files"]}
+            entries = read_manifest(today)["files"]
+            self.entries = {entry["file"]: entry for entry in entries if (today / entry["file"]).exists()}
 
     def has(self, part: str) -> bool:
         """Has the study finished any job of this part?"""

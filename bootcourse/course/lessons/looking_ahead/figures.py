@@ -1,7 +1,7 @@
-"""The figures of this lesson: what looking ahead changes, what it gains by horizon, what a wrong model costs.
+"""The figures of this lesson: what looking ahead changes, what it gains by horizon, what a model costs.
 
-The last two take the results of the experiment `look-ahead`, {cell: agents}; its file,
-bootcourse.research.experiments.lookahead, has the scores.
+All but the first take the results of the experiments `look-ahead` and `learned-model`, {cell: agents}; their files, in
+bootcourse.research.experiments, say what was measured.
 """
 
 from collections.abc import Container, Mapping, Sequence
@@ -14,8 +14,10 @@ from matplotlib.ticker import MaxNLocator, NullLocator
 from bootcourse.episodes.lookahead import HORIZON
 from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError
+from bootcourse.learn.road_model import FORMS as LEARNED_FORMS
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure, plain_axes
+from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import CLOSELY, FORM_NAMES, FORMS, HORIZONS, Cell, Score, score
 from bootcourse.research.results import Results
 
@@ -111,6 +113,58 @@ def by_horizon(cells: dict[str, Results], base: str, title: str) -> Figure:
         ax.set_ylim((-0.04 * most, 1.1 * most) if words.startswith("accidents") else (low.min() - 2, most + 2))
         alt_parts.append(f"{words}: {', '.join(f'{m:.1f} at {h}' for h, m in zip(of, middle, strict=True))}")
     return finish(figure, title, f"{'; '.join(alt_parts)}.")
+
+
+def each_agent(cells: dict[str, Results], bases: Sequence[str], title: str) -> Figure:
+    """Each agent's success and accidents, from alone to with rollouts: a panel for each measure and base policy."""
+    figure, alt_parts, left, high = new_figure(2 * 2.1 + 0.7), [], 0.55, 2.1
+    width = (WIDTH - left - 0.1) / len(bases)
+    measures = {"ahead of trap 1 (%)": "success", "accidents in 1,000 drives": "accidents"}
+    for row, (words, measure) in enumerate(measures.items()):
+        place = 1 - (0.78 + row * high) / figure.get_figheight()
+        figure.text(0.012, place, words, fontsize=SMALL, color=QUIET)
+        for column, base in enumerate(bases):
+            ax = axes_at(figure, left + column * width, 1.12 + row * high, width - 0.35, 1.3)
+            pair = [cells[Cell(base, form).name].measured for form in ("alone", "rollouts")]
+            share = [of[measure] / of["roads"] if measure == "accidents" else of[measure] for of in pair]
+            values = np.array(share) * (1000 if measure == "accidents" else 100)  # (2, agents)
+            ax.plot([0, 1], values, color=style(base).colour, linewidth=1.1, marker="o", ms=3.5, clip_on=False)
+            plain_axes(ax, display_name(base))
+            ax.set(xlim=(-0.15, 1.15), ylim=(0, 1000 if measure == "accidents" else 100))
+            ax.set_xticks([0, 1], ["alone", "rollouts"])
+            each = ", ".join(f"{alone:.0f} to {ahead:.0f}" for alone, ahead in values.T)
+            alt_parts.append(f"{display_name(base)}, {words}: {each}")
+    return finish(figure, title, f"A line for each agent, from alone to with rollouts. {'; '.join(alt_parts)}.")
+
+
+def learned(agents: Results, cells: dict[str, Results], title: str) -> Figure:
+    """Accidents of each agent with a model that it learned: a panel for each form, over the rounds; 0 is alone.
+
+    agents: see `learned_model.together`; cells: those of the look-ahead, which drove the same agents alone.
+    """
+    figure, rounds, alt_parts = new_figure(3.7), learned_model.ROUNDS, []
+    colour, left = style(learned_model.BASE).colour, 0.6
+    width = (WIDTH - left) / len(LEARNED_FORMS)
+    of_alone = cells[Cell(learned_model.BASE, "alone").name].measured
+    alone = 1000 * (of_alone["accidents"] / of_alone["roads"])[: len(agents)]
+    for column, form in enumerate(LEARNED_FORMS):
+        ax = axes_at(figure, left + column * width, 1.2, width - 0.3, 1.7)
+        values = np.column_stack([alone, learned_model.per_thousand(agents, form)])
+        control = learned_model.per_thousand(agents, form, control=True)[:, 0]
+        ax.plot(range(rounds + 1), values.T, color=colour, linewidth=0.8, alpha=0.6)
+        ax.plot(range(rounds + 1), values.mean(0), color=colour, linewidth=2.4, marker="o", ms=4)
+        ax.plot([rounds + 0.8] * len(control), control, "s", color=QUIET, ms=3, alpha=0.6, clip_on=False)
+        ax.plot(rounds + 0.8, control.mean(), "s", color=INK, ms=6, clip_on=False)
+        plain_axes(ax, form)
+        ax.set(xlim=(-0.2, rounds + 1.1), ylim=(0, 1000))
+        ax.set_xticks([*range(rounds + 1), rounds + 0.8], ["alone", *map(str, range(1, rounds + 1)), "c"])
+        ax.set_xlabel("rounds", fontsize=TEXT, color=INK)
+        means = ", ".join(f"{mean:.0f}" for mean in values.mean(0))
+        alt_parts.append(f"{form}: {means}; the control {control.mean():.0f}")
+    figure.text(0.012, 1 - 0.83 / figure.get_figheight(), "accidents in 1,000 drives", fontsize=SMALL, color=QUIET)
+    words = "thin: each agent; thick: their mean; c, squares: the control, as many drives without a look-ahead"
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
+    return finish(figure, title, f"Mean accidents in 1,000 drives, alone and after each round. {'; '.join(alt_parts)}.")
 
 
 def _check_computed(there: Container, wanted: Sequence, base: str) -> None:

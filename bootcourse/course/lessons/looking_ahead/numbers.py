@@ -3,7 +3,6 @@
 from functools import cache
 
 import numpy as np
-from scipy import stats
 
 from bootcourse.course import shipped as course
 from bootcourse.course.lessons.looking_ahead.imagined_road import decide_by
@@ -12,17 +11,15 @@ from bootcourse.episodes.lookahead import HORIZON, NINE, imagine, lookahead
 from bootcourse.episodes.models import MODELS
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
-from bootcourse.policies import idle_policy, random_policy
 from bootcourse.research.computed import experiment
-from bootcourse.research.experiments import distil
-from bootcourse.research.experiments.lookahead import MANY, ROADS, Cell, Score, score
+from bootcourse.research.experiments import learned_model
+from bootcourse.research.experiments.lookahead import Cell, Score, score
 from bootcourse.research.results import Results
 from bootcourse.road.state import Accident
 from bootcourse.scenario import DEFAULT
 
-NOISE, LATE = "places off by 1 m, speeds by 0.5 m/s", "everything a second late"
-OTHERS_LATE = "the others a second late"
-KEEPING, GAPS = "others keep speed and lane", "twice the time gap"
+LATE = "everything a second late"
+KEEPING = "others keep speed and lane"
 
 
 @cache
@@ -31,20 +28,14 @@ def shipped() -> dict:
     return experiment("look-ahead")
 
 
-def ahead(base: str, form: str = "rollouts", horizon: int = HORIZON, model: str = "exact", roads: int = ROADS) -> Score:
-    """What the agents of a base policy reached in one form. roads: MANY for the cell on so many."""
-    assert roads in (ROADS, MANY)
-    return score(shipped(), Cell(base, form, roads=roads, horizon=horizon, model=model))
+def ahead(base: str, form: str = "rollouts", horizon: int = HORIZON, model: str = "exact") -> Score:
+    """What the agents of a base policy reached in one form."""
+    return score(shipped(), Cell(base, form, horizon=horizon, model=model))
 
 
 def per_thousand(base: str, form: str = "rollouts", **more) -> float:
     """Accidents in 1,000 drives."""
     return 1000 * ahead(base, form, **more).accident_rate.value
-
-
-def gain(base: str) -> float:
-    """What the rollouts add to the mean return."""
-    return ahead(base).returns.value - ahead(base, "alone").returns.value
 
 
 def better(base: str, form: str) -> int:
@@ -58,21 +49,9 @@ def overruled(form: str) -> list[float]:
     return sorted(1000 * ahead("ppo_cloned", form, model=model).overruled for model in MODELS if model != "exact")
 
 
-def clearly_safer(base: str) -> int:
-    """With how many of the wrong models the shield's interval of accidents lies below that of the rollouts."""
-    wrong = [model for model in MODELS if model != "exact"]
-    rates = [[ahead(base, form, model=one).accident_rate for form in ("shield", "rollouts")] for one in wrong]
-    return sum(shield.high < rollouts.low for shield, rollouts in rates)
-
-
 def each(form: str, measure: str) -> np.ndarray:
     """The accidents or the mean return of each of the paper's agents, (agents,)."""
     return shipped()[Cell("bootstrapped", form).name].measured[measure]
-
-
-def of_the_worst(count: int) -> int:
-    """The accidents of so many of these agents, those that have most."""
-    return int(np.sort(each("alone", "accidents"))[-count:].sum())
 
 
 def all_ten_gain() -> bool:
@@ -100,14 +79,19 @@ def most_harmed(base: str) -> tuple[int, int]:
 
 
 @cache
-def learned() -> dict[str, Results]:
-    """The students of the look-ahead, by what they learned."""
-    return experiment("distil")
+def learning() -> Results:
+    """The ten agents that learned a model of the road."""
+    return learned_model.together(experiment(learned_model.NAME))
 
 
-def before():
-    """Accidents of the agents that these students were, (agents,)."""
-    return shipped()[Cell(distil.BASE, "alone").name].measured["accidents"][: distil.AGENTS]
+def learned(form: str) -> np.ndarray:
+    """Accidents in 1,000 drives, the agents' mean after each round, (rounds,)."""
+    return learned_model.per_thousand(learning(), form).mean(0)
+
+
+def learned_without(form: str) -> float:
+    """The same of the control, whose model learned from drives without a look-ahead."""
+    return float(learned_model.per_thousand(learning(), form, control=True).mean())
 
 
 @cache
@@ -120,12 +104,6 @@ def how_five_end() -> list[np.ndarray]:
 def five_accidents() -> list[int]:
     """The accidents of each of them."""
     return [int((ends > 0).sum()) for ends in how_five_end()]
-
-
-def departures() -> float:
-    """The share of road departures in the accidents of the one that has most."""
-    ends = max(how_five_end(), key=lambda each: (each > 0).sum())
-    return float((ends == Accident.ROAD_DEPARTURE).sum() / (ends > 0).sum())
 
 
 def outs(base: str, form: str = "rollouts") -> np.ndarray:
@@ -145,25 +123,6 @@ def changed_before_passing() -> np.ndarray:
             cars = drive.states[:: DEFAULT.clock.steps][: int(np.ceil(overtaken(drive)))]
             counts.append(int((decide_by(agent)(cars) != drive.actions[: len(cars)]).sum()))
     return np.array(counts)
-
-
-def closest() -> tuple[float, float, float]:
-    """Accidents in 1,000 drives of a PPO agent and of the student nearest to it, and Fisher's p of the two."""
-    pairs = [
-        (int(old), int(new), int(roads))
-        for students in learned().values()
-        for old, new, roads in zip(before(), students.measured["accidents"], students.measured["roads"], strict=True)
-    ]
-    old, new, roads = min(pairs, key=lambda pair: (pair[1] - pair[0]) / pair[2])
-    p = stats.fisher_exact([[old, roads - old], [new, roads - new]]).pvalue
-    return 1000 * old / roads, 1000 * new / roads, float(p)
-
-
-@cache
-def ahead_of_twenty(base: str, horizon: int = HORIZON) -> int:
-    """How many of 20 drives with rollouts of "idle" or "random" end ahead of trap 1."""
-    policy = idle_policy if base == "idle" else random_policy(np.random.default_rng(0))
-    return int(drive_episodes(lookahead(policy, horizon), held_out_seeds(15, 40)[:20]).success.sum())
 
 
 @cache
