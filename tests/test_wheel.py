@@ -30,7 +30,7 @@ for what in (bc.board, agents, bc.shipped_results, drive, build.page):
 for name in ("manifest.json", "report/ablation.json"):
     (assets.FOLDER / name).parent.mkdir(exist_ok=True)
     shutil.copy(f"{sys.argv[1]}/{name}", assets.FOLDER / name)
-bundle.content = lambda: {"names": build.names(), "data": "{}", "picture": ""}  # nothing is compiled
+bundle.content = lambda: {"names": build.names(), "data": "{}"}  # nothing is compiled
 print(json.dumps({"file": bc.__file__, "said": said, "page": build.page()}))
 """
 
@@ -69,7 +69,7 @@ def test_its_page_is_the_clone_s_and_what_needs_the_shipped_results_says_so(site
     assert run.returncode == 0, run.stderr.decode()
     there = json.loads(run.stdout)
     assert Path(there["file"]).parent == site / "bootcourse"
-    monkeypatch.setattr(bundle, "content", lambda: {"names": build.names(), "data": "{}", "picture": ""})
+    monkeypatch.setattr(bundle, "content", lambda: {"names": build.names(), "data": "{}"})
     assert there["page"] == build.page() and "</script>" in there["page"]
     assert len(there["said"]) == 5
     for sentence in there["said"]:

@@ -19,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))  # so that `tool
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # or two kernels with two torches fight over the cores
 
 from bootcourse.processes import usable_processors
+from bootcourse.web import bundle
 from tools.course import products
 from tools.course.numbering import refresh_kept
 from tools.course.problems import problems
@@ -33,6 +34,7 @@ def make(path: Path, prose: bool) -> Path:
 def make_all(paths: list[Path], prose: bool) -> bool:
     """Make the notebooks of these texts, the longest first. Returns whether all were made."""
     fine = True
+    bundle.content()  # or each notebook with a road would compile it, and say so
     with ProcessPoolExecutor(usable_processors()) as workers:
         paths = sorted(paths, key=lambda path: -path.stat().st_size)
         running = {workers.submit(make, path, prose): path for path in paths}

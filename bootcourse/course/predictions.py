@@ -163,8 +163,8 @@ def predicted(name: str) -> None:
     from IPython.display import display
 
     number, one = Question(name).number, predictions().get(name)
-    if one is None:
-        display(Note(f"Prediction {number}: you have not committed to one."))
+    if one is None:  # JupyterLab shows these words where it folds the answer
+        display({"text/plain": f"The answer to prediction {number}:"}, raw=True)
     else:
         display(Note(f"You predicted ({number}): {worded(one['answer'], one.get('unit'))}. Was it so?"))
 

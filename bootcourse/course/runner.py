@@ -46,8 +46,8 @@ from bootcourse.errors import BootcourseError
 FORKS = sys.platform == "linux"  # on macOS system libraries may break in a fork, and Windows has none
 MEMORY = 2 * 2**30  # bytes that a function may use
 START = 60  # seconds in which a process has to be ready
-WALL = 7  # seconds after which a check is over, its start included, if that takes under 5 s and the limit is no longer
-LEAST = 2  # seconds that a function has in any case
+WALL = 7  # seconds after which a check is over, its start included, if that takes under 3 s and the limit is no longer
+LEAST = 4  # seconds that a function has in any case: it may have to load a library first
 SLACK = 5  # seconds after which the process ends by itself
 LONGEST_PRINT = 500  # characters of a function's prints that are shown
 LONGEST_MESSAGE = 2**26  # bytes

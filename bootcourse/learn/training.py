@@ -290,7 +290,7 @@ class Training:
                 interrupted.set()
         result = self.result(interrupted=interrupted.is_set() or not self.done)
         if watch is not None:
-            watch.ended(result)
+            watch.ended(result, by_hand=interrupted.is_set())
         return result
 
     def result(self, interrupted: bool = False) -> Result:

@@ -38,6 +38,7 @@ class Watch(World):
     chart = traitlets.Unicode().tag(sync=True)
     words = traitlets.Unicode().tag(sync=True)
     running = traitlets.Bool(True).tag(sync=True)
+    reach = traitlets.Int(1).tag(sync=True)  # the last episode on the curves' axis
     handle = None  # of its display in a notebook's cell
 
     def __init__(self, training: Training, button: bool = True):
@@ -48,7 +49,7 @@ class Watch(World):
         opens = {"road": FIRST_ROAD, "driver": "now", "ghost": "before", "pace": 2, "futures": 0, "view": "above"}
         opens |= {"details": False, "height": SIZE[1] + 40, "watch": True, "run": True, "button": button}
         opens |= {"training": secrets.token_hex(8)}
-        opens["axis"] = {"first": LEFT, "across": ACROSS, "wide": WIDE, "episodes": training.episodes}
+        opens["axis"] = {"first": LEFT, "across": ACROSS, "wide": WIDE, "top": TOP, "down": DOWN, "high": HIGH}
         super().__init__({"now": self._now()}, opens, training.scenario)
         self._draw()
 
@@ -68,21 +69,26 @@ class Watch(World):
             self.words = words
             self.offer(now=self._now())
 
-    def ended(self, result: Result) -> None:
-        """The training is over: the last agent stays."""
+    def ended(self, result: Result, by_hand: bool = False) -> None:
+        """The training is over: the last agent stays. by_hand: the reader interrupted it."""
         self.running = False
-        self.show_now(f"{'Stopped' if result.interrupted else 'Done'} after {self.training.updates:,} updates")
+        how = "You stopped it" if by_hand or self.stopping else "Done"
+        self.show_now(f"{how} after {self.training.updates:,} updates")
         if self.handle is not None:
             self.handle.update(self)  # so that the notebook's file holds the whole curves
 
     def change(self, symbol: str, setting: str, value: float) -> None:
-        """Let the agents go on with another value, and mark the moment in the curves."""
+        """Let the agents go on with another value, and mark the moment in the curves; the drag of a slider gets one."""
         self.training.change(**{setting: value})
-        self.marks.append((finished(self.training.curves.values), f"{symbol} {value:g}"))
+        now = finished(self.training.curves.values)
+        if self.marks and self.marks[-1][1].startswith(f"{symbol} ") and now - self.marks[-1][0] < 0.1 * self.reach:
+            now, _ = self.marks.pop()
+        self.marks.append((now, f"{symbol} {value:g}"))
 
     def _draw(self) -> None:
         training = self.training
-        self.svg = training_chart(self.methods, training.curves.values, training.episodes, self.marks)
+        self.reach = reach(finished(training.curves.values), training.episodes)
+        self.svg = training_chart(self.methods, training.curves.values, self.reach, self.marks)
         self.chart = str(self.svg)
 
     def _now(self) -> Guest:
@@ -103,6 +109,12 @@ class Watch(World):
         return data | self.picture(printed(self.svg), self.svg.alt), metadata
 
 
+def reach(done: int, episodes: int) -> int:
+    """Where the axis of the episodes ends: at the first of 50, 100, 200, 500, 1,000 ... that is beyond those done."""
+    ends = (step * 10**power for power in range(1, 9) for step in (1, 2, 5))
+    return min(next(end for end in ends if end > max(done, 20)), episodes)
+
+
 def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episodes: int, marks: Marks = ()) -> Drawing:
     """Four small charts of a training, always of the same size: thin lines are agents, thick ones a method's mean.
 
@@ -111,8 +123,12 @@ def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episod
     """
     names, done, window = dict.fromkeys(methods), finished(curves), window_of([curves])
     called = " and ".join(map(display_name, names))
-    words = f"{called}: means of {window} episodes. Thin: an agent." if done else f"{called}: no episode has ended yet."
-    parts, ends = [text(12, 18, words, fill=QUIET)], []
+    words = f"Means of {window} episodes. Thin: an agent." if done else "No episode has ended yet."
+    parts, ends, x = [], [], 12.0
+    for method in names:
+        parts.append(text(x, 18, display_name(method), fill=style(method).colour, bold=True))
+        x += 7.4 * len(display_name(method)) + 12
+    parts.append(text(x, 18, words, fill=QUIET))
     for i, shown in enumerate(SHOWN):
         measure, at, means = MEASURES[shown], np.zeros(0), np.zeros((0, 0))
         if done:

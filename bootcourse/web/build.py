@@ -19,15 +19,12 @@ from bootcourse.errors import BootcourseError
 from bootcourse.files import read_tensors, write_bytes
 from bootcourse.learn.agent import Agent
 from bootcourse.methods import DRIVERS, style
-from bootcourse.plots.road import road_svg
-from bootcourse.plots.svg import drawing, printed
 from bootcourse.policies import Policy, rule_policy
 from bootcourse.replay3d import camera
 from bootcourse.replay3d import road as stage
 from bootcourse.replay3d.car import DARK, LAMPS, LIGHT, car_parts
 from bootcourse.road import state
 from bootcourse.road.branching import future_worth
-from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import SENTENCES
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS, RULE_P
 from bootcourse.storage.assets import FOLDER, shipped
@@ -148,19 +145,10 @@ def page_data() -> dict:
     }
 
 
-def picture() -> str:
-    """The road from above as it begins, as SVG: what a reader sees where no kernel runs."""
-    env = TrapVectorEnv(1)
-    env.reset(seed=[FIRST_ROAD])
-    road, height = road_svg(env.cars[0], DEFAULT, OTHER.colour, 1000, 8.0)
-    words = "A road of three lanes from above: one slow car ahead of the ego, another one beside it."
-    return printed(drawing(1000, height, road, words)).decode()
-
-
 def content() -> dict[str, str]:
     """See `bundle.content`, which keeps it."""
     data = json.dumps(page_data(), separators=(",", ":")).replace("<", "\\u003c")
-    return {"names": names(), "data": data, "picture": picture()}
+    return {"names": names(), "data": data}
 
 
 def page() -> str:

@@ -8,7 +8,6 @@ picture at once.
 import hashlib
 import json
 import re
-import sys
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
@@ -61,12 +60,12 @@ def notebook_module() -> str:
 
 @cache
 def content() -> dict[str, str]:
-    """What build.py makes: "names" and "data" for the scripts, and "picture", an SVG for readers without a kernel."""
+    """What build.py makes, for the scripts: "names" and "data"."""
     name = f"world-{_hash()}.json"
     for place in cache_places():
         with suppress(OSError, ValueError):  # it is not there, or a power cut has damaged it
             return json.loads((place / name).read_text(encoding="utf-8"))
-    print("The road is compiled for the browser, once: about a minute.", file=sys.stderr)
+    print("The road is compiled for the browser, once: one minute, or two.", flush=True)
     from bootcourse.web import build
 
     made = build.content()

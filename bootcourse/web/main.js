@@ -174,7 +174,9 @@ class Game {
     this.shown = 0;
     this.finished = false;
     this.controls.forget();
+    const held = this.find("end").contains(this.root.activeElement);
     this.find("end").hidden = true;
+    if (held) this.focus(); // or the next key would be the notebook's
     this.find("about").textContent = this.rivals.length === 1 ? this.rivals[0].words : "";
     this.run(false);
     this.think();

@@ -31,7 +31,7 @@ class Watched {
     this.show();
   }
 
-  get names() { return ["chart", "words", "running", "drivers"]; }
+  get names() { return ["chart", "words", "running", "drivers", "reach"]; }
 
   close() { this.names.forEach(name => this.model.off(`change:${name}`, this.draw)); }
 
@@ -39,7 +39,9 @@ class Watched {
     const { model, chart, words, stop } = this;
     chart.innerHTML = model.get("chart");
     chart.firstChild.style.cssText = "width: 100%; height: auto";
-    words.textContent = model.get("words");
+    const chosen = this.wheel && `At the wheel, and marked: the agent after ${this.wheel.updates.toLocaleString("en")} updates.`;
+    words.textContent = [model.get("words"), chosen].filter(Boolean).join(" · ");
+    this.mark();
     stop.hidden = !(model.get("running") && model.get("opens").button);
   }
 
@@ -64,12 +66,27 @@ class Watched {
   // A click left of the curves' end puts the agent of that episode at the wheel, one right of it the present agent.
   choose({ clientX }) {
     const { left, width } = this.chart.firstChild.getBoundingClientRect(), agents = this.history;
-    const { first, across, wide, episodes } = this.model.get("opens").axis;
+    const { first, across, wide } = this.model.get("opens").axis, episodes = this.model.get("reach");
     const x = ((clientX - left) * this.chart.firstChild.viewBox.baseVal.width) / width;
     const episode = ((x - first) % across) / wide * episodes;
     const apart = agent => Math.abs(agent.episodes - episode);
     const nearest = agents.reduce((best, agent) => (apart(agent) < apart(best) ? agent : best));
     this.wheel = episode > agents.at(-1).episodes ? null : nearest;
+    this.show();
     this.chosen();
+  }
+
+  // A line at the chosen agent's episode, in each of the four charts.
+  mark() {
+    if (!this.wheel) return;
+    const { first, across, wide, top, down, high } = this.model.get("opens").axis, svg = this.chart.firstChild;
+    for (const [column, row] of [[0, 0], [1, 0], [0, 1], [1, 1]]) {
+      const x = first + column * across + wide * this.wheel.episodes / this.model.get("reach"), y = top + row * down;
+      const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
+      for (const [name, value] of Object.entries({ x1: x, x2: x, y1: y, y2: y + high, stroke: "currentColor" })) {
+        line.setAttribute(name, value);
+      }
+      svg.append(line);
+    }
   }
 }

@@ -18,8 +18,12 @@ import ipywidgets as widgets
 import traitlets
 
 from bootcourse import one_per_cell
+from bootcourse.colours import OTHER
 from bootcourse.errors import BootcourseError, described, whole
 from bootcourse.markup import html
+from bootcourse.plots.road import road_svg
+from bootcourse.plots.svg import drawing, printed
+from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 from bootcourse.web import bundle
 from bootcourse.web.guests import KNOWN, Guest, guest
@@ -141,7 +145,15 @@ class World(anywidget.AnyWidget):
         driver = self.opens["driver"] if self.opens["driver"] in KNOWN else "you"
         page = f"road={self.opens['road']}&ghost={ghosts or 'none'}&driver={driver}&view={self.opens['view']}"
         alt = f"Road {self.opens['road']} from above. Where a kernel runs, you drive here."
-        return data | self.picture(bundle.content()["picture"].encode(), alt, page), metadata
+        return data | self.picture(self._road_from_above(), alt, page), metadata
+
+    def _road_from_above(self) -> bytes:
+        """The road as it begins, an SVG."""
+        env = TrapVectorEnv(1, self.scenario)
+        env.reset(seed=[self.opens["road"]])
+        road, height = road_svg(env.cars[0], self.scenario, OTHER.colour, 1000, 8.0)
+        words = "A road of three lanes from above: one slow car ahead of the ego, another one beside it."
+        return printed(drawing(1000, height, road, words))
 
     @staticmethod
     def picture(svg: bytes, alt: str, page: str = "") -> dict[str, str]:

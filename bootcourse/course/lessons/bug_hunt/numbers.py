@@ -5,8 +5,6 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.bug_hunt import bugs
-from bootcourse.policies import stochastic_rule_policy
-from bootcourse.scenario import DEFAULT
 from tools.course.known import drive_episodes, held_out_seeds
 
 hunt = cache(bugs.Hunt)  # the agents of the bug hunt
@@ -21,14 +19,3 @@ def drawn_success(name: str) -> float:
     """The share of Round 4's 200 drives with drawn actions in which an agent ends ahead of trap 1."""
     policy = hunt().agent(name).as_policy(np.random.default_rng(0))
     return drive_episodes(policy, held_out_seeds(12, 200)).success.mean()
-
-
-def noisy_rule() -> float:
-    """The same share for the stochastic rule."""
-    policy = stochastic_rule_policy(DEFAULT, np.random.default_rng(0))
-    return drive_episodes(policy, held_out_seeds(12, 200)).success.mean()
-
-
-def episodes(name: str) -> int:
-    """How many training episodes an agent had, the mean of its seeds to within 50."""
-    return int(50 * round(np.isfinite(hunt().curve(name, "success")).sum(axis=1).mean() / 50))

@@ -19,13 +19,3 @@ def pushes(weights: tuple[float, ...], episodes: int = 20) -> float:
             steps, over = steps + 1, terminated or truncated
         lasted.append(steps)
     return float(np.mean(lasted))
-
-
-@cache
-def largest(critics: int, actions: int = 9) -> float:
-    """The mean of the largest estimate of some actions all worth 0, by the smallest of some critics' estimates.
-
-    Each estimate has an error of its own, normal with a standard deviation of 1.
-    """
-    estimates = np.random.default_rng(0).normal(size=(100_000, critics, actions))
-    return float(estimates.min(1).max(-1).mean())

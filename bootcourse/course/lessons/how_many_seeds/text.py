@@ -36,15 +36,15 @@ from bootcourse.course import (
 )
 from bootcourse.course.lessons.how_many_seeds import explorable
 from bootcourse.course.lessons.how_many_seeds import figures as figures_seeds
-from bootcourse.research import figures, paper, report, tables
+from bootcourse.research import figures, paper, tables
 
 progress("how_many_seeds")
 
 # %% [markdown]
 # ## Look first
 #
-# Here are two agents of plain SAC on one road. They have the same settings and had the same number
-# of training episodes. They differ in the *seed* of their random numbers alone.
+# Here are two agents of plain SAC on one road. They differ in the *seed* of their random numbers
+# alone.
 # <!-- claim: len({tuple((k, str(v)) for k, v in agent.items() if k != 'seed') for agent in
 #   of('sac').agents}) == 1 -->
 
@@ -68,8 +68,8 @@ for agent in (bc.shipped_agents("sac")[i] for i in (0, 3)):
 #
 # > **Predict.** Eight of ten agents with the soft constraint alone escape. Suppose that each agent
 # > escapes with the same probability p. How low may p be, if eight or more of ten are still to
-# > happen in one of forty studies? (`scipy.stats.binom.sf(7, 10, p)` is the chance of eight or
-# > more: try some p.)
+# > happen in one of forty studies? `scipy.stats.binom.sf(7, 10, p)` is the chance of eight or more:
+# > try some p.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 
 # %%
@@ -91,19 +91,16 @@ predict(
 # %%
 predicted("how_many_seeds.1")
 methods = ("sac", "soft", "demos", "bootstrapped")
-study, rule = bc.shipped_results(), report.rule_results(bc.DEFAULT, 200)
+study = bc.shipped_results()
 agents, episodes = len(study.of("sac")), study.curves["success"].shape[1]
 roads = study.tested["success"].shape[1]
 print(f"{agents} agents of each method, {episodes:,} training episodes, {roads:,} held-out roads")
 bc.show(figures_seeds.who_escapes(study, methods))
 
 # %% [markdown]
-# In this study an agent succeeds on more than 90 % of the roads or on fewer than 10 %, so a
-# method's result is a number of agents. (One bootstrapped agent, at 92 %, just misses the line:
-# with a line at 90 % eight of them would escape, too.) Eight of ten escape: what does that say
-# about others?
-# <!-- claim: (of('bootstrapped').scores('success') > 0.9).sum() == 8 ==
-#   (of('soft').scores('success') > 0.9).sum() -->
+# Each of these agents succeeds on more than 90 % of the roads or on fewer than 10 %, so a method's
+# result is a number of agents. Eight of ten with the soft constraint escape: what does that say
+# about agents that nobody has trained yet?
 # <!-- claim: escaped('soft') == 8 and [round(100 * each) for m in ('sac', 'soft', 'demos',
 #   'bootstrapped') for each in of(m).scores('success') if 0.1 < each < 0.95] == [92] -->
 #
@@ -122,12 +119,11 @@ explorable.certainty()
 # k for the high one. Mind k = 0 and k = n.
 # <!-- claim: rate(np.zeros(10)).low == 0 -->
 #
-# <details><summary>Why a beta distribution? Three lines</summary>
+# <details><summary>Why a beta distribution?</summary>
 #
 # Draw n numbers between 0 and 1 uniformly, and call a number at or below p a success. Then k or
-# more successes means that the k-th smallest number is at or below p. The k-th smallest of n such
-# numbers has the beta distribution with a = k and b = n − k + 1, so its value at 2.5 % is the rate
-# p at which k or more successes have a chance of 2.5 %.
+# more successes means that the k-th smallest number is at or below p. That number has the beta
+# distribution with a = k and b = n − k + 1, so its value at 2.5 % is the low end.
 #
 # </details>
 
@@ -141,9 +137,9 @@ def exact_interval(k, n):
 check.exact_interval(exact_interval)
 
 # %% [markdown]
-# The paper's rates count test episodes. It does not print how many, or of how many agents. (One of
-# its deviations fits {{ EPISODES }} drives: 5 ± 22.36 %. Another, 5 ± 29.69 %, fits no number of
-# them.) Take each of its rows as *one* agent that drove {{ EPISODES }} times:
+# The paper does not print how many test drives stand behind its rates, or how many agents. One of
+# its deviations fits {{ EPISODES }} drives. Take each of its rows as *one* agent that drove {{
+# EPISODES }} times:
 
 # %%
 rows = []
@@ -158,17 +154,10 @@ drives = f"the paper's success, {paper.EPISODES} drives"
 table(["", "agents that escape (95 %)", drives, "if one agent drove them all"], rows)
 
 # %% [markdown]
-# **See.** Two rows look opposite: the soft constraint alone, and the demonstrations alone. They
-# need not contradict the paper. Twenty drives of one agent are *one* sample, not twenty, of how
-# often training succeeds, and with one agent behind a row its interval overlaps with ours in each
-# row, taken by itself. (How likely all four rows are *together*, lesson [[found_and_kept]]
-# computes.)
-#
-# The paper itself says two things about its soft constraint. Its text calls it worse than plain
-# SAC; its table has the higher return for it, {{ PRINTED['soft']['returns'].mean }} against {{
-# PRINTED['sac']['returns'].mean }}, at a success of 0 % for both.
-# <!-- claim: PRINTED['soft']['returns'].mean > PRINTED['sac']['returns'].mean and
-#   PRINTED['soft']['success'].mean == PRINTED['sac']['success'].mean == 0 -->
+# **See.** Two rows look opposite: the soft constraint alone, and the demonstrations alone. Neither
+# row, taken by itself, has to contradict the paper. Twenty drives of one agent are *one* sample,
+# not twenty, of how often training succeeds. With one agent behind a row, the paper's interval
+# overlaps with ours in each row.
 # <!-- claim: escaped('soft') > 5 and escaped('demos') == 0 and rate(np.ones(1)).low <
 #   rate(np.zeros(10)).high and rate(np.zeros(1)).high > rate(np.arange(10) < 8).low -->
 
@@ -179,9 +168,9 @@ table(["", "agents that escape (95 %)", drives, "if one agent drove them all"], 
 # %% [markdown]
 # ## Round 2: how many agents does it take?
 #
-# Suppose that the paper's agents and ours do differ. One possible reason is where the KL enters.
-# Our learner subtracts it in the critic's target, too (lesson [[soft_constraint]], round 4). Ten
-# more agents of both methods had it in the actor's loss alone, with the study's settings otherwise:
+# Suppose that the paper's agents and ours do differ. One possible reason is where the KL of the
+# soft constraint enters. Our learner subtracts it in the critic's target, too (lesson
+# [[soft_constraint]], round 4). Ten more agents of both methods had it in the actor's loss alone:
 
 # %%
 elsewhere = shipped.shipped_experiment("ablations")["KL in the actor only"]
@@ -193,14 +182,14 @@ rows = [
 table(["agents that escape, the KL ...", *kinds], rows)
 
 # %% [markdown]
-# No difference is visible. Is there none? That depends on how often ten agents against ten would
-# show one. *Fisher's exact test* compares two such counts. Its **p value** is the probability of a
-# split at least as improbable as the observed one, if both groups escape equally often, given how
-# many of all agents escaped.
+# No difference is visible. Would ten agents against ten show one? *Fisher's exact test* compares
+# two such counts. Its **p value** is the probability of a split at least as improbable as the
+# observed one, if both groups escape equally often, given how many of all agents escaped. A p below
+# 0.05 counts as a difference.
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
-# > such studies does Fisher's test find the difference (p below 0.05)? (It tells 8 of ten from 2 of
-# > ten, p = {{ fisher(8, 2) | .2f }}, but not from 3 of ten, p = {{ fisher(8, 3) | .2f }}.)
+# > such studies does Fisher's test find the difference? It tells 8 of ten from 2 of ten,
+# > p = {{ fisher(8, 2) | .2f }}, but not from 3 of ten, p = {{ fisher(8, 3) | .2f }}.
 # <!-- claim: max(p_changed(m) for m in ('soft', 'bootstrapped')) > 0.5 -->
 
 # %%
@@ -231,27 +220,24 @@ bc.show(figures_seeds.powers(((0.8, 0.3), (0.8, 0.6)), (3, 5, 8, 10, 12, 15, 20,
 
 # %% [markdown]
 # **See.** Ten against ten find even this large difference in {{ 100 * power(0.8, 0.3, 10) | .0f }}
-# % of the studies; {{ enough(0.8, 0.3) }} agents of each are the fewest with a power of 80 %.
-# (Fisher's test is careful: Boschloo's exact test finds it in {{ 100 * power_of_boschloo(0.8, 0.3)
-# | .0f }} %.) A smaller difference, 80 against 60 %, needs far more than the figure's 30.
+# % of the studies. A power of 80 % needs {{ enough(0.8, 0.3) }} agents of each. A smaller
+# difference, 80 against 60 %, needs far more than the figure's 30.
 # <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 30) < 0.4 -->
 #
-# So what does our table say? With the KL in the actor's loss only, nine of ten agents with the soft
-# constraint escape, and the exact interval begins at {{ 100 * in_actor_only().low | .0f }} %: the
-# KL's place does not bring the rate down to near 0; ten against ten would have shown that (80
-# against 5 %: power {{ 100 * power(0.8, 0.05, 10) | .0f }} %). A moderate effect, such as 80
-# against 60 %, ten agents would rarely show.
-# <!-- claim: power(0.8, 0.05, 10) > 0.9 and in_actor_only().value == 0.9 and
-#   in_actor_only().low > 0.5 -->
+# So what does our table say? The KL's place does not bring the rate down to near 0. With the KL in
+# the actor's loss only, nine of ten agents with the soft constraint escape, and their exact
+# interval begins at {{ 100 * in_actor_only().low | .0f }} %. A moderate effect, such as 80 against
+# 60 %, ten agents would rarely show.
+# <!-- claim: in_actor_only().value == 0.9 and in_actor_only().low > 0.5 and
+#   power(0.8, 0.6, 10) < 0.4 -->
 #
 # ### Many comparisons
 #
 # The opposite error is to see a difference where there is none. If twelve independent comparisons
 # have no true difference behind them, and each test errs in 5 % of the cases, at least one p is
-# below 0.05 with a chance of {{ 100 * (1 - 0.95**12) | .0f }} %. (Fisher's test of ten against ten
-# errs less, in at most {{ 100 * most_false() | .1f }} %.) This is **multiplicity**. Say beforehand
-# which comparison counts; or multiply each p by the number of comparisons (Bonferroni). *Holm's*
-# way finds more:
+# below 0.05 with a chance of {{ 100 * (1 - 0.95**12) | .0f }} %. This is **multiplicity**. Say
+# beforehand which comparison counts; or multiply each p by the number of comparisons (Bonferroni).
+# *Holm's* way finds more:
 #
 # 1. Sort the p values, the smallest first.
 # 2. Multiply the first by their number n, the second by n − 1, and so on.
@@ -312,8 +298,7 @@ table(headings, rows, below=below)
 # %% [markdown]
 # **See.** The IQM falls most. It leaves out two agents at each end, so the third low agent counts
 # already, and a fourth takes the place of a high one. An IQM resists an outlier or two; it does not
-# resist a second group. And no agent earns what it says: the nearest return is {{
-# nearest_to_iqm('bootstrapped') | .0f }} away. So our tables also count agents.
+# resist a second group. So our tables also count agents.
 # <!-- claim: (lambda r, w: iqm(r) - iqm(w) > r.mean() - w.mean() > np.median(r) - np.median(w))(
 #   np.sort(of('bootstrapped').scores('returns')),
 #   np.sort(of('bootstrapped').scores('returns'))[[0, *range(9)]]) -->
@@ -331,11 +316,11 @@ predict(
 # %% [markdown]
 # The computer imitates a repetition. Draw ten agents out of our ten *uniformly with replacement*:
 # some come twice or more, and others are left out. Take their mean. Do this some thousand times.
-# The middle 95 % of these means are the **bootstrap interval**. (Bootstrapped SAC
-# has nothing to do with it.)
+# The middle 95 % of these means are the **bootstrap interval**. Bootstrapped SAC has nothing to do
+# with it.
 #
-# **Exercise (7 min, ●●○).** Write it. The draws are given, so that yours and ours agree. (Between
-# two means every usual way to interpolate a percentile is right.)
+# **Exercise (7 min, ●●○).** Write it. The draws are given. Every usual way to interpolate a
+# percentile is right.
 
 
 # %%
@@ -365,44 +350,14 @@ bc.show(figures.final_scores(study, methods, title=title))
 # both aids about {{ half_interval('bootstrapped') | .0f }} to either side. A *repetition* has an
 # error of its own, as large as ours. Two independent errors add up to $\sqrt2$ as much, so two
 # studies of ten agents differ, in 95 of 100 cases, by at most about {{ 2**0.5 *
-# half_interval('bootstrapped') | .0f }}. (The figure draws the same for the IQM.)
+# half_interval('bootstrapped') | .0f }}. The figure draws the same interval for the IQM, with the
+# paper's return as a diamond.
 #
 # Do not trust a short interval from few seeds: resampling draws from the agents that were trained,
 # and from no others. The first three agents with the soft constraint happen to agree, so their
-# interval is short, and the mean of ten lies far below it. With ten agents out of two groups like
-# ours such an interval holds the true mean in about {{ 100 * covered() | .0f }} of 100 studies, not
-# in 95.
+# interval is short, and the mean of ten lies far below it.
 # <!-- claim: of('soft').scores('returns').mean() < interval(of('soft').scores('returns')[:3],
 #   np.mean).low -->
-#
-# Our agents with the soft constraint earn more than the paper's (the diamonds). Does that have a
-# price? A mean over all ten hides it, because it mixes two groups. Here they are apart:
-# <!-- claim: all(of(m).scores('returns').mean() > PRINTED[m]['returns'].mean for m in ('soft',
-#   'bootstrapped')) -->
-
-# %% tags=["hide-input"]
-rows = []
-for method in (*methods, "rule"):
-    its = (rule if method == "rule" else study).of(method)
-    escape = its.scores("success") >= bc.statistics.ESCAPES
-    for words, which in (("escape", escape), ("do not", ~escape)):
-        if which.any():
-            mine = its.pick(np.flatnonzero(which))
-            accidents = f"{100 * mine.episodes('accident').mean():.1f}"
-            count = f"{which.sum()} {words}" if method != "rule" else ""
-            speed = f"{mine.episodes('speed').mean():.1f}"
-            rows.append([bc.display_name(method), count, speed, accidents])
-headings = ["drives of", "agents", "speed, m/s", "drives with an accident, %"]
-table(headings, rows)
-
-# %% [markdown]
-# **See.** Agents with the soft constraint that escape drive faster than the rule, and have an
-# accident in {{ accidents_of('soft', True) | .0f }} to {{ accidents_of('bootstrapped', True) | .0f
-# }} % of their drives, the rule in none. With the soft constraint the large rates are those of the
-# agents that do *not* escape. The one agent of plain SAC that escapes has an accident in {{
-# accidents_of('sac', True) | .0f }} %. (The rule is slow by our choice: lesson [[the_rule]].)
-# <!-- claim: all(accidents_of(m, False) > 5 * accidents_of(m, True) for m in ('soft',
-#   'bootstrapped')) and accidents('rule') == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask for a fifth way to summarise ten agents in one number, and try it on the bootstrapped ones.
@@ -417,8 +372,8 @@ table(headings, rows)
 predict("how_many_seeds.5", "How often does the bootstrapped agent earn more?", unit="%")
 
 # %% [markdown]
-# That is the **probability of improvement**: pair each agent of the first method with each agent of
-# the second, and count in which share of the pairs the first earns more. A tie counts half.
+# This is the **probability of improvement**: the share of all pairs of one agent of each method in
+# which the first earns more. A tie counts half.
 
 # %%
 predicted("how_many_seeds.5")
@@ -426,9 +381,9 @@ four = study.pick(i for i, a in enumerate(study.agents) if a["method"] in method
 table(*tables.improvement_rows(four))
 
 # %% [markdown]
-# **Explain.** One half is what a coin would give. The interval of both aids against the soft
-# constraint alone holds 50 %. The two methods need not be equal, but ten seeds show no difference:
-# "the combination is best" is not a result of this study.
+# **Explain.** At 50 % neither method is ahead. The interval of both aids against the soft
+# constraint alone holds 50 %. The two need not be equal, but ten seeds show no difference: "the
+# combination is best" is not a result of this study.
 # <!-- claim: 100 * improvement([1.0, 1.0], [1.0, 1.0]).value == 50 -->
 # <!-- claim: (lambda p: p.low <= 0.5 <= p.high)(improvement(of('bootstrapped').scores('returns'),
 #   of('soft').scores('returns'))) -->
@@ -444,8 +399,7 @@ table(*tables.improvement_rows(four))
 # changed. For that you need an interval for a *difference*.
 #
 # **Exercise (15 min, ●●●).** Write it: the IQM of one group less the IQM of the other, and the
-# 95 % bootstrap interval of that difference. Each resample draws both groups anew. It can be
-# written without a loop over the resamples.
+# 95 % bootstrap interval of that difference. Each resample draws both groups anew.
 
 
 # %%
@@ -490,16 +444,15 @@ words += "holds 0." if effect.low <= 0 <= effect.high else "does not hold 0."
 table(["success, %", "IQM", "the agents, sorted"], rows, below=words)
 
 # %% [markdown]
-# **Explain.** (Yours will differ from ours.) The result covers these settings and 150 episodes: it
-# says which group learned earlier, and how uncertain that difference is, not whether the bonus is
-# needed in a longer training. In our run the agents without the bonus were ahead more often, and
-# the interval holds 0. With so few agents it is often too short.
+# **Explain.** In our run the agents without the bonus were ahead more often, and the interval holds
+# 0. The result covers these settings and 150 episodes. It says which group learned earlier, not
+# whether the bonus is needed in a longer training.
 #
 # How many agents would settle it? Do not compute it from the difference that you have just seen: if
 # the interval holds 0, that difference may have either sign. Say first which difference would
-# matter to you, the **smallest effect of interest** (20 points, perhaps), choose the number of
-# agents whose power for it is enough, and train a *new* set. Adding agents because an interval just
-# misses 0 makes the test err more often than it says.
+# matter to you, the **smallest effect of interest**. Choose the number of agents whose power for it
+# is enough, and train a *new* set. Adding agents because an interval just misses 0 makes the test
+# err more often than it says.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Give each group another number to change, and collect the results on the board: one row for each

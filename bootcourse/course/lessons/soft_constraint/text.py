@@ -18,8 +18,8 @@
 # - derive the best compromise between a learner's Q and what the rule says;
 # - write the two losses that the pull enters, and show what happens if the pull does not fade.
 #
-# **Time** 73 minutes; running it takes about one minute. **It builds on** the rule of
-# lesson [[the_rule]], and actor, critic and soft value of lesson [[discrete_sac]].
+# **Time** 73 minutes. **It builds on** the rule of lesson [[the_rule]], and actor, critic and soft
+# value of lesson [[discrete_sac]].
 
 # %%
 import math
@@ -46,9 +46,8 @@ progress("soft_constraint")
 # %% [markdown]
 # ## Look first
 #
-# Here are the probabilities of the nine actions in the first second of a drive, behind trap 1:
-# those of an agent that has learned nothing yet, π, and those of the stochastic rule of lesson
-# [[the_rule]], π̃ ("pi tilde").
+# Here are the probabilities of the nine actions in the first second of a drive: those of an
+# untrained agent, π, and those of the stochastic rule of lesson [[the_rule]], π̃ ("pi tilde").
 
 # %% tags=["hide-input"]
 ROAD = 10
@@ -65,13 +64,11 @@ bc.show(charts.action_bars(named, title, looks=[SKY, GREEN]))
 
 # %% [markdown]
 # The rule gets out of the trap and is slow afterwards. So the agent should follow it at first, and
-# still be able to find something better. This lesson builds such a **pull** towards the rule, the
-# *soft constraint*: a penalty that grows with the difference between π and π̃.
+# find something better later. This lesson builds such a **pull**, the *soft constraint*: a penalty
+# that grows with the difference between π and π̃.
 #
-# The agents of this lesson train with the parts of lessons [[discrete_sac]] and [[update_and_loop]]
-# that you wrote. The next cell runs the files in the folder `answers`, which hold them; no other
-# cell of this lesson does that.
-# <!-- claim: len(re.findall('\nown_code.load()', code_of('soft_constraint'))) == 1 -->
+# This lesson's agents train with the parts that you wrote in lessons [[discrete_sac]] and
+# [[update_and_loop]]. The next cell runs the files in the folder `answers`, which hold them.
 
 # %%
 own_code.load()
@@ -83,16 +80,15 @@ own_code.load()
 # %% [markdown]
 # ## Round 1: what does it cost to ignore the rule?
 #
-# The rule names one action, μ(s). The stochastic rule takes it with probability $p$ (Equation 16 of
-# the paper):
+# The rule names one action, μ(s). The stochastic rule takes it with probability $p$ (Equation 16):
 #
 # $$ \tilde\pi(a|s) = p \text{ if } a = \mu(s), \qquad \tfrac{1-p}{8} \text{ otherwise} $$
 #
-# Call $-\log \tilde\pi(a|s)$ the **price** of an action. Its unit is the **nat**, the unit of the
-# natural logarithm: probability 1 costs 0 nats, probability $1/e$ costs 1.
+# Call $-\log \tilde\pi(a|s)$ the **price** of an action. Its unit is the **nat**: probability 1
+# costs 0 nats, probability $1/e$ costs 1.
 #
 # > **Predict.** Raise p from 0.9 to 0.99. Any other action than the rule's becomes ten times as
-# > unlikely. Does its price grow by a factor of 10, of 2, or of about 1.5?
+# > unlikely. By what factor does its price grow?
 
 # %%
 predict(
@@ -136,14 +132,13 @@ check.log_stochastic_rule(log_stochastic_rule)
 # $$ D_\mathrm{KL}(\pi \,\|\, \tilde\pi) = \sum_a \pi(a|s) \big( -\log \tilde\pi(a|s) \big)
 # - \mathcal{H}(\pi) = \sum_a \pi(a|s) \log \frac{\pi(a|s)}{\tilde\pi(a|s)} $$
 #
-# The entropy is taken off so that π̃ itself pays nothing. The KL is 0 if the two policies are
-# equal, and positive if they differ.
+# The KL is 0 if the two policies are equal, and positive if they differ.
 # <!-- claim: bool((lambda a, p: bootstrap.kl_to_rule(bootstrap.log_stochastic_rule(a, p), a,
 #   p))(torch.tensor([3]), torch.tensor(0.9)) == 0) -->
 #
-# > **Predict.** The rule says "keep left", p = 0.9. Three agents: one is sure of "keep left", one
-# > is sure of "accelerate straight", one gives every action the same probability. Which has the
-# > smallest KL, and is it 0?
+# > **Predict.** The rule says "keep left", p = 0.9. One agent is sure of "keep left", one of
+# > "accelerate straight", one gives every action the same probability. Which has the smallest KL,
+# > and is it 0?
 
 # %%
 predict(
@@ -168,12 +163,6 @@ table(["the agent is sure of", "its KL (nats)"], rows)
 # gives that action {{ 100 * RULE_P | .0f }} %. So the constraint also charges for being surer than
 # π̃.
 #
-# The order matters. $D_\mathrm{KL}(\pi \| \tilde\pi)$, the *reverse* KL, charges the agent for
-# doing often what π̃ does seldom; to drop the rule's action for another one costs that one's price,
-# {{ math.log(80) | .2f }} nats, and no more. The *forward* KL, $D_\mathrm{KL}(\tilde\pi \| \pi)$,
-# charges it for doing seldom what π̃ does often; to drop the rule's action there costs infinitely
-# many nats.
-#
 # **Exercise (5 min, ●●○).** Write the KL for a batch of states.
 
 
@@ -193,8 +182,8 @@ check.soft_constraint(soft_constraint)
 # %% [markdown]
 # ## Round 3: which compromise is best?
 #
-# In one state, with its estimates $Q(s,a)$, the agent now has three goals: actions with a high
-# value, entropy (weight α), and a small distance from the rule (weight ξ, "xi").
+# In one state, with its estimates $Q(s,a)$, the agent has three goals: actions with a high value,
+# entropy (weight α), and a small distance from the rule (weight ξ, "xi").
 #
 # $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
 # - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
@@ -212,13 +201,6 @@ predict(
 # %% [markdown]
 # **Exercise (15 min, ●●●).** Derive the best policy on paper, then write it. Without the KL it is
 # softmax(Q / α) (lesson [[discrete_sac]]). The check expects probabilities.
-#
-# <details><summary>First step</summary>
-#
-# Write out the KL as $\sum_a \pi \log\pi - \sum_a \pi\log\tilde\pi$, and the entropy as
-# $-\sum_a \pi\log\pi$. Then collect what multiplies π, and what multiplies π log π.
-#
-# </details>
 
 
 # %%
@@ -236,9 +218,8 @@ check.regularised_policy(regularised_policy)
 #
 # The objective is $\sum_a \pi\,(Q + \xi\log\tilde\pi) - (\alpha+\xi) \sum_a \pi\log\pi$: that of
 # SAC with $Q + \xi\log\tilde\pi$ in place of Q, and α + ξ in place of α. Its best policy is
-# therefore a softmax: $\pi^*(a) \propto \exp\frac{Q(a) + \xi\log\tilde\pi(a)}{\alpha+\xi}$. The
-# larger ξ, the less a difference in Q counts. With the same Q for each action and α = ξ this is
-# $\sqrt{\tilde\pi}$, divided by its sum.
+# therefore a softmax: $\pi^*(a) \propto \exp\frac{Q(a) + \xi\log\tilde\pi(a)}{\alpha+\xi}$. With
+# the same Q for each action and α = ξ this is $\sqrt{\tilde\pi}$, divided by its sum.
 #
 # </details>
 #
@@ -268,14 +249,13 @@ title = "The best compromise shares its probability between the rule's action an
 bc.show(charts.action_bars(pi, title, looks=[GREY, GREEN, SKY]))
 
 # %% [markdown]
-# The KL is $-\mathcal{H} - \sum_a \pi \log\tilde\pi$. So the whole objective is SAC's, with the
-# reward $r + \xi\log\tilde\pi(a|s)$ and the temperature α + ξ. **The soft constraint is SAC with
-# another reward and another temperature**: it pays $\xi \log \frac{8p}{1-p}$ more for the rule's
-# action than for any other, and it values entropy more. That payment is the **head start** of the
-# rule's action: the difference of two prices, times ξ.
+# **The soft constraint is SAC with another reward and another temperature**, $r +
+# \xi\log\tilde\pi(a|s)$ and α + ξ. It pays $\xi \log \frac{8p}{1-p}$ more for the rule's action
+# than for any other. This difference of two prices, times ξ, is the **head start** of the rule's
+# action.
 #
-# > **Predict.** With p = 0.9 and the paper's first ξ = 2, how large is that head start? Compare it
-# > with the most that one second on the road can pay, about 1.
+# > **Predict.** With p = 0.9 and the paper's first ξ = 2, how large is the head start, compared
+# > with the most that one second on the road can pay, about 1?
 
 # %%
 choices = ["half as large", "twice", "9 times", "40 times"]
@@ -292,9 +272,8 @@ below = f"The best second pays {best_second:.2f}; γ = 0.8 counts about {1 / (1 
 table(["ξ", "head start, in Q"], rows, below)
 
 # %% [markdown]
-# Above, Q prefers *accelerate straight* (1.2) to the rule's *keep left* (0.6). From which ξ on does
-# the rule's action win? From where its head start is 0.6: ξ = 0.6 / {{ math.log(72) | .2f }} = {{
-# 0.6 / math.log(72) | .2f }}.
+# Above, Q prefers *accelerate straight* (1.2) to the rule's *keep left* (0.6). From which ξ on is
+# the head start larger than 0.6?
 
 # %% tags=["hide-input"]
 strengths = np.geomspace(0.002, 5, 100)
@@ -311,19 +290,16 @@ bc.show(charts.lines(strengths, probability, title, x_label, y_label, "x", looks
 
 # %% [markdown]
 # **Explain.** While ξ is near 2 the rule's action stays the most probable one, whatever a higher
-# speed earns: the head start of one second is larger than the discounted rewards of the best drive.
-# (An accident in the same second, {{ DEFAULT.reward.accident }}, outweighs it.) At ξ = 0.002 the
-# rule decides where the values of two actions are almost equal. In the study ξ falls from 2 to far
-# below 0.002.
+# speed earns: its head start is larger than the discounted rewards of the best drive. An accident
+# in the same second, {{ DEFAULT.reward.accident }}, outweighs it. At ξ = 0.002 the rule decides
+# where two values are almost equal.
 # <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident
 #   -->
 # <!-- claim: 0.002 * math.log(8 * 0.9 / 0.1) < 0.01 -->
-# <!-- claim: all(SETTINGS.xi_multiplier * run.curves['alpha'][-1] < 0.0002
-#   for run in shipped_runs('soft')) -->
 #
 # **Drag** ξ. You see a trained agent's π and Q, the rule's π̃, and the best compromise (*optimum*).
-# From here the car drives on by the compromise (black; red if it ends in an accident), beside the
-# agent's own way and the rule's (green). Both of these lead out. Does each compromise between them?
+# The car drives on by the compromise's most probable actions (black; red if it ends in an
+# accident), beside the agent's own way and the rule's (green). Does each compromise lead out?
 
 # %%
 helped = bc.shipped_agents("soft")[0]
@@ -331,10 +307,9 @@ its_drive = bc.record(helped.as_policy(with_q=True), [ROAD], label="soft")[0]
 bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 
 # %% [markdown]
-# **See.** Near ξ = 0.1 this drive leaves the road, although its two ends lead out. A compromise of
-# two drivers is a third driver, and has to be tried like any other. (This is one agent on one road;
-# to drive by the largest Q alone, ξ = 0, has more accidents than the agent's own π, too.) So the
-# rule pulls *while the agent learns*, and the agent can find a plan of its own beside it.
+# **See.** Near ξ = 0.1 this drive leaves the road, although the agent's own way and the rule's lead
+# out. This is one agent on one road, driven by the most probable action; another mixture of the two
+# may do better. The soft constraint pulls *while the agent learns*.
 # <!-- claim: compromised(0.1) and not compromised(0.001) and not compromised(10) -->
 
 # %% [markdown] tags=["instructor"] minutes=6
@@ -344,9 +319,8 @@ bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 # %% [markdown]
 # ## Round 4: where does the KL enter the losses?
 #
-# The objective of Round 3 was for one state. A learner maximises a sum over time, so the KL stands
-# inside this sum: each second pays $r + \alpha\mathcal{H} - \xi D_\mathrm{KL}$. This changes two
-# losses.
+# A learner maximises a sum over time, so the KL stands inside this sum: each second pays $r +
+# \alpha\mathcal{H} - \xi D_\mathrm{KL}$. This changes two losses.
 #
 # **The actor's loss** is minus the soft value, now with the KL in it.
 #
@@ -366,8 +340,7 @@ def constrained_loss(log_pi, q, alpha, xi, kl):
 check.constrained_loss(constrained_loss)
 
 # %% [markdown]
-# **The critics' loss.** Its target follows from the same sum over time. The paper's text does not
-# write it out.
+# **The critics' loss.** Its target follows from the same sum over time.
 #
 # **Exercise (15 min, ●●●).** Derive the target, then write it. Begin on paper: which seconds
 # does $Q(s,a)$ count, if a has been taken already? In which states does the policy choose after
@@ -387,22 +360,19 @@ def constrained_target(reward, terminated, next_log_pi, next_q_pair, next_kl, al
 check.constrained_target(constrained_target)
 
 # %% [markdown]
-# <details><summary>The derivation in five lines</summary>
+# <details><summary>The derivation</summary>
 #
-# $Q(s,a)$ is what follows *after* a was taken in s. There a is given and not chosen by the policy,
-# so Q contains neither the entropy nor the KL of s. From s' on the policy chooses, and each second
-# pays $r + \alpha\mathcal{H} - \xi D_\mathrm{KL}$. So $V(s') = \sum_a \pi\,Q(s',a) +
+# In $Q(s,a)$ the action a is given and not chosen by the policy, so Q contains neither the entropy
+# nor the KL of s. From s' on the policy chooses: $V(s') = \sum_a \pi\,Q(s',a) +
 # \alpha\mathcal{H} - \xi D_\mathrm{KL}$, with π, H and the KL of s', and $y = r + \gamma\,(1 -
 # \text{terminated})\,V(s')$. After an accident the policy does not choose again, so the KL of s' is
 # not charged.
 #
 # </details>
 #
-# What does the KL in the target change?
-#
-# > **Predict.** An agent follows trap 1 to the end and gets a reward of 0.15625 each second. In
-# > each of those seconds the rule would do something else. With γ = 0.8 and ξ = 2, what is
-# > following worth to the critic, without the KL in the target and with it? A crash pays −10.
+# > **Predict.** An agent follows trap 1 to the end and gets 0.15625 each second. The rule would
+# > always do something else. With γ = 0.8 and ξ = 2, what is following worth to the critic, without
+# > the KL in the target and with it? A crash pays −10.
 # <!-- claim: not (idle().rule_actions == idle().actions).any() -->
 
 # %%
@@ -436,22 +406,18 @@ bc.show(charts.lines(strengths, worth, title, x_label, y_label, "x", marks=marks
 # %% [markdown]
 # **Explain.** Without the KL in the target following is worth {{ 0.15625 / (1 - 0.8) | .2f }}. With
 # it and ξ = 2 it is worth {{ (0.15625 - 2 * math.log(80)) / (1 - 0.8) | .0f }}, less than a crash.
-# A third way is better than both: to be sure of the rule's action costs 0.21 a second, so falling
-# back as the rule does is worth {{ (by_rule().rewards[3] + 2 * math.log(RULE_P)) / (1 - 0.8) | .1f
-# }}. So through the critic the KL raises the cost of futures in which the rule would have acted
-# differently.
+# Falling back as the rule does is then better than both: it costs 0.21 a second, and is worth {{
+# (by_rule().rewards[3] + 2 * math.log(RULE_P)) / (1 - 0.8) | .1f }}. So through the critic the KL
+# raises the cost of futures in which the rule would have acted differently.
 # <!-- claim: round(-2 * math.log(RULE_P), 2) == 0.21 -->
 # <!-- claim: (0.15625 - 2 * math.log(8 / 0.1)) / (1 - 0.8) < DEFAULT.reward.accident < -1 <
 #   (by_rule().rewards[3] + 2 * math.log(RULE_P)) / (1 - 0.8) < 0.15625 -->
 #
-# Do agents need this to get out? With the KL in the actor's loss alone {{ with_kl_in_actor_only()
-# }} of ten agents of the study escape, with it in both places {{ escaped('soft') }}: no difference
-# to be seen (lesson [[how_many_seeds]]).
+# Do agents need this to get out? No difference is to be seen in the study: with the KL in the
+# actor's loss alone {{ with_kl_in_actor_only() }} of ten escape, with it in both places {{
+# escaped('soft') }}. (The field calls the KL in the target a *value penalty*, and that in the
+# actor's loss alone *policy regularisation*.)
 # <!-- claim: with_kl_in_actor_only() >= escaped('soft') == 8 -->
-#
-# (The field calls the KL in the target a *value penalty*, the KL in the actor's loss alone *policy
-# regularisation*.) In the program of lesson [[update_and_loop]], `bootcourse/learn/textbook.py`,
-# the KL stands in `critic_target` and in `actor_loss`.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # In the paper the KL stands inside the discounted sum (its Equation 15). One can also leave it out
@@ -492,8 +458,8 @@ bc.show(charts.lines(updates, {"soft": xi}, title, "update", y_label, logarithmi
 # In the study, with the same settings, that is after {{ tenth_of_xi('soft').min() }} to {{
 # tenth_of_xi('soft').max() }} episodes.
 #
-# **What fades?** Here another action is worth 1 more than the rule's. **Drag** α down, as training
-# does, and read the sentence: which number stays, and when does the other action win?
+# **What fades?** Here another action is worth 1 more than the rule's. **Drag** α down: which number
+# stays, and when does the other action win?
 
 # %%
 explorable.pull()
@@ -504,12 +470,13 @@ explorable.pull()
 # $$ \pi^*(a) \propto
 # \exp\Big( \frac{Q(a)}{201\,\alpha} + \tfrac{200}{201} \log\tilde\pi(a) \Big) $$
 #
-# α stands under Q alone. So the second term, the rule's head start measured in *logits*, is
-# $\tfrac{200}{201} \log 72$ = {{ 200 / 201 * math.log(72) | .2f }} at the first update and at the
-# last one: the rule as a prior does not fade. What fades is the temperature 201 α, from {{ 201 *
-# SETTINGS.alpha_init | .2f }} towards 0. While it is high a lead of 1 in Q hardly counts; when it
-# is low the same lead outweighs every head start. Where two actions have almost the same Q, the
-# rule's action stays the more probable one.
+# The second term, the rule's head start in *logits*, does not fade: it is $\tfrac{200}{201} \log
+# 72$ = {{ 200 / 201 * math.log(72) | .2f }} at the first update and at the last. Nor does the term
+# −ξ·KL inside Q: divided by the temperature 201 α, it costs the same driver as many nats at the end
+# as at the beginning. What fades is the temperature, from {{ 201 * SETTINGS.alpha_init | .2f }}
+# towards 0. While it is high a lead of 1 in Q hardly counts; when it is low the same lead outweighs
+# the head start. Where two actions have almost the same Q, the rule's action stays the more
+# probable one.
 # <!-- claim: math.isclose(200 / 201 * math.log(8 * RULE_P / (1 - RULE_P)), 4.26, abs_tol=0.005) -->
 #
 # Do your parts make the same update as ours?
@@ -521,8 +488,8 @@ own_code.compare()
 # What if ξ does not fade? The study has trained ten agents whose ξ fades and ten whose ξ stays at
 # 2, for {{ of('soft').sizes[1] | , }} episodes each.
 #
-# > **Predict.** After training each agent drives 1,000 held-out roads and takes the most probable
-# > action in each second. What do the agents whose ξ stays at 2 earn? The rule earns
+# > **Predict.** After training each agent drives 1,000 held-out roads by its most probable actions.
+# > What do the agents whose ξ stays at 2 earn? The rule earns
 # > {{ of('rule').scores('returns').mean() | .0f }}.
 
 # %%
@@ -551,7 +518,8 @@ below = "The median agent (lowest to highest), with its most probable actions."
 table(["after training", "agents", "return", "accidents, %"], rows, below=below)
 
 # %% [markdown]
-# In training, where actions are drawn from π, the same agents earn less:
+# In training the actions are drawn from π, and the same agents earn less. Dashed blue: ξ fades.
+# Grey: ξ stays at 2. Green: the rule itself, whose actions are not drawn.
 
 # %%
 window = 50  # training episodes that are averaged
@@ -569,37 +537,29 @@ for each, look in zip(earned, looks, strict=False):
 bc.show(figure)
 
 # %% [markdown]
-# **Explain.** With ξ fixed, the ten agents drive much like the rule: they get out on most roads,
-# and earn {{ stays().scores('returns').min() | .0f }} to {{ stays().scores('returns').max() | .0f
-# }}. With a fading ξ there are two groups. {{ escaped('soft') }} of ten escape and earn more than
-# twice as much as the rule. (With a sight of 30 m instead of our 200 m the rule would earn {{
-# rule_seeing(30.0).returns.mean() | .0f }}: lesson [[the_rule]].) The other two get out on hardly
-# any road. (In the figure actions are drawn, and the line is the rule itself. What the KL pulls to is
-# π̃, drawn too, which earns {{ drawn_rule() | .0f }}: both kinds of agents rise far above it.)
+# **See.** Compare the agents here not with the rule but with π̃, whose actions are drawn, too, and
+# to which the KL pulls. It earns {{ drawn_rule() | .0f }}; both kinds of agents rise far above it.
 # <!-- claim: drawn_rule() < 15 -->
+#
+# **Explain.** After training, the ten agents with ξ fixed earn {{ stays().scores('returns').min()
+# | .0f }} to {{ stays().scores('returns').max() | .0f }}, near the rule. With a fading ξ there are
+# two groups. {{ escaped('soft') }} of ten escape and earn more than twice as much as the rule. The
+# other two get out on hardly any road. With a sight of 30 m the rule would earn {{
+# rule_seeing(30.0).returns.mean() | .0f }} (lesson [[the_rule]]). No run here tests a small,
+# constant ξ.
+#
+# α fades because the target entropy, η = −1, is out of reach. With η = 1, above the {{
+# entropy_of_the_rule() | .2f }} nats of π̃, the two run away: a larger ξ holds the policy closer to
+# π̃, its entropy stays below η, so α rises on, and ξ = 200 α with it. The study's three such agents
+# earn {{ with_target(1).min() | .0f }} to {{ with_target(1).max() | .0f }}.
+# <!-- claim: entropy_of_the_rule() < 1 and with_target(1).max() < of('rule').scores('returns').mean()
+#   and len(with_target(1)) == 3 -->
 # <!-- claim: beyond_the_rule() == escaped('soft') == 8 and
 #   sorted(of('soft').scores('success'))[1] < 0.01 < 0.85 < stays().scores('success').min() -->
 # <!-- claim: len(stays()) == len(of('soft')) == 10 and stays().sizes == of('soft').sizes -->
 # <!-- claim: 0.75 * of('rule').scores('returns').mean() < stays().scores('returns').min() <
 #   stays().scores('returns').max() < of('rule').scores('returns').mean() -->
 # <!-- claim: 110 < of('soft').scores('returns')[of('soft').scores('success') > 0.9].min() -->
-#
-# And with another target entropy η? π̃ itself has an entropy of {{ entropy_of_the_rule() | .2f }}
-# nats. Three agents of the study have had each of two others:
-#
-# | η | while the policy is like π̃, α and ξ | return after training |
-# | --- | --- | --- |
-# | 0.3, below that of π̃ | fall | {{ with_target(0.3).min() | .0f }} to {{
-#   with_target(0.3).max() | .0f }} |
-# | 1, above it | rise | {{ with_target(1).min() | .0f }} to {{ with_target(1).max() | .0f }} |
-#
-# With η = 1 nothing stops the rise: a larger ξ holds the policy closer to π̃, whose entropy stays
-# below η, so α rises on, and ξ = 200 α with it.
-#
-# No run here tests a small, constant ξ.
-# <!-- claim: 0.3 < entropy_of_the_rule() < 1 -->
-# <!-- claim: with_target(1).max() < of('rule').scores('returns').mean() -->
-# <!-- claim: with_target(0.3).min() > 2 * of('rule').scores('returns').mean() -->
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask before the last figure what an agent with ξ = 2 could do better than the rule, and what each
@@ -624,20 +584,19 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. A rule becomes a distribution by one number, p; the price of an action is minus the logarithm
+# 1. One number, p, turns a rule into a distribution. The price of an action is minus the logarithm
 #    of its probability.
-# 2. The KL from π̃ is what a policy pays for actions that the rule would not take, and for being
-#    surer than π̃.
+# 2. The KL from π̃ is what a policy pays for other actions than the rule's, and for being surer
+#    than π̃.
 # 3. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)): the rule has a head start of ξ log
 #    (8p / (1 − p)) in Q. This is SAC with the reward r + ξ log π̃ and the temperature α + ξ.
-# 4. The objective, a sum over time, puts the KL in the actor's loss and in the critics' target. In
-#    the target it lowers the value of staying in the trap.
+# 4. The KL stands in the actor's loss and in the critics' target. In the target it lowers the value
+#    of staying in the trap.
 # 5. With ξ fixed at 2 the study's agents end near the rule's return. With ξ = {{
-#    SETTINGS.xi_multiplier }} α, {{ beyond_the_rule() }} of ten earn more than twice as much, and
-#    the others get out on hardly any road. In logits the rule's head start stays; the temperature
-#    fades, so that small differences in Q come to count.
+#    SETTINGS.xi_multiplier }} α, {{ beyond_the_rule() }} of ten earn more than twice as much. The
+#    rule's head start in logits stays; the temperature fades, so small differences in Q come to
+#    count.
 # <!-- claim: beyond_the_rule() == escaped('soft') -->
-#
 
 # %% [markdown]
 # **Three questions to think about**
@@ -648,8 +607,8 @@ compare_predictions(
 #   not look better to it?
 #
 # **Read on**: Huang et al., *Efficient Deep Reinforcement Learning with Imitative Expert Priors for
-# Autonomous Driving* (arXiv 2103.10690), with the KL as a price on leaving a teacher; Levine,
-# *Reinforcement Learning and Control as Probabilistic Inference* (arXiv 1805.00909).
+# Autonomous Driving* (arXiv 2103.10690); Levine, *Reinforcement Learning and Control as
+# Probabilistic Inference* (arXiv 1805.00909).
 
 # %% [markdown] tags=["instructor"] minutes=2
 # *Answers to the three questions.* **p and ξ:** p moves π̃ itself, the policy that has a KL of 0; ξ

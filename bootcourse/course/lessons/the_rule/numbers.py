@@ -8,9 +8,8 @@ import numpy as np
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.policies import rule_policy
-from bootcourse.road.state import EGO, LANE, SPEED, X, Y
+from bootcourse.road.state import EGO, LANE, SPEED, X
 from bootcourse.rule import SETTLED as SETTLED
-from bootcourse.rule import Reason, rule
 from bootcourse.scenario import DEFAULT
 
 
@@ -41,25 +40,3 @@ def above_14(n: int, roads: int = 40) -> float:
     driver = rule_policy(dataclasses.replace(DEFAULT, rule=dataclasses.replace(DEFAULT.rule, n=n)))
     speeds = [drive.states[:: DEFAULT.clock.steps, EGO, SPEED] for drive in record(driver, range(roads))]
     return float(np.mean(np.concatenate(speeds) > 14))
-
-
-@cache
-def broken_off(crashed: bool = True) -> tuple[float, float, int]:
-    """Of the drives with a sight of 20 m that have an accident, or have none: the share in which a lane change was
-    broken off, the last lane change's speed, and the number of drives with one that was broken off.
-
-    Broken off: on its way to the left the rule sees nobody ahead in the right lane and stays there. The speed (m/s) is
-    the lowest at which the last lane change of a drive began.
-    """
-    near = dataclasses.replace(DEFAULT, sight=dataclasses.replace(DEFAULT.sight, distance=20.0))
-    which = np.flatnonzero((sighted(20.0).accident > 0) == crashed)
-    seeds, right = held_out_seeds(1, 200), DEFAULT.road.lanes - 1
-    drives = record(rule_policy(near), [seeds[i] for i in which])
-    broken, speeds = [], []
-    for drive in drives:
-        cars = drive.states[:: DEFAULT.clock.steps][: len(drive.actions)]
-        reasons, ego = rule(cars, near).reasons, cars[:, EGO]
-        turned = np.abs(ego[:, Y] - right * DEFAULT.road.lane_width) > 0.05
-        broken.append(np.any((reasons == Reason.FREE) & (ego[:, LANE] == right) & turned))
-        speeds += ego[np.flatnonzero(reasons == Reason.CHANGE)[-1:], SPEED].tolist()  # none if it changes no lane
-    return float(np.mean(broken)), float(np.min(speeds)), int(np.sum(broken))

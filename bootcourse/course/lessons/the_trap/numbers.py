@@ -7,7 +7,7 @@ import numpy as np
 
 from bootcourse.course.lessons.the_trap import figures
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.policies import PlanPolicy, plan_policy
+from bootcourse.policies import plan_policy
 
 STRAIGHT_BETWEEN = (("keep left", 2), ("keep straight", 2), ("keep right", 2))
 RIGHT_FIRST = ("keep right", ("keep left", 4), ("keep right", 3))
@@ -27,13 +27,6 @@ def balanced() -> np.ndarray:
 def every_plan() -> np.ndarray:
     """The plans that steer left (3), straight (4) or right (5) in each of eight seconds: (6561, 8)."""
     return np.array(list(itertools.product((3, 4, 5), repeat=8)))
-
-
-@cache
-def plans_of(road: int):
-    """Their drives on a road, each with five seconds of acceleration at its end."""
-    actions = np.vstack([every_plan().T, np.full((5, 3**8), 7)])
-    return drive_episodes(PlanPolicy(actions), [road] * 3**8, together=10_000)
 
 
 @cache

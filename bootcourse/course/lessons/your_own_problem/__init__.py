@@ -1,3 +1,3 @@
-"""You will give an agent a teacher in an environment of your choice, compare methods with five seeds, find out when a
+"""You will give an agent a teacher in an environment of your choice, compare methods at equal decisions, find out when a
 clone is enough and when a bonus drowns the goal.
 """
