@@ -85,7 +85,7 @@ def test_on_the_roads_of_another_block_stand_one_s_own_drivers_and_those_that_ar
     assert rows.keys() == names and rows["rule_again"].returns == rows["rule controller"].returns
     driven = bc.drive_episodes(bc.rule_policy(DEFAULT), bc.held_out_seeds(7, 5))
     assert rows["rule controller"].returns.value == driven.returns.mean()
-    with pytest.raises(BootcourseError, match="seed = -1"):
+    with pytest.raises(BootcourseError, match="block = -1"):
         bc.board(block=-1)
 
 

@@ -178,7 +178,9 @@ def test_a_text_is_judged_like_a_function(text, kind, words, monkeypatch):
     assert verdict.kind == kind and words in verdict.sentence and one_sentence(verdict), verdict
 
 
-@pytest.mark.parametrize("seconds, waited, left", [(6, 0.1, 6), (6, 2, 5), (6, 4, 4), (6, 30, 4), (1, 30, 1), (90, 30, 90)])
+@pytest.mark.parametrize(
+    "seconds, waited, left", [(6, 0.1, 6), (6, 2, 5), (6, 4, 4), (6, 30, 4), (1, 30, 1), (90, 30, 90)]
+)
 def test_a_check_takes_ten_seconds_at_most_unless_the_exercise_needs_more(seconds, waited, left):
     assert runner.time_left(seconds, waited) == left
 

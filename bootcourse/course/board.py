@@ -3,7 +3,7 @@
     board()                                 # what ships
     board("runs/mine", my_rule)             # and the agents in a folder, and a rule of your own
     board(mine=look_ahead(...))             # and any policy, under a name
-    board("class/anna", "class/ben", block=4711)   # a class, on roads that nobody has seen before
+    board("class/anna", "class/ben", block=2026)   # a class, on roads that nobody has seen before
 
 Everyone drives 1,000 held-out roads of the default scenario, on which no agent of the kit trains: those of block 1,
 unless you name another.
@@ -18,8 +18,8 @@ from typing import NamedTuple
 import numpy as np
 
 from bootcourse.course.gap_rule import gap_rule
-from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
-from bootcourse.errors import BootcourseError
+from bootcourse.episodes.evaluate import MAX_SEED, Episodes, drive_episodes, held_out_seeds
+from bootcourse.errors import BootcourseError, whole
 from bootcourse.learn.teachers import Rule, course_rule, teacher_of, teacher_policy
 from bootcourse.learn.training import Result
 from bootcourse.markup import html, joined
@@ -100,11 +100,11 @@ def board(
 
     own: a folder that `bootcourse train` wrote, the result of a `Training`, or a rule `my_rule(cars, scenario) ->
     action`. Agents that differ in nothing but their seed share a row. drivers: policies by name. teacher: of the
-    agents in folders, if they need it to drive. block: of held-out roads; in another than block 1 the kit's rows are
-    those of its rules, since its trained agents were tested in block 1. Raises BootcourseError for anything else, for a
-    damaged file, and for agents that see another number of cars or need another teacher.
+    agents in folders, if they need it to drive. block: of held-out roads, 0 to 4,293; in another than block 1 the kit's
+    rows are those of its rules, since its trained agents were tested in block 1. Raises BootcourseError for anything
+    else, for a damaged file, and for agents that see another number of cars or need another teacher.
     """
-    roads = ROADS if block == HELD_OUT else held_out_seeds(block, len(ROADS))
+    roads = ROADS if block == HELD_OUT else held_out_seeds(whole(block, "block", MAX_SEED), len(ROADS))
     rows = [*(shipped_rows() if block == HELD_OUT else untrained_rows(roads))]
     rows += [row for one in own for row in own_rows(one, teacher, roads)]
     rows += [row_of(name, [drive_episodes(policy, roads)], own=True) for name, policy in drivers.items()]

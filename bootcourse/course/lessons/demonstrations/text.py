@@ -58,8 +58,8 @@ title = "The rule drives along a narrow path, the stochastic rule strays from it
 bc.show(figures.where_they_were(driven, seconds=30, title=title))
 
 # %% [markdown]
-# Whose drives would you copy: those of the rule, which has no accident in them, or those of the
-# stochastic rule, which often leaves the road? Round 5 compares them.
+# Whose drives would you copy: the rule's, without an accident, or those of the stochastic rule,
+# which often leaves the road? Round 5 compares them.
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -207,10 +207,8 @@ rule_clones = cloning.clone(by_rule)
 # one is its **agreement**.
 #
 # > **Predict.** A clone agrees with the rule in four of five states. In what share of 200 new
-# > episodes does it have an accident? (The rule has none on the {{ roads() | , }} held-out roads of
-# > the study. The stochastic rule errs half as often as the clone, but by chance, and has an
-# > accident in nine of ten drives.)
-# <!-- claim: of('rule').scores('success').min() == 1 and accidents('rule') == 0 -->
+# > episodes does it have an accident? (The stochastic rule errs half as often as the clone, but by
+# > chance, and has an accident in nine of ten drives.)
 
 # %%
 predict("demonstrations.3", "How many of such a clone's drives end in an accident?", unit="%")
@@ -285,8 +283,7 @@ table(["", "of its accidents come after 40 s"], rows)
 
 # %% [markdown]
 # **See.** Most of the seconds lie after 40 s, so only a share well above that of the last row says
-# that a clone fails late. (Yours may differ: in our run three clones do.) Here is a late accident,
-# every five seconds to its end:
+# that a clone fails late. Here is a late accident, every five seconds to its end:
 
 # %%
 drives = bc.record(rule_clones[0].as_policy(), range(40), label="clone")
@@ -303,14 +300,12 @@ table(
 )
 
 # %% [markdown]
-# **See.** (Yours may differ, and other clones fail otherwise.) In our drive the car points a
-# fraction of a degree to the left, the clone keeps the wheel straight for half a minute, and the
-# car drifts off the road. The rule would steer right in each of these seconds. In the free lane the
-# rule steers in {{ 100 * in_free_lane()[0] | .0f }} % of its decisions, so its drives do show how
-# to steer. But in 95 of 100 seconds it is within {{ in_free_lane()[1] | .1f }} m of the middle, and
-# at most {{ in_free_lane()[2] | .1f }} m away. So the clone has seen few states like the first of
-# the table and none like the last.
-# <!-- claim: 0.25 < in_free_lane()[0] < 0.4 and in_free_lane()[2] < 1.5 -->
+# **See.** (Yours may differ.) In our drive the car points a fraction of a degree to the left, the
+# clone keeps the wheel straight for half a minute, and the car drifts off the road. The rule would
+# steer right in each of these seconds. But in its own drives it is at most {{ in_free_lane()[2] |
+# .1f }} m off the middle of the free lane, so the clone has seen no state like the last of the
+# table.
+# <!-- claim: in_free_lane()[2] < 1.5 -->
 #
 # **Drag** the errors. How rarely must a copy err, so that half of its drives follow the teacher to
 # the end?
@@ -323,7 +318,7 @@ explorable.compounding()
 # it is in the demonstrator's states.
 #
 # > **Predict.** A drive becomes twice as long. By what factor can the expected number of wrong
-# > decisions grow, in the worst case? (ε is so small that an error is rare in a whole drive.)
+# > decisions grow, in the worst case, if errors are rare?
 
 # %%
 predict("demonstrations.5", "By what factor does the worst case grow?", ["less than 2", "2", "4"])
@@ -338,10 +333,8 @@ predict("demonstrations.5", "By what factor does the worst case grow?", ["less t
 #
 # $$ \sum_{t=1}^{T} \epsilon \, (T - t + 1) = \epsilon \, \frac{T (T + 1)}{2} $$
 #
-# which grows with $T^2$ as long as it is well below $T$ (there are no more than $T$ wrong
-# decisions): about four times as much for twice the length. A driver that is back in the
-# demonstrator's states within $k$ decisions makes at most $k$ wrong ones for each error,
-# together $\epsilon k T$.
+# which grows with $T^2$ as long as it is well below $T$: about four times as much for twice the
+# length.
 #
 # </details>
 #
@@ -410,11 +403,9 @@ print(f"ε in the rule's states: {error:.2f}; in the first 10 s {means[THEIRS][9
 #   which more errors follow. So do the study's clones, trained with many times as many updates: {{
 #   unlike_the_rule()[0] | .0f }} decisions of a drive against {{ unlike_the_rule()[1] | .0f }}.
 # <!-- claim: unlike_the_rule()[0] > 2 * unlike_the_rule()[1] -->
-# - *At first they follow the dotted line*, in our run for about half a minute. (That line takes the
-#   ε of the whole drive for each second. The way out is harder than the free road: in its first
-#   seconds ε is larger, so there the line is no worst case.) Then they leave it: over the whole
-#   drive nearly every decision of the worst case is wrong, of ours without an accident about half,
-#   and half of these in the first 40 s.
+# - *At first they follow the dotted line*, in our run for about half a minute. Then they leave it:
+#   over the whole drive nearly every decision of the worst case is wrong, of ours without an
+#   accident about half.
 #
 # So test a clone by driving.
 
@@ -463,14 +454,11 @@ bc.show(figures.clones(measured, title))
 
 # %% [markdown]
 # **Explain.** (Yours will differ.) In our runs the clones of the stochastic rule had fewer
-# accidents than those of the rule, although they agreed less with their data. (One in ten of the
-# stochastic rule's actions is drawn at random, so a clone can hardly agree in more than 90 %. That
-# is not the whole reason: with the rule's labels on the same states, too, the clones agreed less
-# than on the rule's drives.) With as few rows the rule's clones crashed about as often, so the
-# number of rows is not the reason. We think that it is **coverage**: the stochastic rule's drives
-# contain more states, and show how to return to the path. The third kind keeps the coverage and
-# takes the wrong labels out. (With more updates it may matter less: the study's clones learned from
-# drives of the rule alone.)
+# accidents than those of the rule, although they agreed less with their data. With as few rows the
+# rule's clones crashed about as often, so the number of rows is not the reason. We think that it is
+# **coverage**: the stochastic rule's drives contain more states, and show how to return to the
+# path. The third kind keeps the coverage and takes the wrong labels out. (With more updates it may
+# matter less: the study's clones learned from drives of the rule alone.)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Return to the hands of *Look first*. The third data set separates two reasons: the states it
@@ -534,17 +522,14 @@ bc.show(figures.clones(named, title, agree="agree with the rule (%)"))
 
 # %% [markdown]
 # **Explain.** The last clone learned from 80 drives, about as many as the control of Round 5, with
-# as many updates. What differs is *where* the labels are. (The agreement is that with the rule's 20
-# drives. It can fall while the clone drives better, since the same network now has to be right in
-# other states, too.)
+# as many updates. What differs is *where* the labels are.
 #
 # This is one training. Of ten in the study's experiment `teachers`, {{
 # taught_by_dagger().escapers('dagger') }} escape (success on at least {{ 100 * ESCAPES | .0f }} %
 # of the roads), half of them crash in at most {{ 100 *
 # np.median(taught_by_dagger().scores('accident')) | .0f }} % of their drives, and the worst in {{
 # 100 * taught_by_dagger().scores('accident').max() | .0f }} %. There the rule labelled {{
-# taught_by_dagger().sizes[1] }} drives of each, after 200 of its own. (`cloning.clone(rows,
-# seeds=1, first=1)` takes another seed.)
+# taught_by_dagger().sizes[1] }} drives of each, after 200 of its own.
 # <!-- claim: len(taught_by_dagger()) == 10 and taught_by_dagger().agents[0][
 #   'demonstration_episodes'] == 200 and (taught_by_dagger().scores('accident') > 0.1).sum() == 1
 #   -->

@@ -15,9 +15,8 @@ from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.experiments import stress as study_stress  # noqa: F401 (the text names it)
 from bootcourse.research.results import Results
 from bootcourse.rule import stochastic_rule
-from bootcourse.statistics import ESCAPES
 from bootcourse.statistics import IN_A_ROW as WINDOW
-from tools.course.known import clocks, escapers, fisher, in_training, of, shipped_experiment, shipped_results, varied
+from tools.course.known import clocks, fisher, in_training, of, shipped_experiment, shipped_results
 
 SHORTER = study_clocks.TRAINED  # training episodes of the agents of rounds 4 and 5
 
@@ -64,13 +63,6 @@ def way(results: Results, method: str) -> Counted:
 def keeps(method: str) -> np.ndarray:
     """Which of the study's agents of a method keep the way out, (agents,)."""
     return of_all().found_and_kept(method)[1]
-
-
-def failed_soft() -> np.ndarray:
-    """Of the study's agents with the soft constraint alone that fail the test: their success in the last 200 training
-    episodes, with drawn actions, (agents,)."""
-    failed = of("soft").scores("success") < ESCAPES
-    return of("soft").curves["success"][failed, -200:].mean(axis=1)
 
 
 def demos_span() -> np.ndarray:
@@ -123,12 +115,6 @@ def xi_left(updates: str) -> float:
     return float(np.median(xi[:, found_after(updates, "soft") - 1] / xi[:, 0]))
 
 
-def other_entropies() -> np.ndarray:
-    """What the agents with both aids earn with a target entropy of 0.3 or 1 nat, (agents,)."""
-    each = [shipped_experiment("sensitivity")[f"target entropy {eta}"] for eta in ("0.3", "1")]
-    return np.concatenate([results.of("bootstrapped").scores("returns") for results in each])
-
-
 def of_the_agent_shown() -> Rollout:
     """The first drive of the lesson: of an agent with demonstrations alone, after its training."""
     best = int(in_training("demos", 700, 900).argmax())
@@ -150,13 +136,6 @@ def kept_of(method: str, stays: bool) -> str:
 def keepers(results: Results, method: str, measure: str) -> float:
     """The mean of a measure over the agents of a method that keep the way out."""
     return float(results.of(method).scores(measure)[results.found_and_kept(method)[1]].mean())
-
-
-def elsewhere(method: str) -> Counted:
-    """The agents with another γ or target entropy than the paper's, over all such changes: escaped is kept."""
-    each = [agents.of(method) for change, agents in varied().items() if "γ" in change or "entropy" in change]
-    won = sum(escapers(agents, method) for agents in each)
-    return Counted(won, won, sum(map(len, each)))
 
 
 def stratified_p(pairs: list[tuple[Counted, Counted]]) -> float:

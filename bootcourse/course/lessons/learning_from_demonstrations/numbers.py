@@ -25,12 +25,6 @@ def demonstrated_largest(method: str) -> np.ndarray:
     return np.array([np.mean(each.argmax(1) == did) for each in values])
 
 
-def most_frequent_on_the_way() -> tuple[float, int]:
-    """The share of these states in which the rule takes its most frequent action there, and that action."""
-    counts = np.bincount(np.concatenate([drive.rule_actions[:20] for drive in rule_drives()[:20]]), minlength=9)
-    return float(counts.max() / counts.sum()), int(counts.argmax())
-
-
 def _way_out(method: str) -> tuple[list[np.ndarray], np.ndarray]:
     """What the shipped agents of a method think of each action there, [(states, 9)], and what the rule did."""
     drives = rule_drives()[:20]

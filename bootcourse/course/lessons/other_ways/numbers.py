@@ -6,13 +6,11 @@ from itertools import combinations
 import numpy as np
 
 from bootcourse.course.lessons.other_ways import figures
-from bootcourse.course.lessons.your_teacher import taught_agents
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
 from bootcourse.learn.settings import settings_for
-from bootcourse.learn.teachers import teacher_policy
 from bootcourse.policies import random_policy, rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.beyond import at_budget
@@ -75,14 +73,6 @@ def at_edge() -> set[str]:
     """The methods with a teacher whose best setting of the search is its first or its last."""
     places = {method: np.argmax(list(search(method).values())) for method in TAUGHT}
     return {method for method, place in places.items() if place != 1}
-
-
-@cache
-def near_rule() -> tuple[float, int]:
-    """(mean return, accidents) of the rule that sees 30 m, on 200 held-out roads."""
-    policy = teacher_policy(taught_agents.TEACHERS["the rule, 30 m"])
-    driven = drive_episodes(policy, held_out_seeds(1, 200))
-    return float(driven.returns.mean()), int((driven.accident > 0).sum())
 
 
 def lowest() -> str:

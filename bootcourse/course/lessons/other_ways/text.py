@@ -116,8 +116,7 @@ title = "RLPD begins to get ahead only some 30 episodes after its first update"
 bc.show(figures.one_above_the_other(at, named, title, "training episode", "rlpd", begins))
 
 # %% [markdown]
-# **See.** (Your 60 episodes end soon after the first update. The lines are means over ten agents
-# that ship, and over 20 episodes.) Until the first update, about {{ untrained().sum(axis=1).mean()
+# **See.** Until the first update, about {{ untrained().sum(axis=1).mean()
 # | .0f }} episodes long, an untrained network drives: an episode lasts {{
 # rlpd().curves['decisions'][untrained()].mean() | .1f }} s, and with a driver that draws each
 # action evenly {{ random_duration() | .1f }} s. Of the next 50 episodes {{ 100 * ahead_next() | .0f
@@ -128,9 +127,7 @@ bc.show(figures.one_above_the_other(at, named, title, "training episode", "rlpd"
 #   ahead_next() < 0.15 -->
 #
 # **Explain.** The demonstrations are in the batch, but they do not drive: the agent drives by its
-# own policy from the first second, and its critics have to learn how its own actions end. Unlike
-# the paper's method, RLPD pays no bonus for a demonstrated action, and keeps its demonstrations in
-# each batch.
+# own policy from the first second, and its critics have to learn how its own actions end.
 
 # %% [markdown]
 # ## Round 2: the better of two
@@ -187,8 +184,7 @@ table(["", "takes the rule's action, %"], rows)
 # %% [markdown]
 # **See.** (Yours will differ.) If the first of your two shares is much larger, the agent has kept
 # the rule's way out, and drives on by itself. If both are small, its critic overrules the rule
-# nearly everywhere. If the second is the larger, it drives less like the rule on the way out than
-# on the free road: it may have found a way out of its own.
+# nearly everywhere.
 #
 # **Explain.** A strong KL or bonus that stays keeps pulling the agent towards the teacher, also
 # where the teacher is wrong. This choice need not fade: as soon as the critic values another action
@@ -249,15 +245,12 @@ bc.show(figures.handing_over(at, h, mean, needed, title))
 # %% [markdown]
 # **See.** (Yours will differ.) h can fall once {{ settings_for('jsrl').window }} episodes have
 # begun with it. Where the mean is below the dashed line by then, the agent has taken over too
-# early, and h waits until the pair has recovered. Most first episodes bring the agent past trap 1:
-# the rule is ahead after {{ settings_for('jsrl').guide_decisions }} s on about two thirds of the
-# roads.
+# early, and h waits until the pair has recovered.
 # <!-- claim: 0.6 < np.mean(rules_overtaking() <= settings_for('jsrl').guide_decisions) < 0.73 -->
 #
 # **Explain.** A **curriculum** like this one begins with the easy part, the end of the way. The
 # paper's β is a curriculum of another kind: it follows the number of episodes. Jump-start RL moves
-# on when the *return* is good enough. Where getting out earns little more than staying behind, the
-# return cannot tell the two apart, and h shrinks too early.
+# on when the *return* is good enough.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask what h does if the teacher is the planner of lesson [[the_barrier]], which is out after ten
@@ -374,10 +367,8 @@ title = (
 bc.show(figures.at_equal_budgets(compared, by_rule.returns.mean(), title))
 
 # %% [markdown]
-# (The fourth panel shows training episodes, with drawn actions, that ended within 5 s of a core; in
-# those of jump-start RL the rule may still drive the first part. The seconds are those of agents
-# that train side by side, divided by their number; one agent alone needs many times as much. Plain
-# SAC trained on a slower machine, so its seconds are not compared.)
+# (The fourth panel shows training episodes, with drawn actions, that ended within 5 s of a core;
+# the seconds are those of agents that train side by side, divided by their number.)
 
 # %% tags=["hide-input"]
 rows = []
@@ -432,10 +423,7 @@ table(["", *headings], rows, below)
 #   len(pairs(FIRST)) == 10 -->
 #
 # None is safe. After {{ FIRST | , }} decisions {{ 100 * at('ibrl', 'accident').mean() | .0f }} % of
-# IBRL's drives end in an accident, although the rule, which has none, drives beside it. (The rule
-# of these tables is the slow one. With a sight of 30 m it would earn {{ near_rule()[0] | .0f }},
-# about what the five earn, without an accident: lesson [[the_rule]].)
-# <!-- claim: near_rule()[1] == 0 and 110 < near_rule()[0] < 135 -->
+# IBRL's drives end in an accident, although the rule, which has none, drives beside it.
 # <!-- claim: min(at(m, 'accident').mean() for m in TAUGHT) > 0.02 -->
 
 # %% [markdown]

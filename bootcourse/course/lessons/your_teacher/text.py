@@ -79,8 +79,7 @@ table(["100 roads", "gets out, %", "accidents, %", "return"], rows)
 # %% [markdown]
 # **See.** The rule earns more than twice as much when it sees less far. `careful` and `racer` get
 # out on all 100 roads, too, `timid` and `reckless` on none. The racer earns *less* than `timid`,
-# which does nothing: speed pays next to nothing above 17 m/s, and some of the racer's drives end in
-# a collision.
+# which does nothing.
 # <!-- claim: speed_reward(17) < 0.02 and near_rule().returns.mean() > 2 *
 #   of('rule').scores('returns')[0] and near_rule().success.all() -->
 # <!-- claim: all(teacher_exam(n).success.all() for n in ('careful', 'racer')) -->
@@ -198,8 +197,7 @@ bc.show(bc.top_view_over_time(mine_drive, times=[0, 3, 6, 9, 15, out], title=tit
 # teacher_exam('careful').returns.mean() | .0f }}). We think that it works because a car that is 1
 # m/s slower than trap 2 falls behind it before it is over the line. At 10 m/s, the traps' speed,
 # the same rule hits a car on {{ 100 * (two_situations(10.0).accident > 0).mean() | .0f }} % of the
-# roads. And one situation, the same speed in all lanes? We tried 8 to 15 m/s in steps of 1: up to
-# 10 m/s it stays behind trap 1, and from 11 on it has an accident on every road.
+# roads.
 # <!-- claim: not any(one_situation(v).success.any() for v in range(8, 16)) and
 #   all((one_situation(v).accident > 0).all() for v in range(11, 16)) -->
 # <!-- claim: two_situations(9.0).success.all() and not two_situations(9.0).accident.any() -->
@@ -274,9 +272,7 @@ bc.show(figures.students(shown, title, apart=2))
 # escape, and none of those of `timid` and `reckless`. Of the racer's students {{
 # student_escapes('racer') }} of ten escape. With *drawn* actions each of these ten succeeds on {{
 # 100 * students('racer')['drawn'].min() | .0f }} % or more: all have found the way out. Where the
-# two differ, the way out is in the policy, and its most probable actions miss it. (Three agents are
-# few: yours may look unlike the row of the same teacher. Then look at *with drawn actions* in your
-# table.)
+# two differ, the way out is in the policy, and its most probable actions miss it.
 # <!-- claim: min(student_escapes(n) for n in ('the rule', 'the rule, 30 m')) == 10 and
 #   student_escapes('careful') > 7 and student_escapes('alone') == 1 -->
 # <!-- claim: student_escapes('timid') == student_escapes('reckless') == 0 < 5 ==
@@ -335,12 +331,11 @@ bc.show(figures.verdicts(shares, p, title))
 #   0.05 < min(teacher_tests()['reckless', s] for s in ('success', 'returns')) and
 #   (students('timid')['accident'] == 0).all() -->
 #
-# It also depends on *when*. All twelve are verdicts on {{ taught_agents.UPDATES | , }} updates,
-# about a tenth of a full training. After {{ taught_agents.LONG | , }} only {{ (long()['success'] >=
+# It also depends on *when*. After {{ taught_agents.LONG | , }} updates only {{ (long()['success'] >=
 # ESCAPES).sum() }} of ten students of the racer escape, although in training their success was once
 # {{ 100 * long()['escapes'].mean(0).max() | .0f }} %; and they crash less, in {{ 100 *
 # long()['accident'].mean() | .0f }} % of their drives. So the racer helped these ten to *find* the
-# way out, and not to *keep* it. (The students of the other five were not trained for so long.)
+# way out, and not to *keep* it.
 # <!-- claim: long()['escapes'].mean(0).max() > 0.9 and (long()['success'] >= ESCAPES).sum() < 5 and
 #   long()['xi'].max() < 1e-3 and long()['beta'].max() == 0 and
 #   5 < taught_agents.LONG / taught_agents.UPDATES < 15 -->
@@ -349,9 +344,7 @@ bc.show(figures.verdicts(shares, p, title))
 # kinds.
 #
 # - **A good one** demonstrates the way out and what to do afterwards. No group earns more than its
-#   teacher, where the teacher gets out; we think that the agents still follow it. (After {{
-#   taught_agents.LONG | , }} updates the racer's earn {{ long()['returns'].mean() | .0f }}, the
-#   racer {{ teacher_exam('racer').returns.mean() | .0f }}.)
+#   teacher, where the teacher gets out; we think that the agents still follow it.
 # <!-- claim: students('the rule, 30 m')['returns'].mean() < near_rule().returns.mean() and
 #   students('careful')['returns'].mean() < teacher_exam('careful').returns.mean() and
 #   students('the rule')['returns'].mean() < of('rule').scores('returns')[0] and
@@ -436,18 +429,14 @@ bc.show(figures.learners(worth, title))
 #   len(worth()['mirrored', m]) == 10 for m in ('dagger', 'soft', 'bootstrapped')) -->
 # <!-- claim: worth()['planner', 'dagger'].episodes('accident').mean() > 0.9 and worth()['planner',
 #   'dagger'].escapers('dagger') == 0 and worth()['rule', 'dagger'].escapers('dagger') > 7 -->
-#
-# (The report has more teachers and learners.)
 # <!-- claim: worth()['rule', 'bootstrapped'].escapers('bootstrapped') < 10 and fisher(10,
 #   worth()['rule', 'bootstrapped'].escapers('bootstrapped')) > 0.05 and teachers_success('rule')
 #   == 1 and worth()['rule', 'soft'].escapers('soft') != escaped('soft') -->
 #
 # **Explain.** We think that what has to be good about a teacher depends on what the learner takes
 # from it. Labels alone have to lead past the traps often. Bootstrapped SAC also takes whole drives,
-# and the few that get ahead may show the way. Or the random actions help: they lead into states
-# that a good driver never shows, and the rule's next decisions show how to come back (lesson
-# [[demonstrations]]). Training from the same drives without the few that get ahead would tell the
-# two explanations apart.
+# and the few that get ahead may show the way. Or the random actions help: the rule's next decisions
+# show how to come back (lesson [[demonstrations]]).
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Let each group name one experiment that could change a verdict: more updates (the racer's return),
@@ -457,11 +446,11 @@ bc.show(figures.learners(worth, title))
 # %% [markdown]
 # ## Round 6: a road where looking matters
 #
-# (This round can wait: nothing builds on it.) The rule of two situations does not look to
-# the side, and passes. So the default road does not test whether a driver looks. On this one it
-# matters: ten cars fill the left lane, in a queue of about 180 m, at 10.5 to 11.5 m/s. They are
-# faster than the traps, so they pass you. The last of them begins 25 to 185 m behind you, elsewhere
-# on each road: if it is far away, you cannot wait until all ten have passed.
+# The rule of two situations does not look to the side, and passes. So the default road does not
+# test whether a driver looks. On this one it matters: ten cars fill the left lane, in a queue of
+# about 180 m, at 10.5 to 11.5 m/s. They are faster than the traps, so they pass you. The last of
+# them begins 25 to 185 m behind you, elsewhere on each road: if it is far away, you cannot wait
+# until all ten have passed.
 # <!-- claim: example_teachers.DENSE.traffic.cars == 10 and all(130 < np.ptp(x) < 235 and
 #   25 < -x.min() < 185 for x in dense_queues()) -->
 
