@@ -280,7 +280,9 @@ env = gym.make("bootcourse:Trap-v0")
 seen, info = env.reset(seed=ROAD)
 names, scales = observation.names(bc.DEFAULT), observation.scales(bc.DEFAULT)
 each = list(zip(names, seen, scales, strict=True))[:16]
-rows = [[name, f"{number:.3f}", f"{scale:g}", f"{number * scale:.2f}"] for name, number, scale in each]
+rows = [
+    [name, f"{number:.3f}", f"{scale:g}", f"{number * scale:.2f}"] for name, number, scale in each
+]
 table(["number", "observed", "scale", "in m, m/s"], rows, below="(the first 16 of 26)")
 
 # %% [markdown]
@@ -397,7 +399,9 @@ print(f"return {idle.rewards.sum():.4f}, distance {idle.distance:.0f} m, success
 # how undecided the agent is, and ξ ("xi") how much it pays for leaving the rule.
 
 # %% tags=["nbval-ignore-output"]
-agents = bc.with_seeds(bc.settings_for("sac"), 2) + bc.with_seeds(bc.settings_for("bootstrapped"), 2)
+agents = bc.with_seeds(bc.settings_for("sac"), 2) + bc.with_seeds(
+    bc.settings_for("bootstrapped"), 2
+)
 training = bc.Training(agents, episodes=5000)
 beginner = training.agent(2).as_policy()
 learned = training.run(updates=1500)
@@ -446,7 +450,9 @@ plan = bc.plan_policy([*three["right 1, left 4, right 3"], ("accelerate straight
 blind = bc.drive_episodes(plan, bc.held_out_seeds(1, 1000))
 mean = tables.bracketed(bc.statistics.mean(blind.returns))
 succeeds, crashes = (f"{100 * np.mean(x > 0):.0f} %" for x in (blind.success, blind.accident))
-rows.append(["the plan right 1, left 4, right 3", f"succeeds on {succeeds} of the roads", mean, crashes])
+rows.append(
+    ["the plan right 1, left 4, right 3", f"succeeds on {succeeds} of the roads", mean, crashes]
+)
 below = "In brackets: 95 % intervals, over agents; of rule and plan over roads."
 table(["", "who gets out", "mean return", "drives that end in an accident"], rows, below)
 
