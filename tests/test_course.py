@@ -16,7 +16,7 @@ from tools.course import numbering
 from tools.course import problems as problems_module
 from tools.course.numbering import BY_HAND, LESSON_FOLDERS, ROOT, refreshed, resolved, text_file
 from tools.course.problems import dead_names, problems
-from tools.course.products import instructor_file, make, make_solved, refresh_prose, solved_file, student_file
+from tools.course.products import folded, instructor_file, make, make_solved, refresh_prose, solved_file, student_file
 from tools.course.source import lesson_of, read, sources
 
 EXAMPLE = re.search(r"```python\n(.*?)```", (LESSON_FOLDERS / "README.md").read_text(encoding="utf-8"), re.S)[1]
@@ -77,6 +77,24 @@ def test_two_lessons_that_change_places_change_their_numbers(monkeypatch):
 def test_the_pages_that_hold_the_numbers_are_up_to_date(name):
     text = (ROOT / name).read_text(encoding="utf-8")
     assert text == refreshed(text), "run make notebooks"
+
+
+def test_what_answers_a_prediction_is_folded_outputs_and_text_and_what_comes_next_is_not():
+    code, text = nbformat.v4.new_code_cell, nbformat.v4.new_markdown_cell
+    cells = folded([
+        code('predict("a.1", "Which?")'),
+        text("**Exercise.** Write it."),
+        code('predicted("a.1")\nprint(7)'),
+        text("Now all of them:"),
+        code("print(8)"),
+        text("**See.** It is 7.\n\nSo there.\n\n> **Predict.** And now?"),
+        code('predict("a.2", "And now?")'),
+        text("**See.** Nothing was answered here."),
+    ])  # fmt: skip
+    hidden = {"outputs_hidden": True}, {"source_hidden": True}
+    marks = [cell.metadata.get("jupyter") for cell in cells]
+    assert marks == [None, None, hidden[0], None, hidden[0], hidden[1], None, None, None]
+    assert [cell.source for cell in cells[5:7]] == ["**See.**\nIt is 7.\n\nSo there.", "> **Predict.** And now?"]
 
 
 # The example of the writers' README -----------------------------------------------------------------

@@ -29,8 +29,8 @@ KEYS = """
     }
   }, true);  // on the way in: the field itself lets no key out
 """
-# The result that answers this prediction is folded in the notebook's file: open it once the form is locked. The locked
-# button has lost the focus, and without it the notebook would hear no key.
+# What answers this prediction is folded in the notebook's file, outputs and text: open it once the form is locked. The
+# locked button has lost the focus, and without it the notebook would hear no key.
 UNFOLD = """
   const waits = setInterval(() => {
     if (!panel.isConnected) { clearInterval(waits); return; }
@@ -44,8 +44,8 @@ UNFOLD = """
     const asks = cell => cell.querySelector('.cm-content')?.innerText.match(/\\bpredict\\(/);
     let cell = panel.closest('.jp-Cell')?.nextElementSibling;
     for (; cell && !asks(cell); cell = cell.nextElementSibling) {
-      const folded = cell.querySelector('.jp-OutputPlaceholder');
-      if (folded) { folded.click(); return; }
+      const text = cell.matches('.jp-MarkdownCell') ? cell.querySelector('.jp-InputPlaceholder') : null;
+      (cell.querySelector('.jp-OutputPlaceholder') ?? text)?.click();
     }
   }, 200);
 """

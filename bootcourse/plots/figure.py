@@ -181,6 +181,7 @@ def save(figure: Figure, path: Path) -> Path:
 # On a narrow page it stays wide enough to be read, and the page scrolls. (The book says both in its style.css.)
 DARK = '<style>body[data-jp-theme-light="false"] .bc-figure { filter: invert(0.93) hue-rotate(180deg); }</style>'
 READABLE = "max-width: max(100%, 600px)"
+FOLDED = "<!-- a figure -->\n"  # the first line, which JupyterLab shows of a folded output
 
 
 class Picture:
@@ -201,7 +202,7 @@ class Picture:
             kind, data, width = "image/svg+xml", self.figure.svg.encode(), self.figure.width
         img = '<img src="data:{};base64,{}" class="bc-figure" width="{}" style="{}" alt="{}">'
         img = html(img, kind, base64.b64encode(data).decode(), width, READABLE, self.figure.alt)
-        return {"text/html": f"{DARK}{img}", "text/plain": self.figure.alt}
+        return {"text/html": f"{FOLDED}{DARK}{img}", "text/plain": self.figure.alt}
 
     def __repr__(self) -> str:
         return printable(self.figure.alt)

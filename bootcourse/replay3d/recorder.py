@@ -166,7 +166,9 @@ class Recording:
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict:
         page = '<details><summary>In words</summary><pre style="white-space:pre-wrap">{}</pre></details>'
-        return {"text/html": str(self.html_with_poster() + html(page, self.words)), "text/plain": self.alt}
+        shown = self.html_with_poster() + html(page, self.words)
+        # The first line is what JupyterLab shows of a folded output.
+        return {"text/html": f"<!-- a replay -->\n{shown}", "text/plain": self.alt}
 
 
 def recording(

@@ -118,9 +118,13 @@ class Stage:
             drive.futures = [
                 _mesh(api, f"{base}/road/future{i}", _ribbon(each), each.colour, opacity=0.9) for i, each in nine
             ]
-        for car, name in {EGO: "name", TRAP_1: "to_trap1", TRAP_2: "to_trap2"}.items():
+        # Beside each other only the drivers have labels, turned outwards: with those of the traps they would overprint.
+        alone, last = len(self.timelines) == 1, k == len(self.timelines) - 1
+        anchor = "bottom-center" if alone or 0 < k and not last else "bottom-left" if last else "bottom-right"
+        named = {EGO: "name"} | ({TRAP_1: "to_trap1", TRAP_2: "to_trap2"} if alone else {})
+        for car, name in named.items():
             drive.labels[car] = api.add_label(
-                f"{base}/car{car}/{name}", "", position=(0.0, 0.0, 2.6), anchor="bottom-center",
+                f"{base}/car{car}/{name}", "", position=(0.0, 0.0, 2.6), anchor=anchor,
                 font_screen_scale=0.9, visible=False,
             )  # fmt: skip
         return drive

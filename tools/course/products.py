@@ -26,6 +26,8 @@ PYTHON = {
     "kernelspec": {"display_name": "Python 3 (ipykernel)", "language": "python", "name": "python3"},
     "language_info": {"name": "python"},
 }
+SAYS_THE_ANSWER = ("**See.**", "**Explain.**")
+GOES_ON = re.compile(r"\n\n(?=> \*\*Predict|\*\*Exercise|\*\*Drag\*\*|\*\*Slide\.\*\*|## )")
 STRICT = "check.strict()  # in this notebook every check must pass"
 IMPORTS_CHECK = re.compile(r"^from bootcourse\.course import (?:.*|\([^)]*)\bcheck\b", re.M)
 
@@ -44,7 +46,29 @@ def instructor_file(path: Path) -> Path:
 
 def student_notebook(path: Path) -> nbformat.NotebookNode:
     """The notebook that a text describes for the student, without outputs."""
-    return notebook([node(cell, cell.student) for cell in filled(path) if not cell.for_instructor])
+    return notebook(folded([node(cell, cell.student) for cell in filled(path) if not cell.for_instructor]))
+
+
+def folded(nodes: list[nbformat.NotebookNode]) -> list[nbformat.NotebookNode]:
+    """The cells, of which JupyterLab folds what answers a prediction; a form that is committed opens it again.
+
+    That is every output from `predicted(` on, and the text below that says what is to be seen in them, but for its
+    first word: JupyterLab shows the first line of what it folds. Where the text goes on with the next question,
+    exercise or round, this part becomes a cell of its own, which stays open.
+    """
+    shown, answering = [], False
+    for cell in nodes:
+        answering = answering or cell.cell_type == "code" and bool(re.search(r"^predicted\(", cell.source, re.M))
+        shown.append(cell)
+        if answering and cell.cell_type == "code":
+            cell.metadata["jupyter"] = {"outputs_hidden": True}
+        elif answering:
+            said, *goes_on = GOES_ON.split(cell.source, maxsplit=1)
+            if said.startswith(SAYS_THE_ANSWER):
+                cell.source, cell.metadata["jupyter"] = said.replace(".** ", ".**\n", 1), {"source_hidden": True}
+                shown += map(nbformat.v4.new_markdown_cell, goes_on)
+            answering = not (said.startswith(SAYS_THE_ANSWER) or goes_on or GOES_ON.match("\n\n" + said))
+    return shown
 
 
 def solved_notebook(path: Path) -> nbformat.NotebookNode | None:
@@ -65,8 +89,7 @@ def solved_nodes(path: Path, cells: list[Cell]) -> list[nbformat.NotebookNode]:
 
 def node(cell: Cell, text: str) -> nbformat.NotebookNode:
     new = nbformat.v4.new_code_cell if cell.is_code else nbformat.v4.new_markdown_cell
-    answers = cell.is_code and re.search(r"^predicted\(", text, re.M)  # JupyterLab folds it; prediction_form.py unfolds
-    return new(text, metadata=cell.metadata | ({"jupyter": {"outputs_hidden": True}} if answers else {}))
+    return new(text, metadata=cell.metadata)
 
 
 def notebook(nodes: list[nbformat.NotebookNode]) -> nbformat.NotebookNode:

@@ -74,8 +74,9 @@ bc.recording([shipped.beginning(drive, 30) for drive in drives], height=480)
 # the traps earns. Why does a program that learns stay behind slow cars, although the left lane is
 # free? That is the question of this course.
 #
-# The results that we got are saved below each cell. Those that answer a prediction are folded in
-# JupyterLab until you commit to yours; a click on the three dots opens them, too.
+# The results that we got are saved below each cell. Those that answer a prediction, and the text
+# that explains them, are folded in JupyterLab until you commit to yours; a click on the three dots
+# opens them, too.
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Open with this page on the wall and let two people drive before you explain anything. Expect
