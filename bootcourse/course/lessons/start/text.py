@@ -29,8 +29,9 @@ progress()
 # ## Drive first
 #
 # Two slow cars, dark red, hold you: **trap 1** is ahead of you, **trap 2** a little ahead in the
-# next lane. Get ahead of trap 1. You decide once a second, and the road waits for you: nine
-# buttons, or click on the road and use the arrow keys. Crash as often as you like.
+# next lane. Get ahead of trap 1. You decide once a second, by nine buttons, or click on the road and
+# use the arrow keys. The clock starts with your first decision, and Space stops it. Crash as often
+# as you like. (Shift+Enter runs a cell.)
 # <!-- claim: N_ACTIONS == 9 -->
 #
 # > **Predict.** How many attempts do you need until you are ahead of trap 1?
@@ -48,10 +49,11 @@ predict("start.1", "How many attempts until you are ahead of trap 1?", unit="att
 #
 # ## Your drive, and two others
 #
-# Run this cell when you have driven. Beside your last drive you see two programs on the same road.
+# Run this cell when you have driven. Beside your drive, your last way out if there is one, you see
+# two programs on the same road.
 # Both are **agents**: they have learned from their own attempts. One, *plain SAC*, had no help and
 # stays behind; the other, *bootstrapped SAC*, was helped by the rule while it learned, and gets
-# out. Press play, and turn the road with the mouse.
+# out. Turn the road with the mouse.
 
 
 # %% tags=["nbval-ignore-output"]
@@ -62,7 +64,8 @@ def on_this_road(method):
 
 stays = next(drive for drive in on_this_road("sac") if not drive.success)
 escapes = next(drive for drive in on_this_road("bootstrapped") if drive.success)
-drives = [*mine.attempts[-1:], stays, escapes]
+yours = [drive for drive in mine.attempts if drive.success] or mine.attempts
+drives = [*yours[-1:], stays, escapes]
 bc.recording([shipped.beginning(drive, 30) for drive in drives], height=480)
 
 # %% [markdown]
