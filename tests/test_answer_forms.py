@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 
 from bootcourse.course import runner
+from bootcourse.course.answer_process import Report, decoder, encoder
 from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook
 from bootcourse.course.judge import judge, outcomes
 from bootcourse.course.lessons import registry
-from bootcourse.course.runner import Report, decoder, encoder
 from bootcourse.course.values import Plain
 from bootcourse.errors import BootcourseError
 from tests.hostile.submissions import failures

@@ -17,7 +17,8 @@ import pytest
 import torch
 
 from bootcourse.course import check, runner, values
-from bootcourse.course.judge import judge, stop_in_words
+from bootcourse.course.answered import stop_in_words
+from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
 from bootcourse.course.stopped import Stopped
 from bootcourse.learn import sac

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.course import judge, runner
+from bootcourse.course import answer_process, judge, runner
+from bootcourse.course.answer_process import Report
 from bootcourse.course.exercise import call_it
 from bootcourse.course.lessons import registry
 from bootcourse.course.values import NUMERIC, SEVERAL, Plain, plain
@@ -92,27 +93,27 @@ def values() -> list:
     return made
 
 
-def answered(exercise, value, rights) -> runner.Report:
+def answered(exercise, value, rights) -> Report:
     """What the process of an answer would report that returns this value in every case."""
-    called = runner.Called(answer(value))
+    called = answer_process.Called(answer(value))
     try:
         if exercise.run is not call_it:
             some = [plain(exercise.run(called, *case)) for case in exercise.all_arguments[:CASES]]
-            return runner.Report(list(itertools.islice(itertools.cycle(some), len(rights))))
+            return Report(list(itertools.islice(itertools.cycle(some), len(rights))))
         mine = plain(called())
     except Exception as error:
-        said = runner.in_words(error, called.answer)
-        is_ours = error is not called.error and runner.is_ours(error, said)
-        return runner.Report(error=said, is_ours=is_ours, refused=is_ours * runner.why_no_array(called.value))
+        said = answer_process.in_words(error, called.answer)
+        is_ours = error is not called.error and answer_process.is_ours(error, said)
+        return Report(error=said, is_ours=is_ours, refused=is_ours * answer_process.why_no_array(called.value))
     if not exercise.slopes or value is None:
-        return runner.Report([mine] * len(rights))
+        return Report([mine] * len(rights))
     slopes = [[Plain("tensor", 0 * part.array) for part in right.parts[1:]] for right in rights]
-    return runner.Report([Plain("tuple", parts=(mine, *each)) for each in slopes])
+    return Report([Plain("tuple", parts=(mine, *each)) for each in slopes])
 
 
 def judged(exercise, report, monkeypatch) -> tuple:
     """The kind, sentence and details of the verdict on this report, which is drawn, too."""
-    twice = runner.Report(report.answers * 2)
+    twice = Report(report.answers * 2)
     monkeypatch.setattr(runner, "run", lambda *_, times=1, **more: twice if times == 2 else report)
     verdict = judge.judge(exercise, call_it, 1.0)
     assert repr(verdict) and verdict._repr_mimebundle_()
@@ -125,7 +126,7 @@ def test_no_value_that_an_answer_returns_breaks_its_check(exercise, monkeypatch)
     rights, made = judge.outcomes(exercise, exercise.solution), values()
     for value in made:
         report = answered(exercise, value, rights)
-        runner.decoder.decode(runner.encoder.encode(report))
+        answer_process.decoder.decode(answer_process.encoder.encode(report))
         kind, *said = judged(exercise, report, monkeypatch)
         assert kind in NOT_BROKEN, (type(value), said)
     assert len(made) >= 200
@@ -172,5 +173,5 @@ def test_no_wrong_number_in_the_right_form_breaks_its_check(exercise, where, mon
     for how in HOW:
         others = zip(rights[kept:], [*rights[kept + 1 :], rights[0]], strict=True)
         answers = [*rights[:kept], *(changed(right, how, other) for right, other in others)]
-        kind, *said = judged(exercise, runner.Report(answers), monkeypatch)
+        kind, *said = judged(exercise, Report(answers), monkeypatch)
         assert kind in NOT_BROKEN or exercise.run is not call_it, (how, said)  # only a forged report can say this

@@ -27,9 +27,10 @@ from tqdm import tqdm
 
 import bootcourse
 from bootcourse.course import runner
+from bootcourse.course.answered import our_fault
 from bootcourse.course.classroom.sandbox import shut_in
 from bootcourse.course.classroom.submission import Submission, fingerprint
-from bootcourse.course.judge import judge, our_fault
+from bootcourse.course.judge import judge
 from bootcourse.course.lessons import LESSONS, number, registry
 from bootcourse.course.verdict import Verdict
 from bootcourse.episodes.evaluate import drive_episodes
