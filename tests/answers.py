@@ -29,7 +29,7 @@ from types import FunctionType
 
 import cloudpickle
 
-from bootcourse.course import runner
+from bootcourse.course import answer_process, runner
 from bootcourse.course.lessons import LESSONS, registry
 from tools.course.numbering import LESSON_FOLDERS
 
@@ -83,7 +83,7 @@ def answers_of(table: str, module: dict) -> Iterator[tuple[str, Callable, str]]:
     """(exercise, function, words) of a table. module: the names that its answers may use besides the imports'."""
     exercise, rows = table.split("\n", 1)
     known = registry()[exercise]
-    space = {"solution": getattr(known.solution, "py_func", known.solution)}
+    space = {"__name__": "__main__", "solution": getattr(known.solution, "py_func", known.solution)}  # as in a notebook
     exec(IMPORTS, space)
     for row in re.split(r"\n(?=\S)", textwrap.dedent(rows).strip()):
         row, _, words = row.partition(" # ")
@@ -119,7 +119,7 @@ def here(exercise, answer, seconds, times=1, begin=None):
     methods = [(kind, *each) for kind in kinds for each in vars(kind).items() if isinstance(each[1], FunctionType)]
     try:
         with warnings.catch_warnings():
-            return runner.work(runner.packed(exercise), runner.pickled(answer, times, 600))
+            return answer_process.work(runner.packed(exercise), runner.pickled(answer, times, 600))
     finally:
         faulthandler.cancel_dump_traceback_later()
         sys.stdout, sys.stderr = settings

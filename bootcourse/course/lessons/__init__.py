@@ -60,7 +60,7 @@ class Registry(Mapping):
 
     def __getitem__(self, name: str) -> "Exercise":
         for lesson in LESSONS:
-            if re.search(rf"\b{re.escape(name)}\b", _text(lesson)) and name in exercises_of(lesson):
+            if name in words_of(lesson) and name in exercises_of(lesson):
                 return exercises_of(lesson)[name]
         raise KeyError(name)
 
@@ -85,6 +85,12 @@ def _file(lesson: str) -> Path:
 def _text(lesson: str) -> str:
     """The lesson's file of exercises; "" if it has none."""
     return _file(lesson).read_text(encoding="utf-8") if _file(lesson).exists() else ""
+
+
+@functools.cache
+def words_of(lesson: str) -> frozenset[str]:
+    """The words of the lesson's file of exercises."""
+    return frozenset(re.findall(r"\w+", _text(lesson)))
 
 
 @functools.cache

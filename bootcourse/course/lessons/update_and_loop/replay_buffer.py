@@ -68,8 +68,9 @@ def filled_and_drawn(answer, size, added, batch):
     even = drawn_evenly(number, held)
     # draws that are uneven, or never twice the same, are not independent either: those have their own sentences
     apart = independent(number, held) or (drawn_apart(number, held) and not (even and twice))
-    judged = even, intact, same, apart, twice, differ, stay
-    judged = *judged, draws_from_all_of_many(answer), forgets_what_is_overwritten(answer), not copies_the_table(answer)
+    copies = copies_the_table(answer)
+    from_all = copies or draws_from_all_of_many(answer)  # one that copies would take seconds for many rows
+    judged = even, intact, same, apart, twice, differ, stay, from_all, forgets_what_is_overwritten(answer), not copies
     return np.array(first.shape), known_rows, *map(float, judged)
 
 
