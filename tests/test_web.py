@@ -3,7 +3,10 @@
 import base64
 import gzip
 import json
+import os
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -19,7 +22,7 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import ACTION_NAMES, CALIBRATED, DEFAULT, IDLE, Clock, Road, Scenario, Sight, Traffic
 from bootcourse.storage.runs import load_run
-from bootcourse.web import build, wasm
+from bootcourse.web import build, bundle, wasm
 from bootcourse.web.entries import ENTRIES
 from tests.browser import ARTEFACTS, is_blank, needs_browser
 from tests.drive_page import drive_in_page
@@ -140,6 +143,19 @@ def test_the_compromise_is_that_of_the_soft_constraint(page, p, xi, alpha):
     )
     assert np.allclose(optimum, expected.optimum, atol=1e-12)
     assert np.allclose(shares, expected.shares, atol=1e-12)
+
+
+def test_what_ships_is_made_of_the_files_as_they_are():
+    made_of = json.loads(bundle.SHIPPED.read_text(encoding="utf-8"))["made_of"]
+    assert made_of == bundle.fingerprint(), "make it anew: python -m bootcourse.web.bundle"
+
+
+def test_the_installed_numba_compiles_a_function_to_webassembly(tmp_path):
+    one = "from bootcourse.web import entries, wasm; entries.ENTRIES = {'observe': entries.ENTRIES['observe']}"
+    write = "import pathlib, sys; pathlib.Path(sys.argv[1]).write_bytes(wasm.compile_entries())"
+    command = [sys.executable, "-c", f"{one}; {write}", str(tmp_path / "one.wasm")]
+    subprocess.run(command, check=True, env={**os.environ, **wasm.PLAIN, "NUMBA_CACHE_DIR": str(tmp_path)})
+    wasm.check((tmp_path / "one.wasm").read_bytes(), {"observe"})
 
 
 def test_the_build_fails_if_numba_passes_other_arguments():

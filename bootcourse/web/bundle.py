@@ -1,8 +1,10 @@
 """The text of the world's module: the scripts of this folder one after the other, and what they are given to work on.
 
-The compiled road, the agents and the car take a minute to make (build.py), so they are kept in a file whose name
-is a hash of everything that they are made of. Nothing here imports what makes them, so a notebook shows its first
-picture at once.
+The compiled road, the agents and the car take a minute to make (build.py), so they ship in world.json, with a hash of
+everything that they are made of. Where one of these files was changed, they are made anew, once, and kept in a cache.
+Nothing here imports what makes them, so a notebook shows its first picture at once.
+
+    python -m bootcourse.web.bundle     # after a change: makes world.json anew
 """
 
 import hashlib
@@ -18,6 +20,7 @@ from bootcourse.files import write_bytes
 
 HERE = Path(__file__).resolve().parent
 PACKAGE = HERE.parent
+SHIPPED = HERE / "world.json"
 MADE_OF = (
     "*.py", "road/*.py", "episodes/*.py", "learn/agent.py", "learn/networks.py", "learn/protocol.py",
     "learn/compiled*.py", "learn/records.py", "learn/settings.py", "learn/vectorised.py", "replay3d/*.py",
@@ -61,28 +64,38 @@ def notebook_module() -> str:
 @cache
 def content() -> dict[str, str]:
     """What build.py makes, for the scripts: "names" and "data"."""
-    name = f"world-{_hash()}.json"
-    for place in cache_places():
+    made_of = fingerprint()
+    cached = [place / f"world-{made_of}.json" for place in cache_places()]
+    for path in (SHIPPED, *cached):
         with suppress(OSError, ValueError):  # it is not there, or a power cut has damaged it
-            return json.loads((place / name).read_text(encoding="utf-8"))
+            kept = json.loads(path.read_text(encoding="utf-8"))
+            if kept["made_of"] == made_of:
+                return kept
     print("The road is compiled for the browser, once: one minute, or two.", flush=True)
-    from bootcourse.web import build
-
-    made = build.content()
-    for place in cache_places():
+    made = make()
+    for path in cached:
         try:
-            write_bytes(place / name, json.dumps(made).encode())
+            write_bytes(path, json.dumps(made).encode())
             break
         except BootcourseError:  # a folder that cannot be written: the next one
             continue
     return made
 
 
-def _hash() -> str:
-    """Changes with every file that `content` is made of, and with the compiler."""
-    from importlib.metadata import version
+def make() -> dict[str, str]:
+    """The same, made anew, and of what."""
+    from bootcourse.web import build
 
-    text = hashlib.sha256(f"{version('numba')} {version('llvmlite')}".encode())
+    return {"made_of": fingerprint(), **build.content()}
+
+
+def fingerprint() -> str:
+    """Changes with every file that `content` is made of."""
+    text = hashlib.sha256()
     for path in sorted({path for pattern in MADE_OF for path in PACKAGE.glob(pattern)}):
         text.update(path.name.encode() + path.read_bytes())
     return text.hexdigest()[:12]
+
+
+if __name__ == "__main__":
+    write_bytes(SHIPPED, json.dumps(make(), indent=1).encode() + b"\n")
