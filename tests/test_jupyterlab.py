@@ -269,7 +269,7 @@ def test_a_training_grows_on_the_page_and_stops(notebook):
     button(notebook, 0, "Train").press("Enter")
     waits_for(notebook, 0, "<circle")
     notebook.page.wait_for_function("document.activeElement.getAttribute('aria-label') === 'Stop'")
-    waits_for(notebook, 0, "decisions/s")
+    waits_for(notebook, 0, "episodes in")
     assert until(lambda: shown.locator("#clock").inner_text() not in ("", "0 of 150 s")), "the present agent drives"
     shown.screenshot(path=str(ARTEFACTS / "train-panel.png"))
     button(notebook, 0, "Stop").first.click()

@@ -52,7 +52,7 @@ def test_train_trains_with_what_the_sliders_show_and_the_present_agent_is_on_the
 def test_the_curves_grow_while_it_trains_and_stop_stops_within_a_second():
     panel = small(seeds=4, episodes=20_000)
     panel.train.click()
-    assert until(lambda: "decisions/s" in words(panel) and panel.watch and "<circle" in panel.watch.chart)
+    assert until(lambda: "episodes in" in words(panel) and panel.watch and "<circle" in panel.watch.chart)
     shown, driving = panel.watch.chart, panel.watch.drivers
     assert until(lambda: panel.watch.chart != shown and panel.watch.drivers != driving)
     started = time.monotonic()
@@ -78,7 +78,7 @@ def test_a_slider_acts_on_the_running_training_and_is_marked_in_its_curves():
     assert learner.rule_p.tolist() == [[pytest.approx(0.6)]] * 2 and (training.beta == 0.25).all()
     assert np.allclose(learner.coefficients()["xi"], 50 * learner.coefficients()["alpha"])
     assert {settings.xi_multiplier for settings in training.settings} == {50.0}
-    assert [words for _, words in panel.watch.marks] == ["p 0.6", "ξ 50", "β 0.25"]
+    assert [words for _, words in panel.watch.marks] == ["p 0.6", "ξ 50 × α", "β 0.25"]
     assert all(f">{words}<" in panel.watch.chart for _, words in panel.watch.marks)
     assert panel.result.agents[0].settings.rule_p == 0.6, "what is saved says how it was trained"
 
@@ -145,7 +145,7 @@ def test_a_notebooks_cell_shows_its_training_and_closes_what_it_showed_when_it_l
 def test_close_while_it_trains_or_prepares_ends_the_thread(prepared):
     panel = small(episodes=20_000)
     panel.train.click()
-    assert not prepared or until(lambda: "decisions/s" in words(panel))
+    assert not prepared or until(lambda: "episodes in" in words(panel))
     panel.close()
     assert not panel.thread.is_alive()
 

@@ -101,7 +101,8 @@ class TrainPanel(Panel):
             return
         with self.saying_what_is_wrong():
             self.say()
-            self.watch.change(SLIDERS[name][0], name, change["new"])
+            symbol, *_, unit = SLIDERS[name]
+            self.watch.change(symbol, name, change["new"], unit)
 
     def _train(self) -> None:
         settings = self.settings()
@@ -153,10 +154,7 @@ class TrainPanel(Panel):
     def _tell(self, training: Training, how: str) -> None:
         driven = int(training.curves.finished.clip(max=training.episodes).sum())
         total, seconds = training.n_agents * training.episodes, training.seconds
-        words = f"{how}: {driven:,} of {total:,} episodes in {seconds:.0f} s, "
-        words += f"{training.decisions / max(seconds, 1e-9):,.0f} decisions/s"
-        if how == "Training" and driven:
-            words += f", about {seconds * (total - driven) / driven:.0f} s left"
+        words = f"{how}: {driven:,} of {total:,} episodes in {seconds:.0f} s"
         self.progress.value = progress(words, driven / total)
 
     def _buttons(self, running: bool) -> None:

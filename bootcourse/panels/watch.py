@@ -77,13 +77,13 @@ class Watch(World):
         if self.handle is not None:
             self.handle.update(self)  # so that the notebook's file holds the whole curves
 
-    def change(self, symbol: str, setting: str, value: float) -> None:
+    def change(self, symbol: str, setting: str, value: float, unit: str = "") -> None:
         """Let the agents go on with another value, and mark the moment in the curves; the drag of a slider gets one."""
         self.training.change(**{setting: value})
         now = finished(self.training.curves.values)
         if self.marks and self.marks[-1][1].startswith(f"{symbol} ") and now - self.marks[-1][0] < 0.1 * self.reach:
             now, _ = self.marks.pop()
-        self.marks.append((now, f"{symbol} {value:g}"))
+        self.marks.append((now, f"{symbol} {value:g} {unit}".strip()))
 
     def _draw(self) -> None:
         training = self.training

@@ -24,7 +24,7 @@ class Game {
     this.thoughts = new Thoughts(this.find("thoughts"), data.actions);
     this.controls = new Controls(this.find("pad"), options.keys ?? this.host, this.stop.signal, () => this.pressed(), {
       " ": () => this.go(), r: () => this.again(), n: () => this.another(), f: () => this.find("futures").click(),
-      t: () => this.toggleTheme(), v: () => this.find("view").click(), 0: () => this.setPace(0),
+      t: () => this.toggleTheme(), Escape: () => this.leave(), v: () => this.find("view").click(), 0: () => this.setPace(0),
       1: () => this.setPace(1), 2: () => this.setPace(2), 5: () => this.setPace(5),
     });
     this.controls.touched = () => { this.dirty = true; }; // a key is seen at once, also where the clock waits
@@ -67,7 +67,11 @@ class Game {
     this.find("driver").addEventListener("change", event => this.begin({ driver: event.target.value }));
     this.find("ghost").addEventListener("change", event => this.begin({ ghost: event.target.value }));
     this.find("number").addEventListener("change", event => this.begin({ number: event.target.value }));
-    this.find("futures").addEventListener("change", () => { this.think(); this.dirty = true; });
+    this.find("futures").addEventListener("change", () => {
+      this.think();
+      this.before = this.futures; // also where the clock stands within a second
+      this.dirty = true;
+    });
     this.root.addEventListener("change", ({ target }) => { // after a mouse or a finger, the arrow keys drive again
       if (!target.matches(":focus-visible") || target.type === "number") this.focus();
     });
@@ -89,6 +93,12 @@ class Game {
   get paces() { return this.root.querySelectorAll("[data-pace]"); }
 
   focus() { this.find("shell").focus({ preventScroll: true }); }
+
+  // Give the keys back to the notebook around it.
+  leave() {
+    this.root.activeElement?.blur();
+    this.host.closest("[tabindex]")?.focus({ preventScroll: true });
+  }
 
   // Take it out of the page.
   close() {

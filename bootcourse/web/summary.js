@@ -24,10 +24,10 @@ function picture(drives, wide) {
 const lead = drive => drive.states.map((state, k) => (
   [k * drive.road.scenario.dt, Math.min(Math.max(state[X] - state[TRAP_1 * COLUMNS + X], -REACH), REACH)]));
 
-// [time, sum of the rewards] at each decision.
+// [time, sum of the rewards] at each decision; an accident may come within the last second.
 function earnings(drive) {
   let sum = 0;
-  return [[0, 0], ...drive.rewards.map((reward, t) => [t + 1, (sum += reward)])];
+  return [[0, 0], ...drive.rewards.map((reward, t) => [Math.min(t + 1, drive.end), (sum += reward)])];
 }
 
 function plot(drives, { top, high, wide, across, title, curve, range: [low, highest], marks }) {

@@ -40,7 +40,11 @@ async function show({ model, el, signal }) {
     game.announce(message.error);
   };
   const offered = async () => game.offer(...await Promise.all(guests().map(guest)));
-  if (watched) watched.chosen = offered;
+  if (watched) watched.chosen = async () => { // who was clicked drives from the start
+    await offered();
+    game.again();
+    game.run(true);
+  };
   const opened = () => { game.open(model.get("opens")); };
   const themed = new MutationObserver(() => game.theme(notebookTheme() ?? host.dataset.theme));
   themed.observe(document.body, { attributes: true, attributeFilter: ["data-jp-theme-light", "class"] });

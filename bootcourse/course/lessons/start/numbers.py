@@ -15,6 +15,7 @@ ROUTES = {  # {lesson: what a route has of it}, in their order
     | SAC
     | dict.fromkeys(("the_trap", "the_rule", "demonstrations", "your_teacher"), READ),
 }
+LOOK = "display: inline-block; padding: 6px 14px; margin: 3px 0; border: 1px solid #0072B2; border-radius: 6px"
 
 
 def time_of(lesson: str, part: str) -> int:
@@ -34,6 +35,12 @@ def way(route: str) -> str:
         for name, part in ROUTES[route].items() if part != KNOWN
     ]  # fmt: skip
     return resolved("\n".join(rows))
+
+
+def button(route: str, name: str, words: str) -> str:
+    """A button that opens the way of a route: it needs no kernel, and where styles are taken out it is a plain list."""
+    summary = f'<summary style="{LOOK}"><b>{name}</b>, {hours(route)} hours: {words}</summary>'
+    return f"<details>{summary}\n\n{way(route)}\n\n</details>"
 
 
 def missing(route: str) -> list[tuple[str, str]]:
