@@ -2,12 +2,10 @@
 
 from dataclasses import replace
 
-import numpy as np
-
 from bootcourse.episodes.rollout import BY_RULE, OPTIONAL, Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
-from bootcourse.research.computed import experiment, load_bound
+from bootcourse.research.computed import experiment
 from bootcourse.research.experiments.teacher_worth import Cells, by_teacher
 from bootcourse.research.results import Results, load_results
 from bootcourse.storage.assets import FOLDER, shipped
@@ -54,11 +52,6 @@ def shipped_experiment(name: str) -> dict[str, Results]:
 def shipped_teachers() -> Cells:
     """What agents of several methods learned from teachers from bad to perfect: {(teacher, method): results}."""
     return by_teacher(shipped_experiment("teachers"))
-
-
-def shipped_bound(scenario: str = "default") -> np.ndarray:
-    """The best return that the planner found on each held-out road of the study, (episodes,)."""
-    return load_bound(shipped(f"bound-{scenario}.npz"))
 
 
 def shipped_drive(name: str) -> Rollout:

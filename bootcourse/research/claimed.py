@@ -101,7 +101,7 @@ def alone(study: StudyResults) -> Claim:
         "alone", "Most agents of plain SAC do not leave the trap.", told(ours, "sac"),
         {
             TWICE: (share(twice(study, "sac")) < 0.5, told(twice(study, "sac"))),
-            "200,000 decisions, with a search of its own": (longer.mean() < 0.5, f"{longer.sum()} of 10 escape"),
+            "200,000 decisions, with settings searched for it": (longer.mean() < 0.5, f"{longer.sum()} of 10 escape"),
             "γ = 0.9, 0.95 and 0.99": (out < of / 2, f"{out} of {of} escape"),
             "faster traps (10.9 m/s)": (
                 share(study.results["calibrated"], "sac") < 0.5, told(study.results["calibrated"], "sac")
@@ -254,13 +254,14 @@ def second_trap(study: StudyResults) -> Claim:
     other = theirs["PPO alone"], theirs["PPO after cloning"]
     return Claim(
         "second-trap", "PPO alone does not leave the trap; after cloning the rule most agents do.",
-        f"after 200,000 decisions alone {out('ppo', 200_000)}; after cloning {out('ppo_cloned', 200_000)}",
+        f"each with searched settings, after 200,000 decisions: alone {out('ppo', 200_000)}; after cloning "
+        f"{out('ppo_cloned', 200_000)}",
         {
             "four times the decisions": (
                 count("ppo", 800_000) == 0 and count("ppo_cloned", 800_000) > 5,
                 f"{out('ppo', 800_000)}; {out('ppo_cloned', 800_000)}",
             ),
-            "somebody else's PPO, with a search of its own": (
+            "somebody else's PPO, with settings searched for it": (
                 share(other[0]) == 0 and share(other[1]) > 0.5, f"{told(other[0])}; {told(other[1])}"
             ),
         },
@@ -372,12 +373,12 @@ def blind(study: StudyResults) -> Claim:
         drives = drive_episodes(plan_policy(BLIND), held_out_seeds(block, ROADS), scenario)
         success, crash = 100 * drives.success.mean(), 100 * (drives.accident > 0).mean()
         words = f"return {drives.returns.mean():.0f}, ahead on {success:.0f} % of the roads, accidents {crash:.0f} %"
-        return bool(drives.returns.mean() > sac and crash > 10), words
+        return bool(drives.returns.mean() > sac and 20 < crash < 30), words
 
     return Claim(
         "blind",
-        "A plan of 13 actions that looks at nothing earns more than plain SAC's mean agent, and crashes on every tenth "
-        "road or more.",
+        "A plan of 13 actions that looks at nothing earns more than plain SAC's mean agent, and crashes on about every "
+        "fourth road.",
         f"{at(DEFAULT, 1)[1]}; plain SAC {sac:.0f}", {OTHER_ROADS: at(DEFAULT), HALF: at(FINER)},
     )  # fmt: skip
 

@@ -170,8 +170,3 @@ def in_training(method: str, first: int, last: int | None) -> np.ndarray:
 def losing(method: str) -> np.ndarray:
     """Which agents lose 20 points of success as the demonstrations end: 600 to 800 against 900 to 1,100, (agents,)."""
     return in_training(method, 900, 1100) < in_training(method, 600, 800) - 0.2
-
-
-def tenth_of_xi(method: str) -> np.ndarray:
-    """The training episodes in which α, and with it ξ, is first below a tenth of its start, for the shipped agents."""
-    return np.array([int(np.argmax(run.curves["alpha"] < 0.1 * SETTINGS.alpha_init)) for run in shipped_runs(method)])

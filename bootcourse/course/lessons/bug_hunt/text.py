@@ -118,7 +118,8 @@ table(["at the end of training, two seeds", "success, %", "return"], rows)
 # <!-- claim: (lambda last: last['E'].min() > max(v.max() for n, v in last.items() if n !=
 #   'E'))(hunt().at_the_end('return')) -->
 #
-# So these curves do not find the bugs. To judge one part of a learner, ask that part alone.
+# The curves show that two agents are ill, and name no bug. To judge one part of a learner, ask that
+# part alone.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Fill in the board's table: what did each predict, and which curve could be any of the six? Ask
@@ -140,12 +141,12 @@ predict("bug_hunt.2", "Which bug pulls Q below −10 at accidents?", names)
 
 # %% [markdown]
 # **Exercise (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an
-# episode ended?
+# accident ended the drive?
 
 
 # %%
 def end_error(q, actions, rewards, terminated):
-    """Mean of Q(s, a) - r where terminated is 1, or 0. Arrays: q (batch, 9), others (batch,)."""
+    """Mean of Q(s, a) - r over rows with terminated 1; 0 if none. q: (batch, 9); others (batch,)."""
     # solution: the exercise's own
 
 
@@ -167,9 +168,9 @@ bc.show(
 )
 
 # %% [markdown]
-# **See.** Even the healthy critics stay above {{ DEFAULT.reward.accident }}. So judge a probe
-# against the healthy agent, and not against the ideal: which agent leaves the grey lines, and in
-# which direction?
+# **See.** Even the healthy critics stay above {{ DEFAULT.reward.accident }}. (We think that similar
+# seconds without an accident raise it.) So judge a probe against the healthy agent: which agent
+# leaves the grey lines, and in which direction?
 # <!-- claim: (hunt().probe('healthy', 'end')[:, -1] > DEFAULT.reward.accident + 1).all() -->
 #
 # > **Predict.** The road pays at most about 1 a second, and γ = {{ SETTINGS.gamma }}. The value
@@ -226,6 +227,14 @@ probes = hunt.probes("entropy")
 title = "One agent stays far more undecided than the healthy one"
 bc.show(charts.many(probes, title, "updates", "entropy of π (nats)", reference="healthy"))
 
+# %%
+early, rows = slice(2, 6), []  # after 500 to 1,250 updates
+for name in hunt.names:
+    now, later = (100 * hunt.probe(name, what)[:, early].mean(1) for what in ("alike", "late"))
+    columns = (now, later, now - later)
+    rows.append([name, *(" and ".join(f"{x:.0f}" for x in seeds) for seeds in columns)])
+table(["early, two seeds", "as the rule now, %", "as one second later, %", "difference"], rows)
+
 # %% [markdown]
 # > **Predict.** KL(π‖π̃) charges the policy for going where the rule would not. The flipped one
 # > charges it for *not* going where the rule might, and the rule's noise gives each action a little
@@ -235,16 +244,8 @@ bc.show(charts.many(probes, title, "updates", "entropy of π (nats)", reference=
 choices = ["it drops it", "it keeps it a little likely", "it makes it the favourite"]
 predict("bug_hunt.4", "What does the policy do to such an action, with the flipped KL?", choices)
 
-# %%
-predicted("bug_hunt.4")
-early, rows = slice(2, 6), []  # after 500 to 1,250 updates
-for name in hunt.names:
-    now, later = (100 * hunt.probe(name, what)[:, early].mean(1) for what in ("alike", "late"))
-    columns = (now, later, now - later)
-    rows.append([name, *(" and ".join(f"{x:.0f}" for x in seeds) for seeds in columns)])
-table(["early, two seeds", "as the rule now, %", "as one second later, %", "difference"], rows)
-
 # %% tags=["hide-input"]
+predicted("bug_hunt.4")
 probes = hunt.probes("rarest")
 title = "Two agents keep their rarest action likelier than the healthy one"
 bc.show(charts.many(probes, title, "updates", "log of the rarest action's probability", "healthy"))

@@ -7,7 +7,7 @@ import numpy as np
 from bootcourse.episodes.record import record
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, LANE, TRAP_1, X, Y
-from tools.course.known import rule_drives, shipped_runs, shipped_teachers
+from tools.course.known import rule_drives, shipped_results, shipped_runs, shipped_teachers
 
 
 def way_out() -> tuple[float, float]:
@@ -52,6 +52,11 @@ def study_agreement() -> np.ndarray:
     seen = np.concatenate([drive.observations[:-1] for drive in rule_drives()])
     did = np.concatenate([drive.actions for drive in rule_drives()])
     return np.array([(run.agent.probabilities(seen).argmax(1) == did).mean() for run in shipped_runs("bc")])
+
+
+def clones_of_the_stochastic_rule() -> Results:
+    """The ten clones of the study with the paper's choices, where the stochastic rule drives the demonstrations."""
+    return shipped_results("paper").of("bc")
 
 
 def taught_by_dagger() -> Results:

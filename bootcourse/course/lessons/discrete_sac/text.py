@@ -66,8 +66,8 @@ bc.show(figures.cartpole_strip(drives, title))
 
 # %% [markdown]
 # The rule pushes to the right where 0.1 · place + 0.3 · speed + 0.1 · angle + 0.3 · angular speed
-# is positive, with the angle in tenths of a radian. How does a program that starts at random learn
-# to push as well as that rule, from rewards alone?
+# is positive. (The angle counts in tenths of a radian.) How does a program that starts at random
+# learn to push as well as that rule, from rewards alone?
 # <!-- claim: checks.CARTPOLE_SCALES == (1.0, 1.0, 0.1, 1.0) -->
 # <!-- claim: pushes((0.1, 0.3, 0.1, 0.3)) == 500 -->
 
@@ -96,8 +96,9 @@ bc.show(diagrams.sac_diagram())
 # %% [markdown]
 # ## Round 1: what is a state worth when entropy is rewarded?
 #
-# **Drag** the temperature α. Going straight is worth most here: at which end does the agent nearly
-# always go straight, and what does it do at the other end?
+# **Drag** the temperature α. (The title counts with the formulas below.) Going straight is worth
+# most here: at which end does the agent nearly always go straight, and what does it do at the other
+# end?
 
 # %%
 explorable.undecided()
@@ -112,7 +113,7 @@ explorable.undecided()
 #
 # An action that is never taken adds nothing (0 · log 0 = 0).
 #
-# > **Predict.** What is the entropy of a policy that is sure of one action? Can it be negative?
+# > **Predict.** What is the smallest entropy that a policy can have? Can it be negative?
 
 # %%
 predict("discrete_sac.1", "What is the smallest entropy that a policy can have?", unit="nats")
@@ -214,7 +215,8 @@ bc.show(charts.lines(alphas, values, title, "temperature α", "soft value V"))
 # $$ Q(s_0, a_0) = \mathbb{E}\big[\, r_0 + \gamma \big( \textstyle\sum_a \pi(a|s_1)\, Q(s_1, a) +
 # \alpha \mathcal{H}_1 \big) \big] = \mathbb{E}\big[\, r_0 + \gamma V(s_1) \big] $$
 #
-# This is the **soft Bellman equation**: one transition is enough to learn from. Its right side,
+# This is the **soft Bellman equation**. Where lesson [[values]] takes the best action, it takes the
+# mean under π, plus the entropy; one transition gives one sample of its right side. That side,
 # computed with the present estimates, is the **target** y, and the loss is the mean squared
 # distance from it. $y - Q(s,a)$ is the **temporal difference**. Learning an estimate from an
 # estimate is called **bootstrapping**. The paper's title means another thing: to start with a
@@ -379,7 +381,8 @@ def temperature_loss(log_alpha, state_entropy, target_entropy):
 check.temperature_loss(temperature_loss)
 
 # %% [markdown]
-# The paper sets **η = {{ SETTINGS.target_entropy }}**, in a table, for its nine actions.
+# The paper sets **η = {{ SETTINGS.target_entropy }}**, in a table, for its nine actions; the agents
+# of our study have it, too.
 #
 # > **Predict.** Remember the range of the entropy. In which direction does this thermostat turn,
 # > and when does it stop?

@@ -12,7 +12,6 @@ from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
-from bootcourse.research.experiments import stress as study_stress  # noqa: F401 (the text names it)
 from bootcourse.research.results import Results
 from bootcourse.rule import stochastic_rule
 from bootcourse.statistics import IN_A_ROW as WINDOW

@@ -5,12 +5,9 @@ import math
 import numpy as np
 
 from bootcourse.course.shipped import shipped_agents
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.panels.compromise import CHOSEN, Ways
-from bootcourse.policies import stochastic_rule_policy
 from bootcourse.research.results import Results
-from bootcourse.scenario import DEFAULT
 from tools.course.known import RULE_P, escapers, of, shipped_experiment
 
 
@@ -45,9 +42,3 @@ def compromised(xi: float) -> bool:
     helped = shipped_agents("soft")[0]
     drive = record(helped.as_policy(with_q=True), [10])[0]
     return Ways(drive, helped).at(0, 0.9, xi, 0.01)[CHOSEN].accident != 0
-
-
-def drawn_rule() -> float:
-    """The mean return of the stochastic rule π̃ with the paper's p, whose actions are drawn, on 300 held-out roads."""
-    policy = stochastic_rule_policy(DEFAULT, np.random.default_rng(0))
-    return float(drive_episodes(policy, held_out_seeds(12, 300)).returns.mean())

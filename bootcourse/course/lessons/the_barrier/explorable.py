@@ -8,21 +8,20 @@ from bootcourse.panels.explorable import Axes, Curve, Explorable, curves
 from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing
 from bootcourse.policies import idle_policy
-from bootcourse.scenario import DEFAULT
 
 ROADS = 50
 AXES = Axes("accidents of a hundred attempts", "discounted sum of the rewards, from the start", (-10.0, 20.0))
 
 
 def price() -> Explorable:
-    """What attempts are worth, of which some end in an accident at once and the others as a plan that gets out."""
+    """What attempts are worth, of which some end as a plan's accidents do and the others as its ways out."""
     roads = range(ROADS)
     out, stay = drive(ThenAccelerate(PLAN), roads), drive(idle_policy, roads)
     shares = np.linspace(0, 1, 101)
 
     def draw(gamma: float, accidents: float) -> Drawing:
-        escape, behind = out.values(gamma)[out.accident == 0].mean(), stay.values(gamma).mean()
-        attempts = (1 - shares) * escape + shares * DEFAULT.reward.accident
+        values, behind = out.values(gamma), stay.values(gamma).mean()
+        attempts = (1 - shares) * values[out.accident == 0].mean() + shares * values[out.accident > 0].mean()
         mine = float(np.interp(accidents / 100, shares, attempts))
         pays = "pays" if mine > behind else "does not pay"
         named = {

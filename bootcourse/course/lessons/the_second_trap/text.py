@@ -15,7 +15,7 @@
 #
 # **What you will be able to do**
 # - find out from a drive how an agent earns a lot and still misses its goal, and what pays for it;
-# - write PPO, its advantages and its loss, train an agent with it, and read its health;
+# - write PPO, its advantages and its loss, and train an agent with it;
 # - say what two changes of the reward did, and why.
 #
 # **Time** 60 minutes, with a break after Round 2; running it takes about one minute. **It builds
@@ -140,11 +140,12 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # **Explain.** The agent is slower on average than the car that keeps straight, and its speed pays
 # more than twice as much: that is Jensen's gap.
 #
-# **Is this reward hacking**, earning a reward in a way that was not meant? No: counted as the agent
-# counts, with γ = {{ settings_for('ppo').gamma | g }} (the paper's is {{ SETTINGS.gamma }}), its
-# drive is worth {{ discounted(ppo_drive(), settings_for('ppo').gamma) | .0f }} at the start, and
-# that of `careful`, a rule of lesson [[your_teacher]] that gets out, {{ discounted(careful_drive(),
-# settings_for('ppo').gamma) | .0f }}. The agent would gain by leaving, and has not found the way.
+# **Is this reward hacking**, a reward whose best drive is not the one that was meant? No: counted
+# as the agent counts, with γ = {{ settings_for('ppo').gamma | g }} (the paper's is {{
+# SETTINGS.gamma }}), its drive is worth {{ discounted(ppo_drive(), settings_for('ppo').gamma) | .0f
+# }} at the start, and that of `careful`, a rule of lesson [[your_teacher]] that gets out, {{
+# discounted(careful_drive(), settings_for('ppo').gamma) | .0f }}. The agent would gain by leaving,
+# and has not found the way.
 #
 # **Is it a trap?** None of the {{ ppo_agents() }} agents was ahead in any of its last 300 training
 # episodes. Their return still rises at the end: they climb a hill that has not led past trap 1. If
@@ -171,14 +172,14 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 #
 # $$ \nabla_\theta\, \mathrm{E}[R] = \mathrm{E}\big[\nabla_\theta \log \pi(a)\; R\big] $$
 #
-# for one decision that pays R, because ∇π = π ∇ log π. So a mean over *drawn* actions is enough.
-# For a whole drive, the logarithm of its probability is a sum over its decisions, so each decision
-# has its own term ∇ log π(a_t|s_t). Its R is what *follows* the decision: rewards that came before
-# do not depend on it, and on average they add 0, for the reason of the baseline below.
+# for one decision that pays R, because ∇π = π ∇ log π. So a mean over *drawn* actions is enough,
+# with the factor ∇ log π. For a whole drive, the logarithm of its probability is a sum over its
+# decisions, so each decision has its own term ∇ log π(a_t|s_t). Its R is what *follows* the
+# decision: earlier rewards do not depend on it and add 0 on average, as a baseline does:
 #
 # Here are three actions that pay 10, 11 and 12, and a policy that takes each with probability ⅓.
-# Subtracting a **baseline** from R, such as the mean 11, does not change the gradient's mean,
-# since E[∇ log π] = 0.
+# Subtracting a **baseline** from R, such as the mean 11, does not change the gradient's mean, since
+# E[∇ log π] = Σ ∇π = ∇ 1 = 0.
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -281,8 +282,8 @@ bc.show(figures.hinges(ppo.clipped_loss, 0.2, title))
 #
 # $$ L + \tfrac12\, \mathrm{mean}\big[(V - \hat V)^2\big] - c_H\, \mathrm{mean}[H] $$
 #
-# Before that, the advantages of a minibatch are given mean 0 and deviation 1 (torch's
-# `advantage.std()`), so that the size of a step does not depend on the size of the rewards.
+# Each pass takes the decisions in *minibatches*, whose advantages get mean 0 and deviation 1
+# (`advantage.std()`), so that a step does not depend on the size of the rewards.
 #
 # **Exercise (10 min, ●●○).** (You may skip it: the library's loss trains then.) Put PPO together.
 # `ppo.clipped_loss`, or your own, is L.
@@ -320,27 +321,6 @@ title = "PPO alone first learns to earn what keeping straight earns, then to ear
 words, looks = {"keeping straight": float(nobody.returns.mean())}, (Style(EDGE), PPO, OTHER)
 axes = ("decisions (thousands)", "return of a training episode")
 bc.show(charts.lines(alone["at"][0] / 1000, named, title, *axes, marks=words, looks=looks))
-
-# %% tags=["nbval-ignore-output"]
-rows = [
-    [f"{at:,.0f}", f"{kl:.4f}", f"{100 * clipped:.0f}", f"{explained:.2f}"]
-    for at, kl, clipped, explained in zip(
-        mine.at, mine.kl, mine.clipped, mine.explained, strict=True
-    )
-]
-table(["decisions", "KL, nats", "clipped, %", "explained variance"], rows[::3])
-
-# %% [markdown]
-# Three numbers say whether PPO is healthy, whatever the return:
-# - the **KL** from the policy before a round of updates to the one after it: a few hundredths of a
-#   nat at most, or the steps are too large;
-# - the **clip fraction**, the share of decisions that have reached the limit: 10 to 30 % in our
-#   trainings;
-# - the **explained variance** of the returns by V: 1 for a perfect V, 0 for a constant one, below
-#   0 for a worse one.
-#
-# Read your table: are its last two rows healthy? None of the three numbers says what an agent does
-# on the road.
 
 # %% tags=["nbval-ignore-output"]
 your_drive = bc.record(mine.agent.as_policy(), [ROAD], label="your agent")[0]
@@ -414,41 +394,21 @@ bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)", looks=lo
 # trials that crash (lesson [[the_barrier]]). And leaving gains less than before: this run does not
 # tell the two reasons apart.
 #
-# **A change that leaves what is best.** A *potential* Φ(s) says how promising a state looks, and
-# the *shaping reward* F = γ Φ(s') − Φ(s) pays for its change. Added up over a drive, discounted,
-# the terms in between cancel. If Φ is 0 at the end, what is left is −Φ of the first state, whatever
-# the agent does. So each state's value falls by its Φ, and the best policy stays the best (Ng,
-# Harada and Russell 1999). (After an accident Φ is 0. When the time is over, PPO adds V of the last
-# state, which has learned to be lower by Φ.) Our potential is {{ second_trap.PER_LANE | g }} for
-# each lane that the car has come to the left.
+# <details><summary>A change that keeps the best policy: shaping</summary>
 #
-# > **Predict.** PPO is paid this, too. How many of ten agents escape?
-
-# %%
-choices = ["none", "1 to 5", "6 to 10"]
-predict("the_second_trap.4", "How many of ten escape with the potential?", choices)
-
-# %% tags=["hide-input"]
-predicted("the_second_trap.4")
-names = {"alone": "the road's reward", "concave": "concave", "shaped": "the potential, too"}
-rows = []
-for kind, name in names.items():
-    group = groups[kind]
-    escape = f"{(group['success'] >= bc.statistics.ESCAPES).sum()} of {len(group['success'])}"
-    means = [f"{group['returns'].mean():.1f}", f"{100 * group['accident'].mean():.1f}"]
-    rows.append([name, escape, *means])
-table(["PPO, paid", "agents that escape", "the road's return", "accidents, %"], rows)
-
-# %% [markdown]
-# **See.** With the potential it is the second trap again: {{ ppo_escapes('shaped') }} of {{
-# ppo_agents() }} agents escape.
+# A *potential* Φ(s) says how promising a state looks, and the *shaping reward* F = γ Φ(s') − Φ(s)
+# pays for its change. Added up over a drive, discounted, the terms in between cancel. If Φ is 0 at
+# the end, what is left is −Φ of the first state, whatever the agent does. So each state's value
+# falls by its Φ, and the best policy stays the best (Ng, Harada and Russell 1999). With {{
+# second_trap.PER_LANE | g }} for each lane that the car has come to the left, {{
+# ppo_escapes('shaped') }} of {{ ppo_agents() }} agents escape: as soon as V is lower by Φ, F cancels
+# in each δ, and shaping acts like another initial V (Wiewiora 2003). Another potential may do
+# better.
+#
+# </details>
 # <!-- claim: ppo_escapes('shaped') == 0 and ppo_kinds.KINDS['shaped'].decisions ==
 #   ppo_kinds.KINDS['alone'].decisions and abs(ppo('shaped')['returns'].mean() /
 #   ppo('alone')['returns'].mean() - 1) < 0.15 -->
-#
-# **Explain.** As soon as V is lower by Φ, F cancels in each δ, and the advantages are what they
-# were without it: shaping acts like another initial V (Wiewiora 2003). And ours pays for a move to
-# the left at once, where trap 2 stands. Another may do better: this is no verdict on shaping.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let them argue: is a potential not a teacher, too? Somebody who knows the way out wrote it. Let
@@ -469,10 +429,10 @@ table(["PPO, paid", "agents that escape", "the road's return", "accidents, %"], 
 
 # %%
 choices = ["in less than half", "in about three quarters", "in nearly all"]
-predict("the_second_trap.5", "How often does it do what the rule would?", choices)
+predict("the_second_trap.4", "How often does it do what the rule would?", choices)
 
 # %% tags=["nbval-ignore-output"]
-predicted("the_second_trap.5")
+predicted("the_second_trap.4")
 training = own_code.training([ppo_kinds.settings_of("cloned")], MOST)
 cloned = ppo_kinds.train(training, 200_000)
 found = bc.evaluate(cloned.agent.as_policy(), 100)
@@ -534,8 +494,7 @@ compare_predictions(
         1: "almost four times as much",
         2: "yes, it makes the action rarer",
         3: "it drives steadily behind trap 1",
-        4: f"{(groups['shaped']['success'] >= bc.statistics.ESCAPES).sum()} of ten",
-        5: f"{'in less than half' if alike < 0.5 else 'in more than half'}: {100 * alike:.0f} %",
+        4: f"{'in less than half' if alike < 0.5 else 'in more than half'}: {100 * alike:.0f} %",
     },
 )
 

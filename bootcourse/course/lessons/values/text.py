@@ -53,7 +53,7 @@ bc.show(diagrams.five_states())
 # %% [markdown]
 # One walker goes to the trap and stays, the other goes on to the free road. A reward counts less
 # the later it comes: after one decision γ ("gamma") times as much, after two γ² times. **Drag** γ:
-# from where on does it pay to leave? And which states are worth leaving at every γ?
+# from which states is going on worth more than going back, whatever γ is?
 
 # %%
 explorable.worths()
@@ -153,7 +153,7 @@ for _ in range(30):
     found.append(q := sweep(q, 0.8))
 named = {"stay in the trap": np.array(found)[:, 0, 0], "leave it": np.array(found)[:, 0, 1]}
 looks = [bc.colours.OTHER, charts.Style("#56B4E9")]
-title = "The free road's value comes back one state in each sweep"
+title = "From sweep 6 on, leaving the trap is worth more than staying"
 bc.show(charts.lines(range(31), named, title, "sweep", "Q in state 0, γ = 0.8", looks=looks))
 
 # %% [markdown]
@@ -299,16 +299,16 @@ bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
 #
 # More exploration helps here (C, D), but one visit is not enough, since each passage moves the
 # value one state back: {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5,
-# 0.8) }} learn to leave in these 1,000 decisions; with more decisions more of C would. On the road,
-# where a failed attempt costs 10, D is no recipe.
+# 0.8) }} learn to leave in these 1,000 decisions. (Would more decisions help C? Try it.) On the
+# road, where a failed attempt costs 10, D is no recipe.
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 #
 # One demonstration, *replayed* after each decision, gets all thirty across (E): each time its
-# values move one state back. Replayed once, before the first decision, it gets {{ replayed(1) }} of
-# thirty across, five times {{ replayed(5) }}, and once in *backward* order {{ replayed(1,
-# backwards=True) }}: then the value of the free road comes all the way in one pass. Q-learning
-# learns from it as from its own decisions: it is **off-policy**, and so is the learner of the next
-# lessons.
+# values move one state back. Replayed before the first decision only, it gets {{ replayed(1) }} of
+# thirty across; replayed five times, {{ replayed(5) }}. Replayed once but *backwards*, {{
+# replayed(1, backwards=True) }}: then the free road's value comes all the way in one pass.
+# Q-learning learns from it as from its own decisions: it is **off-policy**, and so is the learner
+# of the next lessons.
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 and replayed(1) < replayed(5) and replayed(1,
 #   backwards=True) > 20 and sum(chain.leaves(chain.learn_chain(chain.chances(0.5, 4000, seed), 0.8, 0.3,
 #   ())) for seed in range(30)) > leaving(0.5, 0.8) -->
@@ -340,7 +340,7 @@ compare_predictions(
 # - If the chain's Q begins at 5 (*optimistic initial values*), {{ optimistic(0.1, 5) }} of thirty
 #   leave with A's ε and γ. Why, and what would it cost on the road?
 # - A replayed demonstration got all thirty across the chain. What could be different on the road?
-# - The chain has ten numbers. Your car has 26 observations. What replaces the table?
+# - The chain has ten numbers. Your car sees 26 numbers. What replaces the table?
 #
 # **Read on**: [](discrete_sac.ipynb), which puts networks in place of the table. Sutton and Barto,
 # *Reinforcement Learning*, chapters 3, 4 and 6.

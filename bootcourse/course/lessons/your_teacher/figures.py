@@ -6,18 +6,17 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bootcourse.course.shipped import shipped_bound
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.experiments.teacher_worth import TAUGHT, Cells
 from bootcourse.research.jobs import HELD_OUT
-from bootcourse.research.teachers import PLANNER, TEACHERS
+from bootcourse.research.teachers import TEACHERS
 from bootcourse.statistics import ESCAPES
 
 HEAD, FOOT = 0.75, 0.55  # inches, above and below the rows of a figure
-WORDS = {"rule": "the rule", "random-50": "half random", "mirrored": "mirrored", "planner": "the planner"}
+WORDS = {"rule": "the rule", "random-50": "half random", "mirrored": "mirrored"}
 
 
 def students(groups: Mapping[str, Mapping[str, np.ndarray]], title: str, apart: int = 0) -> Figure:
@@ -141,7 +140,7 @@ def name_of(teacher: str) -> str:
 
 
 def own_returns(teachers: Iterable[str]) -> dict[str, float]:
-    """What each teacher earns itself on 200 of the study's held-out roads; the planner: its bound on all of them."""
+    """What each teacher earns itself on 200 of the study's held-out roads."""
     roads = held_out_seeds(HELD_OUT, 200)
-    drives = {name: drive_episodes(teacher_policy(TEACHERS[name].rule), roads) for name in teachers if name != PLANNER}
-    return {name: drive.returns.mean() for name, drive in drives.items()} | {PLANNER: shipped_bound().mean()}
+    drives = {name: drive_episodes(teacher_policy(TEACHERS[name].rule), roads) for name in teachers}
+    return {name: drive.returns.mean() for name, drive in drives.items()}
