@@ -1,5 +1,6 @@
 """What every test shares."""
 
+import os
 import signal
 import sys
 from dataclasses import dataclass
@@ -11,6 +12,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))  # so that `test
 
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # a shell ignores Ctrl-C for what it starts in the background
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_xdist_auto_num_workers(config) -> int:
+    """One more than there are cores: a quarter of the time a test waits, for a kernel, a browser or another process."""
+    return len(os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else range(os.cpu_count() or 1)) + 1
 
 
 @pytest.fixture(autouse=True)
