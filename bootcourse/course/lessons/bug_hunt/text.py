@@ -146,7 +146,7 @@ predict("bug_hunt.2", "Which bug pulls Q below −10 at accidents?", names)
 
 # %%
 def end_error(q, actions, rewards, terminated):
-    """Mean of Q(s, a) - r over rows with terminated 1; 0 if none. q: (batch, 9); others (batch,)."""
+    """Mean of Q(s, a) - r over rows with terminated 1, or 0. q: (batch, 9); others: (batch,)."""
     # solution: the exercise's own
 
 

@@ -526,7 +526,8 @@ earned = [each.reshape(len(each), -1, window).mean(2) for each in earned]
 middle = np.arange(earned[0].shape[1]) * window + window / 2
 drawn = {name: bc.statistics.iqm(each, 0) for name, each in zip(kinds, earned, strict=True)}
 stochastic = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0), 0.9)
-drawn["π̃"] = np.full(len(middle), bc.evaluate(stochastic, 200, seed=1).returns.value)
+its_return = bc.evaluate(stochastic, 200, seed=1).returns.value
+drawn["the stochastic rule"] = np.full(len(middle), its_return)
 looks = [charts.Style("#56B4E9", "--"), GREY, GREEN]
 title = "In training, too, most agents whose ξ fades rise far above those whose ξ stays"
 x_label, y_label = "training episode", "return (thin: agents; thick: mean of the middle half)"

@@ -10,12 +10,15 @@ from functools import cache, partial
 from typing import NamedTuple
 
 import numpy as np
+import torch
 
 from bootcourse.course.lessons.the_second_trap.second_trap import Repaid, concave_pay, left_of, shaped_pay
 from bootcourse.course.lessons.your_teacher.taught_agents import alike
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
+from bootcourse.learn import sac
 from bootcourse.learn.agent import Agent
+from bootcourse.learn.networks import mlp
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.teachers import course_rule
 from bootcourse.learn.training import MOST_EPISODES, Training
@@ -53,6 +56,9 @@ class Trained(NamedTuple):
     at: np.ndarray  # (points,) decisions
     returns: np.ndarray  # (points,) mean of the last 300 training episodes, as its road pays them
     escapes: np.ndarray  # (points,) share of these episodes
+    kl: np.ndarray  # (points,) nats, see `diagnostics`
+    clipped: np.ndarray  # (points,)
+    explained: np.ndarray  # (points,)
 
 
 def settings_of(kind: str, seed: int = 0) -> Settings:
@@ -67,10 +73,28 @@ def train(training: Training, decisions: int) -> Trained:
     def note(training: Training) -> None:
         if training.decisions // EVERY > len(notes):
             recent = (training.curves.recent(name, 300)[0] for name in ("return", "success"))
-            notes.append([training.decisions, *recent])
+            notes.append([training.decisions, *recent, *diagnostics(training)])
 
     result = training.run(progress=False, callback=note, stop=lambda: training.decisions >= decisions)
     return Trained(result.agents[0], *np.array(notes).T)
+
+
+@torch.no_grad()
+def diagnostics(training: Training) -> tuple[float, float, float]:
+    """(KL, clip fraction, explained variance) of the last round of updates of a training of one PPO agent.
+
+    KL: of the policy before the round from the one after it, in nats, by the estimate E[r - 1 - log r]. Clip fraction:
+    the share of decisions whose ratio r has left 1 ± ε. Explained variance: 1 - Var(R - V) / Var(R), R being what V
+    should be: 1 for a perfect V, 0 for one that is the same everywhere. All NaN before the first round.
+    """
+    columns, learner = training.replay.columns, training.learner
+    if columns is None:
+        return (np.nan,) * 3
+    log_pi = sac.log_policy(mlp(learner.actor, columns.states)).gather(-1, columns.actions[..., None])[..., 0]
+    ratio = (log_pi - columns.log_pi).exp()
+    outside = (ratio - 1).abs() > training.settings[0].clip
+    explained = 1 - columns.advantages.var() / columns.returns.var()  # the advantage is R - V
+    return float((ratio - 1 - ratio.log()).mean()), float(outside.float().mean()), float(explained)
 
 
 def tested(agent: Agent) -> dict[str, float]:
