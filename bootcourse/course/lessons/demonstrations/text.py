@@ -227,8 +227,8 @@ shown({f"clone, seed {i}": three for i, three in enumerate(measured["the rule's 
 # %% [markdown]
 # **See.** (Yours will differ.) The four clones have the same data, the same loss, and different
 # seeds. In our run their agreements differ by a few points and their accidents by tens of points:
-# the agreement does not say how well a clone drives. They err twice as often as the stochastic rule
-# and crash less: a clone's error is not like an action drawn at random.
+# at equal training the agreement does not say who drives well. They err twice as often as the
+# stochastic rule and crash less: a clone's error is not like an action drawn at random.
 #
 # 1,500 updates are few. The study's ten clones, trained far longer, agree with the rule in over
 # 90 % of the states, and have an accident in {{ 100 * accidents('bc') | .1f }} % of their drives.
@@ -397,9 +397,9 @@ print(f"ε in the rule's states: {error:.2f}; in the first 10 s {means[THEIRS][9
 #   which more errors follow. So do the study's clones, trained with many times as many updates: {{
 #   unlike_the_rule()[0] | .0f }} decisions of a drive against {{ unlike_the_rule()[1] | .0f }}.
 # <!-- claim: unlike_the_rule()[0] > 2 * unlike_the_rule()[1] -->
-# - *At first they follow the dotted line.* That is no test: in the first seconds they err more in
-#   the rule's states, too (the second number). Over the whole drive nearly every decision of the
-#   worst case is wrong, of ours without an accident about half.
+# - *At first they follow the dotted line.* For 10 s they err more in the rule's states, too (the
+#   second number); from then on only in their own. Over the whole drive nearly every decision of
+#   the worst case is wrong, of ours without an accident about half.
 #
 # So test a clone by driving.
 
@@ -453,7 +453,7 @@ bc.show(figures.clones(measured, title))
 # **coverage**: the stochastic rule's drives contain more states, and show how to return to the
 # path. The third kind keeps the coverage and takes the wrong labels out. (With the studies' many
 # updates the order turns round: ten clones of the rule's drives crash in {{ 100 * accidents('bc') |
-# .1f }} % of theirs, ten of the stochastic rule's in {{ 100 *
+# .1f }} % of theirs; ten of the stochastic rule's, with five times as many updates, in {{ 100 *
 # clones_of_the_stochastic_rule().scores('accident').mean() | .0f }} %.)
 
 # %% [markdown] tags=["instructor"] minutes=6

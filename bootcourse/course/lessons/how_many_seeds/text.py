@@ -99,7 +99,7 @@ bc.show(figures_seeds.who_escapes(study, methods))
 
 # %% [markdown]
 # Each of these agents succeeds on more than 90 % of the roads or on fewer than 10 %, so a method's
-# result is a number of agents. Eight of ten with the soft constraint escape: what does that say
+# success is a number of agents. Eight of ten with the soft constraint escape: what does that say
 # about agents that nobody has trained yet?
 # <!-- claim: escaped('soft') == 8 and [round(100 * each) for m in ('sac', 'soft', 'demos',
 #   'bootstrapped') for each in of(m).scores('success') if 0.1 < each < 0.95] == [92] -->
@@ -182,10 +182,10 @@ rows = [
 table(["agents that escape, the KL ...", *kinds], rows)
 
 # %% [markdown]
-# No difference is visible. Would ten agents against ten show one? *Fisher's exact test* compares
-# two such counts. Its **p value** is the probability of a split at least as improbable as the
-# observed one, if both groups escape equally often, given how many of all agents escaped. A p below
-# 0.05 counts as a difference.
+# These counts show none. Would ten agents against ten show one? *Fisher's exact test* compares two
+# such counts. Its **p value** is the probability of a split at least as improbable as the observed
+# one, if both groups escape equally often, given how many of all agents escaped. A p below 0.05
+# counts as a difference.
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
 # > such studies does Fisher's test find the difference? It tells 8 of ten from 2 of ten,
@@ -346,16 +346,16 @@ title = "The two methods with the soft constraint earn most"
 bc.show(figures.final_scores(study, methods, title=title))
 
 # %% [markdown]
-# **Explain.** The interval says how far our mean may lie from the mean of very many agents: with
-# both aids about {{ half_interval('bootstrapped') | .0f }} to either side. A *repetition* has an
-# error of its own, as large as ours. Two independent errors add up to $\sqrt2$ as much, so two
-# studies of ten agents differ, in 95 of 100 cases, by at most about {{ 2**0.5 *
+# **Explain.** The interval says, at best, how far our mean may lie from the mean of very many
+# agents: with both aids about {{ half_interval('bootstrapped') | .0f }} to either side. A
+# *repetition* has an error of its own, as large as ours. Two independent errors add up to $\sqrt2$
+# as much, so two studies of ten agents differ, in 95 of 100 cases, by at most about {{ 2**0.5 *
 # half_interval('bootstrapped') | .0f }}. The figure draws the same interval for the IQM, with the
 # paper's return as a diamond.
 #
-# Do not trust a short interval from few seeds: resampling draws from the agents that were trained,
-# and from no others. The first three agents with the soft constraint happen to agree, so their
-# interval is short, and the mean of ten lies far below it.
+# Do not trust a short interval from few seeds, ten included: resampling draws from the agents that
+# were trained, and from no others. The first three agents with the soft constraint happen to agree,
+# so their interval is short, and the mean of ten lies far below it.
 # <!-- claim: of('soft').scores('returns').mean() < interval(of('soft').scores('returns')[:3],
 #   np.mean).low -->
 

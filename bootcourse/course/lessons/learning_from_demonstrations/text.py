@@ -294,9 +294,9 @@ table(headings, rows, below=below)
 # %% [markdown]
 # **See.** (Yours will differ.) The bonus gives the demonstrated actions a much higher Q than the
 # control has, but the other actions' Q rises with it. Without a bonus the demonstrated action leads
-# by about 1 in our run, and another action misses one bonus of 2: about 3 together. But a lead over
-# the mean is no lead over the best rival: look at the last column. All this still moves after 4,000
-# updates, too early for a verdict. (`UPDATES = 10_000` takes half a minute.)
+# by about 1 in our run, with it by about 3. But a lead over the mean is no lead over the best
+# rival: look at the last column. And all this still moves after 4,000 updates: train on before you
+# judge it (`UPDATES = 20_000` takes a minute).
 #
 # **Does the raised value last?** In the critics of five shipped `demos` agents of the study, long
 # after β has reached 0, little or nothing of the bonus is left: the mean Q of the rule's actions on

@@ -26,6 +26,13 @@ def with_kl_in_actor_only() -> int:
     return escapers(shipped_experiment("ablations")["KL in the actor only"], "soft")
 
 
+def found_after(agents: Results) -> str:
+    """The episodes after which the agents have found the way out, "301 to 367": more than half of 50 in a row ahead."""
+    windows = np.lib.stride_tricks.sliding_window_view(agents.curves["success"], 50, axis=1).mean(-1) > 0.5
+    first = windows.argmax(1) + 50
+    return f"{first.min()} to {first.max()}"
+
+
 def entropy_of_the_rule() -> float:
     """The entropy of the stochastic rule, in nats: p for its action, the rest for the other eight."""
     return -RULE_P * math.log(RULE_P) - (1 - RULE_P) * math.log((1 - RULE_P) / 8)
