@@ -279,7 +279,7 @@ print(sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0
 # of an episode and 1 at its end.
 
 # %% [markdown]
-# Two tricks make the estimates steadier. V uses the smaller value of **two critics**, because the
+# Two tricks keep the estimates in check. V uses the smaller value of **two critics**, because the
 # actor prefers actions that a critic overestimates. And V is computed with **target networks**,
 # slow copies of the critics. They take over a small share τ ("tau") of the new weights at each
 # update, so that a step towards the target hardly moves the target.
@@ -409,9 +409,9 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # %% [markdown]
 # **Explain.** With η = −1 the thermostat turns in one direction only: the entropy of a policy over
 # a list of actions is 0 or more, so $\mathcal{H} - \eta$ is at least 1 in every state, and α falls
-# at each update. As α falls, the best policy softmax(Q / α) becomes sure of one action: the agent
-# explores less and less. The second η of the cell, 0.66, is three tenths of the largest entropy:
-# there α turns, as a thermostat should.
+# at each update. As α falls, the best policy softmax(Q / α) becomes sure of one action: entropy
+# pays less and less. The second η of the cell, 0.66, is three tenths of the largest entropy: there
+# α turns, as a thermostat should.
 #
 # Why then −1? The paper gives no reason. Perhaps it comes from a rule of thumb for *continuous*
 # actions, which gives −1 for an action that is a single number. There an entropy can be negative.

@@ -173,6 +173,11 @@ def best_in_lane() -> np.ndarray:
     return np.array([planned(50, 0.8, keep_lane=True, road=road) for road in range(4)])
 
 
+def six_actions() -> attempts.Outcome:
+    """Six actions of the planner's drive on road 1, blind, then the lane keeper; on the roads of the other kinds."""
+    return attempts.drive(attempts.ThenAccelerate([7, 8, 6, 6, 7, 5]), held_out_seeds(7, 500))
+
+
 def farther() -> np.ndarray:
     """Which agents of plain SAC with a larger γ than the paper's escape on the road as it is."""
     here = easy("as it is")

@@ -1,6 +1,7 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 import itertools
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -8,6 +9,7 @@ import numpy as np
 from bootcourse.course.lessons.the_trap import figures
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.policies import plan_policy
+from bootcourse.scenario import DEFAULT
 
 STRAIGHT_BETWEEN = (("keep left", 2), ("keep straight", 2), ("keep right", 2))
 RIGHT_FIRST = ("keep right", ("keep left", 4), ("keep right", 3))
@@ -17,6 +19,16 @@ RIGHT_FIRST = ("keep right", ("keep left", 4), ("keep right", 3))
 def unhurt(turns: tuple) -> np.ndarray:
     """On which of the lesson's 400 roads a plan gets out unhurt."""
     return figures.d2_and_unhurt([*turns, ("accelerate straight", 5)])[1]
+
+
+@cache
+def unhurt_at(rate: int) -> np.ndarray:
+    """On which of 200 held-out roads the first of these plans gets out unhurt, with so many steps a second."""
+    scenario = replace(DEFAULT, clock=replace(DEFAULT.clock, simulation_rate=rate))
+    drives = drive_episodes(
+        plan_policy([*STRAIGHT_BETWEEN, ("accelerate straight", 5)]), held_out_seeds(1, 200), scenario
+    )
+    return drives.success & (drives.accident == 0)
 
 
 def balanced() -> np.ndarray:

@@ -230,8 +230,8 @@ new = by_hand.balanced(agent, episodes=20)
 print(f"{solved}: {last:.0f} in training's last 20 episodes, {new:.0f} in 20 new ones")
 
 # %% [markdown]
-# **See.** (Yours will differ from another machine's.) The untrained agent lets the pole fall sooner
-# than a random driver does, since its most probable push is nearly always the same one. The tests
+# **See.** (Yours will differ from another machine's.) This untrained agent lets the pole fall
+# sooner than a random driver does: its most probable push is nearly always the same one. The tests
 # take the most probable pushes, too; the training draws them, and its episodes reach the mark
 # later. Does a test fall below the one before? A network that changes for one state changes for
 # others, too, so an update can make a policy worse. Train again with `SEED = 1`: one agent is one
@@ -327,7 +327,7 @@ bc.show(charts.lines(marks, named, title, x_label, words, "y", marks=limit, look
 # %% [markdown]
 # **See.** The estimates pass {{ 1 / (1 - 0.99) | .0f }} and go on: the critic **diverges**, and the
 # program runs without an error. (After 8,000 pushes each of three such agents of ours was above
-# 10,000.) (Those of Round 2, which learn in larger steps, diverge sooner.) Where does the surplus
+# 10,000.) (Those of Round 2, whose copies follow faster, diverge sooner.) Where does the surplus
 # come from? A state in which the pole has fallen is in the buffer as s' only, never as s. Its value
 # enters targets, but no row corrects it: the network makes it up. If that is the cause, rows that
 # start in a fallen state should help. Give each fallen state such rows, which lead back to it and

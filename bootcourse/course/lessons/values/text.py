@@ -289,11 +289,12 @@ title = "More exploration or a replayed demonstration gets learners out, a longe
 bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
 
 # %% [markdown]
-# **Explain.** In A none of the thirty leaves, although leaving is worth more than twice as much. In
-# state 0 staying has paid, so Q(0, 0) rises. In states 1 to 3 going *back* is then worth γ Q(0, 0),
-# and going on still 0, where Q began. So the greedy action leads back, and to get through takes
-# four random decisions in a row, each right with a probability of ε / 2: a **barrier**. A longer
-# view does not help (B): none of the thirty has been on the free road, so its value is not known.
+# **Explain.** In A none of the thirty leaves, although leaving is worth more than twice as much. Of
+# two equal actions ours takes 0. Once staying has paid, going *back* from states 1 to 3 is worth γ
+# Q(0, 0), and going on still 0, where Q began. So the greedy action leads back, and to get through
+# takes four random decisions in a row, each right with a probability of ε / 2: a **barrier**. A
+# longer view does not help (B): none of the thirty has been on the free road, so its value is not
+# known.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
@@ -333,8 +334,8 @@ compare_predictions(
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves
 #    its number by a part of it, and needs no map.
 # 4. A value comes back one state at a time, from states that were visited.
-# 5. Behind a barrier ε-greedy decisions hardly visit what is worth most. More chance helps, and so
-#    does a demonstration that is replayed.
+# 5. With a small ε, decisions hardly visit what a barrier hides. More chance helps, and so does a
+#    demonstration that is replayed.
 #
 # **Three questions to think about**
 # - If the chain's Q begins at 5 (*optimistic initial values*), {{ optimistic(0.1, 5) }} of thirty
