@@ -302,10 +302,9 @@ bc.show(figures.worth(outcomes, title))
 #
 # But these are five of many. Here is a sixth, as blind as the plan: six actions of the planner's
 # drive on one road, and then the lane keeper. On the same roads it ends ahead on {{ 100 *
-# six_actions().ahead.mean() | .0f }} %, crashes on {{ 100 * six_actions().accident.mean() | .1f }} %,
-# and is worth {{ six_actions().values(0.8).mean() | .2f }} at γ = 0.8, several times as much as
-# staying. So to look is not needed, and a way that pays exists for a learner. Why does it not find
-# one?
+# six_actions().ahead.mean() | .0f }} %, crashes on {{ 100 * six_actions().accident.mean() | .1f }}
+# %, and is worth {{ six_actions().values(0.8).mean() | .2f }} at γ = 0.8, several times as much as
+# staying. So a way that pays needs no look at the road. Why does a learner not find one?
 # <!-- claim: six_actions().values(0.8).mean() > 3 * tested('stays').values(0.8).mean() and
 #   six_actions().accident.mean() < 0.02 and six_actions().ahead.mean() > 0.99 -->
 
@@ -463,7 +462,7 @@ compare_predictions(
 # - Which of the four explanations would you test next, and by which run?
 # - You may choose in which state each drive begins. Where would you let an agent begin, so that it
 #   learns what a free road is worth?
-# - Which of the three explanations could ten times as much training refute?
+# - Which of them could ten times as much training refute?
 #
 # **Read on**: [the rule](the_rule.ipynb) that helps. Ecoffet et al., *First return, then explore*
 # (arXiv 2004.12919).
