@@ -253,7 +253,7 @@ bc.show(charts.many(probes, title, "updates", "log of the rarest action's probab
 # %% [markdown]
 # **Explain.** The stochastic rule gives one in eighty to each action that the rule does not take.
 # With the right KL dropping such an action costs little. The flipped KL grows without bound when
-# the probability of one of the nine goes to zero, so it keeps each a little likely: log π = −16 is
+# one of the nine probabilities goes to zero, so each falls more slowly (as ξ fades): log π = −16 is
 # 10⁻⁷. *Two* agents keep their rarest action likelier than the healthy one; Round 4 tells them
 # apart.
 # <!-- claim: math.isclose((1 - RULE_P) / (N_ACTIONS - 1), 1 / 80) -->
@@ -316,7 +316,7 @@ check.diagnose(diagnose)
 #   whose critic has left all bounds. The difference to one second later is small.
 # - **D**: the first probe of Round 2. Its Q falls below {{ DEFAULT.reward.accident }} at accidents.
 # - **E**: the promise, which rises past 10, together with the highest return. At accidents its Q
-#   lies above the grey lines: the bonus is paid there, too.
+#   lies above the grey lines, too.
 # - **F**: the promise, which leaves the axes.
 #
 # So `flipped_kl`, `shifted_labels`, `no_end` and `bonus_for_all` still succeed in training.

@@ -285,7 +285,7 @@ title = "Six decisions ahead are enough; three make it worse"
 bc.show(figures.by_horizon(study, "ppo_cloned", title))
 
 # %% [markdown]
-# **See.** A view that is too short does harm: with three decisions the agents have more accidents
+# **See.** A view that is too short can do harm: with three decisions the agents have more accidents
 # than alone. We think that the car accelerates until no action avoids the accident. With six, ten
 # and fifteen there is none, and the returns differ by less than one.
 # <!-- claim: per_thousand('ppo_cloned', horizon=3) > per_thousand('ppo_cloned', 'alone') -->
@@ -438,10 +438,10 @@ bc.show(figures.learned(learning, study, title))
 #
 # **Explain.** Alone these agents have {{ per_thousand('bootstrapped', 'alone') | .0f }}. With
 # rollouts in the first model, and with the control's, all ten crash in nearly all drives: more
-# drives of the agent alone do not help. Drives of the look-ahead do, and after four rounds the
-# curve still falls; we stopped there. The shield helps from the first round on, and more rounds do
-# not improve it. A model that was wrong in a known way, a few equations for the others, is far
-# better than these networks.
+# drives of the agent alone do not help. Drives of the look-ahead help the rollouts, and after four
+# rounds the curve still falls; we stopped there. The shield helps from the first round on, and more
+# rounds do not improve it. A model that was wrong in a known way, a few equations for the others,
+# is far better than these networks.
 # <!-- claim: learned('mean of five')[0] > 990 and learned_without('mean of five') > 990 and
 #   learned('mean of five')[-1] < 0.5 * learned_without('mean of five') and
 #   (np.diff(learned('mean of five')) < 0).all() -->
@@ -481,7 +481,7 @@ compare_predictions(
 # 3. It repairs what is one decision away, such as an accident. It finds a way that takes several
 #    new decisions if the base policy takes the rest of it, or if each of them already raises the
 #    imagined return.
-# 4. The horizon has to show the gain, and a short one with a flattering estimate does harm.
+# 4. The horizon has to show the gain; a short one with a flattering estimate can do harm.
 # 5. A wrong model costs. With PPO's agents the shield, which overrules few decisions, is safer than
 #    rollouts.
 # 6. A look-ahead finds the errors of a learned model. The model has to learn from its drives, too.

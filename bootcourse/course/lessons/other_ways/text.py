@@ -186,9 +186,9 @@ table(["", "takes the rule's action, %"], rows)
 # larger first share would mean that the agent has kept the rule's way out, and drives on by itself.
 #
 # **Explain.** A strong KL or bonus that stays keeps pulling the agent towards the teacher, also
-# where the teacher is wrong. This choice need not fade: as soon as the critic values another action
-# more, the rule's is not taken. In return the teacher must be present whenever the agent
-# drives, so a teacher that needs what the car cannot measure is of no use here.
+# where the teacher is wrong. This choice need not fade: as soon as the critic values π's action
+# more, the rule's is not taken. In return the teacher must be present whenever the agent drives, so
+# a teacher that needs what the car cannot measure is of no use here.
 # <!-- claim: METHODS['ibrl'].learner_class().needs_teacher -->
 
 # %% [markdown] tags=["instructor"] minutes=8

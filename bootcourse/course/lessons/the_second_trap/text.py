@@ -475,11 +475,10 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_kinds.ROADS).accident.any() and
 #   (ppo('cloned')['alike'] < 0.5).all() -->
 #
-# **Explain.** The rule was not a model of good driving: with our sight of 200 m it
-# earns about half of what the cloned agents earn (with 30 m it would earn more than they do, lesson
-# [[the_rule]]), and in most of their decisions they do something else. It put the
-# learner on the other side of the barrier. From there on the reward was enough: speed pays more on
-# a free road than behind trap 1.
+# **Explain.** The rule was not a model of good driving: with our sight of 200 m it earns about half
+# of what the cloned agents earn (with 30 m it would earn more than so far, lesson [[the_rule]]),
+# and in most of their decisions they do something else. It put the learner on the other side of the
+# barrier. From there on the reward was enough: speed pays more on a free road than behind trap 1.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask which of the course's figures would have looked the same for the second trap: those that

@@ -317,10 +317,10 @@ bc.show(figures.verdicts(shares, p, title))
 # **See.** If the teacher makes no difference, each order of the six agents is as likely as any
 # other, and one of {{ math.comb(6, 3) }} has the taught ones on top.
 #
-# The verdict depends on *what* you measure: the racer helps by success, and hurts by
-# return. `timid` helps by return, although its students stay behind the traps: they have no
-# accident, and those alone crash in {{ 100 * students('alone')['accident'].mean() | .0f }} % of
-# their drives.
+# The verdict depends on *what* you measure: the racer helps by success, and hurts by return.
+# `timid` helps by return, although its students stay behind the traps: they have no accident, and
+# earn more than {{ (students('alone')['returns'] < students('timid')['returns'].min()).sum() }} of
+# the ten alone.
 # <!-- claim: all(teacher_tests()[name, s] < 0.05 for name in ('the rule', 'the rule, 30 m',
 #   'careful', 'racer') for s in ('success', 'returns')) and teacher_tests()['timid', 'returns'] <
 #   0.05 < min(teacher_tests()['reckless', s] for s in ('success', 'returns')) and
@@ -339,7 +339,7 @@ bc.show(figures.verdicts(shares, p, title))
 #
 # - **A good one** demonstrates the way out and what to do afterwards.
 # - **A bad one that gets out** demonstrates what an agent alone rarely finds, the way past the
-#   traps. The racer's students crash later, as it does.
+#   traps. The racer's students crash later, and more often than it does.
 # - **A safe one that stays.** All ten students of `timid` do what it does in each second of the
 #   drives that we looked at, and have no accident.
 # <!-- claim: (students('timid')['alike'] == 1).all() -->
@@ -429,7 +429,7 @@ bc.show(figures.learners(worth, title))
 # The rule of two situations does not look to the side, and passes. So the default road does not
 # test whether a driver looks. On this one it matters: ten cars fill the left lane, in a queue of
 # about 180 m, at 10.5 to 11.5 m/s. They are faster than the traps, so they pass you. The last of
-# them begins 25 to 185 m behind you: if it is far away, you cannot wait until all ten have passed.
+# them begins 25 to 185 m behind you: if it is far away, waiting for all ten leaves little time.
 # <!-- claim: example_teachers.DENSE.traffic.cars == 10 and all(130 < np.ptp(x) < 235 and
 #   25 < -x.min() < 185 for x in dense_queues()) -->
 
