@@ -1,6 +1,5 @@
 """What every test shares."""
 
-import os
 import signal
 import sys
 from dataclasses import dataclass
@@ -14,9 +13,10 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # a shell ignores Ctrl-C 
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-def pytest_xdist_auto_num_workers(config) -> int:
-    """One more than there are cores: a quarter of the time a test waits, for a kernel, a browser or another process."""
-    return len(os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else range(os.cpu_count() or 1)) + 1
+@pytest.hookimpl(wrapper=True, optionalhook=True)
+def pytest_xdist_auto_num_workers(config):
+    """One more than pytest-xdist takes: a quarter of the time a test waits, for a kernel, a browser or a process."""
+    return (yield) + 1
 
 
 @pytest.fixture(autouse=True)

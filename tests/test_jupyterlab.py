@@ -134,6 +134,9 @@ def test_the_arrow_keys_drive_where_the_focus_is_and_leave_the_notebook_alone(wo
         keys.press(key)
     assert worlds.page.evaluate(place) == before and shown.bounding_box()["y"] == high, "nothing scrolls"
     shown.screenshot(path=str(ARTEFACTS / "world.png"))
+    keys.press("Escape")
+    keys.press("ArrowDown")
+    assert until(lambda: worlds.page.evaluate(place) == [before[0] + 1, before[1]]), "Escape gives the keys back"
     assert until(lambda: answer(worlds, "print(mine.drive.actions.tolist()[:3])") == "[7, 1, 0]")
 
 

@@ -42,7 +42,7 @@ SCENARIOS = {
 
 @pytest.fixture(scope="module")
 def module(web_page):
-    """The compiled road, out of the page: one compilation serves all tests."""
+    """The compiled road, out of the page."""
     data = re.search(r'<script type="application/json" id="data">(.*?)</script>', web_page.read_text(encoding="utf-8"))
     return gzip.decompress(base64.b64decode(json.loads(data[1])["module"]))
 

@@ -71,7 +71,7 @@ def serve(connection, notes, shut_in: Callable | None) -> None:
     if shut_in is not None:
         shut_in()
     torch.set_num_threads(1)
-    with contextlib.suppress(EOFError):  # nobody needs it any more
+    with contextlib.suppress(EOFError):  # the other end is closed: no check will come
         exercise = connection.recv_bytes()
         pickle.loads(exercise)  # imports what it needs
         connection.send_bytes(READY)

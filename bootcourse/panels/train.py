@@ -154,8 +154,7 @@ class TrainPanel(Panel):
     def _tell(self, training: Training, how: str) -> None:
         driven = int(training.curves.finished.clip(max=training.episodes).sum())
         total, seconds = training.n_agents * training.episodes, training.seconds
-        words = f"{how}: {driven:,} of {total:,} episodes in {seconds:.0f} s"
-        self.progress.value = progress(words, driven / total)
+        self.progress.value = progress(f"{how}: {driven:,} of {total:,} episodes in {seconds:.0f} s", driven / total)
 
     def _buttons(self, running: bool) -> None:
         self.train.disabled, self.stop.disabled = running, not running

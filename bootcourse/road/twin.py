@@ -160,11 +160,11 @@ def reward_terms(cars, c):
 
 
 @compiled
-def note(cars, trace):
-    """Write a state into a trace. Number by number: `trace[:] = cars` compiles for a third longer, for its errors."""
+def copy_state(cars, copy):
+    """Copy a state number by number: numba compiles `copy[:] = cars` much longer, for the words of its error."""
     for i in range(cars.shape[0]):
-        for column in range(COLUMNS):
-            trace[i, column] = cars[i, column]
+        for column in range(cars.shape[1]):
+            copy[i, column] = cars[i, column]
 
 
 @compiled_loop
@@ -187,7 +187,7 @@ def decide(cars, actions, asleep, c, rewards, terms, accidents, trace):
             if accident == NO_ACCIDENT:
                 accident = simulate(cars[road], order, around, directions, c)
             if trace.shape[0] > 0:
-                note(cars[road], trace[road, step])
+                copy_state(cars[road], trace[road, step])
         accidents[road] = accident
         r_v, r_y, r_theta = reward_terms(cars[road], c)
         terms[road, 0], terms[road, 1], terms[road, 2] = r_v, r_y, r_theta

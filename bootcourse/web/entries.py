@@ -31,9 +31,7 @@ def decide(cars, action, c, order, around, directions, outcome, trace):
     for step in range(c.steps):
         if accident == twin.NO_ACCIDENT:
             accident = twin.simulate(cars, order, around, directions, c)
-        for i in range(cars.shape[0]):
-            for column in range(cars.shape[1]):
-                trace[step, i, column] = cars[i, column]
+        twin.copy_state(cars, trace[step])
     r_v, r_y, r_theta = twin.reward_terms(cars, c)
     outcome[0], outcome[1], outcome[2], outcome[4] = r_v, r_y, r_theta, accident
     if accident == twin.NO_ACCIDENT:

@@ -130,9 +130,9 @@ def clocks() -> dict[tuple[str, str], Results]:
 escapers = Results.escapers  # (results, method): how many of a method's agents in these results escape
 
 
-def fisher(first: int, second: int) -> float:
-    """Fisher's p of two numbers of agents that escape, of ten each."""
-    return float(stats.fisher_exact([[won, 10 - won] for won in (first, second)]).pvalue)
+def fisher(first: int, second: int, of: int = 10) -> float:
+    """Fisher's p of two numbers of agents that escape: the first of ten, the second of as many or of `of`."""
+    return float(stats.fisher_exact([[first, 10 - first], [second, of - second]]).pvalue)
 
 
 def accidents(method: str) -> float:

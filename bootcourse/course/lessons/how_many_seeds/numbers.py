@@ -1,7 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 import numpy as np
-from scipy.stats import fisher_exact
 
 from bootcourse.statistics import ESCAPES, Estimate, interval, power, rate
 from tools.course.known import escaped, escapers, fisher, of, shipped_experiment
@@ -27,8 +26,3 @@ def half_interval(method: str) -> float:
     """Half the length of the 95 % interval of a method's mean return."""
     _, low, high = interval(of(method).scores("returns"), np.mean)
     return (high - low) / 2
-
-
-def fisher_one(won: int, one: int) -> float:
-    """Fisher's p for ten agents, of which `won` succeed, against one agent, which does (1) or does not (0)."""
-    return float(fisher_exact([[won, 10 - won], [one, 1 - one]]).pvalue)

@@ -157,8 +157,8 @@ table(["", "agents that escape (95 %)", drives, "if one agent drove them all"], 
 # **See.** Two rows look opposite: the soft constraint alone, and the demonstrations alone. Neither
 # row, taken by itself, has to contradict the paper. Twenty drives of one agent are *one* sample,
 # not twenty, of how often training succeeds. With one agent behind a row, no row shows a difference
-# (Fisher's test of Round 2 gives p = {{ fisher_one(0, 1) | .2f }} for 0 of ten against 1 of 1, and
-# {{ fisher_one(8, 0) | .2f }} for 8 of ten against 0 of 1).
+# (Fisher's test of Round 2 gives p = {{ fisher(0, 1, of=1) | .2f }} for 0 of ten against 1 of 1, and
+# {{ fisher(8, 0, of=1) | .2f }} for 8 of ten against 0 of 1).
 # <!-- claim: escaped('soft') == 8 and escaped('demos') == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=6

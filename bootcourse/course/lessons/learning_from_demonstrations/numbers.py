@@ -4,8 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse.statistics import ESCAPES
-from tools.course.known import rule_drives, shipped_experiment, shipped_runs
+from tools.course.known import escapers, rule_drives, shipped_experiment, shipped_runs
 
 
 @cache
@@ -35,4 +34,4 @@ def _way_out(method: str) -> tuple[list[np.ndarray], np.ndarray]:
 
 def others_with_the_bonus() -> int:
     """How many of ten other agents with demonstrations alone escape: other seeds, twice the episodes."""
-    return int((shipped_experiment("stress")["demos"].scores("success") >= ESCAPES).sum())
+    return escapers(shipped_experiment("stress")["demos"], "demos")

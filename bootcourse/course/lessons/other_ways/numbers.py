@@ -11,19 +11,13 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
 from bootcourse.learn.settings import settings_for
-from bootcourse.policies import random_policy, rule_policy
+from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.beyond import at_budget
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import (
-    ESCAPES,
-    Estimate,
-    found,  # noqa: F401
-    holm,
-    interval,
-)
+from bootcourse.statistics import ESCAPES, Estimate, holm, interval
 from tools.course.known import shipped_experiment, shipped_teachers
 
 FIRST, SECOND, LAST = BUDGETS
@@ -118,13 +112,6 @@ def ahead_next() -> float:
     """The share of the next 50 episodes that end ahead of trap 1."""
     following = (~untrained()).cumsum(axis=1)  # 1 in the episode of the first update
     return float(rlpd().curves["success"][(following > 0) & (following <= 50)].mean())
-
-
-@cache
-def random_duration() -> float:
-    """How long a driver that draws each action evenly drives, in seconds, on 200 held-out roads."""
-    policy = random_policy(np.random.default_rng(0))
-    return float(np.mean([len(drive.actions) for drive in record(policy, held_out_seeds(6, 200))]))
 
 
 def drives_before(method: str) -> int:

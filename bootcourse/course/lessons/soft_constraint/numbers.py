@@ -8,6 +8,7 @@ from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.panels.compromise import CHOSEN, Ways
 from bootcourse.research.results import Results
+from bootcourse.statistics import found_after
 from tools.course.known import RULE_P, escapers, of, shipped_experiment
 
 
@@ -26,11 +27,10 @@ def with_kl_in_actor_only() -> int:
     return escapers(shipped_experiment("ablations")["KL in the actor only"], "soft")
 
 
-def found_after(agents: Results) -> str:
-    """The episodes after which the agents have found the way out, "301 to 367": more than half of 50 in a row ahead."""
-    windows = np.lib.stride_tricks.sliding_window_view(agents.curves["success"], 50, axis=1).mean(-1) > 0.5
-    first = windows.argmax(1) + 50
-    return f"{first.min()} to {first.max()}"
+def found_between(agents: Results) -> str:
+    """The first and the last training episode after which one of the agents has found the way out: "301 to 367"."""
+    after = found_after(agents.curves["success"])
+    return f"{after.min()} to {after.max()}"
 
 
 def entropy_of_the_rule() -> float:

@@ -415,12 +415,12 @@ bc.show(charts.lines(strengths, worth, title, x_label, y_label, "x", marks=marks
 # <!-- claim: math.isclose(0.8 / (1 - 0.8), 4) -->
 #
 # Do agents need this to get out? No: with it {{ escaped('soft') }} of ten escape, and find the way
-# after {{ found_after(of('soft')) }} episodes; with the KL in the actor's loss alone {{
+# after {{ found_between(of('soft')) }} episodes; with the KL in the actor's loss alone {{
 # with_kl_in_actor_only() }} of ten escape, and find it sooner, after {{
-# found_after(shipped_experiment('ablations')['KL in the actor only'].of('soft')) }}. (The field
+# found_between(shipped_experiment('ablations')['KL in the actor only'].of('soft')) }}. (The field
 # calls the KL in the target a *value penalty*, and that in the actor's loss alone *policy
 # regularisation*.)
-# <!-- claim: with_kl_in_actor_only() >= escaped('soft') == 8 and found_after(of('soft')) == '301
+# <!-- claim: with_kl_in_actor_only() >= escaped('soft') == 8 and found_between(of('soft')) == '301
 #   to 367' -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -540,11 +540,11 @@ for each, look in zip(earned, looks, strict=False):
 bc.show(figure)
 
 # %% [markdown]
-# **Explain.** With ξ fixed, {{ (stays().scores('success') >= ESCAPES).sum() }} of ten escape, and
-# each stays near the rule's return. With a fading ξ there are two groups: {{ escaped('soft') }} of
-# ten escape and earn more than twice as much as the rule, and the other two get out on hardly any
-# road. With a sight of 30 m the rule would earn {{ rule_seeing(30.0).returns.mean() | .0f }}
-# (lesson [[the_rule]]). No run here tests a small, constant ξ.
+# **Explain.** With ξ fixed, {{ escapers(stays(), 'soft') }} of ten escape, and each stays near the
+# rule's return. With a fading ξ there are two groups: {{ escaped('soft') }} of ten escape and earn
+# more than twice as much as the rule, and the other two get out on hardly any road. With a sight of
+# 30 m the rule would earn {{ rule_seeing(30.0).returns.mean() | .0f }} (lesson [[the_rule]]). No
+# run here tests a small, constant ξ.
 #
 # α fades because the target entropy, η = −1, is out of reach. With η = 1, above the {{
 # entropy_of_the_rule() | .2f }} nats of π̃, α and ξ run away: a larger ξ holds the policy closer to

@@ -16,9 +16,9 @@ from tools.course.known import ROAD, idle, of, shipped_experiment, shipped_runs
 
 
 @cache
-def planned(beam: int, gamma: float, keep_lane: bool = False, road: int = ROAD) -> float:
-    """What the planner's best drive on a road is worth."""
-    return plan_episodes([road], search=Search(beam, gamma, keep_lane))[0].value
+def planned(beam: int, gamma: float, keep_lane: bool = False) -> float:
+    """What the planner's best drive on the lesson's road is worth."""
+    return plan_episodes([ROAD], search=Search(beam, gamma, keep_lane))[0].value
 
 
 @cache
@@ -56,13 +56,13 @@ FOUR = "4 random actions, then accelerates"
 UNSKILLED = ("random for 150 s", FOUR, "random lanes and speeds")
 THE_PLAN = "one plan, then accelerates"
 KINDS_OF_ATTEMPTS = (*UNSKILLED, THE_PLAN, "the rule's way")
+ROADS = held_out_seeds(7, 500)  # of the lesson's attempts
 
 
 @cache
 def all_tested() -> dict[str, attempts.Outcome]:
     """The lesson's kinds of attempts on its 500 roads, driven in the same order."""
-    roads = held_out_seeds(7, 500)
-    return {kind: attempts.drive(policy, roads) for kind, policy in attempts.kinds(len(roads)).items()}
+    return {kind: attempts.drive(policy, ROADS) for kind, policy in attempts.kinds(len(ROADS)).items()}
 
 
 def tested(kind: str) -> attempts.Outcome:
@@ -167,15 +167,9 @@ def worth_of(road: str, name: str, gamma: float) -> float:
     return float(easier_outcome(road, name).values(gamma).mean())
 
 
-@cache
-def best_in_lane() -> np.ndarray:
-    """What the best drives in the lane are worth at γ = 0.8 on the table's four roads."""
-    return np.array([planned(50, 0.8, keep_lane=True, road=road) for road in range(4)])
-
-
 def six_actions() -> attempts.Outcome:
     """Six actions of the planner's drive on road 1, blind, then the lane keeper; on the roads of the other kinds."""
-    return attempts.drive(attempts.ThenAccelerate([7, 8, 6, 6, 7, 5]), held_out_seeds(7, 500))
+    return attempts.drive(attempts.ThenAccelerate([7, 8, 6, 6, 7, 5]), ROADS)
 
 
 def farther() -> np.ndarray:

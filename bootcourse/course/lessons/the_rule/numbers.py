@@ -35,8 +35,8 @@ def median_distance(roads: int = 20) -> float:
 
 
 @cache
-def above_14(n: int, roads: int = 200) -> float:
+def above_14(n: int) -> float:
     """In which share of its seconds the rule with n speeds drives faster than 14 m/s, on the lesson's roads."""
     driver = rule_policy(dataclasses.replace(DEFAULT, rule=dataclasses.replace(DEFAULT.rule, n=n)))
-    speeds = [drive.states[:: DEFAULT.clock.steps, EGO, SPEED] for drive in record(driver, held_out_seeds(1, roads))]
+    speeds = [drive.states[:: DEFAULT.clock.steps, EGO, SPEED] for drive in record(driver, held_out_seeds(1, 200))]
     return float(np.mean(np.concatenate(speeds) > 14))
