@@ -177,8 +177,8 @@ def test_a_training_is_watched_in_its_cell_and_the_road_s_button_stops_it(open_n
         it.page.evaluate("() => { jupyterapp.commands.execute('notebook:run-all-cells'); }")
         road = it.page.locator(WORLD)
         clock = lambda: road.locator("#clock").inner_text()  # noqa: E731
-        assert until(lambda: clock() not in ("", "0 of 150 s"), 60), "the present agent drives"
-        assert until(lambda: "the agent now" in road.locator("#driver").inner_text())
+        assert until(lambda: clock() not in ("", "0 of 150 s, road 10"), 60), "the present agent drives"
+        assert until(lambda: "now, after" in road.locator("#driver").inner_text())
         it.page.locator(".jp-OutputArea svg circle").first.wait_for()
         it.page.locator(".jp-OutputArea-output").first.screenshot(path=str(ARTEFACTS / "watched.png"))
         it.page.get_by_role("button", name="Stop, and keep what was learned").click()

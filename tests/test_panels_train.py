@@ -59,7 +59,19 @@ def test_the_curves_grow_while_it_trains_and_stop_stops_within_a_second():
     panel.stop.click()
     panel.thread.join(10)
     assert time.monotonic() - started < 1.0
-    assert panel.result.interrupted and "Stopped: " in words(panel)
+    assert panel.result.interrupted and "Stopped: " in words(panel) and panel.watch.words.startswith("You stopped it")
+
+
+def test_only_numbers_that_the_method_uses_are_shown_and_taken():
+    panel = small("bootstrapped", xi_multiplier=70.0)
+    shown = lambda: {name for name, number in panel.numbers.items() if number.layout.display != "none"}  # noqa: E731
+    assert shown() == {"rule_p", "xi_multiplier", "bonus", "beta_start"} and panel.settings().xi_multiplier == 70
+    panel.method.value = "soft"
+    assert shown() == {"rule_p", "xi_multiplier"} and panel.settings().xi_multiplier == 70
+    panel.method.value = "sac"
+    assert shown() == set() and panel.settings().xi_multiplier == 0
+    panel.method.value = "bootstrapped"
+    assert shown() == {"rule_p", "xi_multiplier", "bonus", "beta_start"} and panel.settings().xi_multiplier == 70
 
 
 def test_a_slider_acts_on_the_running_training_and_is_marked_in_its_curves():

@@ -5,7 +5,7 @@ Without a kernel, or where no widgets are shown, a reader sees the question and 
 
 import ipywidgets as widgets
 
-from bootcourse.course.predictions import Question, commit, committed, predictions
+from bootcourse.course.predictions import Question, commit, committed, predictions, worded
 from bootcourse.course.verdict import marked
 from bootcourse.markup import Markup, html, joined
 from bootcourse.panels.page_script import in_page
@@ -84,7 +84,7 @@ class PredictionForm(Panel):
 
     def _lock(self, entry: dict) -> None:
         if not self.question.choices:
-            self.field.value = str(entry["answer"])
+            self.field.value = worded(entry["answer"])
         elif entry["answer"] in self.question.choices:  # the question may have changed since
             self.field.value = entry["answer"]
         self.field.disabled = self.button.disabled = True

@@ -24,7 +24,7 @@ class Number(widgets.VBox):
         self, symbol: str, value: float, low: float, high: float, step: float, help: str, unit: str = "",
         check: Callable[[float], object] = lambda value: None, logarithmic: bool = False,
     ):  # fmt: skip
-        self.check, self.symbol, self.purpose, self.sentence = check, symbol, help, help
+        self.check, self.symbol, self.sentence = check, symbol, help
         self._showing = False  # what `show` writes into the controls is not an entry
         self.low, self.high = low, high
         kind = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
@@ -66,12 +66,6 @@ class Number(widgets.VBox):
         self.slider.value = min(max(self.value, self.low), self.high)
         self.field.value = self.value
         self._showing = False
-
-    def lock(self, why: str = "") -> None:
-        """Switch it off and say why; without a reason, switch it on again."""
-        self.slider.disabled = self.field.disabled = bool(why)
-        self.sentence = why or self.purpose
-        self.show()
 
 
 def whole_number(name: str, low: int, high: int) -> Callable[[float], None]:

@@ -62,17 +62,17 @@ class TrainPanel(Panel):
         self.train = self.make_button("Train", "play", "Train for real, in the background", self._train, "primary")
         self.stop = self.make_button("Stop", "stop", "Stop, and keep what was learned", self._stopping.set)
         self.progress, self.stage = widgets.HTML(), widgets.VBox()
-        buttons = widgets.HBox([self.train, self.stop, self.progress])
+        buttons = widgets.HBox([self.method, self.train, self.stop, self.progress], layout={"flex_flow": "row wrap"})
         numbers = beside(*self.numbers.values(), self.seeds, self.episodes)
-        super().__init__("Train while you watch", self.method, numbers, buttons, self.stage)
+        super().__init__("Train while you watch", numbers, buttons, self.stage)
         self.method.observe(self._choose, "value")
-        self._lock_unused()
+        self._show_used()
         self.svg = training_chart([method], {}, 1000)
         self._buttons(running=False)
 
     def settings(self) -> Settings:
         """The settings that the controls show. Raises BootcourseError if they do not fit together."""
-        chosen = {name: number.value for name, number in self.numbers.items() if not number.field.disabled}
+        chosen = {name: number.value for name, number in self.numbers.items() if name not in self._unused()}
         return settings_for(self.method.value, **(self.others | chosen))
 
     def close(self) -> None:
@@ -84,16 +84,19 @@ class TrainPanel(Panel):
 
     def _choose(self, change=None) -> None:
         self.episodes.value = METHODS[self.method.value].episodes  # 1,000 are too few for one update of PPO
-        self._lock_unused()
+        self._show_used()
 
-    def _lock_unused(self) -> None:
-        """Switch off the numbers that the method does not use."""
+    def _unused(self) -> set[str]:
+        """The settings with a slider of which the method makes no use."""
         own = METHODS[self.method.value].settings
         without_kl, without_demonstrations = own.get("xi_multiplier") == 0, own.get("beta_start") == 0
         unused = {"rule_p", "xi_multiplier"} if without_kl else set()
         unused |= {"bonus", "beta_start"} if without_demonstrations else {"bonus"} if own.get("bonus") == 0 else set()
+        return unused
+
+    def _show_used(self) -> None:
         for name, number in self.numbers.items():
-            number.lock(f"Without use in {display_name(self.method.value)}." if name in unused else "")
+            number.layout.display = "none" if name in self._unused() else None
 
     def _slid(self, name: str, change) -> None:
         """A slider was moved while the agents train: they go on with its value, and the curves say when."""
@@ -129,7 +132,7 @@ class TrainPanel(Panel):
                 before.close()
             self._due = 0.0
             self.result = training.run(progress=False, callback=self._look, stop=self._stopped)
-            self.watch.ended(self.result)
+            self.watch.ended(self.result, by_hand=self.result.interrupted)
             self._tell(training, "Stopped" if self.result.interrupted else "Done")
             self.svg = self.watch.svg
             if self.result.stopped:
@@ -167,7 +170,7 @@ def check_of(setting: str) -> Callable[[float], Settings]:
 
 def progress(words: str, share: float) -> str:
     """A bar, filled to a share, and words beside it."""
-    bar = html('<progress max="1" value="{:.4f}" style="width:300px;vertical-align:middle"></progress>', share)
+    bar = html('<progress max="1" value="{:.4f}" style="width:180px;vertical-align:middle"></progress>', share)
     return html('<div class="bc-quiet" role="status">{}&ensp;{}</div>', bar, words)
 
 

@@ -25,7 +25,7 @@ SHOWN = ("success", "return", "entropy", "xi")  # of the measures
 LEFT, TOP, ACROSS, DOWN, WIDE, HIGH = 46, 58, 270, 176, 216, 110  # px, of the small charts
 SIZE = (2 * ACROSS + 10, 2 * DOWN + 40)
 SHARE, PAUSE = 0.03, 1.0  # of the training's time, at most; s between two looks, at least
-FIRST_ROAD = 1_000_000  # which no agent has trained on
+FIRST_ROAD = 10  # as in `world`; agents train on roads from 2**33 on
 Marks = list[tuple[int, str]]  # (episode, what was changed)
 
 
@@ -57,7 +57,7 @@ class Watch(World):
         """Called after each decision: now and then, send the curves and the present agent."""
         now = time.monotonic()
         if now >= self._due:
-            self.show_now(f"{training.updates:,} updates, {training.decisions:,} decisions")
+            self.show_now(f"{training.updates:,} updates, {training.decisions:,} decisions.")
             took = time.monotonic() - now
             self._due = now + max(PAUSE, took / SHARE)
             self.spent += took
@@ -73,7 +73,7 @@ class Watch(World):
         """The training is over: the last agent stays. by_hand: the reader interrupted it."""
         self.running = False
         how = "You stopped it" if by_hand or self.stopping else "Done"
-        self.show_now(f"{how} after {self.training.updates:,} updates")
+        self.show_now(f"{how} after {self.training.updates:,} updates.")
         if self.handle is not None:
             self.handle.update(self)  # so that the notebook's file holds the whole curves
 
@@ -137,9 +137,10 @@ def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episod
         limits = measure.limits or span(means.ravel(), measure.least)
         axes = SvgAxes(left, top, WIDE, HIGH, (0, max(episodes, 1)), limits)
         axes.frame(measure.label.split(",")[0], "episode")
-        for episode, changed in marks:
-            x, y = axes.at(episode, axes.y[1])
-            parts += [line(x, y, x, y + HIGH, QUIET, 1, 'stroke-dasharray="3 3"'), text(x + 3, y + 9, changed, size=9)]
+        for row, (episode, changed) in enumerate(marks):
+            (x, y), down = axes.at(episode, axes.y[1]), 9 + 11 * (row % 4)  # so that two close ones can be read
+            parts.append(line(x, y, x, y + HIGH, QUIET, 1, 'stroke-dasharray="3 3"'))
+            parts.append(text(x + 3, y + down, changed, size=9))
         for method in names if done else ():
             own = means[[each == method for each in methods]]
             end = draw_training(axes, at, own, style(method))
@@ -147,7 +148,7 @@ def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episod
                 axes.dot(at[np.isfinite(own).all(axis=0)][-1], end, style(method).colour)
                 ends.append(f"{display_name(method)} {measure.label} {end:.3g}")
                 if len(names) == 1:
-                    parts.append(text(left + WIDE, top - 8, f"{end:.3g}", "end", INK, 12, bold=True))
+                    parts.append(text(left + WIDE, top - 8, f"{end:.3g}".replace("-", "−"), "end", INK, 12, bold=True))
         parts += axes.parts
     ends = f" After {done} episodes: {', '.join(ends)}." if ends else f" {called}: no episode has ended yet."
     return drawing(*SIZE, parts, f"Training curves.{ends}")

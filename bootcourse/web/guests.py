@@ -16,6 +16,7 @@ from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 # Drivers of the page, as drivers.js calls them, and the labels of their drives.
 KNOWN = {"you": "you", "rule": "rule", "sac": "sac", "escaping": "bootstrapped", "crashing": "bootstrapped",
          "ppo": "ppo_cloned", "lookahead": "lookahead", "soft": "soft"}  # fmt: skip
+COLOURS = [STRANGERS[i].colour for i in (2, 1, 3)]  # of other guests, the one least like the rule's green first
 
 
 class Guest(NamedTuple):
@@ -58,7 +59,7 @@ def _by_name(name: str, number: int) -> Guest:
 
 def _told(label: str, number: int) -> dict:
     name = display_name(label)
-    colour = style(label).colour if has_style(label) else STRANGERS[1:][number % 3].colour
+    colour = style(label).colour if has_style(label) else COLOURS[number % len(COLOURS)]
     return {"id": f"guest{number}", "name": name, "label": name, "colour": colour, "words": ""}
 
 

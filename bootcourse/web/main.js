@@ -4,6 +4,7 @@
 
 const FIRST_ROAD = 10;
 const PATIENCE = 5; // decisions between two sentences for readers who do not see the road
+const LOOK = 1500; // ms for a look at how a drive ended
 const STEP_PACE = 2.5; // how much faster than real time a single step is shown
 const WIDE = 1080, NARROW = 640; // px
 const calm = matchMedia("(prefers-reduced-motion: reduce)");
@@ -260,7 +261,9 @@ class Game {
       this.seat.thought = { action: this.controls.take() };
     }
     for (const seat of [this.seat, ...this.ghosts]) seat.decide();
-    if (!this.mine) this.remark(remark(drive.cars, ahead() && !wasAhead, this.attempts));
+    const justOut = ahead() && !wasAhead;
+    if (!this.mine) this.remark(remark(drive.cars, justOut, this.attempts));
+    else if (this.options.watch && justOut) this.say(`Ahead of trap 1 after ${drive.time} s.`);
     this.before = this.futures;
     this.think();
     if (this.pace === 0 || drive.time % PATIENCE === 0) this.tell(`${drive.time} s. ${stateInWords(drive.cars)}`);
@@ -325,13 +328,15 @@ class Game {
       state: drive.at(Math.min(this.shown, drive.end)), gone: drive.over && this.shown >= drive.end, colour, name: label }));
     const colour = this.mine?.colour ?? this.view.colour("you");
     const futures = this.shown < this.drive.time ? this.before : this.futures; // those of the decision that is shown
-    (this.inDepth ? this.scene : this.view).draw({ cars, ghosts, coming: shown, colour, futures });
+    const wreck = this.drive.accident > 0 && this.shown >= this.drive.end, name = this.options.watch ? this.mine.label : "";
+    (this.inDepth ? this.scene : this.view).draw({ cars, ghosts, coming: shown, colour, futures, wreck, name });
     this.controls.mark(shown);
     const earned = this.drive.rewards.slice(0, Math.ceil(this.shown)), lastReward = earned.at(-1) ?? 0;
     this.find("speed").textContent = cars[SPEED].toFixed(1);
     this.find("return").textContent = points(earned.reduce((sum, reward) => sum + reward, 0));
     this.find("earning").textContent = (lastReward < 0 ? "" : "+") + lastReward.toFixed(2).replace("-", "−");
-    this.find("clock").textContent = `${Math.floor(this.shown)} of ${this.road.scenario.decisions} s`;
+    const where = this.options.watch ? `, road ${this.number}` : "";
+    this.find("clock").textContent = `${Math.floor(this.shown)} of ${this.road.scenario.decisions} s${where}`;
   }
 
   async finish() {
@@ -339,8 +344,10 @@ class Game {
     this.finished = true;
     this.run(false);
     this.event("ended", drive);
-    if (this.options.watch) return setTimeout(() => this.open({ road: this.number + 1, run: true }), 1500);
+    this.say(`${title(drive)}.`);
+    if (this.options.watch) return setTimeout(() => this.open({ road: this.number + 1, run: true }), LOOK);
     for (const ghost of ghosts) await ghost.finish();
+    if (drive.accident && !calm.matches) await new Promise(done => setTimeout(done, LOOK)); // before the card hides it
     if (seat !== this.seat || this.stop.signal.aborted) return; // another drive has begun meanwhile
     const idle = new Drive(this.road, this.number).finish({ decide: () => ({ action: IDLE }) });
     const drives = [...ghosts.map(ghost => ({ drive: ghost.drive, ...ghost.driver, width: 1.8 })), { drive, label, colour, width: 3 }];
@@ -366,7 +373,7 @@ class Game {
   // A remark stays for a few decisions, so that it can be read.
   remark(words) {
     if (words) this.remarkedAt = this.drive.time;
-    if (words || this.drive.time - this.remarkedAt > 3) this.say(words);
+    if (words || this.drive.time - this.remarkedAt > 6) this.say(words);
   }
 
   // A sentence for everybody, if there is one.

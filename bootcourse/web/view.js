@@ -27,7 +27,8 @@ class View {
     return [this.width / 2 + (y - middle) * this.scale, this.height * AHEAD - (x - this.x) * this.scale];
   }
 
-  draw({ cars, ghosts, coming, colour, futures }) {
+  // name: of the car at the wheel, to be written beside it. wreck: whether its drive ended here, in an accident.
+  draw({ cars, ghosts, coming, colour, futures, wreck, name }) {
     this.x = cars[X];
     this.ground();
     if (futures) this.trails(futures);
@@ -38,6 +39,9 @@ class View {
     this.signs = { above: 0, below: 0, beside: [] }; // of the ghosts: how many beyond the picture, and at which heights
     for (const ghost of ghosts) this.ghost(ghost);
     this.car(cars, colour, { label: "" });
+    const [px, py] = this.spot(cars[X], cars[Y]);
+    if (wreck) this.ring(px, py);
+    if (name) this.sign(name, this.spot(0, (this.scenario.lanes - 0.5) * this.scenario.laneWidth)[0] + 8, py + 4, colour, "left");
     if (coming !== null) this.coming(cars, coming, colour);
   }
 
@@ -156,11 +160,21 @@ class View {
     this.sign(words, this.width / 2, away > 0 ? 62 + row : this.height - below - row, colour);
   }
 
-  // Words in a frame, in the middle above (x, y) or to its left.
+  // Where an accident was.
+  ring(x, y) {
+    const { pen } = this;
+    pen.strokeStyle = this.colour("alarm");
+    pen.lineWidth = 4;
+    pen.beginPath();
+    pen.arc(x, y, 4 * this.scale, 0, 7);
+    pen.stroke();
+  }
+
+  // Words in a frame, in the middle above (x, y), to its left ("right": that is where they end) or to its right.
   sign(words, x, y, colour, align = "center") {
     const { pen } = this;
     pen.font = "12.5px system-ui, sans-serif";
-    const half = pen.measureText(words).width / 2 + 9, wanted = align === "center" ? x : x - half;
+    const half = pen.measureText(words).width / 2 + 9, wanted = { center: x, right: x - half, left: x + half }[align];
     const middle = Math.min(Math.max(wanted, half + 4), this.width - half - 4);
     pen.fillStyle = this.colour("card");
     pen.globalAlpha = 0.92;

@@ -60,7 +60,7 @@ class Watched {
     if (!wheel.network) return [{ ...wheel, id: "now" }]; // it decides in Python, and only as it is now
     const after = ({ updates }) => `after ${updates.toLocaleString("en")} updates`;
     const called = (agent, id, name) => ({ ...agent, id, name, label: name });
-    return [called(wheel, "now", this.wheel ? after(wheel) : "the agent now"), called(before, "before", after(before))];
+    return [called(wheel, "now", this.wheel ? after(wheel) : `now, ${after(wheel)}`), called(before, "before", after(before))];
   }
 
   // A click left of the curves' end puts the agent of that episode at the wheel, one right of it the present agent.

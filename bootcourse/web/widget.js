@@ -8,6 +8,8 @@ function notebookTheme() {
   return /vscode-light/.test(body.className) ? "light" : undefined;
 }
 
+const seen = new Set(); // trainings whose card has been brought onto the screen
+
 async function show({ model, el, signal }) {
   const host = document.createElement("div"), waiting = new Map(), own = Math.random().toString(36).slice(2);
   host.setAttribute("data-lm-suppress-shortcuts", "true"); // the notebook's shortcuts rest while the focus is in here
@@ -21,6 +23,10 @@ async function show({ model, el, signal }) {
     waiting.set(number, answer);
     model.send({ kind: "ask", number, driver, time: drive.time, cars: [...drive.cars] });
   });
+  if (watched && model.get("running") && !seen.has(watched.id)) { // what is worth a look may begin below the screen
+    seen.add(watched.id);
+    setTimeout(() => el.scrollIntoView({ block: "nearest" }), 500);
+  }
   const drivers = () => (watched ? watched.pair : model.get("drivers"));
   const guests = () => drivers().map(each => (each.network || each.plan ? each : { ...each, ask: ask(each.id) }));
   const game = await mount(host, DATA, { ...model.get("opens"), drivers: guests(), theme: notebookTheme() });
