@@ -40,7 +40,8 @@ drive: .venv/installed
 	@$(BIN)/python -m bootcourse.web.build --out build/trap.html
 	@$(if $(NO_BROWSER),,$(BIN)/python -m webbrowser "file://$(CURDIR)/build/trap.html" > /dev/null)
 
-# tests/check.txt and tests/all.txt hold what pytest is given: the long files first, and each stays in one process.
+# tests/check.txt and tests/all.txt hold what pytest is given: the long files first, and each stays in one process
+# (tests/conftest.py puts some together).
 # One thread each, or two workers with two torches fight over the cores.
 check: .venv/installed
 	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python -m pytest @tests/check.txt $(PYTEST)

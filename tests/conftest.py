@@ -19,6 +19,23 @@ def pytest_xdist_auto_num_workers(config):
     return (yield) + 1
 
 
+# These compute the numbers in the lessons' texts, about a minute for each process: one process does it for all.
+OF_THE_TEXTS = ("test_book", "test_classroom", "test_course", "test_teaching")
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Each file in one process, and those of the texts together."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class Scheduling(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = super()._split_scope(nodeid)
+            return "texts" if Path(file).stem in OF_THE_TEXTS else file
+
+    return Scheduling(config, log) if config.getvalue("dist") == "loadfile" else None
+
+
 @pytest.fixture(autouse=True)
 def nothing_stays_open():
     """Every replay, panel, world and card that a test showed is closed after it."""

@@ -179,6 +179,8 @@ SPOILT = {
     "a prediction is not answered": ("check.safety_distance(", 'predict("the_rule.1")\ncheck.safety_distance(',
                                      "No compare_predictions answers the_rule.1"),
     "a claim is false": ("You drive 12 m/s", "<!-- claim: 1 == 2 -->", "`1 == 2` is False"),
+    "a table is shown to nobody": ("check.safety_distance(", "table([], [])\ncheck.safety_distance(",
+                                   "loses what table("),
     "the rows have other minutes": ("**Time** 13", "**Time** 14", "the rows add up to 13 minutes"),
     "a text has changed": ("You drive 12 m/s", "You drive 13 m/s", "the_rule.ipynb is out of date"),
     "a solution has changed": ("closing_speed", "closing", "the source's solution is not the one"),

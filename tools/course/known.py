@@ -44,7 +44,7 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
 from bootcourse.storage.assets import FOLDER
 from tools.course import numbering
-from tools.course.source import read, sources
+from tools.course.source import lesson_of, read, sources
 
 shipped_results = cache(shipped.shipped_results)
 shipped_runs = cache(shipped.shipped_runs)
@@ -68,6 +68,17 @@ def minutes(*lessons: str) -> int:
 def talk(*lessons: str) -> int:
     """The minutes that the instructor's pages of these lessons have for talk."""
     return sum(cell.metadata.get("minutes", 0) for path in sources(lessons) for cell in read(path))
+
+
+def boards() -> str:
+    """A table of what stands on the board at the end of each lesson, and what is to discuss, as its text says."""
+    rows = ["| lesson | on the board | to discuss |", "|---|---|---|"]
+    for path in sources():
+        text = "\n\n".join(cell.text for cell in read(path) if cell.for_instructor)
+        said = re.findall(r"^\*\*(?:On the board|To discuss)\.\*\* (.+?)(?=\n\n|\Z)", text, re.M | re.S)
+        if said:
+            rows.append(f"| [[{lesson_of(path)}]] | {' | '.join(' '.join(each.split()) for each in said)} |")
+    return "\n".join(rows)
 
 
 def work(*names: str) -> int:

@@ -16,6 +16,8 @@ from tools.course.instructor import together
 from tools.course.products import is_out_of_date, student_file
 from tools.course.source import Cell, arguments_of, body, function_in, lesson_of
 
+SHOWN_AS_LAST = ("table", "predict", "compare_predictions", "progress", "source")  # they return what is shown
+
 
 def problems(path: Path) -> list[str]:
     """Everything that is wrong with a source and what was made from it; an empty list if nothing is."""
@@ -27,6 +29,7 @@ def problems(path: Path) -> list[str]:
         *of_exercises(cells, lesson_of(path)),
         *of_predictions(cells, lesson_of(path)),
         *of_references(cells),
+        *of_lost(cells),
         *of_minutes(cells),
     ]
     if wrong:
@@ -108,6 +111,14 @@ def of_predictions(cells: list[Cell], lesson: str) -> list[str]:
     problems += [f"There are two predictions {name}." for name in sorted(set(asked)) if asked.count(name) > 1]
     return problems + [f"No compare_predictions answers {name}." for name in asked
                        if not re.search(rf"\b{name.partition('.')[2]}: ", compared)]  # fmt: skip
+
+
+def of_lost(cells: list[Cell]) -> list[str]:
+    """A notebook shows a cell's last expression alone: a table or a form above it would be seen by nobody."""
+    lost = [(cell, line.value.func.id) for cell in cells if cell.is_code for line in ast.parse(cell.solved).body[:-1]
+            if isinstance(line, ast.Expr) and isinstance(line.value, ast.Call) and isinstance(line.value.func, ast.Name)
+            and line.value.func.id in SHOWN_AS_LAST]  # fmt: skip
+    return [f"{begins(cell.solved)} loses what {name}(...) returns: make it a cell's last line." for cell, name in lost]
 
 
 # References -----------------------------------------------------------------------------------------

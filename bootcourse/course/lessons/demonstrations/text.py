@@ -595,3 +595,9 @@ compare_predictions(
 # - *A demonstrator that crashes?* Keep the rows that lead to good states, drop the last seconds.
 #   How many seconds? Go back to a state from which a driver that you trust avoids the accident.
 #   That can be tested: start the rule in these states.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** Two trajectories that part after one wrong action, and the shaded region where
+# the teacher was.
+#
+# **To discuss.** Who pays for labels in the real world, and what does that do to DAgger?

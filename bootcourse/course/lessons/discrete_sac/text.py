@@ -463,3 +463,10 @@ compare_predictions(
 # contains that error, and the estimates drive each other up (overestimation; Fujimoto et al., arXiv
 # 1802.09477). The smaller one errs in the other direction, which feeds back less, since the actor
 # takes underestimated actions less often.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** Q(s, a) = r + γ V(s'), with V written out below it; a dashed line through each
+# place where no gradient passes.
+#
+# **To discuss.** The target is an estimate, too. Why does it help at all to learn an estimate from
+# an estimate?

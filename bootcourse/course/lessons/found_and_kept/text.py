@@ -536,3 +536,9 @@ compare_predictions(
 #   α and ξ rise again. Whether a larger η also helps keeping was tried with three agents a row.
 # - *The reviewer?* How many trainings found it and how many kept it, each of how many, beside the
 #   share of drives of those that kept it.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** Two curves that fall: ξ over updates, β over episodes, and the episode in which
+# half of the agents have found the way out.
+#
+# **To discuss.** An agent that found the way out and lost it: is it a success of the method?

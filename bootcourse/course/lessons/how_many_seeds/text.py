@@ -515,3 +515,9 @@ compare_predictions(
 #   out best partly by the luck of its few seeds. Ten or twenty more would do.
 # - *The sixth change?* After Holm the smallest of six p values has to be below 0.05 / 6. Write that
 #   six changes were tried, which one looked best, and that new seeds have to confirm it.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** Four rows of ten dots each, dark where the agent escapes; beside each row its
+# exact interval.
+#
+# **To discuss.** You have one figure and one sentence for the press. Which result do you leave out?

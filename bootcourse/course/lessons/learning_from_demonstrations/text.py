@@ -620,3 +620,10 @@ compare_predictions(
 # out, as in Round 3, against the updates, with a line where β reaches 0; beside it the discounted
 # return that these drives really earn. Where the two meet, it is unlearned.
 # <!-- claim: 0.5 / (1 - 0.95) <= -DEFAULT.reward.accident + 1e-9 -->
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** One batch of 64 as a row of boxes, the demonstrated ones shaded, and how many are
+# shaded after 0, 500 and 1,000 episodes.
+#
+# **To discuss.** The bonus pays for *who* acted, not for what happened. Where else do rewards do
+# that?

@@ -619,3 +619,9 @@ compare_predictions(
 # well, where the rule is slow. The critic counts each second's KL as a cost: a second at a higher
 # speed pays a few tenths more, and leaving the rule for it costs 8.8. So it expects little more on
 # the free road than what a drive by the rule earns there.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** Nine bars for π, nine for π̃; below them the two logarithms 0.105 and 4.38 for p
+# = 0.9.
+#
+# **To discuss.** Name a field in which you would never let ξ go to 0.

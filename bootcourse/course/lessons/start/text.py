@@ -132,3 +132,10 @@ learned = training.run(updates=2000)
 # %%
 out = [drive.success for drive in mine.attempts]
 compare_predictions("start", {1: out.index(True) + 1 if True in out else "what you counted"})
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** Three lanes from above: the driver in the right one, trap 1 ahead of it, trap 2
+# about a car's length ahead in the middle one.
+#
+# **To discuss.** You found a way out by hand. What did you know that a learner does not know at the
+# start?

@@ -167,6 +167,7 @@ def worth_of(road: str, name: str, gamma: float) -> float:
     return float(easier_outcome(road, name).values(gamma).mean())
 
 
+@cache
 def six_actions() -> attempts.Outcome:
     """Six actions of the planner's drive on road 1, blind, then the lane keeper; on the roads of the other kinds."""
     return attempts.drive(attempts.ThenAccelerate([7, 8, 6, 6, 7, 5]), ROADS)

@@ -480,3 +480,9 @@ compare_predictions(
 #   ten agents of plain SAC have an entropy of 0.01 nat or less, so they draw one action again and
 #   again, and more training shows them nothing new.
 # <!-- claim: decided() >= 4 -->
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** A hill: value against progress on the way out, with the dip that the learner has
+# to cross.
+#
+# **To discuss.** How would you recognise in your own project that a learner sits behind such a hill?

@@ -517,3 +517,10 @@ compare_predictions(
 # - **Traps that look sideways.** A trap that brakes for you in the next lane reopens the gap that
 #   you fall back to find. Then the rule should look at how the gap changes after its own move, not
 #   at the gap now, which takes a model of the traps.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** Gap against time while the driver falls back; a line at 3 m, where it may change
+# lane.
+#
+# **To discuss.** Is a rule that never crashes in 1,000 drives a good rule? What would you ask about
+# it?

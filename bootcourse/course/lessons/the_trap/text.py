@@ -485,8 +485,9 @@ table(["", "who gets out", "mean return", "drives that end in an accident"], row
 
 # %% [markdown]
 # **Slide.** Press *Train*: two agents learn with the rule's help, and the road shows how one drives
-# now. After a minute, drag ξ to its lower end, or β, the share of the rule's drives in what they
-# learn from, to 0. What changes in the curves?
+# now. As soon as the curves begin, drag ξ to its lower end and β, the share of the rule's drives in
+# what they learn from, to 0: the help is gone. Train again, and do so when half of the episodes are
+# a success. Until when do they need the help, and what becomes of the return?
 
 # %%
 bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)
@@ -655,3 +656,8 @@ compare_predictions(
 # - **Same observation, other action.** A neighbour that is about to change lane looks like one that
 #   stays. A fifth car may close the gap that you aim for. The seconds that are left are not among
 #   the numbers; the place x along the road hints at them, since it grows with time.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** r_v against v, with its bends at 5, 12.5 and 15 m/s; a dot at 10 m/s.
+#
+# **To discuss.** Who should choose the weights of a reward: the engineer, the passenger, or the law?

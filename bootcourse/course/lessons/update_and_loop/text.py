@@ -394,3 +394,9 @@ compare_predictions("update_and_loop", {1: course, 2: worst})
 # update fits what the present policy meets and forgets earlier states, falls among them. **More
 # updates:** the critics fit the rows sooner, so fewer pushes may do; but they fit the errors of few
 # rows, too, and the machine computes sixteen times as long.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** Four boxes: memory, critics, actor, temperature; an arrow for each quantity that
+# one takes from another.
+#
+# **To discuss.** Which of the four boxes could you leave out and still have a learner?

@@ -358,3 +358,9 @@ compare_predictions(
 #   state to the next.
 # - *The table.* A function with fewer numbers than states: a network. It answers for states that it
 #   has not seen, which is its use and its danger.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** Five boxes in a row, the two ends with what they pay; under each box what it is
+# worth, filled in from the right.
+#
+# **To discuss.** Where in your own work does a reward come long after the decision that earned it?
