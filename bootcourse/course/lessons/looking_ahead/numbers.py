@@ -71,6 +71,11 @@ def less_safe(base: str) -> np.ndarray:
     return ahead > alone
 
 
+def of_the_nine() -> np.ndarray:
+    """How often plain SAC's agents get out with rollouts, those that stay behind alone: shares, (9,)."""
+    return outs("sac")[outs("sac", "alone") < 0.01]
+
+
 def most_harmed(base: str) -> tuple[int, int]:
     """The accidents alone and with rollouts of the agent that gains most of them, on its 1,000 roads."""
     alone, ahead = _accidents(base)
@@ -87,6 +92,11 @@ def learning() -> Results:
 def learned(form: str) -> np.ndarray:
     """Accidents in 1,000 drives, the agents' mean after each round, (rounds,)."""
     return learned_model.per_thousand(learning(), form).mean(0)
+
+
+def still_worse() -> int:
+    """How many of the ten crash more often than alone, with rollouts in the model of the last round."""
+    return int((learned_model.per_thousand(learning(), "mean of five")[:, -1] > each("alone", "accidents")).sum())
 
 
 def learned_without(form: str) -> float:

@@ -86,8 +86,9 @@ for name, success, returns in (
 table(["", "ahead of trap 1 in the end, %", "return"], rows)
 
 # %% [markdown]
-# The agents end behind trap 1, as a car that keeps straight does. Yet they earn twice as much, and
-# about what the rule earns, which gets out.
+# The agents end behind trap 1, as a car that keeps straight does. Yet they earn {{
+# ppo('alone')['returns'].min() | .0f }} to {{ ppo('alone')['returns'].max() | .0f }}, twice as much
+# and about what the rule earns, which gets out.
 # <!-- claim: (ppo('alone')['success'] < 0.05).all() -->
 # <!-- claim: ppo('alone')['returns'].mean() > 1.8 * idle().rewards.sum() and
 #   abs(ppo('alone')['returns'].mean() / of('rule').scores('returns')[0] - 1) < 0.25 -->
@@ -119,8 +120,8 @@ bc.show(figures.convex(bc.formulas.speed_reward, title))
 # %% [markdown]
 # The reward is 0 up to 5 m/s, rises slowly up to 12.5 m/s and steeply from there to 15 m/s: it is
 # **convex** up to 15 m/s. The mean of a convex function is at least the function of the mean
-# (Jensen's inequality). So at a given mean, a speed that changes between 0 and 15 m/s earns at
-# least as much as a steady one.
+# (Jensen's inequality). So at a given mean, a speed that changes within 0 to 15 m/s earns at least
+# as much as a steady one.
 # <!-- claim: (lambda r: all(r[i - 1] + r[i + 1] >= 2 * r[i] - 1e-12 for i in range(1, len(r) -
 #   1)))([speed_reward(v) for v in np.linspace(0, 15, 601)]) and speed_reward(4.9) == 0 -->
 #
@@ -140,12 +141,12 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # **Explain.** The agent is slower on average than the car that keeps straight, and its speed pays
 # more than twice as much: that is Jensen's gap.
 #
-# **Is this reward hacking**, a reward whose best drive is not the one that was meant? No: counted
-# as the agent counts, with γ = {{ settings_for('ppo').gamma | g }} (the paper's is {{
-# SETTINGS.gamma }}), its drive is worth {{ discounted(ppo_drive(), settings_for('ppo').gamma) | .0f
-# }} at the start, and that of `careful`, a rule of lesson [[your_teacher]] that gets out, {{
-# discounted(careful_drive(), settings_for('ppo').gamma) | .0f }}. The agent would gain by leaving,
-# and has not found the way.
+# **Is this the reward's fault**, is its best drive another than was meant? No: counted as the agent
+# counts, with γ = {{ settings_for('ppo').gamma | g }} (the paper's is {{ SETTINGS.gamma }}), its
+# drive is worth {{ discounted(ppo_drive(), settings_for('ppo').gamma) | .0f }} at the start, and
+# that of `careful`, a rule of lesson [[your_teacher]] that gets out, {{ discounted(careful_drive(),
+# settings_for('ppo').gamma) | .0f }}. The agent would gain by leaving, and has not found the way.
+# (Many would call it *reward hacking* all the same: it is paid for what nobody wanted.)
 #
 # **Is it a trap?** None of the {{ ppo_agents() }} agents was ahead in any of its last 300 training
 # episodes. Their return still rises at the end: they climb a hill that has not led past trap 1. If
@@ -175,11 +176,11 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # for one decision that pays R, because ∇π = π ∇ log π. So a mean over *drawn* actions is enough,
 # with the factor ∇ log π. For a whole drive, the logarithm of its probability is a sum over its
 # decisions, so each decision has its own term ∇ log π(a_t|s_t). Its R is what *follows* the
-# decision: earlier rewards do not depend on it and add 0 on average, as a baseline does:
+# decision: earlier rewards do not depend on it, and add 0 on average.
 #
-# Here are three actions that pay 10, 11 and 12, and a policy that takes each with probability ⅓.
-# Subtracting a **baseline** from R, such as the mean 11, does not change the gradient's mean, since
-# E[∇ log π] = Σ ∇π = ∇ 1 = 0.
+# A **baseline** adds 0 on average, too: subtract a number from R, such as the mean, and the
+# gradient's mean stays, since E[∇ log π] = Σ ∇π = ∇ 1 = 0. Here are three actions that pay 10, 11
+# and 12, each taken with probability ⅓.
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -383,9 +384,9 @@ looks = (PPO, Style(QUIET))
 bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)", looks=looks))
 
 # %% [markdown]
-# **See.** The sprints are gone. None of the {{ ppo_agents() }} agents that ship escapes. On the
-# road's terms they earn {{ ppo('concave')['returns'].mean() | .0f }} on average, about what a car
-# earns that keeps straight. They are back in the first trap.
+# **See.** The sprints of this agent are gone. None of the {{ ppo_agents() }} agents that ship
+# escapes. On the road's terms they earn {{ ppo('concave')['returns'].mean() | .0f }} on average,
+# about what a car earns that keeps straight: they are back in the first trap.
 # <!-- claim: ppo_escapes('concave') == 0 and abs(ppo('concave')['returns'].mean() /
 #   idle().rewards.sum() - 1) < 0.15 -->
 # <!-- claim: ppo_speeds('concave')[20:].std() < 0.2 * ppo_speeds()[20:].std() -->
@@ -434,10 +435,12 @@ predict("the_second_trap.4", "How often does it do what the rule would?", choice
 # %% tags=["nbval-ignore-output"]
 predicted("the_second_trap.4")
 training = own_code.training([ppo_kinds.settings_of("cloned")], MOST)
+begins = bc.evaluate(training.agent(0).as_policy(), 100)  # the clone, before PPO
 cloned = ppo_kinds.train(training, 200_000)
 found = bc.evaluate(cloned.agent.as_policy(), 100)
-print(f"{training.decisions:,} decisions in {training.seconds:.0f} s. Yours is ahead on ", end="")
-print(f"{100 * found.success.value:.0f} %, return {found.returns.value:.1f}")
+print(f"{training.decisions:,} decisions in {training.seconds:.0f} s")
+for when, it in {"the clone": begins, "after PPO": found}.items():
+    print(f"{when}: ahead on {100 * it.success.value:.0f} %, return {it.returns.value:.1f}")
 
 # %% tags=["hide-input"]
 numbers = (by_rule.returns.mean(), 100 * np.mean(by_rule.accident > 0), 100)
@@ -466,7 +469,7 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # %% [markdown]
 # **See.** All {{ ppo_agents() }} cloned agents that ship escape, after {{
 # ppo_kinds.KINDS['cloned'].decisions | , }} decisions. They earn {{ ppo('cloned')['returns'].mean()
-# | .0f }} on average, about twice what the rule earns, and do what the rule would do in {{ 100 *
+# | .0f }} on average, about twice what this rule earns, and do what the rule would do in {{ 100 *
 # ppo('cloned')['alike'].mean() | .0f }} % of their decisions. They are not safe: {{ 100 *
 # ppo('cloned')['accident'].mean() | .1f }} % of their drives end in an accident, and none of the
 # rule's drives on the same roads does.
@@ -474,11 +477,17 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 #   of('rule').scores('returns')[0] and ppo('cloned')['accident'].mean() > 0 -->
 # <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_kinds.ROADS).accident.any() and
 #   (ppo('cloned')['alike'] < 0.5).all() -->
+# <!-- claim: clones()[0].min() > 0.3 and clones()[1].max() < 0.5 * ppo('cloned')['returns'].mean()
+#   and rule_seeing(30.0).returns.mean() > ppo('cloned')['returns'].mean() and not
+#   rule_seeing(30.0).accident.any() -->
 #
-# **Explain.** The rule was not a model of good driving: with our sight of 200 m it earns about half
-# of what the cloned agents earn (with 30 m it would earn more than so far, lesson [[the_rule]]),
-# and in most of their decisions they do something else. It put the learner on the other side of the
-# barrier. From there on the reward was enough: speed pays more on a free road than behind trap 1.
+# **Explain.** Before PPO the clone alone gets ahead on {{ 100 * clones()[0].min() | .0f }} to {{
+# 100 * clones()[0].max() | .0f }} % of the roads and earns {{ clones()[1].min() | .0f }} to {{
+# clones()[1].max() | .0f }} (three seeds): often it is on the other side of the barrier. From there
+# on the reward was enough: speed pays more on a free road than behind trap 1. With our sight of 200
+# m the rule earns half of what the cloned agents do; they are not the best drivers either: with 30
+# m it earns {{ rule_seeing(30.0).returns.mean() | .0f }}, without an accident (lesson
+# [[the_rule]]).
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask which of the course's figures would have looked the same for the second trap: those that
@@ -535,3 +544,10 @@ compare_predictions(
 #
 # **Try**: five times as many decisions, `ppo_kinds.train(training, 4_000_000)` with a new training.
 # Does an agent leave? Next: [looking ahead](looking_ahead.ipynb).
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** r_v against v with a chord from 5 to 15 m/s; below it the speed of an agent that
+# lives on the difference.
+#
+# **To discuss.** You read only a table of returns. Which number beside it would have shown that the
+# agent is in a trap?

@@ -42,6 +42,11 @@ def drowning_bonus(*arguments: float) -> float:
     return registry()["drowning_bonus"](*arguments)
 
 
+def pushes(method: str) -> float:
+    """The mean number of decisions in training on CartPole, with the systematic teacher: each earns 1."""
+    return float(cells().get("cartpole", "systematic", method).curves["return"].sum(axis=1).mean())
+
+
 def decisions_on_doorkey(teacher: str, method: str) -> float:
     """The median number of decisions in training, in thousands: a success pays 1 − 0.9 t / 100, t decisions."""
     curves = cells().get("doorkey", teacher, method).curves

@@ -189,10 +189,10 @@ bc.show(bc.top_view_over_time(mine_drive, times=[0, 3, 6, 9, 15, out], title=tit
 # %% [markdown]
 # **Explain.** Two situations are enough, without a look at any gap: on the free lane drive 12 m/s,
 # elsewhere 9 m/s and one lane further left. That rule gets out on each of the exam's {{
-# len(two_situations(9.0).success) }} roads, without an accident. It earns {{
-# two_situations(9.0).returns.mean() | .0f }}, and `careful` {{
-# teacher_exam('careful').returns.mean() | .0f }}. We think that it works because a car that is 1
-# m/s slower than trap 2 falls behind it before it is over the line.
+# len(two_situations(9.0).success) }} roads, without an accident; with one speed for both, from 8 to
+# 15 m/s, it gets out on none. It earns {{ two_situations(9.0).returns.mean() | .0f }}, and
+# `careful` {{ teacher_exam('careful').returns.mean() | .0f }}. We think that it works because a car
+# that is 1 m/s slower than trap 2 falls behind it before it is over the line.
 # <!-- claim: not any(one_situation(v).success.any() for v in range(8, 16)) and
 #   all((one_situation(v).accident > 0).all() for v in range(11, 16)) -->
 # <!-- claim: two_situations(9.0).success.all() and not two_situations(9.0).accident.any() -->
@@ -230,6 +230,10 @@ headings = ["student", "success, %", "with drawn actions, %", "accidents, %", "r
 table(headings, rows, "Three students of your rule, or of `careful`.")
 
 # %% [markdown]
+# (Yours will differ, and so do ours from the shipped ones below. Where drawn actions get ahead and
+# the most probable ones do not, a student has found the way out and its most probable actions miss
+# it: after so short a training that is luck. Do not judge a teacher by three students.)
+#
 # Now ten students of each teacher, and ten agents that learned alone, with the same number of
 # updates. They ship with the course. Each is tested on {{ len(taught_agents.ROADS) }} held-out
 # roads. One more row has ten students of the racer after {{ taught_agents.LONG | , }} updates: the
@@ -256,20 +260,17 @@ groups = taught_agents.reference()
 shown = dict(groups)
 shown[f"racer, {taught_agents.LONG:,} updates"] = taught_agents.longer()
 shown[f"yours, {SEEDS} here"] = learned
-title = (
-    "After 3,500 updates most students escape if their teacher gets out, none of timid's and "
-    "reckless's"
-)
+title = "After 3,500 updates students escape only where their teacher gets out"
 bc.show(figures.students(shown, title, apart=2))
 
 # %% [markdown]
-# **See.** After {{ taught_agents.UPDATES | , }} updates most students of a teacher that gets out
-# escape, and none of those of `timid` and `reckless`. Of the racer's students {{
-# student_escapes('racer') }} of ten escape. With *drawn* actions each of these ten succeeds on {{
+# **See.** After {{ taught_agents.UPDATES | , }} updates no student of `timid` or `reckless`
+# escapes; of the other teachers' students {{ student_escapes('careful') }} or ten of ten do, and of
+# the racer's {{ student_escapes('racer') }}. With *drawn* actions each of these ten succeeds on {{
 # 100 * students('racer')['drawn'].min() | .0f }} % or more: all have found the way out, but the
 # most probable actions of some miss it.
 # <!-- claim: min(student_escapes(n) for n in ('the rule', 'the rule, 30 m')) == 10 and
-#   student_escapes('careful') > 7 and student_escapes('alone') == 1 -->
+#   student_escapes('careful') == 9 and student_escapes('alone') == 1 -->
 # <!-- claim: student_escapes('timid') == student_escapes('reckless') == 0 < 5 ==
 #   student_escapes('racer') and students('racer')['drawn'].min() > 0.8 -->
 #
@@ -327,9 +328,9 @@ bc.show(figures.verdicts(shares, p, title))
 #   (students('timid')['accident'] == 0).all() -->
 #
 # It also depends on *when*. Ten students of the racer were trained for {{ taught_agents.LONG | , }}
-# updates. In training their mean success was once {{ 100 * long()['escapes'].mean(0).max() | .0f }}
-# %, and {{ (long()['success'] >= ESCAPES).sum() }} escape at the end: most *found* the way out and
-# did not *keep* it.
+# updates. At one point of the training {{ 100 * long()['escapes'].mean(0).max() | .0f }} % of their
+# drives succeeded, and at the end {{ (long()['success'] >= ESCAPES).sum() }} of ten escape: most
+# *found* the way out and did not *keep* it.
 # <!-- claim: long()['escapes'].mean(0).max() > 0.9 and (long()['success'] >= ESCAPES).sum() < 5 and
 #   long()['xi'].max() < 1e-3 and long()['beta'].max() == 0 and
 #   5 < taught_agents.LONG / taught_agents.UPDATES < 15 -->
@@ -339,7 +340,9 @@ bc.show(figures.verdicts(shares, p, title))
 #
 # - **A good one** demonstrates the way out and what to do afterwards.
 # - **A bad one that gets out** demonstrates what an agent alone rarely finds, the way past the
-#   traps. The racer's students crash later, and more often than it does.
+#   traps. The racer's students crash once they are out, in {{ 100 *
+#   students('racer')['accident'].mean() | .0f }} % of their drives; the racer itself in {{ 100 *
+#   np.mean(teacher_exam('racer').accident > 0) | .0f }} %.
 # - **A safe one that stays.** All ten students of `timid` do what it does in each second of the
 #   drives that we looked at, and have no accident.
 # <!-- claim: (students('timid')['alike'] == 1).all() -->
@@ -399,8 +402,10 @@ bc.show(figures.learners(worth, title))
 # **See.**
 # - **A teacher that rarely gets out can be enough.** From a teacher that gets ahead in {{ 100 *
 #   teachers_success('random-50') | .0f }} % of its drives all ten bootstrapped agents escape; of
-#   the twenty agents of DAgger and the soft constraint {{ sum(worth()['random-50',
-#   m].escapers(m) for m in ('dagger', 'soft')) }} escapes.
+#   the ten with the soft constraint alone {{ worth()['random-50', 'soft'].escapers('soft') }} does.
+#   From the rule itself {{ worth()['rule', 'bootstrapped'].escapers('bootstrapped') }} of ten
+#   escape; ten against that shows no difference (Fisher's p = {{ fisher(10, worth()['rule',
+#   'bootstrapped'].escapers('bootstrapped')) | .1f }}).
 # - **The mirrored teacher does not get out, and none of its thirty students does.**
 # - **DAgger's row of the half-random teacher says little.** Its drives often crash, so they are
 #   short: {{ labels('random-50')[0] }} to {{ labels('random-50')[1] }} labels to learn from, and
@@ -476,11 +481,10 @@ compare_predictions(
 # 1. A rule is a function of the true state. You decide on speed and lane, a tracker finds the
 #    actions.
 # 2. A teacher enters in three places: demonstrations, μ(s) and μ(s'). Swap it in each of them.
-# 3. A teacher's return alone does not decide what its students learn: ask where it leads, too.
-# 4. A teacher can help where it leads through states that the learner rarely reaches alone. Early
-#    help need not last: judge after the whole training. It depends on the learner, too: all ten
-#    bootstrapped students of the half-random teacher escape, and one of ten with the soft
-#    constraint alone.
+# 3. A teacher's return says little: the racer earns {{ teacher_exam('racer').returns.mean() | .0f
+#    }}, and half of its students get out.
+# 4. A good teacher leads to places that the learner rarely reaches alone, and can be left behind.
+#    Early help need not last: judge after the whole training.
 # <!-- claim: worth()['random-50', 'soft'].escapers('soft') == 1 and worth()['random-50',
 #   'bootstrapped'].escapers('bootstrapped') == len(worth()['random-50', 'bootstrapped']) -->
 # 5. If a teacher makes no difference, three seeds against three still separate completely, in the
@@ -506,4 +510,11 @@ compare_predictions(
 # **Read on**: teachers that are left behind on purpose: Uchendu et al., *Jump-Start Reinforcement
 # Learning* (arXiv 2204.02372). Imitation where it pays: Nair et al., *Overcoming Exploration in
 # Reinforcement Learning with Demonstrations* (arXiv 1709.10089). Counting seeds honestly: Colas
-# et al., *How Many Random Seeds?* (arXiv 1806.08295).
+# et al., *How Many Random Seeds?* (arXiv 1806.08295). Next: [the second trap](the_second_trap.ipynb).
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** Three arrows from the teacher into the learner: actions in the memory, labels for
+# the KL, drives at the start.
+#
+# **To discuss.** Would you rather have a teacher that is right in nine states of ten, or one that
+# knows when it is wrong?
