@@ -10,7 +10,7 @@ import nbformat
 import pytest
 
 from bootcourse.course import lessons
-from bootcourse.course.lessons import LESSONS, number, registry, stem
+from bootcourse.course.lessons import LESSONS, exercises_of, minutes_of, number, registry, stem
 from bootcourse.course.predictions import number_of
 from tools.course import numbering
 from tools.course import problems as problems_module
@@ -192,6 +192,19 @@ def test_it_is_found_when(copy, old, new, words):
     assert old in EXAMPLE
     copy.write_text(EXAMPLE.replace(old, new), encoding="utf-8")
     assert any(words in problem for problem in problems(copy)), problems(copy)
+
+
+def test_the_first_cells_of_the_course_load_neither_torch_nor_an_exercise_and_know_the_minutes_of_all():
+    code = (
+        "import sys, bootcourse as bc; from bootcourse.course import predict, progress, shipped; progress(); "
+        "predict('start.1', unit=''); bc.world(ghosts=[]); print(*sys.modules)"
+    )
+    loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
+    assert {"torch", "scipy.stats", "bootcourse.course.exercise"}.isdisjoint(
+        loaded
+    ) and "bootcourse.web.widget" in loaded
+    for lesson in LESSONS:
+        assert minutes_of(lesson) == {name: each.minutes for name, each in exercises_of(lesson).items()}
 
 
 def test_an_exercise_is_looked_up_in_its_own_lesson_and_no_other_is_loaded():

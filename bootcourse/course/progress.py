@@ -13,7 +13,7 @@ from bootcourse import one_per_cell
 from bootcourse.colours import GRID
 from bootcourse.course import predictions
 from bootcourse.course.classroom.answers import read_notebook
-from bootcourse.course.lessons import LESSONS, exercises_of, stem
+from bootcourse.course.lessons import LESSONS, minutes_of, stem
 from bootcourse.course.notebook import beside_the_notebook
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.files import COPY, read_json, write_json
@@ -71,7 +71,7 @@ class ProgressCard(widgets.HTML):
 
     def page(self, kept: bool = True) -> Markup:
         """The card's text; kept: False as somebody sees it who has done nothing yet."""
-        exercises = [each for lesson in self.lessons for each in exercises_of(lesson).values()]
+        minutes = {name: each for lesson in self.lessons for name, each in minutes_of(lesson).items()}  # of exercises
         try:
             done, known = (passed(), predictions.predictions()) if kept else ((), ())
             asked = {name for lesson in self.lessons for name in asked_in(lesson)}
@@ -79,12 +79,12 @@ class ProgressCard(widgets.HTML):
             return html('<div class="bc-progress" role="alert">{}</div>', str(error))
         committed = {name for name in known if name.partition(".")[0] in self.lessons}
         asked |= committed  # where there is no notebook
-        right = [each for each in exercises if each.name in done]
-        left = sum(each.minutes for each in exercises if each.name not in done)
+        right = minutes.keys() & set(done)
+        left = sum(each for name, each in minutes.items() if name not in done)
         where = "This lesson" if len(self.lessons) == 1 else "The course"
-        words = f"{where}: {len(committed)} of {len(asked)} predictions committed, {len(right)} of {len(exercises)} "
-        words += f"exercises right, {left} minutes of exercises to go." if exercises else "exercises."
-        share = (len(committed) + len(right)) / max(1, len(asked) + len(exercises))
+        words = f"{where}: {len(committed)} of {len(asked)} predictions committed, {len(right)} of {len(minutes)} "
+        words += f"exercises right, {left} minutes of exercises to go." if minutes else "exercises."
+        share = (len(committed) + len(right)) / max(1, len(asked) + len(minutes))
         return html(CARD, words, round(100 * share))
 
     def _repr_mimebundle_(self, **kwargs) -> dict:

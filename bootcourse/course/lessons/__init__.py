@@ -4,6 +4,7 @@ A lesson's number is its place in `LESSONS` and stands nowhere else: to move a l
 headings, exercises, predictions, links and tables follow (`make notebooks`, `make book`).
 """
 
+import ast
 import functools
 import importlib
 import re
@@ -102,6 +103,20 @@ def exercises_of(lesson: str) -> "dict[str, Exercise]":
         return {}
     values = vars(importlib.import_module(f"{__name__}.{lesson}.exercises")).values()
     return {value.name: replace(value, lesson=stem(lesson)) for value in values if isinstance(value, Exercise)}
+
+
+@functools.cache
+def minutes_of(lesson: str) -> dict[str, int]:
+    """The minutes of a lesson's exercises, {name: minutes}, as its files say: they are read, and not loaded."""
+    minutes = {}
+    for file in _file(lesson).parent.glob("*.py"):
+        text = file.read_text(encoding="utf-8")
+        for node in ast.parse(text).body if "course.exercise import" in text else ():
+            name = getattr(node, "name", None) or ast.unparse(getattr(node, "targets", [node])[0])
+            for call in ast.walk(node):
+                if isinstance(call, ast.Call) and ast.unparse(call.func) == "exercise":
+                    minutes[name] = next(each.value.value for each in call.keywords if each.arg == "minutes")
+    return minutes
 
 
 @functools.cache

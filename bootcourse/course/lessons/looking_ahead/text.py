@@ -77,15 +77,10 @@ drive = bc.record(agent, [roads[int(collided.argmax())]], label="bootstrapped")[
 bc.recording([drive], height=360)
 
 # %% [markdown]
-# This lesson trains nothing: the same agent looks ahead before it acts.
-
-# %% [markdown]
 # ## Round 1: nine futures
 #
 # The road is a fast program, and it can begin in any state. So at each decision you can copy the
 # road nine times, take a different action on each copy, and let the agent drive on from there.
-#
-# Here is its accident, and the six seconds before it.
 
 # %%
 end = drive.times[-1]
@@ -289,10 +284,9 @@ title = "Three decisions ahead bring more accidents; from six on there is none"
 bc.show(figures.by_horizon(study, "ppo_cloned", title))
 
 # %% [markdown]
-# **See.** A view that is too short can do harm: with three decisions the agents have more accidents
-# than alone. We think that the car accelerates until no action avoids the accident. With six, ten
-# and fifteen there is none, and the returns differ by less than one. (1,000 drives each; alone and
-# with ten 10,000. Bars: 95 %.)
+# **See.** With three decisions we think that the car accelerates until no action avoids the
+# accident. With six, ten and fifteen there is none, and the returns differ by less than one. (1,000
+# drives each; alone and with ten 10,000. Bars: 95 %.)
 # <!-- claim: per_thousand('ppo_cloned', horizon=3) > per_thousand('ppo_cloned', 'alone') -->
 # <!-- claim: not any(per_thousand('ppo_cloned', horizon=h) for h in (6, 10, 15)) and
 #   np.ptp([ahead('ppo_cloned', horizon=h).returns.value for h in (6, 10, 15)]) < 1 -->
@@ -306,8 +300,8 @@ bc.show(figures.by_horizon(study, "ppo_cloned", title))
 # ## Round 4: a model that is wrong
 #
 # So far the model was perfect: it contains the true state and the other drivers' own equations. A
-# car on a real road has neither. So change the *imagined* road, in the nine ways that are listed
-# below, and leave the real one as it is.
+# car on a real road has neither. So change the *imagined* road, in the nine ways listed below, and
+# leave the real one as it is.
 #
 # The look-ahead can also do less. The **shield** follows the base policy, and overrules it only
 # where the imagined drive of the policy's *own* action ends in an accident.
@@ -363,12 +357,9 @@ bc.show(figures.wrong_models(study))
 # %% [markdown]
 # **See.** With PPO's agents the shield is the safer form: it has fewer accidents than the rollouts
 # with all wrong models, and fewer than the agents alone with {{ better('ppo_cloned', 'shield') }}
-# of the {{ len(MODELS) - 1 }}; the rollouts with {{ better('ppo_cloned', 'rollouts') }}. (Everything
-# a second late is hardly a gain, 999 against 1,000.)
+# of the {{ len(MODELS) - 1 }}; the rollouts with {{ better('ppo_cloned', 'rollouts') }}.
 # <!-- claim: all(per_thousand('ppo_cloned', 'shield', model=m) < per_thousand('ppo_cloned',
 #   model=m) for m in MODELS if m != 'exact') -->
-# <!-- claim: (round(per_thousand('ppo_cloned', 'shield', model=LATE)), round(per_thousand(
-#   'ppo_cloned', model=LATE))) == (999, 1000) -->
 # <!-- claim: better('ppo_cloned', 'shield') > better('ppo_cloned', 'rollouts') -->
 #
 # **Explain.** The rollouts compare nine numbers at each decision. With the wrong models they take
@@ -485,9 +476,8 @@ compare_predictions(
 # 1. A rollout takes one action, follows a policy, and adds an estimate of what comes after the
 #    horizon.
 # 2. The best of nine rollouts improves a policy by one decision at each step, without training.
-# 3. It repairs what is one decision away, such as an accident. It finds a way that takes several
-#    new decisions if the base policy takes the rest of it, or if each of them already raises the
-#    imagined return.
+# 3. It repairs what is one decision away, such as an accident. It finds a longer way if the base
+#    policy takes the rest of it, or if each new decision raises the imagined return.
 # 4. The horizon has to show the gain; a short one with a flattering estimate can do harm.
 # 5. A wrong model costs. With PPO's agents the shield, which overrules few decisions, is safer than
 #    rollouts.
