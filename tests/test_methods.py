@@ -65,7 +65,7 @@ def test_a_method_of_one_s_own_trains_is_saved_evaluated_drawn_and_offered(toy, 
     assert display_name("sac, seed 3") == "plain SAC, seed 3"
     panel = train_panel(toy, 1, 5)
     assert panel.method.label == display_name(toy) == "toy method"
-    assert panel.numbers["xi_multiplier"].slider.disabled
+    assert panel.numbers["xi_multiplier"].layout.display == "none"
     panel.close()
 
 

@@ -274,6 +274,7 @@ def test_the_third_failure_brings_a_hint(visit):
             page.page.keyboard.press("ArrowRight")
             page.page.wait_for_function("() => trap.game.running")
             drive_to_the_end(page)
+            page.page.locator("#end").wait_for()  # after a look at the accident
             assert page.page.locator("#hint").is_visible() == (attempt == 2)
             page.page.get_by_role("button", name="The same road again").first.click()
 

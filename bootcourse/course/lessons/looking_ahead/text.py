@@ -504,3 +504,9 @@ compare_predictions(
 #
 # **Try**: `bootcourse evaluate runs/mine --lookahead 10` drives your own agents with rollouts.
 # Next: [other ways to use a teacher](other_ways.ipynb).
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** A tree: one road, nine first actions, and after each the same driver; one of
+# nine branches bold.
+#
+# **To discuss.** Who checks a shield whose model of the road is wrong?

@@ -513,3 +513,9 @@ compare_predictions(
 # 2302.02948); Hu, Mirchandani and Sadigh, *Imitation Bootstrapped Reinforcement Learning* (IBRL,
 # arXiv 2311.02198); Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
 # `bc.board()` shows the methods of the course on the same roads.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** A teacher in the middle, an arrow for each thing that a learner takes from it,
+# and on the arrow until when.
+#
+# **To discuss.** Your teacher can be asked a thousand questions. When do you ask them?

@@ -513,3 +513,9 @@ bc.board(result, block=BLOCK)
 # **Read on**: the report's page *When does a sub-optimal teacher help?*,
 # `assets/report/elsewhere.md`. Chevalier-Boisvert et al., *Minigrid & Miniworld* (arXiv
 # 2306.13831), where DoorKey is from.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** A table: problems as rows, methods as columns, a colour for the share of the gap
+# that is closed; one row left empty for the room's own problem.
+#
+# **To discuss.** Whose rule errs at random, and whose systematically?
