@@ -48,9 +48,9 @@ progress("the_second_trap")
 # %% [markdown]
 # ## Look first
 #
-# The road is a fast program (compiled by numba), and the learner of the paper makes little use of
-# that. Here is one that drives hundreds of roads at once: PPO, *proximal policy optimisation*. Ten
-# agents were trained with it, alone, without a rule or demonstrations. This is one of them.
+# The road is a fast program (compiled by numba), and the paper's learner makes little use of that.
+# PPO, *proximal policy optimisation*, drives hundreds of roads at once. Here is one of ten agents
+# that were trained with it, alone, without a rule or demonstrations.
 # <!-- claim: ppo_agents() == 10 -->
 
 # %%
@@ -67,7 +67,7 @@ bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
 # %% [markdown]
 # The agent brakes and falls back, up to {{ -ppo_gap().min() | .0f }} m behind trap 1. Then it
 # accelerates to {{ ppo_speeds().max() | .1f }} m/s, drives on until it is close, brakes to {{
-# ppo_speeds()[40:].min() | .1f }} m/s, and begins again. It is not the only one:
+# ppo_speeds()[40:].min() | .1f }} m/s, and begins again.
 # <!-- claim: ppo_gap().min() < -40 and ppo_speeds().max() > 13.5 and ppo_speeds()[40:].min() < 7
 #   and not ppo_drive().success -->
 
@@ -86,9 +86,9 @@ for name, success, returns in (
 table(["", "ahead of trap 1 in the end, %", "return"], rows)
 
 # %% [markdown]
-# The agents end behind trap 1, as a car that keeps straight does. Yet they earn {{
-# ppo('alone')['returns'].min() | .0f }} to {{ ppo('alone')['returns'].max() | .0f }}, twice as much
-# and about what the rule earns, which gets out.
+# The agents end behind trap 1. Yet they earn {{ ppo('alone')['returns'].min() | .0f }} to {{
+# ppo('alone')['returns'].max() | .0f }}, twice what keeping straight earns and about what the rule
+# earns, which gets out.
 # <!-- claim: (ppo('alone')['success'] < 0.05).all() -->
 # <!-- claim: ppo('alone')['returns'].mean() > 1.8 * idle().rewards.sum() and
 #   abs(ppo('alone')['returns'].mean() / of('rule').scores('returns')[0] - 1) < 0.25 -->
@@ -100,13 +100,13 @@ table(["", "ahead of trap 1 in the end, %", "return"], rows)
 # ## Round 1: what pays for it
 #
 # A driver that stays behind trap 1 to the end cannot be faster than trap 1 *on average*, apart from
-# the first few metres. Such a driver can choose how far its mean speed stays below that, and how
-# the speed is spread around the mean.
+# the first few metres. It can choose how far its mean speed stays below that, and how the speed is
+# spread.
 # <!-- claim: ppo_drive().states[-1, EGO, X] < ppo_drive().states[-1, TRAP_1, X] and
 #   ppo_speeds().mean() < DEFAULT.traps.speed + 20 / DEFAULT.clock.decisions -->
 #
-# > **Predict.** Somebody drives 5 m/s half of the time and 15 m/s the other half, 10 m/s on
-# > average. How much speed reward r_v does that earn, compared with a steady 10 m/s?
+# > **Predict.** Somebody drives 5 m/s half of the time and 15 m/s the other half. How much speed
+# > reward r_v does that earn, compared with a steady 10 m/s?
 
 # %%
 choices = ["about half", "the same", "about twice as much", "almost four times as much"]
@@ -118,10 +118,10 @@ title = "5 and 15 m/s in turn earn almost four times what a steady 10 m/s earns"
 bc.show(figures.convex(bc.formulas.speed_reward, title))
 
 # %% [markdown]
-# The reward is 0 up to 5 m/s, rises slowly up to 12.5 m/s and steeply from there to 15 m/s: it is
-# **convex** up to 15 m/s. The mean of a convex function is at least the function of the mean
-# (Jensen's inequality). So at a given mean, a speed that changes within 0 to 15 m/s earns at least
-# as much as a steady one.
+# The reward is **convex** up to 15 m/s: it is 0 up to 5 m/s, then rises slowly, and steeply from
+# 12.5 m/s on. The mean of a convex function is at least the function of the mean (Jensen's
+# inequality). So at a given mean, a speed that changes within 0 to 15 m/s earns at least as much as
+# a steady one.
 # <!-- claim: (lambda r: all(r[i - 1] + r[i + 1] >= 2 * r[i] - 1e-12 for i in range(1, len(r) -
 #   1)))([speed_reward(v) for v in np.linspace(0, 15, 601)]) and speed_reward(4.9) == 0 -->
 #
@@ -146,12 +146,12 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # drive is worth {{ discounted(ppo_drive(), settings_for('ppo').gamma) | .0f }} at the start, and
 # that of `careful`, a rule of lesson [[your_teacher]] that gets out, {{ discounted(careful_drive(),
 # settings_for('ppo').gamma) | .0f }}. The agent would gain by leaving, and has not found the way.
-# (Many would call it *reward hacking* all the same: it is paid for what nobody wanted.)
+# (Many would still call it *reward hacking*: it is paid for what nobody wanted.)
 #
 # **Is it a trap?** None of the {{ ppo_agents() }} agents was ahead in any of its last 300 training
-# episodes. Their return still rises at the end: they climb a hill that has not led past trap 1. If
-# it has a top behind trap 1, that is a **local optimum**, a way to drive that small changes do not
-# improve. We call this hill the second trap. (All this after {{ ppo_kinds.KINDS['alone'].decisions
+# episodes. Their return still rises at the end: they climb a hill. If it has a top behind trap 1,
+# that is a **local optimum**, a way to drive that small changes do not improve. We call this hill
+# the second trap. (All this after {{ ppo_kinds.KINDS['alone'].decisions
 # | , }} decisions.)
 # <!-- claim: (ppo('alone')['escapes'][:, -1] == 0).all() and (ppo('alone')['curve'][:, -1] >
 #   ppo('alone')['curve'][:, -2]).all() -->
@@ -173,10 +173,10 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 #
 # $$ \nabla_\theta\, \mathrm{E}[R] = \mathrm{E}\big[\nabla_\theta \log \pi(a)\; R\big] $$
 #
-# for one decision that pays R, because ∇π = π ∇ log π. So a mean over *drawn* actions is enough,
-# with the factor ∇ log π. For a whole drive, the logarithm of its probability is a sum over its
-# decisions, so each decision has its own term ∇ log π(a_t|s_t). Its R is what *follows* the
-# decision: earlier rewards do not depend on it, and add 0 on average.
+# for one decision that pays R, because ∇π = π ∇ log π. So a mean over *drawn* actions is enough.
+# For a whole drive, the logarithm of its probability is a sum over its decisions, so each decision
+# has its own term ∇ log π(a_t|s_t). Its R is what *follows* the decision: earlier rewards do not
+# depend on it, and add 0 on average.
 #
 # A **baseline** adds 0 on average, too: subtract a number from R, such as the mean, and the
 # gradient's mean stays, since E[∇ log π] = Σ ∇π = ∇ 1 = 0. Here are three actions that pay 10, 11
@@ -198,8 +198,8 @@ table(["", "baseline", *logits, "spread"], rows)
 # %% [markdown]
 # Both means agree with the exact gradient up to noise. The baseline makes the spread about twenty
 # times smaller, so the same precision needs about four hundred times fewer draws (noise falls with
-# the *square root* of their number). PPO is this, with two additions: a baseline V(s) that is
-# learned, and a loss that stops paying for larger changes of the policy. It drives its roads for {{
+# the *square root* of their number). PPO adds to this a baseline V(s) that is learned, and a loss
+# that stops paying for larger changes of the policy. It drives its roads for {{
 # settings_for('ppo').horizon }} seconds, learns from these decisions, and deletes them.
 #
 # **How good was a decision?** It was good if more came than V expected. The surprise of one second
@@ -211,13 +211,13 @@ table(["", "baseline", *logits, "spread"], rows)
 #
 # $$ A_t = \delta_t + \gamma\lambda\, \delta_{t+1} + (\gamma\lambda)^2 \delta_{t+2} + \dots $$
 #
-# With λ = 0 it trusts V after one second; with λ = 1 it trusts what happened. This is called GAE,
+# With λ = 0 it trusts V after one second; with λ = 1 it trusts what happened. This is GAE,
 # *generalised advantage estimation*.
 
 # %% [markdown]
 # **Two endings need care.** After an accident nothing follows: V is 0 there. If the time is over,
-# the last state still has its value. In both cases the next row belongs to another episode, and the
-# sum stops.
+# the last state still has its value. In both cases the sum stops: the next row belongs to another
+# episode.
 #
 # **Exercise (15 min, ●●●).** Write it, in torch. Can you do it in one loop, from the last row
 # to the first?
@@ -249,8 +249,8 @@ check.advantages(advantages)
 #
 # $$ L = -\,\mathrm{mean}\big[\min(\rho A,\ \mathrm{clip}(\rho, 1 - ε, 1 + ε)\, A)\big] $$
 #
-# > **Predict.** An action turned out badly, A = −2, but has become likelier, ρ = 1.5. It is outside
-# > the limits 0.8 and 1.2. Does this decision still change the policy?
+# > **Predict.** An action turned out badly, A = −2, but has become likelier, ρ = 1.5. Does this
+# > decision still change the policy?
 
 # %%
 choices = ["yes, it makes the action rarer", "yes, likelier", "no, it is clipped"]
@@ -277,9 +277,9 @@ title = "PPO stops paying once a ratio has moved by 0.2 in the direction that pa
 bc.show(figures.hinges(ppo.clipped_loss, 0.2, title))
 
 # %% [markdown]
-# **The whole loss.** V learns by squared error, which counts half. Its target (`returns` in the
-# code) is $\hat V_t = A_t + V(s_t)$, with the V that the decisions were made with: what came, as
-# far as it is known. And a little entropy H is paid for:
+# **The whole loss.** V learns by squared error. Its target (`returns` in the code) is
+# $\hat V_t = A_t + V(s_t)$, with the V that the decisions were made with. And a little entropy H is
+# paid for:
 #
 # $$ L + \tfrac12\, \mathrm{mean}\big[(V - \hat V)^2\big] - c_H\, \mathrm{mean}[H] $$
 #
@@ -304,8 +304,8 @@ check.ppo_loss(ppo_loss)
 
 # %% [markdown]
 # Train one agent with it, for 500,000 decisions; those that ship had {{
-# ppo_kinds.KINDS['alone'].decisions | , }}. **Yours will differ**, because the result depends on
-# your processor.
+# ppo_kinds.KINDS['alone'].decisions | , }}. **Yours will differ**: the result depends on your
+# processor.
 
 # %% tags=["nbval-ignore-output"]
 MOST = 100_000  # episodes; the number of decisions ends each training
@@ -337,7 +337,7 @@ bc.show(charts.lines(alone["at"][0] / 1000, named, title, *axes, looks=(PPO,)))
 # %% [markdown]
 # **See.** In its best 300 episodes each of the ten was ahead in {{ 100 *
 # ppo('alone')['escapes'].max(1).min() | .1f }} to {{ 100 * ppo('alone')['escapes'].max(1).max() |
-# .1f }} % (a crash after overtaking counts), in its last 300 in none.
+# .1f }} % (a crash after overtaking counts).
 # <!-- claim: (ppo('alone')['escapes'].max(1) > 0).all() and
 #   (ppo('alone')['escapes'][:, -1] == 0).all() -->
 # <!-- claim: (ppo('alone')['curve'][:, -1] > idle().rewards.sum()).all() -->
@@ -352,8 +352,8 @@ bc.show(charts.lines(alone["at"][0] / 1000, named, title, *axes, looks=(PPO,)))
 #
 # The reward pays for the second trap, so change it: from 5 to 15 m/s let the speed pay √((v − 5) /
 # 10) instead of r_v. That is **concave**, with the same ends, and a steady speed earns the most.
-# Leaving is still worth it, though by less. At the start of road {{ ROAD }} the whole drive is
-# worth, with γ = {{ settings_for('ppo').gamma | g }}:
+# Leaving is still worth it, though by less. From the start of road {{ ROAD }} a drive is worth,
+# with γ = {{ settings_for('ppo').gamma | g }}:
 #
 # | | `careful`, which gets out | keeping straight |
 # |---|---|---|
@@ -384,9 +384,9 @@ looks = (PPO, Style(QUIET))
 bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)", looks=looks))
 
 # %% [markdown]
-# **See.** The sprints of this agent are gone. None of the {{ ppo_agents() }} agents that ship
-# escapes. On the road's terms they earn {{ ppo('concave')['returns'].mean() | .0f }} on average,
-# about what a car earns that keeps straight: they are back in the first trap.
+# **See.** This agent's sprints are gone. None of the {{ ppo_agents() }} agents that ship escapes.
+# On the road's terms they earn {{ ppo('concave')['returns'].mean() | .0f }} on average, about what
+# keeping straight earns: they are back in the first trap.
 # <!-- claim: ppo_escapes('concave') == 0 and abs(ppo('concave')['returns'].mean() /
 #   idle().rewards.sum() - 1) < 0.15 -->
 # <!-- claim: ppo_speeds('concave')[20:].std() < 0.2 * ppo_speeds()[20:].std() -->
@@ -399,12 +399,12 @@ bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)", looks=lo
 #
 # A *potential* Φ(s) says how promising a state looks, and the *shaping reward* F = γ Φ(s') − Φ(s)
 # pays for its change. Added up over a drive, discounted, the terms in between cancel. If Φ is 0 at
-# the end, what is left is −Φ of the first state, whatever the agent does. So each state's value
-# falls by its Φ, and the best policy stays the best (Ng, Harada and Russell 1999). With {{
+# the end, −Φ of the first state is left, whatever the agent does. So each state's value falls by
+# its Φ, and the best policy stays the best (Ng, Harada and Russell 1999). With {{
 # second_trap.PER_LANE | g }} for each lane that the car has come to the left, {{
-# ppo_escapes('shaped') }} of {{ ppo_agents() }} agents escape: as soon as V is lower by Φ, F cancels
-# in each δ, and shaping acts like another initial V (Wiewiora 2003). Another potential may do
-# better.
+# ppo_escapes('shaped') }} of {{ ppo_agents() }} agents escape: as soon as V is lower by Φ, F
+# cancels in each δ, and shaping acts like another initial V (Wiewiora 2003). Another potential may
+# do better.
 #
 # </details>
 # <!-- claim: ppo_escapes('shaped') == 0 and ppo_kinds.KINDS['shaped'].decisions ==
@@ -418,15 +418,15 @@ bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)", looks=lo
 # %% [markdown]
 # ## Round 4: a short cloning
 #
-# Now the rule. It drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads, one action
-# in ten at random, and the actor learns to predict its actions in {{
+# The rule drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads, one action in ten
+# at random, and the actor learns to predict its actions in {{
 # settings_for('ppo_cloned').cloning_updates }} updates. Then PPO begins, with the road's own
 # reward, and the rule is not asked again: no KL, no demonstrations in a batch.
 # <!-- claim: settings_for('ppo_cloned').xi_multiplier == 0 ==
 #   settings_for('ppo_cloned').beta_start -->
 #
 # > **Predict.** After training, in how many of its decisions does such an agent do what the rule
-# > would do in its place?
+# > would do?
 
 # %%
 choices = ["in less than half", "in about three quarters", "in nearly all"]
@@ -469,10 +469,10 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # %% [markdown]
 # **See.** All {{ ppo_agents() }} cloned agents that ship escape, after {{
 # ppo_kinds.KINDS['cloned'].decisions | , }} decisions. They earn {{ ppo('cloned')['returns'].mean()
-# | .0f }} on average, about twice what this rule earns, and do what the rule would do in {{ 100 *
+# | .0f }} on average, about twice what this rule earns, and do as the rule would in {{ 100 *
 # ppo('cloned')['alike'].mean() | .0f }} % of their decisions. They are not safe: {{ 100 *
 # ppo('cloned')['accident'].mean() | .1f }} % of their drives end in an accident, and none of the
-# rule's drives on the same roads does.
+# rule's.
 # <!-- claim: ppo_escapes('cloned') == ppo_agents() and ppo('cloned')['returns'].mean() > 1.8 *
 #   of('rule').scores('returns')[0] and ppo('cloned')['accident'].mean() > 0 -->
 # <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_kinds.ROADS).accident.any() and
@@ -481,13 +481,12 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 #   and rule_seeing(30.0).returns.mean() > ppo('cloned')['returns'].mean() and not
 #   rule_seeing(30.0).accident.any() -->
 #
-# **Explain.** Before PPO the clone alone gets ahead on {{ 100 * clones()[0].min() | .0f }} to {{
-# 100 * clones()[0].max() | .0f }} % of the roads and earns {{ clones()[1].min() | .0f }} to {{
+# **Explain.** Before PPO the clone gets ahead on {{ 100 * clones()[0].min() | .0f }} to {{ 100 *
+# clones()[0].max() | .0f }} % of the roads and earns {{ clones()[1].min() | .0f }} to {{
 # clones()[1].max() | .0f }} (three seeds): often it is on the other side of the barrier. From there
-# on the reward was enough: speed pays more on a free road than behind trap 1. With our sight of 200
-# m the rule earns half of what the cloned agents do; they are not the best drivers either: with 30
-# m it earns {{ rule_seeing(30.0).returns.mean() | .0f }}, without an accident (lesson
-# [[the_rule]]).
+# on the reward was enough: speed pays more on a free road than behind trap 1. The cloned agents are
+# not the best drivers either: with a sight of 30 m instead of 200 m the rule earns {{
+# rule_seeing(30.0).returns.mean() | .0f }}, without an accident (lesson [[the_rule]]).
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask which of the course's figures would have looked the same for the second trap: those that
@@ -509,21 +508,17 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. A return is one number. Agents with the rule's return can be in a trap: look at success, and at
-#    a drive.
+# 1. Agents with the rule's return can be in a trap: look at success, and at a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one. Jensen's gap says
 #    how much.
 # 3. A policy gradient makes likelier what went better than V expected. GAE adds up these surprises,
-#    and PPO's loss stops paying once an action's probability has moved by ε in the direction that
-#    pays.
+#    and PPO's loss stops paying once a ratio has moved by ε in the direction that pays.
 # 4. A changed reward may change what is best, a shaping reward does not. Neither says how it is
 #    found.
-# 5. A short cloning was enough for a fast learner: the rule opened the way, and was not asked
-#    again.
+# 5. A short cloning was enough for a fast learner: the rule opened the way.
 #
 # **Three questions to think about**
-# - The share of drives that end ahead shows the second trap. Which number would have shown it to
-#   somebody who does not know the goal?
+# - Which number would have shown the second trap to somebody who does not know the goal?
 # - With the concave reward the agents stay in the first trap. Is that better than the second?
 # - Could cloning a *bad* driver have worked as well? Which of the teachers of lesson
 #   [[your_teacher]]?

@@ -44,12 +44,11 @@ progress("your_teacher")
 # %% [markdown]
 # ## Look first
 #
-# In the lessons so far, the teacher was the rule of lesson [[the_rule]]. Here are five others. The
-# first is the rule itself, but it sees {{ taught_agents.NEAR | g }} m instead of {{
-# DEFAULT.sight.distance | g }} m, so it does not slow down for a car far ahead.
-# `careful` is a good driver. `timid` keeps straight behind trap 1 to the end. `reckless`
-# accelerates in each second, even towards a car. `racer` gets out as `careful` does, then aims for
-# 20 m/s and ignores the other cars. Watch the last two.
+# So far the teacher was the rule of lesson [[the_rule]]. Here are five others. The first is that
+# rule, but it sees {{ taught_agents.NEAR | g }} m instead of {{ DEFAULT.sight.distance | g }} m, so
+# it does not slow down for a car far ahead. `careful` is a good driver. `timid` keeps straight
+# behind trap 1 to the end. `reckless` accelerates in each second, even towards a car. `racer` gets
+# out as `careful` does, then aims for 20 m/s and ignores the other cars.
 #
 # **The question**: what has to be good about a teacher, so that its students are good?
 
@@ -126,16 +125,16 @@ for lane in (2, 1, 0):
 # %% [markdown]
 # ## Round 2: a rule of your own
 #
-# Nine coarse actions are hard to drive with (lesson [[the_trap]]). You do not have to use them
-# directly: decide on a **speed** and a **lane**, and `toward(cars, speed, lane, scenario)` finds
-# the action that brings the car there. Two of the teachers are rules in one line:
+# Nine coarse actions are hard to drive with (lesson [[the_trap]]). So decide on a **speed** and a
+# **lane**, and `toward(cars, speed, lane, scenario)` finds the action that brings the car there.
+# Two of the teachers are rules in one line:
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.course.lessons.your_teacher.example_teachers", "timid", "racer")
 
 # %% [markdown]
-# > **Predict.** `careful`, whose code you have not seen, tells three situations apart: no room on
-# > the left, room, free lane. With how few does a rule of ours get out unhurt on each of 100 roads?
+# > **Predict.** `careful` tells three situations apart: no room on the left, room, free lane. With
+# > how few does a rule of ours get out unhurt on each of 100 roads?
 
 # %%
 predict("your_teacher.1", "How many situations are enough?", ["one", "two", "three", "four"])
@@ -209,10 +208,9 @@ bc.show(bc.top_view_over_time(mine_drive, times=[0, 3, 6, 9, 15, out], title=tit
 # %% [markdown]
 # ## Round 3: students
 #
-# A teacher enters the learner in three places, and has to be swapped in each of them: it **drives**
-# the demonstrations, it **labels** the states that the agent reaches itself (μ(s), for the KL), and
-# it labels the states that come next (μ(s'), for the KL in the critic's target). `Training(...,
-# teacher=my_rule)` does all three.
+# A teacher enters the learner in three places: it **drives** the demonstrations, it **labels** the
+# states that the agent reaches itself (μ(s), for the KL), and it labels the states that come next
+# (μ(s'), for the KL in the critic's target). `Training(..., teacher=my_rule)` swaps all three.
 #
 # First *your* teacher: three agents learn from it with the paper's method, for {{
 # taught_agents.UPDATES | , }} updates. **Yours will differ**, because the result depends on your
@@ -230,18 +228,18 @@ headings = ["student", "success, %", "with drawn actions, %", "accidents, %", "r
 table(headings, rows, "Three students of your rule, or of `careful`.")
 
 # %% [markdown]
-# (Yours will differ, and so do ours from the shipped ones below. Where drawn actions get ahead and
-# the most probable ones do not, a student has found the way out and its most probable actions miss
-# it: after so short a training that is luck. Do not judge a teacher by three students.)
+# (Where drawn actions get ahead and the most probable ones do not, a student has found the way out
+# and its most probable actions miss it: after so short a training that is luck. Do not judge a
+# teacher by three students.)
 #
 # Now ten students of each teacher, and ten agents that learned alone, with the same number of
-# updates. They ship with the course. Each is tested on {{ len(taught_agents.ROADS) }} held-out
-# roads. One more row has ten students of the racer after {{ taught_agents.LONG | , }} updates: the
-# aids have faded by then.
+# updates. They ship with the course, each tested on {{ len(taught_agents.ROADS) }} held-out roads.
+# One more row has ten students of the racer after {{ taught_agents.LONG | , }} updates, when the
+# aids have faded.
 #
 # > **Predict.** {{ taught_agents.UPDATES | , }} updates are a short training: both aids are still
 # > at work at the end. An agent *escapes* if it succeeds on {{ 100 * ESCAPES | .0f }} % of the
-# > test's roads. In which of the six groups do most escape? Commit to the racer's number.
+# > test's roads. How many of the racer's ten students do?
 
 # %%
 predict(
@@ -267,15 +265,14 @@ bc.show(figures.students(shown, title, apart=2))
 # **See.** After {{ taught_agents.UPDATES | , }} updates no student of `timid` or `reckless`
 # escapes; of the other teachers' students {{ student_escapes('careful') }} or ten of ten do, and of
 # the racer's {{ student_escapes('racer') }}. With *drawn* actions each of these ten succeeds on {{
-# 100 * students('racer')['drawn'].min() | .0f }} % or more: all have found the way out, but the
-# most probable actions of some miss it.
+# 100 * students('racer')['drawn'].min() | .0f }} % or more: all have found the way out.
 # <!-- claim: min(student_escapes(n) for n in ('the rule', 'the rule, 30 m')) == 10 and
 #   student_escapes('careful') == 9 and student_escapes('alone') == 1 -->
 # <!-- claim: student_escapes('timid') == student_escapes('reckless') == 0 < 5 ==
 #   student_escapes('racer') and students('racer')['drawn'].min() > 0.8 -->
 #
-# Success is not everything. The racer's students earn less than the agents that learned alone, and
-# {{ 100 * students('racer')['accident'].mean() | .0f }} % of their drives end in an accident.
+# Yet the racer's students earn less than the agents that learned alone, and {{ 100 *
+# students('racer')['accident'].mean() | .0f }} % of their drives end in an accident.
 # <!-- claim: students('racer')['returns'].mean() < students('alone')['returns'].mean() and
 #   students('racer')['accident'].mean() > 3 * students('alone')['accident'].mean() -->
 
@@ -300,8 +297,8 @@ predict(
 )
 
 # %% [markdown]
-# Six teachers and two scores are *twelve* verdicts against the same ten agents that learned alone.
-# So the p-values are corrected after Holm, as in lesson [[how_many_seeds]].
+# Six teachers and two scores are *twelve* verdicts against the same ten agents. So the p-values are
+# corrected after Holm, as in lesson [[how_many_seeds]].
 # <!-- claim: len(teacher_tests()) == 12 -->
 
 # %% tags=["hide-input"]
@@ -318,25 +315,23 @@ bc.show(figures.verdicts(shares, p, title))
 # **See.** If the teacher makes no difference, each order of the six agents is as likely as any
 # other, and one of {{ math.comb(6, 3) }} has the taught ones on top.
 #
-# The verdict depends on *what* you measure: the racer helps by success, and hurts by return.
-# `timid` helps by return, although its students stay behind the traps: they have no accident, and
-# earn more than {{ (students('alone')['returns'] < students('timid')['returns'].min()).sum() }} of
-# the ten alone.
+# The verdict on the racer depends on *what* you measure. `timid` helps by return, although its
+# students stay behind the traps: they have no accident, and earn more than {{
+# (students('alone')['returns'] < students('timid')['returns'].min()).sum() }} of the ten alone.
 # <!-- claim: all(teacher_tests()[name, s] < 0.05 for name in ('the rule', 'the rule, 30 m',
 #   'careful', 'racer') for s in ('success', 'returns')) and teacher_tests()['timid', 'returns'] <
 #   0.05 < min(teacher_tests()['reckless', s] for s in ('success', 'returns')) and
 #   (students('timid')['accident'] == 0).all() -->
 #
-# It also depends on *when*. Ten students of the racer were trained for {{ taught_agents.LONG | , }}
-# updates. At one point of the training {{ 100 * long()['escapes'].mean(0).max() | .0f }} % of their
-# drives succeeded, and at the end {{ (long()['success'] >= ESCAPES).sum() }} of ten escape: most
-# *found* the way out and did not *keep* it.
+# The verdict also depends on *when*. At one point of the racer's {{ taught_agents.LONG | , }}
+# updates {{ 100 * long()['escapes'].mean(0).max() | .0f }} % of its students' drives succeeded, and
+# at the end {{ (long()['success'] >= ESCAPES).sum() }} of ten escape: most *found* the way out and
+# did not *keep* it.
 # <!-- claim: long()['escapes'].mean(0).max() > 0.9 and (long()['success'] >= ESCAPES).sum() < 5 and
 #   long()['xi'].max() < 1e-3 and long()['beta'].max() == 0 and
 #   5 < taught_agents.LONG / taught_agents.UPDATES < 15 -->
 #
-# **Explain.** By what their students do after this short training, our six teachers fall into four
-# kinds.
+# **Explain.** By their students after this short training, our six teachers fall into four kinds.
 #
 # - **A good one** demonstrates the way out and what to do afterwards.
 # - **A bad one that gets out** demonstrates what an agent alone rarely finds, the way past the
@@ -344,14 +339,11 @@ bc.show(figures.verdicts(shares, p, title))
 #   students('racer')['accident'].mean() | .0f }} % of their drives; the racer itself in {{ 100 *
 #   np.mean(teacher_exam('racer').accident > 0) | .0f }} %.
 # - **A safe one that stays.** All ten students of `timid` do what it does in each second of the
-#   drives that we looked at, and have no accident.
+#   drives that we looked at.
 # <!-- claim: (students('timid')['alike'] == 1).all() -->
 # - **A reckless one** leads into an accident within seconds. Nine of its ten students crash in
 #   nearly each test drive.
 # <!-- claim: (students('reckless')['accident'] > 0.99).sum() == 9 -->
-#
-# So ask of a teacher: does it lead to a place that the learner does not find alone, and does the
-# learner stop following it afterwards?
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Let each group defend one verdict, and say which measurement would overturn it.
@@ -359,7 +351,7 @@ bc.show(figures.verdicts(shares, p, title))
 # %% [markdown]
 # ## Round 5: other learners
 #
-# The students were all of one kind, and of one short training. Here are ten agents of each of three
+# The students were of one kind, and of one short training. Now ten agents of each of three
 # learners:
 #
 # | learner | takes from the teacher | decisions of an agent (thousands) |
@@ -371,7 +363,7 @@ bc.show(figures.verdicts(shares, p, title))
 #
 # The first two have fewer episodes than in the study, so their counts differ from it.
 #
-# Three of the teachers:
+# Three teachers:
 #
 # - the rule;
 # - **half random**: the rule with half of its decisions drawn at random;
@@ -400,16 +392,15 @@ bc.show(figures.learners(worth, title))
 
 # %% [markdown]
 # **See.**
-# - **A teacher that rarely gets out can be enough.** From a teacher that gets ahead in {{ 100 *
-#   teachers_success('random-50') | .0f }} % of its drives all ten bootstrapped agents escape; of
-#   the ten with the soft constraint alone {{ worth()['random-50', 'soft'].escapers('soft') }} does.
-#   From the rule itself {{ worth()['rule', 'bootstrapped'].escapers('bootstrapped') }} of ten
-#   escape; ten against that shows no difference (Fisher's p = {{ fisher(10, worth()['rule',
-#   'bootstrapped'].escapers('bootstrapped')) | .1f }}).
+# - **A teacher that rarely gets out can be enough.** All ten bootstrapped students of the
+#   half-random teacher escape; of the ten with the soft constraint alone {{ worth()['random-50',
+#   'soft'].escapers('soft') }} does. From the rule itself {{ worth()['rule',
+#   'bootstrapped'].escapers('bootstrapped') }} of ten escape; ten against that shows no difference
+#   (Fisher's p = {{ fisher(10, worth()['rule', 'bootstrapped'].escapers('bootstrapped')) | .1f }}).
 # - **The mirrored teacher does not get out, and none of its thirty students does.**
 # - **DAgger's row of the half-random teacher says little.** Its drives often crash, so they are
-#   short: {{ labels('random-50')[0] }} to {{ labels('random-50')[1] }} labels to learn from, and
-#   with the rule {{ labels('rule')[0] | , }} to {{ labels('rule')[1] | , }}.
+#   short: {{ labels('random-50')[0] }} to {{ labels('random-50')[1] }} labels, and with the rule {{
+#   labels('rule')[0] | , }} to {{ labels('rule')[1] | , }}.
 # <!-- claim: labels('random-50')[1] < labels('rule')[0] / 2 and worth()['random-50',
 #   'dagger'].episodes('accident').mean() > 0.5 -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
@@ -431,10 +422,10 @@ bc.show(figures.learners(worth, title))
 # %% [markdown]
 # ## Round 6: a road where looking matters
 #
-# The rule of two situations does not look to the side, and passes. So the default road does not
-# test whether a driver looks. On this one it matters: ten cars fill the left lane, in a queue of
-# about 180 m, at 10.5 to 11.5 m/s. They are faster than the traps, so they pass you. The last of
-# them begins 25 to 185 m behind you: if it is far away, waiting for all ten leaves little time.
+# The rule of two situations passes without a look to the side, so the default road does not test
+# whether a driver looks. This one does: ten cars fill the left lane, in a queue of about 180 m, at
+# 10.5 to 11.5 m/s. They are faster than the traps, so they pass you. The last of them begins 25 to
+# 185 m behind you: if it is far away, waiting for all ten leaves little time.
 # <!-- claim: example_teachers.DENSE.traffic.cars == 10 and all(130 < np.ptp(x) < 235 and
 #   25 < -x.min() < 185 for x in dense_queues()) -->
 
@@ -478,8 +469,7 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. A rule is a function of the true state. You decide on speed and lane, a tracker finds the
-#    actions.
+# 1. A rule is a function of the true state.
 # 2. A teacher enters in three places: demonstrations, μ(s) and μ(s'). Swap it in each of them.
 # 3. A teacher's return says little: the racer earns {{ teacher_exam('racer').returns.mean() | .0f
 #    }}, and half of its students get out.
@@ -487,8 +477,8 @@ compare_predictions(
 #    Early help need not last: judge after the whole training.
 # <!-- claim: worth()['random-50', 'soft'].escapers('soft') == 1 and worth()['random-50',
 #   'bootstrapped'].escapers('bootstrapped') == len(worth()['random-50', 'bootstrapped']) -->
-# 5. If a teacher makes no difference, three seeds against three still separate completely, in the
-#    direction that you hope for, one time in twenty. Several verdicts need a correction.
+# 5. By luck alone, three seeds against three separate completely, in the direction that you hope
+#    for, one time in twenty. Several verdicts need a correction.
 # <!-- claim: math.comb(6, 3) == 20 -->
 #
 # **Three questions to think about**
