@@ -8,8 +8,8 @@ from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.panels.compromise import CHOSEN, Ways
 from bootcourse.research.results import Results
-from bootcourse.statistics import found_after
-from tools.course.known import RULE_P, escapers, of, shipped_experiment
+from bootcourse.statistics import ESCAPES, found_after
+from tools.course.known import RULE_P, by_rule, escapers, of, shipped_experiment
 
 
 def stays() -> Results:
@@ -31,6 +31,18 @@ def found_between(agents: Results) -> str:
     """The first and the last training episode after which one of the agents has found the way out: "301 to 367"."""
     after = found_after(agents.curves["success"])
     return f"{after.min()} to {after.max()}"
+
+
+def losers() -> list[float]:
+    """What the agents with the soft constraint earn that do not escape, in ascending order."""
+    soft = of("soft")
+    return sorted(soft.scores("returns")[soft.scores("success") < ESCAPES])
+
+
+def falling_back_pays_from() -> float:
+    """The ξ from which falling back as the rule does is worth more than following trap 1, with the KL in the target."""
+    lost = (0.15625 - float(by_rule().rewards[3])) / (1 - 0.8)
+    return lost / (4 * (np.log(80) + np.log(RULE_P)))
 
 
 def entropy_of_the_rule() -> float:
