@@ -85,6 +85,13 @@ def safe(kind: str) -> int:
     return int(((easy(kind).scores("success") < 0.05) & (easy(kind).scores("accident") < 0.05)).sum())
 
 
+def stay_well() -> int:
+    """How many of those on the road as it is earn more than 20: doing nothing returns 23.4."""
+    agents = easy("as it is")
+    safe = (agents.scores("success") < 0.05) & (agents.scores("accident") < 0.05)
+    return int((safe & (agents.scores("returns") > 20)).sum())
+
+
 def often_ahead(kind: str) -> int:
     """How many of them end ahead of trap 1 on at least one road in ten."""
     return int((easy(kind).scores("success") >= 0.1).sum())

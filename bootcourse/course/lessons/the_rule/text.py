@@ -370,9 +370,10 @@ bc.show(figures.against_sight(sights, by_sight, title))
 # on {{ 100 * np.mean(sighted(20.0).accident > 0) | .0f }} % of the roads. Is the sight to blame? At
 # 20 m and with $t_\text{safe}$ = 2 s instead of {{ DEFAULT.rule.t_safe | g }} s, {{ sighted(20.0,
 # t_safe=2.0).accident.astype(bool).sum() }} of the 200 drives have an accident: the formula of
-# Round 2 has to ask for a longer gap. But only {{ 100 * sighted(20.0, t_safe=2.0).success.mean() |
-# .0f }} % of these drives get out: the rule loses trap 1 from sight as it falls back, speeds up,
-# and meets it again.
+# Round 2 has to ask for a longer gap. But the sight is to blame for the drives that stay: {{ 100 *
+# sighted(20.0).success.mean() | .0f }} % get out, with the longer gap {{ 100 * sighted(20.0,
+# t_safe=2.0).success.mean() | .0f }} %. The rule loses trap 1 from sight as it falls back, speeds
+# up, and meets it again.
 # <!-- claim: sighted(20.0).accident.any() and not sighted(30.0).accident.any() and
 #   not sighted(20.0, t_safe=2.0).accident.any() -->
 #
@@ -443,8 +444,9 @@ table(["1,000 roads, p = 0.9", ""], rows, below=ahead)
 # %% [markdown]
 # **Explain.** At p = 0.9 about {{ (1 - RULE_P) * 150 | .0f }} of the 150 decisions of a drive are
 # drawn from the other actions, and full steering turns the car towards the edge, {{
-# DEFAULT.road.lane_width / 2 | g }} m from the middle of the outer lanes. In this course the rule
-# itself drives the demonstrations, and $\tilde\pi$ is what the learner is compared with.
+# DEFAULT.road.lane_width / 2 | g }} m from the middle of the outer lanes. The faster the car, the
+# farther one wrong second takes it. In this course the rule itself drives the demonstrations, and
+# $\tilde\pi$ is what the learner is compared with.
 #
 # The next table changes p, on the same roads.
 
@@ -490,8 +492,8 @@ compare_predictions(
 #    drives itself, with p = 0.9, it has an accident in most episodes.
 #
 # **Three questions to think about**
-# - With a sight of 30 m the rule had no accident on 200 roads, with 20 m it had some. How would you
-#   choose the sight for a car that carries people?
+# - With a sight of 30 m the rule had no accident, with 20 m it had some. How would you choose the
+#   sight for a car that carries people?
 # - The rule reads the true state of the cars, the learner 26 numbers. Can a learner imitate it
 #   perfectly?
 # - The traps react to the car ahead of them. What should the rule look at if they reacted to cars

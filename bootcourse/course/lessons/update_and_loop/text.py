@@ -162,6 +162,14 @@ explorable.the_end()
 #
 # The five functions are those of lesson [[discrete_sac]]: yours, as far as they passed there; the
 # rest is ours.
+#
+# | | arguments |
+# |---|---|
+# | `soft_value(log_pi, q, alpha)` | q: the smaller of both critics, (batch, 2) |
+# | `critic_target(reward, terminated, next_value, gamma)` | each (batch,) |
+# | `critic_loss(q_pair, action, target)` | q_pair: both critics, (2, batch, 2) |
+# | `actor_loss(log_pi, q, alpha)` | q: the smaller one |
+# | `temperature_loss(log_alpha, state_entropy, target_entropy)` | state_entropy: (batch,) |
 
 # %%
 own_code.load()
@@ -191,7 +199,8 @@ check.update(update)
 #   time is up. Reset after either end.
 # - `agent.draw(state, rng)` draws an action, `by_hand.row(s, a, r, terminated, s')` makes a row.
 # - `by_hand.batch_of(buffer.sample(256, rng))` is a batch for `update`.
-# - After the first 256 pushes of a call, make one update after every fourth push.
+# - A call begins with a reset, and makes no update in its first 256 pushes; from then on one after
+#   every fourth push.
 
 
 # %%
@@ -327,11 +336,10 @@ bc.show(charts.lines(marks, named, title, x_label, words, "y", marks=limit, look
 # %% [markdown]
 # **See.** The estimates pass {{ 1 / (1 - 0.99) | .0f }} and go on: the critic **diverges**, and the
 # program runs without an error. (After 8,000 pushes each of three such agents of ours was above
-# 10,000.) (Those of Round 2, whose copies follow faster, diverge sooner.) Where does the surplus
-# come from? A state in which the pole has fallen is in the buffer as s' only, never as s. Its value
-# enters targets, but no row corrects it: the network makes it up. If that is the cause, rows that
-# start in a fallen state should help. Give each fallen state such rows, which lead back to it and
-# pay 1, as if it went on for ever:
+# 10,000.) Where does the surplus come from? A state in which the pole has fallen is in the buffer
+# as s' only, never as s. Its value enters targets, but no row corrects it: the network makes it up.
+# If that is the cause, rows that start in a fallen state should help. Give each fallen state such
+# rows, which lead back to it and pay 1, as if it went on for ever:
 
 # %%
 rows = []
