@@ -50,7 +50,7 @@ progress("the_second_trap")
 #
 # The road is a fast program (compiled by numba), and the paper's learner makes little use of that.
 # PPO, *proximal policy optimisation*, drives hundreds of roads at once. Here is one of ten agents
-# that were trained with it, alone, without a rule or demonstrations.
+# trained with it, alone, without a rule or demonstrations.
 # <!-- claim: ppo_agents() == 10 -->
 
 # %%
@@ -66,8 +66,8 @@ bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
 
 # %% [markdown]
 # The agent brakes and falls back, up to {{ -ppo_gap().min() | .0f }} m behind trap 1. Then it
-# accelerates to {{ ppo_speeds().max() | .1f }} m/s, drives on until it is close, brakes to {{
-# ppo_speeds()[40:].min() | .1f }} m/s, and begins again.
+# accelerates to {{ ppo_speeds().max() | .1f }} m/s, brakes to {{ ppo_speeds()[40:].min() | .1f }}
+# m/s, and begins again.
 # <!-- claim: ppo_gap().min() < -40 and ppo_speeds().max() > 13.5 and ppo_speeds()[40:].min() < 7
 #   and not ppo_drive().success -->
 
@@ -99,8 +99,8 @@ table(["", "ahead of trap 1 in the end, %", "return"], rows)
 # %% [markdown]
 # ## Round 1: what pays for it
 #
-# A driver that stays behind trap 1 to the end cannot be faster than trap 1 *on average*, apart from
-# the first few metres. It can choose how far its mean speed stays below that, and how the speed is
+# A driver that stays behind trap 1 to the end cannot be faster than it *on average*, apart from the
+# first few metres. It can choose how far its mean speed stays below that, and how the speed is
 # spread.
 # <!-- claim: ppo_drive().states[-1, EGO, X] < ppo_drive().states[-1, TRAP_1, X] and
 #   ppo_speeds().mean() < DEFAULT.traps.speed + 20 / DEFAULT.clock.decisions -->
@@ -125,8 +125,8 @@ bc.show(figures.convex(bc.formulas.speed_reward, title))
 # <!-- claim: (lambda r: all(r[i - 1] + r[i + 1] >= 2 * r[i] - 1e-12 for i in range(1, len(r) -
 #   1)))([speed_reward(v) for v in np.linspace(0, 15, 601)]) and speed_reward(4.9) == 0 -->
 #
-# How much a drive gains from that is **Jensen's gap**: what its seconds pay on average, less what a
-# second pays at its mean speed.
+# A drive's gain from that is **Jensen's gap**: what its seconds pay on average, less what a second
+# pays at its mean speed.
 
 # %% tags=["hide-input"]
 cars = drive.states[:: bc.DEFAULT.clock.steps]
@@ -151,8 +151,7 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # **Is it a trap?** None of the {{ ppo_agents() }} agents was ahead in any of its last 300 training
 # episodes. Their return still rises at the end: they climb a hill. If it has a top behind trap 1,
 # that is a **local optimum**, a way to drive that small changes do not improve. We call this hill
-# the second trap. (All this after {{ ppo_kinds.KINDS['alone'].decisions
-# | , }} decisions.)
+# the second trap. (All this after {{ ppo_kinds.KINDS['alone'].decisions | , }} decisions.)
 # <!-- claim: (ppo('alone')['escapes'][:, -1] == 0).all() and (ppo('alone')['curve'][:, -1] >
 #   ppo('alone')['curve'][:, -2]).all() -->
 # <!-- claim: discounted(careful_drive(), settings_for('ppo').gamma) > 2 * discounted(ppo_drive(),
@@ -179,8 +178,8 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # depend on it, and add 0 on average.
 #
 # A **baseline** adds 0 on average, too: subtract a number from R, such as the mean, and the
-# gradient's mean stays, since E[∇ log π] = Σ ∇π = ∇ 1 = 0. Here are three actions that pay 10, 11
-# and 12, each taken with probability ⅓.
+# gradient's mean stays, since E[∇ log π] = Σ ∇π = ∇ 1 = 0. An example: three actions that pay 10,
+# 11 and 12, each with probability ⅓.
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -384,9 +383,9 @@ looks = (PPO, Style(QUIET))
 bc.show(charts.lines(seconds, speeds, title, "time (s)", "speed (m/s)", looks=looks))
 
 # %% [markdown]
-# **See.** This agent's sprints are gone. None of the {{ ppo_agents() }} agents that ship escapes.
-# On the road's terms they earn {{ ppo('concave')['returns'].mean() | .0f }} on average, about what
-# keeping straight earns: they are back in the first trap.
+# **See.** None of the {{ ppo_agents() }} agents that ship escapes. On the road's terms they earn {{
+# ppo('concave')['returns'].mean() | .0f }} on average, about what keeping straight earns: they are
+# back in the first trap.
 # <!-- claim: ppo_escapes('concave') == 0 and abs(ppo('concave')['returns'].mean() /
 #   idle().rewards.sum() - 1) < 0.15 -->
 # <!-- claim: ppo_speeds('concave')[20:].std() < 0.2 * ppo_speeds()[20:].std() -->
@@ -486,7 +485,7 @@ bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "
 # clones()[1].max() | .0f }} (three seeds): often it is on the other side of the barrier. From there
 # on the reward was enough: speed pays more on a free road than behind trap 1. The cloned agents are
 # not the best drivers either: with a sight of 30 m instead of 200 m the rule earns {{
-# rule_seeing(30.0).returns.mean() | .0f }}, without an accident (lesson [[the_rule]]).
+# rule_seeing(30.0).returns.mean() | .0f }}, without an accident.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask which of the course's figures would have looked the same for the second trap: those that
