@@ -30,16 +30,16 @@ KEYS = """
   }, true);  // on the way in: the field itself lets no key out
 """
 # What answers this prediction is folded in the notebook's file, outputs and text: open it once the form is locked. The
-# locked button has lost the focus, and without it the notebook would hear no key.
+# locked button loses the focus, now or at the browser's next picture, and without it the notebook would hear no key.
 UNFOLD = """
   const waits = setInterval(() => {
     if (!panel.isConnected) { clearInterval(waits); return; }
-    if (!panel.querySelector('button')?.disabled) return;
+    const button = panel.querySelector('button');
+    if (!button?.disabled) return;
     clearInterval(waits);
-    if (document.activeElement === document.body) {
-      for (const at of ['.jp-Cell', '.jp-Notebook']) {
-        if (document.activeElement === document.body) panel.closest(at)?.focus({preventScroll: true});
-      }
+    const lost = () => [document.body, button].includes(document.activeElement);
+    for (const at of ['.jp-Cell', '.jp-Notebook']) {
+      if (lost()) panel.closest(at)?.focus({preventScroll: true});
     }
     const asks = cell => cell.querySelector('.cm-content')?.innerText.match(/\\bpredict\\(/);
     let cell = panel.closest('.jp-Cell')?.nextElementSibling;

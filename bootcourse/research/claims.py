@@ -5,8 +5,10 @@ The claims themselves stand in `claimed.py`. `section` is the report's part abou
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from bootcourse.research import tables
-from bootcourse.statistics import holm
+from bootcourse.statistics import ESCAPES, holm, rate
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,9 @@ def section(made: list[Claim]) -> list[str]:
     """The report's part: every claim with its evidence, its stress, and Holm's p over the family."""
     compared = [claim for claim in made if claim.p is not None]
     adjusted = dict(zip((claim.name for claim in compared), holm([claim.p for claim in compared]), strict=True))
-    text = ["## What we claim, and what it survived\n", HEAD.format(claims=len(made), compared=len(compared))]
+    four = rate(np.arange(10) < 4)
+    head = HEAD.format(claims=len(made), compared=len(compared), escapes=ESCAPES, four=four)
+    text = ["## What we claim, and what it survived\n", head]
     for claim in made:
         text += [f"### {claim.sentence}\n", *of_claim(claim, adjusted.get(claim.name))]
     return text
@@ -47,6 +51,8 @@ def of_claim(claim: Claim, adjusted: float | None = None) -> list[str]:
 
 HEAD = """These {claims} sentences are the ones to repeat. Each was attacked: with twice the episodes, other seeds and
 another implementation of the learner (ten agents of each kind), with other traps, other roads, somebody else's learner
-or half the time step. *Escape*: ahead of trap 1 on nine of ten of 1,000 held-out roads. The return and the accidents
-stand beside the success. Where two groups of agents are compared, the p value is Holm's over these {compared}.
+or half the time step. *Escape*: ahead of trap 1 on at least {escapes:.0%} of 1,000 held-out roads. The return and the
+accidents stand beside the success. Where two groups of agents are compared, the p value is Holm's over these
+{compared}. *Holds*: what was seen points the same way. That is weaker than evidence of its own: four of ten agents, as
+an example, have the 95 % interval {four[1]:.0%} to {four[2]:.0%} (Clopper-Pearson).
 """

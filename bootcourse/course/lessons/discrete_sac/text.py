@@ -87,6 +87,11 @@ bc.show(diagrams.sac_diagram())
 # - The **replay buffer** keeps what happened, a row for each decision. Each update learns from a
 #   **batch** of rows: critics, actor and temperature alike.
 #
+# SAC was made for *continuous* actions, such as any angle of the wheel: there its actor draws
+# actions, and means over actions are estimated from those. *Discrete* means that the actions can be
+# counted: two here, nine on the road. So a network gives π and Q of every action at once, and a
+# mean over actions is an exact sum.
+#
 # On the evening route this picture is enough: go on to [the barrier](the_barrier.ipynb).
 
 # %% [markdown] tags=["instructor"] minutes=3

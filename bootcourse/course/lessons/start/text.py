@@ -74,8 +74,9 @@ bc.recording([shipped.beginning(drive, seconds) for drive in drives], height=480
 #
 # A driver is paid for each second: most at {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
 # little at the traps' {{ DEFAULT.traps.speed }} m/s. An accident costs about what a minute behind
-# the traps earns. Why does a program that learns stay behind slow cars, although the left lane is
-# free? That is the question of this course.
+# the traps earns. This course asks two questions. Why does a program that learns stay behind slow
+# cars, although the left lane is free? And how can an imperfect teacher, such as the rule, help it
+# out, without the learner becoming a copy of the teacher?
 #
 # ## An agent of your own
 #

@@ -2,34 +2,40 @@
 
 import numpy as np
 
+from bootcourse.course.lessons.the_trap.figures import RIGHT_FIRST
 from bootcourse.episodes.record import record
 from bootcourse.methods import style
 from bootcourse.panels.explorable import Axes, Curve, Explorable, curves
 from bootcourse.panels.number import Number
+from bootcourse.plots.figure import INK
 from bootcourse.plots.svg import Drawing
-from bootcourse.policies import idle_policy, rule_policy
+from bootcourse.policies import idle_policy, plan_policy, rule_policy
 from bootcourse.scenario import DEFAULT
 
 ROAD, SECONDS = 10, 60  # the road of the lesson's drives, and how much of them is shown
 
 
 def discount() -> Explorable:
-    """The rewards of the rule's way out and of staying, weighed by γ^t and added up second by second, while γ moves."""
+    """The rewards of two ways out and of staying, weighed by γ^t and added up second by second, while γ moves."""
     escape = record(rule_policy(DEFAULT), [ROAD], DEFAULT, "rule")[0].rewards
+    sooner = record(plan_policy([*RIGHT_FIRST, ("accelerate straight", 5)]), [ROAD], DEFAULT, "plan")[0].rewards
     stay = record(idle_policy, [ROAD], DEFAULT, "idle")[0].rewards
     times = np.arange(len(escape))
 
     def draw(gamma: float) -> Drawing:
-        out, behind = (np.cumsum(gamma**times * rewards) for rewards in (escape, stay))
-        better = "the way out is worth more" if out[-1] > behind[-1] else "staying is worth more"
+        out, quick, behind = (np.cumsum(gamma**times * rewards) for rewards in (escape, sooner, stay))
+        ranked = sorted(((out[-1], "the rule's way out"), (quick[-1], "the plan"), (behind[-1], "staying")))
         named = {
             f"the rule's way out: {out[-1]:.2f} in all": Curve(out[:SECONDS], style("rule").colour),
+            f"the plan: {quick[-1]:.2f} in all": Curve(quick[:SECONDS], INK),
             f"staying behind: {behind[-1]:.2f} in all": Curve(behind[:SECONDS], style("idle").colour, "--"),
         }
         what = "sum of the rewards until then, each × γ to the power of its second"
-        axes = Axes("second of the drive", what, (0.0, 1.15 * float(max(out[SECONDS], behind[SECONDS]))))
-        says = f"γ = {gamma:g}: {better}, at the start of the drive."
+        top = 1.15 * max(float(each[SECONDS]) for each in (out, quick, behind))
+        axes = Axes("second of the drive", what, (0.0, top))
+        best, middle, least = (name for _, name in reversed(ranked))
+        says = f"γ = {gamma:g}: at the start {best} is worth most, then {middle}, then {least}."
         return curves(says, axes, times[:SECONDS], named)
 
     gamma = Number("γ", 0.8, 0.5, 1, 0.01, "What a reward one second later is worth, as a share of one now.")
-    return Explorable("What is the way out worth at its start?", draw, gamma=gamma)
+    return Explorable("What is a way out worth at its start?", draw, gamma=gamma)

@@ -17,6 +17,7 @@ from bootcourse.road.formulas import bicycle_step, speed_reward
 from bootcourse.road.state import EGO, TRAP_2, X
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
 
+RIGHT_FIRST = ("keep right", ("keep left", 4), ("keep right", 3))  # the quick way out on road 10, then accelerate
 SHADES = ("#8A939B", INK, "#5F6B77")  # brake, keep, accelerate
 
 

@@ -7,12 +7,14 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.the_trap import figures
+from bootcourse.course.lessons.the_trap.figures import RIGHT_FIRST
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
 from bootcourse.policies import plan_policy
 from bootcourse.scenario import DEFAULT
+from tools.course.known import shipped_results
 
 STRAIGHT_BETWEEN = (("keep left", 2), ("keep straight", 2), ("keep right", 2))
-RIGHT_FIRST = ("keep right", ("keep left", 4), ("keep right", 3))
 
 
 @cache
@@ -45,3 +47,20 @@ def every_plan() -> np.ndarray:
 def blind_plan():
     """That plan on the study's 1,000 held-out roads: its episodes."""
     return drive_episodes(plan_policy([*RIGHT_FIRST, ("accelerate straight", 5)]), held_out_seeds(1, 1000))
+
+
+@cache
+def on_ten():
+    """That plan on road 10."""
+    return record(plan_policy([*RIGHT_FIRST, ("accelerate straight", 5)]), [10])[0]
+
+
+def stayers() -> np.ndarray:
+    """The returns of plain SAC's agents that neither succeed nor crash in more than a tenth of their drives."""
+    agents = shipped_results().of("sac")
+    return agents.scores("returns")[(agents.scores("success") < 0.1) & (agents.scores("accident") < 0.1)]
+
+
+def near_staying() -> int:
+    """How many they are."""
+    return len(stayers())

@@ -1,5 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -27,15 +28,32 @@ def optimistic(explore: float, start: float, walks: int = 30) -> int:
     return sum(_leaves(np.full((chain.STATES, 2), float(start)), explore, seed) for seed in range(walks))
 
 
+@cache
+def with_ties(pick: str, explore: float, walks: int = 30) -> tuple[int, int]:
+    """How many of the chain's learners leave at γ = 0.8, and how many have been on the free road, by what they do with
+    two equal actions: "1" takes action 1, "random" draws one of the two."""
+    ended = []
+    for seed in range(walks):
+        ended.append(q := np.zeros((chain.STATES, 2)))
+        _walk(q, explore, seed, (lambda _: 1) if pick == "1" else np.random.default_rng([seed, 1]).integers)
+    return sum(map(chain.leaves, ended)), sum(map(chain.has_been_free, ended))
+
+
 def _leaves(q: np.ndarray, explore: float, seed: int) -> bool:
     """Does a learner of the chain that begins with this Q, which it changes, leave at γ = 0.8?"""
+    _walk(q, explore, seed, lambda _: 0)
+    return chain.leaves(q)
+
+
+def _walk(q: np.ndarray, explore: float, seed: int, of_equal: Callable[[int], int]) -> None:
+    """Let a learner begin with this Q, and change it in 1,000 decisions. of_equal(2): which of two equal actions."""
     s = 0
     for t, chance in enumerate(chain.chances(explore, 1000, seed)):
         s = 0 if t % chain.EPISODE == 0 else s
-        a = int(q[s].argmax()) if chance < 0 else chance
+        greedy = int(q[s].argmax()) if q[s, 0] != q[s, 1] else int(of_equal(2))
+        a = greedy if chance < 0 else chance
         q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
         s = chain.NEXT[s, a]
-    return chain.leaves(q)
 
 
 def sweeps(times: int, gamma: float) -> np.ndarray:

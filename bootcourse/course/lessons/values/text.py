@@ -103,7 +103,8 @@ table(["γ", "to stay is worth", "to leave is worth", "better"], rows, "Sums of 
 # %% [markdown]
 # **Explain.** Leaving pays where $\gamma^4 > 0.16$: from γ = {{ 0.16**0.25 | .4f }} on. The paper's
 # γ is {{ SETTINGS.gamma }}; with it leaving is worth {{ 0.8**4 / 0.16 | .1f }} times as much as
-# staying. Remember that factor: the learner of Round 4 stays all the same.
+# staying. (On road 10 of lesson [[the_trap]] the quick plan is worth more than staying, too, and
+# the rule's slow way is not.) Remember that factor: the learner of Round 4 stays all the same.
 # <!-- claim: 0.8**4 > 2.5 * 0.16 and 0.63**4 < 0.16 < 0.64**4 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -269,8 +270,9 @@ check.learn_chain(learn_chain)
 # - *C* and *D*: as A, with ε = 0.5 and with ε = 1;
 # - *E*: as A, with a demonstration of the way out, replayed after each of the 1,000 decisions.
 #
-# > **Predict.** In which of the five kinds do more than half of the thirty learn to leave? (To get
-# > through takes four random decisions in a row; for a value to come back, several passages.)
+# > **Predict.** In which of the five kinds do more than half of the thirty learn to leave? (Of two
+# > equal actions ours takes 0. To get through takes four random decisions in a row; for a value to
+# > come back, several passages.)
 
 # %%
 predict("values.4", "In which kinds do more than half learn to leave? Letters, as in: A, C")
@@ -289,12 +291,11 @@ title = "More exploration or a replayed demonstration gets learners out, a longe
 bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
 
 # %% [markdown]
-# **Explain.** In A none of the thirty leaves, although leaving is worth more than twice as much. Of
-# two equal actions ours takes 0. Once staying has paid, going *back* from states 1 to 3 is worth γ
-# Q(0, 0), and going on still 0, where Q began. So the greedy action leads back, and to get through
-# takes four random decisions in a row, each right with a probability of ε / 2: a **barrier**. A
-# longer view does not help (B): none of the thirty has been on the free road, so its value is not
-# known.
+# **Explain.** In A none of the thirty leaves, although leaving is worth more than twice as much.
+# Once staying has paid, going *back* from states 1 to 3 is worth γ Q(0, 0), and going on still 0,
+# where Q began. So the greedy action leads back, and to get through takes four random decisions in
+# a row, each right with a probability of ε / 2: a **barrier**. A longer view does not help (B):
+# none of the thirty has been on the free road, so its value is not known.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
@@ -302,6 +303,13 @@ bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
 # value one state back: {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5,
 # 0.8) }} learn to leave in these 1,000 decisions. (Would more decisions help C? Try it.) On the
 # road, where a failed attempt costs 10, D is no recipe.
+#
+# Small choices matter, too. If the learner *draws* one of two equal actions, none of A leaves
+# either, but {{ with_ties("random", 0.1)[1] }} have been on the free road, and of C {{
+# with_ties("random", 0.5)[0] }} leave. If it takes action 1, it tries what it has not tried, and {{
+# with_ties("1", 0.1)[0] }} of A leave.
+# <!-- claim: with_ties("random", 0.1)[0] == 0 and with_ties("random", 0.5)[0] > leaving(0.5, 0.8) and
+#   with_ties("1", 0.1)[0] > 20 -->
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 #
 # One demonstration, *replayed* after each decision, gets all thirty across (E): each time its
@@ -353,8 +361,8 @@ compare_predictions(
 #   not been tried looks best, so it is tried, until its value has fallen to what it pays. On the
 #   road each such trial can cost an accident, and networks generalise: a value that falls in one
 #   state falls in others, too.
-# - *On the road.* The rule's drives show a way that is worth less than staying at γ = 0.8 (lesson
-#   [[the_trap]]), states are 26 numbers and rarely come twice, and networks carry an error from one
+# - *On the road.* The rule's drives show a slow way, which on road 10 is worth less than staying at
+#   γ = 0.8 (lesson [[the_trap]]), states are 26 numbers and rarely come twice, and networks carry an error from one
 #   state to the next.
 # - *The table.* A function with fewer numbers than states: a network. It answers for states that it
 #   has not seen, which is its use and its danger.
