@@ -59,6 +59,8 @@ def plain(value) -> Plain:
 
 def copied(value, deeper: int, count: Iterator[int]) -> Plain:
     """`plain` of a value that may hold lists to a depth of `deeper`. count: numbers all values that are in a list."""
+    if type(value) in (float, int, bool):  # most of what stands in a list
+        return Plain("number", np.array(as_float(value)))
     name = sendable(type(value).__name__)[:80]
     if isinstance(value, str):
         return Plain("text", text=sendable(str.__str__(value)))
