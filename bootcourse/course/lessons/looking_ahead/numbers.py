@@ -1,5 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+import itertools
 from functools import cache
 
 import numpy as np
@@ -11,6 +12,7 @@ from bootcourse.episodes.lookahead import HORIZON, NINE, imagine, lookahead
 from bootcourse.episodes.models import MODELS
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import overtaken
+from bootcourse.policies import PolicyOutput
 from bootcourse.research.computed import experiment
 from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import Cell, Score, score
@@ -20,6 +22,7 @@ from bootcourse.scenario import DEFAULT
 
 LATE = "everything a second late"
 KEEPING = "others keep speed and lane"
+NOISY = "places off by 1 m, speeds by 0.5 m/s"
 
 
 @cache
@@ -58,6 +61,24 @@ def all_ten_gain() -> bool:
     """Whether each of them has fewer accidents with rollouts, and a higher return."""
     fewer = each("rollouts", "accidents") < each("alone", "accidents")
     return bool((fewer & (each("rollouts", "returns") > each("alone", "returns"))).all())
+
+
+def alone_ahead() -> str:
+    """In how many of 100 drives the rule, plain SAC, and agents with one aid end ahead alone."""
+    shares = [f"{100 * ahead(base, 'alone').success:.0f}" for base in ("rule", "sac", "demos", "soft")]
+    return f"{', '.join(shares[:-1])} and {shares[-1]}"
+
+
+def of_the_four() -> float:
+    """The share of the accidents of the paper's agents, alone, that are those of the four that crash most."""
+    alone = np.sort(each("alone", "accidents"))
+    return float(alone[-4:].sum() / alone.sum())
+
+
+def safer_shield(base: str) -> int:
+    """With how many of the wrong models the shield has fewer accidents than the rollouts."""
+    wrong = (model for model in MODELS if model != "exact")
+    return sum(per_thousand(base, "shield", model=model) < per_thousand(base, model=model) for model in wrong)
 
 
 def _accidents(base: str) -> np.ndarray:
@@ -114,6 +135,26 @@ def how_five_end() -> list[np.ndarray]:
 def five_accidents() -> list[int]:
     """The accidents of each of them."""
     return [int((ends > 0).sum()) for ends in how_five_end()]
+
+
+def worst_ends() -> list[int]:
+    """How the drives of the one that crashes most end."""
+    return max(how_five_end(), key=np.count_nonzero).tolist()
+
+
+@cache
+def corrected_once(before: int = 6) -> list[bool]:
+    """Of its drives with an accident, six seconds before which it takes the best of nine actions, once: has it one?"""
+    worst, roads = int(np.argmax(five_accidents())), np.array(held_out_seeds(15, 40))
+    agent = course.shipped_agents("bootstrapped")[worst].as_policy()
+    roads, better, decision = roads[how_five_end()[worst] > 0], lookahead(agent), itertools.count()
+    at = np.array([max(0, len(drive.actions) - before) for drive in record(agent, roads)])
+
+    def policy(observations, cars):
+        best, own = better(observations, cars).actions, agent(observations, cars).actions
+        return PolicyOutput(np.where(at == next(decision), best, own))
+
+    return [drive.accident > 0 for drive in record(policy, roads)]
 
 
 def outs(base: str, form: str = "rollouts") -> np.ndarray:

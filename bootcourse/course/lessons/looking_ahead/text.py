@@ -64,7 +64,9 @@ table([f"{len(roads)} drives of each", *(f"agent {i + 1}" for i in range(len(fiv
 
 # %% [markdown]
 # We follow the one that crashes by far the most, in {{ max(five_accidents()) }} of 40 drives: the
-# most favourable case of the five. Here is its first collision.
+# most favourable case of the five. {{ worst_ends().count(Accident.COLLISION) }} times it hits a
+# car, and {{ worst_ends().count(Accident.ROAD_DEPARTURE) }} times it leaves the road. Here is its
+# first collision.
 # <!-- claim: max(five_accidents()) > 4 * sorted(five_accidents())[-2] -->
 
 # %%
@@ -107,7 +109,9 @@ bc.show(nine_futures(cars, agent, title, colour=style("bootstrapped").colour))
 
 # %% [markdown]
 # **See.** Red drives end in an accident, blue ones go on. They differ in one decision: after it the
-# same agent drives on all nine roads.
+# same agent drives on all nine roads. (The cars are drawn where they are now. Of the red drives {{
+# nine_ends().count(Accident.ROAD_DEPARTURE) }} leave the road, {{
+# nine_ends().count(Accident.COLLISION) }} hit a car.)
 # <!-- claim: 0 < nine_ends().count(0) < 9 -->
 #
 # Such an imagined drive is called a **rollout**, and its return says what the first action is
@@ -194,12 +198,14 @@ again = bc.record(improved, [drive.seed], label="bootstrapped")[0]
 bc.recording(beginning(again, 40), height=360, futures=agent)
 
 # %% [markdown]
-# The replay shows the nine imagined drives of each decision; the bold one is driven.
+# The replay stops after 40 s. It shows the nine imagined drives of each decision; the bold one is
+# driven.
 #
 # **See.** The agents' weights are the same, and all five drive better. In the study ten such agents
 # have {{ ahead('bootstrapped', 'alone').accidents | , }} accidents in {{ ahead('bootstrapped',
-# 'alone').drives | , }} drives, with rollouts {{ ahead('bootstrapped').accidents | , }}. Each of
-# the ten has fewer than before, and earns more.
+# 'alone').drives | , }} drives, {{ 100 * of_the_four() | .0f }} % of them those of four agents;
+# with rollouts {{ ahead('bootstrapped').accidents | , }}. Each of the ten has fewer than before,
+# and earns more.
 # <!-- claim: per_thousand('bootstrapped') < per_thousand('bootstrapped', 'alone') / 50 -->
 # <!-- claim: ahead('bootstrapped').agents == ahead('bootstrapped', 'alone').agents == 10 and
 #   all_ten_gain() -->
@@ -232,7 +238,8 @@ bc.recording(beginning(again, 40), height=360, futures=agent)
 #   len(outs('demos')) == 5 -->
 #
 # > **Predict.** Two of the four, with the look-ahead, still end behind trap 1 in a quarter of their
-# > drives or more. Which two? Think of what each does after the first of the ten decisions.
+# > drives or more. Which two? Alone they end ahead in {{ alone_ahead() }} %, in the order above.
+# > Think of what each does after the first of the ten decisions.
 
 # %%
 bases = {"the rule": "rule", "plain SAC": "sac"}
@@ -267,27 +274,30 @@ bc.show(figures.each_agent(study, ("sac", "demos", "soft"), title))
 #   ahead('rule', 'alone').returns.value -->
 #
 # **Explain.** The look-ahead improves *one* decision: from the second on, the imagined drive is the
-# base's. It finds what is one decision away. An accident often is: one other action, and the base
-# goes on safely. Leaving the trap takes several new decisions. If the base takes the rest of them,
-# one is enough. With a base that steers back, each step has to raise the imagined return by itself.
-# It can: one of the plain SAC agents gets out on {{ len(changed_before_passing()) }} of 20 roads,
-# after {{ changed_before_passing().min() }} to {{ changed_before_passing().max() }} decisions that
-# are not its own.
+# base's. It finds what is one decision away. One other action puts an accident off, and the next
+# decisions put it off again: with one better decision, six seconds before each of its {{
+# len(corrected_once()) }} accidents, our agent still has one in {{ sum(corrected_once()) }} of
+# these drives. Leaving the trap takes several new decisions, too. If the base takes the rest of
+# them, one is enough. With a base that steers back, each step has to raise the imagined return by
+# itself. It can: one of the plain SAC agents gets out on {{ len(changed_before_passing()) }} of 20
+# roads, after {{ changed_before_passing().min() }} to {{ changed_before_passing().max() }}
+# decisions that are not its own.
 # <!-- claim: len(changed_before_passing()) > 3 and changed_before_passing().min() > 10 -->
+# <!-- claim: sum(corrected_once()) > len(corrected_once()) / 2 -->
 #
-# **How far ahead?** The horizon has to show the gain. A short one sees less, and W flatters: it
-# promises an empty road to a car that drives fast towards another. Here are the study's ten agents
-# of PPO after cloning, trained for much longer than those of lesson [[the_second_trap]]:
+# **How far ahead?** The horizon has to show the gain, and an accident while it can still be
+# avoided. Here are the study's ten agents of PPO after cloning, trained for much longer than those
+# of lesson [[the_second_trap]]:
 
 # %% tags=["nbval-ignore-output"]
-title = "Three decisions ahead bring more accidents; from six on there is none"
+title = "Three decisions ahead are too few; from six on there is no accident"
 bc.show(figures.by_horizon(study, "ppo_cloned", title))
 
 # %% [markdown]
-# **See.** With three decisions we think that the car accelerates until no action avoids the
-# accident. With six, ten and fifteen there is none, and the returns differ by less than one. (1,000
-# drives each; alone and with ten 10,000. Bars: 95 %.)
-# <!-- claim: per_thousand('ppo_cloned', horizon=3) > per_thousand('ppo_cloned', 'alone') -->
+# **See.** With three decisions accidents are no rarer than alone. With six, ten and fifteen there
+# is none, and the returns differ by less than one. (1,000 drives each; alone and with ten 10,000.
+# Bars: 95 %.)
+# <!-- claim: per_thousand('ppo_cloned', horizon=3) >= per_thousand('ppo_cloned', 'alone') -->
 # <!-- claim: not any(per_thousand('ppo_cloned', horizon=h) for h in (6, 10, 15)) and
 #   np.ptp([ahead('ppo_cloned', horizon=h).returns.value for h in (6, 10, 15)]) < 1 -->
 
@@ -314,7 +324,7 @@ bc.show(figures.by_horizon(study, "ppo_cloned", title))
 def shield(actions, values, accidents):
     """The shield's actions, (roads,), from the base's actions (roads,), in 0..8.
 
-    values: of the nine imagined drives, (roads, 9); accidents: bool (roads, 9), how each ends.
+    values: of the nine imagined drives, (roads, 9); accidents: whether each ends in one, the same.
     """
     # solution: the exercise's own
 
@@ -357,18 +367,26 @@ bc.show(figures.wrong_models(study))
 # %% [markdown]
 # **See.** With PPO's agents the shield is the safer form: it has fewer accidents than the rollouts
 # with all wrong models, and fewer than the agents alone with {{ better('ppo_cloned', 'shield') }}
-# of the {{ len(MODELS) - 1 }}; the rollouts with {{ better('ppo_cloned', 'rollouts') }}.
+# of the {{ len(MODELS) - 1 }}; the rollouts with {{ better('ppo_cloned', 'rollouts') }}. With the
+# paper's agents it has fewer than the rollouts with {{ safer_shield('bootstrapped') }} of the {{
+# len(MODELS) - 1 }}.
 # <!-- claim: all(per_thousand('ppo_cloned', 'shield', model=m) < per_thousand('ppo_cloned',
 #   model=m) for m in MODELS if m != 'exact') -->
 # <!-- claim: better('ppo_cloned', 'shield') > better('ppo_cloned', 'rollouts') -->
 #
 # **Explain.** The rollouts compare nine numbers at each decision. With the wrong models they take
 # another action than the base in {{ overruled('rollouts')[0] | .0f }} to {{
-# overruled('rollouts')[-1] | .0f }} of 1,000 decisions, and each of these comparisons can be wrong.
-# The shield asks one question, "does this end in an accident?", and takes another action in {{
-# overruled('shield')[0] | .1f }} to {{ overruled('shield')[-2] | .0f }} of 1,000. Elsewhere it is
-# the trained agent, and an error of the model changes nothing. (Where everything is a second late,
-# the ego included, it overrules {{ overruled('shield')[-1] | .0f }}, and crashes nearly always.)
+# overruled('rollouts')[-1] | .0f }} of 1,000 decisions. The shield asks one question, "does this
+# end in an accident?", and takes another action in {{ overruled('shield')[0] | .1f }} to {{
+# overruled('shield')[-2] | .0f }} of 1,000. We think that fewer wrong answers follow from fewer
+# questions, but did not test it. Two things speak against it as the whole reason: with the exact
+# model the rollouts overrule {{ 1000 * ahead('ppo_cloned').overruled | .0f }} of 1,000 and have no
+# accident; and with noisy places the shield, which overrules {{ 1000 * ahead('ppo_cloned',
+# 'shield', model=NOISY).overruled | .0f }}, has {{ per_thousand('ppo_cloned', 'shield',
+# model=NOISY) | .0f }} accidents in 1,000 drives, the agents alone {{ per_thousand('ppo_cloned',
+# 'alone') | .0f }}. (Where everything is a second late, the ego included, it overrules {{
+# overruled('shield')[-1] | .0f }}, and crashes nearly always.)
+# <!-- claim: ahead('ppo_cloned').accidents == 0 -->
 # <!-- claim: overruled('rollouts')[0] > 10 * overruled('shield')[-2] and overruled('shield')[-1] ==
 #   1000 * ahead('ppo_cloned', 'shield', model=LATE).overruled -->
 
@@ -409,14 +427,14 @@ table(["the same agent", f"accidents in {len(roads)}", "return"], rows, below)
 # agent has been there, so no row corrects it. Lesson [[recorded_drives]] meets the same with Q. The
 # lowest of the five networks' values does not cure it; the shield, which asks less, errs less.
 #
-# The remedy is that of lesson [[demonstrations]]: let the look-ahead drive, and learn from *its*
+# A remedy is that of lesson [[demonstrations]]: let the look-ahead drive, and learn from *its*
 # drives, too. In the study ten agents do so for {{ learned_model.ROUNDS }} rounds of {{
-# learned_model.DRIVES }} drives. The control learns from as many drives, all of them of the agent
-# alone.
+# learned_model.DRIVES }} drives; in all three panels the look-ahead that drives takes the mean of
+# five. The control learns from as many drives, all of them of the agent alone.
 
 # %%
 learning = together(shipped_experiment("learned-model"))
-title = "Rollouts find the errors of a learned model; drives of their own mend some of them"
+title = "Rollouts find the errors of a learned model; drives of the look-ahead mend some"
 bc.show(figures.learned(learning, study, title))
 
 # %% [markdown]
@@ -438,8 +456,9 @@ bc.show(figures.learned(learning, study, title))
 # rounds {{ still_worse() }} of the ten still crash more often than alone ({{ learned('mean of
 # five')[-1] | .0f }} on average); the curve still falls, and we stopped there. The shield helps
 # from the first round on, nearly all of it the four agents that crash most, and more rounds do not
-# improve it. (In each round 100 drives of each agent; alone 1,000.) A model that was wrong in a
-# known way, a few equations for the others, is far better than these networks.
+# improve it. (In each round 100 drives of each agent; alone 1,000.) In the table a few equations,
+# in which the others keep speed and lane, are far better than these networks; but they got the true
+# state of all cars, and the networks 26 numbers.
 # <!-- claim: learned('mean of five')[0] > 990 and learned_without('mean of five') > 990 and
 #   learned('mean of five')[-1] < 0.5 * learned_without('mean of five') and
 #   (np.diff(learned('mean of five')) < 0).all() -->
@@ -476,11 +495,10 @@ compare_predictions(
 # 1. A rollout takes one action, follows a policy, and adds an estimate of what comes after the
 #    horizon.
 # 2. The best of nine rollouts improves a policy by one decision at each step, without training.
-# 3. It repairs what is one decision away, such as an accident. It finds a longer way if the base
-#    policy takes the rest of it, or if each new decision raises the imagined return.
-# 4. The horizon has to show the gain; a short one with a flattering estimate can do harm.
-# 5. A wrong model costs. With PPO's agents the shield, which overrules few decisions, is safer than
-#    rollouts.
+# 3. It puts an accident off, one decision after the other. It finds a longer way if the base policy
+#    takes the rest of it, or if each new decision raises the imagined return.
+# 4. The horizon has to show the gain, and an accident while it can be avoided.
+# 5. A wrong model costs. With PPO's agents the shield is safer than rollouts with each of our nine.
 # 6. A look-ahead finds the errors of a learned model. The model has to learn from its drives, too;
 #    four rounds of that did not yet pay for the rollouts.
 #
