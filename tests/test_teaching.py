@@ -1,5 +1,6 @@
 """The pages for lecturers: their minutes are the lessons' own, and the exam is in the instructor's edition alone."""
 
+import functools
 import re
 
 import pytest
@@ -12,13 +13,18 @@ from tools.course.numbering import resolved
 
 TEACHING = book.ROOT / "book/teaching"
 EXAM = (TEACHING / "exam.md").read_text(encoding="utf-8")
-PLANS = (TEACHING / "plans.md").read_text(encoding="utf-8")
-PLANS = resolved(claims.fill_in(book.INSTRUCTOR.sub("", PLANS)), "../lessons/")
+
+
+@functools.cache
+def plans() -> str:
+    """The page of plans, with its numbers."""
+    text = (TEACHING / "plans.md").read_text(encoding="utf-8")
+    return resolved(claims.fill_in(book.INSTRUCTOR.sub("", text)), "../lessons/")
 
 
 def rows(heading: str) -> list[list[str]]:
     """The cells of the table below a heading, without its head."""
-    lines = re.search(rf"^## {heading}\n.*?(?=^## |\Z)", PLANS, re.M | re.S)[0].splitlines()
+    lines = re.search(rf"^## {heading}\n.*?(?=^## |\Z)", plans(), re.M | re.S)[0].splitlines()
     return [[cell.strip(" *") for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")][2:]
 
 

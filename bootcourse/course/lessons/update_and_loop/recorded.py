@@ -146,6 +146,8 @@ class Notes:
         if number >= len(self.kept):
             return self.departs("Your loop keeps a row before it has pushed, or more than one row for a push.")
         right = self.kept[number]
+        if torch.equal(row.float(), right):
+            return None
         wrong = [name for name, part in COLUMNS.items() if not torch.equal(row[part].float(), right[part])]
         self.departs(OUT_OF_TIME, wrong == ["terminated"] and number in self.timeouts)
         self.departs(TURNED, wrong == ["s"] and torch.equal(row[:4], right[7:]))
