@@ -195,8 +195,9 @@ class Hunt:
         return self._results[self._bug_of[name]]
 
     def curve(self, name: str, what: str) -> np.ndarray:
-        """success, return, accident (0 to 3) or alpha of every training episode: (2 seeds, episodes)."""
-        return self._of(name).curves[what].astype(float)
+        """success, return, accident (1 or 0) or alpha of every training episode: (2 seeds, episodes)."""
+        values = self._of(name).curves[what].astype(float)
+        return np.where(values > 0, 1.0, values) if what == "accident" else values
 
     def probe(self, name: str, what: str) -> np.ndarray:
         """One of `PROBES` after each of `updates`: (2 seeds, points)."""

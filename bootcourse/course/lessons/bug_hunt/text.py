@@ -47,8 +47,8 @@ progress("bug_hunt")
 # ## Look first
 #
 # Seven agents were trained with the paper's method. One is healthy. Each of the others, A to F, has
-# one **silent bug**: a line that is wrong, raises nothing and prints nothing. The healthy agent
-# earns about what the rule does.
+# one **silent bug**: a line that is wrong, raises nothing and prints nothing. So early in its
+# training the healthy agent earns about what the rule does.
 # <!-- claim: abs(hunt().at_the_end('return')['healthy'].mean() /
 #   of('rule').scores('returns')[0] - 1) < 0.1 -->
 # <!-- claim: len(bugs.LEARNERS) == 7 -->
@@ -64,12 +64,14 @@ rows = [[d.label, bc.words.outcome(d), f"{d.rewards.sum():.0f}"] for d in drives
 table(["in 150 s", "in the end", "return"], rows)
 
 # %% [markdown]
-# Both leave the trap, and the agent with a bug earns more. A bug need not look like one.
+# Both leave the trap, and after these {{ bugs.UPDATES | , }} updates the agent with a bug earns
+# more. A bug need not look like one.
 # <!-- claim: (lambda h: record(h.agent('E').as_policy(), [ROAD])[0].rewards.sum() >
 #   record(h.agent('healthy').as_policy(), [ROAD])[0].rewards.sum())(hunt()) -->
 #
 # > **Predict.** With how many of these six bugs do the agents still *succeed* in training, that is,
-# > end ahead of trap 1 in most episodes? Say which, before you count.
+# > end ahead of trap 1 in more than 80 % of the last 30 episodes, in the mean of two seeds? Say
+# > which, before you count.
 # >
 # > - `flipped_kl`: the KL divergence is taken the other way round;
 # > - `no_end`: (1 − terminated) is missing in the critic's target;
@@ -102,18 +104,21 @@ bc.show(charts.many(curves, title, episode, share, reference="healthy", x_scale=
 
 # %%
 late, last = hunt.at_the_end("success"), hunt.at_the_end("return")
-rows = [
-    [n, *(" and ".join(f"{x:.0f}" for x in seeds) for seeds in (100 * late[n], last[n]))]
-    for n in hunt.names
-]
-table(["at the end of training, two seeds", "success, %", "return"], rows)
+crashed, rows = hunt.at_the_end("accident"), []
+for n in hunt.names:
+    columns = (100 * late[n], last[n], 100 * crashed[n])
+    rows.append([n, *(" and ".join(f"{x:.0f}" for x in seeds) for seeds in columns)])
+table(["at the end of training, two seeds", "success, %", "return", "accidents, %"], rows)
 
 # %% [markdown]
-# **See.** Code can be wrong although its curve looks right. By the mean of their two seeds, three
-# of the six broken agents succeed at the end as often as the healthy one, and a fourth in over 80
-# %. The agent with the highest return has a bug, in both seeds.
-# <!-- claim: sum(hunt().at_the_end('success')[n].mean() >=
-#   hunt().at_the_end('success')['healthy'].mean() for n in 'ABCDEF') == 3 -->
+# **See.** Code can be wrong although its curve looks right. A, C and D succeed at the end as often
+# as the healthy one, E in over 80 %. E has the highest return, in both seeds, and more accidents
+# than the healthy agent. (A healthy agent can look ill, too: in the study three of ten of this
+# method do not escape.)
+# <!-- claim: {n for n in 'ABCDEF' if hunt().at_the_end('success')[n].mean() >=
+#   hunt().at_the_end('success')['healthy'].mean()} == set('ACD') -->
+# <!-- claim: hunt().at_the_end('accident')['E'].min() > hunt().at_the_end('accident')['healthy'].max()
+#   and len(of('bootstrapped')) - escaped('bootstrapped') == 3 -->
 # <!-- claim: sum(hunt().at_the_end('success')[n].mean() > 0.8 for n in 'ABCDEF') == 4 -->
 # <!-- claim: (lambda last: last['E'].min() > max(v.max() for n, v in last.items() if n !=
 #   'E'))(hunt().at_the_end('return')) -->
@@ -169,8 +174,8 @@ bc.show(
 
 # %% [markdown]
 # **See.** Even the healthy critics stay above {{ DEFAULT.reward.accident }}. (We think that similar
-# seconds without an accident raise it.) So judge a probe against the healthy agent: which agent
-# leaves the grey lines, and in which direction?
+# seconds without an accident raise it.) So a probe is a comparison, with the healthy agent after as
+# many updates: which agent leaves the grey lines, and in which direction?
 # <!-- claim: (hunt().probe('healthy', 'end')[:, -1] > DEFAULT.reward.accident + 1).all() -->
 #
 # > **Predict.** The road pays at most about 1 a second, and γ = {{ SETTINGS.gamma }}. The value
@@ -255,9 +260,9 @@ bc.show(charts.many(probes, title, "updates", "log of the rarest action's probab
 # %% [markdown]
 # **Explain.** The stochastic rule gives one in eighty to each action that the rule does not take.
 # With the right KL dropping such an action costs little. The flipped KL grows without bound when
-# one of the nine probabilities goes to zero, so each falls more slowly, and it falls at all since ξ
-# fades: log π = −16 is 10⁻⁷. *Two* agents keep their rarest action likelier than the healthy one;
-# Round 4 tells them apart.
+# one of the nine probabilities goes to zero, so each falls more slowly. It falls as ξ fades: log π
+# = −16 is 10⁻⁷. *Two* agents keep their rarest action likelier than the healthy one; Round 4 tells
+# them apart.
 # <!-- claim: math.isclose((1 - RULE_P) / (N_ACTIONS - 1), 1 / 80) -->
 # <!-- claim: round(-16 / math.log(10)) == -7 -->
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'rarest')[:, -1].min() > -20} == {'A', 'B'}
@@ -287,8 +292,9 @@ table(headings, rows)
 
 # %% [markdown]
 # **See.** In these 200 drives one agent succeeds nearly always with its most probable action, and
-# in less than half of the drives with drawn ones. (F is often ahead, and crashes in every drive:
-# the success rate counts who overtook.) Which part of the learner seems to have taught it nothing?
+# in less than half of the drives with drawn ones. (F crashes in every drive, also where it was
+# ahead before. One seed of each: small differences mean little.) Which part of the learner seems to
+# have taught it nothing?
 # <!-- claim: drive_episodes(hunt().agent('B').as_policy(), held_out_seeds(12, 200)).success.mean()
 #   > 0.9 -->
 # <!-- claim: drive_episodes(hunt().agent('B').as_policy(np.random.default_rng(0)),
@@ -316,7 +322,8 @@ check.diagnose(diagnose)
 #   healthy one's: it has learned from the rule, and next to nothing from Q.
 # - **C**: the table of Round 3. Early it agrees with the rule of *now* less often than all but F,
 #   whose critic has left all bounds. The difference to one second later is small.
-# - **D**: the first probe of Round 2. Its Q falls below {{ DEFAULT.reward.accident }} at accidents.
+# - **D**: the first probe of Round 2. In these {{ bugs.UPDATES | , }} updates its Q falls below {{
+#   DEFAULT.reward.accident }} at accidents.
 # - **E**: the promise, which rises past 10, together with the highest return. At accidents its Q
 #   lies above the grey lines, too. Why does it earn more? We think because a bonus for everything
 #   no longer prefers the demonstrations: E does what the rule does in {{ 100 * as_the_rule('E')[0]
@@ -436,10 +443,10 @@ def unmasks(target):
 check.unmasks(unmasks)
 
 # %% [markdown]
-# **Explain.** A teacher hides bugs. Its demonstrations and the soft constraint lead the policy out
-# of the trap even if another part of the learner is wrong; we think that this is why some of the
-# six do little damage here. And a bug that raises the return is dangerous, since few people search
-# for a mistake in a good result.
+# **Explain.** Here four of six bugs leave success high. A teacher may hide them: its demonstrations
+# and the soft constraint lead the policy out of the trap even if another part of the learner is
+# wrong. We did not train the bugs without a teacher. And a bug that raises the return is dangerous,
+# since few people search for a mistake in a good result.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let pairs write the test of the labels on paper. Then ask which of the six their own programs
@@ -463,9 +470,10 @@ compare_predictions(
 # 1. A curve can look right with a broken part behind it: three of six agents with a bug succeeded
 #    as often as the healthy one, and the one with the highest return had a bug.
 # 2. A probe asks one part of a learner something whose answer is known. Compare with a healthy
-#    agent: each of the six bugs left its trace in a probe or in the drives.
+#    agent, during training: after {{ bugs.UPDATES | , }} updates each of the six bugs shows in a
+#    probe or in the drives.
 # 3. On this road, without a bonus, a promise far above {{ 1 / (1 - SETTINGS.gamma) | .0f }} is
-#    wrong.
+#    wrong. A promise below it acquits nobody.
 # 4. No gradient passes through a draw among nine actions. Without the stop-gradient, the actor's
 #    loss changes the critic.
 # 5. Small functions with hand-worked cases find in milliseconds what training can hide.

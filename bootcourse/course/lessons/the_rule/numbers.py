@@ -14,12 +14,21 @@ from bootcourse.scenario import DEFAULT
 
 
 @cache
-def sighted(sight: float, n: int = DEFAULT.rule.n, t_safe: float = DEFAULT.rule.t_safe) -> Episodes:
-    """The rule with another sight (m), n speeds and another t_safe (s), on the lesson's 200 roads."""
+def sighted(
+    sight: float,
+    n: int = DEFAULT.rule.n,
+    t_safe: float = DEFAULT.rule.t_safe,
+    politeness: float = DEFAULT.traffic.politeness,
+) -> Episodes:
+    """The rule with another sight (m), n speeds and another t_safe (s), on the lesson's 200 roads.
+
+    politeness: of the other drivers, which make way for a faster car behind them.
+    """
     rule = dataclasses.replace(DEFAULT.rule, n=n, t_safe=t_safe)
     seen = dataclasses.replace(DEFAULT.sight, distance=sight)
     driver = rule_policy(dataclasses.replace(DEFAULT, rule=rule, sight=seen))
-    return drive_episodes(driver, held_out_seeds(1, 200))
+    traffic = dataclasses.replace(DEFAULT.traffic, politeness=politeness)
+    return drive_episodes(driver, held_out_seeds(1, 200), dataclasses.replace(DEFAULT, traffic=traffic))
 
 
 @cache
