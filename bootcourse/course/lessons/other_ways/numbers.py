@@ -114,6 +114,20 @@ def ahead_next() -> float:
     return float(rlpd().curves["success"][(following > 0) & (following <= 50)].mean())
 
 
+def next_decisions() -> float:
+    """How many decisions these 50 episodes have, the mean over the agents."""
+    following = (~untrained()).cumsum(axis=1)
+    of = np.where((following > 0) & (following <= 50), rlpd().curves["decisions"], 0)
+    return float(np.nansum(of, axis=1).mean())
+
+
+def escapers_accidents() -> str:
+    """In how many of 100 test drives each of those that escape has an accident, in order."""
+    shares = np.sort(rlpd().scores("accident")[rlpd().scores("success") >= ESCAPES])
+    words = [f"{100 * share:.0f}" for share in shares]
+    return f"{', '.join(words[:-1])} and {words[-1]}"
+
+
 def drives_before(method: str) -> int:
     """How many drives of the rule these agents have before they begin: demonstrations, or what a clone learns from."""
     settings = settings_for(method, **equal_decisions.COMMON[method])
