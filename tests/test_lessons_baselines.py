@@ -5,42 +5,15 @@ import pytest
 import torch
 
 from bootcourse.course.lessons.recorded_drives import choosing
-from bootcourse.course.lessons.recorded_drives.figures import (
-    success_around,
-    updates_made,
-)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import REACHABLE, by_entropy
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.policies import PolicyOutput
-from bootcourse.research.results import Results
 
 
 def plan(action: int):
     """A driver that always does the same."""
     return lambda observations, cars: PolicyOutput(np.full(len(observations), action))
-
-
-def results(seconds: np.ndarray) -> Results:
-    """GAIL agents whose test drives and training episodes last so long, (agents, episodes), at 10 m/s.
-
-    Those that are shorter than 150 s end in an accident.
-    """
-    seconds = np.asarray(seconds, dtype=np.float32)
-    agents = [{"method": "gail", "seed": i, "updates": 2, "envs_per_agent": 4} for i in range(len(seconds))]
-    drives = {"speed": np.full_like(seconds, 10), "distance": 10 * seconds}
-    drives["accident"] = (seconds < 150).astype(np.int8)
-    return Results(agents, np.full(len(seconds), -1), drives, drives)
-
-
-def test_updates_are_counted_from_the_seconds_that_the_episodes_lasted():
-    assert updates_made(results([[10, 150], [2, 4]])) == pytest.approx(np.array([[5, 80], [1, 3]]))
-
-
-def test_the_success_around_an_update_is_that_of_the_episodes_next_to_it():
-    success, updates = np.repeat([[0.0, 1.0]], 100, axis=1), np.arange(1.0, 201)[None]
-    assert success_around(success, updates, 50)[0] == 0 and success_around(success, updates, 150)[0] == 1
-    assert success_around(success, updates, 101)[0] == pytest.approx(0.5)
 
 
 def test_what_a_policy_is_worth_is_read_from_recorded_decisions_where_it_acts_as_they_did():

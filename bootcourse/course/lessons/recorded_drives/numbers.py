@@ -6,10 +6,10 @@ import numpy as np
 
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
-from bootcourse.course.lessons.recorded_drives.figures import half_success, updates_made
 from bootcourse.course.shipped import shipped_agents
+from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
-from tools.course.known import of
+from tools.course.known import of, shipped_results
 
 
 def share(what: str) -> float:
@@ -28,23 +28,18 @@ def others() -> np.ndarray:
     return success[success < ESCAPES]
 
 
-def slower(axis: str) -> float:
-    """How many times CQL's episodes, or updates, GAIL needs until half of its drives succeed: of the medians."""
-    medians = []
-    for method in ("gail", "cql"):
-        at = half_success(of(method).curves["success"])
-        needed = at if axis == "episodes" else np.take_along_axis(updates_made(of(method)), at[:, None] - 1, 1)[:, 0]
-        medians.append(np.median(needed[at > 0]))
-    return float(medians[0] / medians[1])
+def of_paper(method: str) -> Results:
+    """The agents of a method in the study whose demonstrations are the stochastic rule's."""
+    return shipped_results("paper").of(method)
 
 
 @cache
-def worth_of(method: str) -> float:
-    """What the first agent of a method is worth from the start at γ = 0.8, the mean of 100 roads."""
-    return choosing.worth(shipped_agents(method)[0].as_policy(), range(100), 0.8)[0]
+def worth_of(method: str, which: int = 0) -> float:
+    """What an agent of a method, by default its first, is worth from the start at γ = 0.8, the mean of 100 roads."""
+    return choosing.worth(shipped_agents(method)[which].as_policy(), range(100), 0.8)[0]
 
 
 @cache
-def overlap_of(method: str) -> float:
+def overlap_of(method: str, which: int = 0) -> float:
     """In which share of the recorded seconds it would do what was done."""
-    return choosing.overlap(shipped_agents(method)[0].as_policy(), choosing.recorded())
+    return choosing.overlap(shipped_agents(method)[which].as_policy(), choosing.recorded())

@@ -125,16 +125,15 @@ table(["", "success, %: paper", "ours", "return: paper", "ours"], rows)
 # <!-- claim: len(of('gail')) / 2 < escaped('gail') < len(of('gail')) -->
 # <!-- claim: PRINTED['cql']['success'].mean == PRINTED['gail']['success'].mean == 0 -->
 #
-# A suspect for the 0 % is *short* training, though not for the return of 23 that the paper's CQL
-# has. (BC and CQL drive for this picture only.)
-
-# %%
-bc.show(figures.success_in_training(study))
-
-# %% [markdown]
-# **See.** GAIL needs {{ slower('updates') | .1f }} times the updates of CQL until half of its
-# drives succeed.
-# <!-- claim: 3 < slower('updates') < 4.5 -->
+# What may make 0 %? The data, the seed and the settings count. In our study `paper` the drives are
+# the *stochastic* rule's, and each decision has more updates: there CQL's agents earn {{
+# of_paper('cql').scores('returns').min() | .0f }} to {{ of_paper('cql').scores('returns').max() |
+# .0f }} and leave the road in {{ 100 * of_paper('cql').episodes('road_departure').mean() | .0f }}
+# % of their drives, and one of ten GAIL agents succeeds on no road. Round 3 has another suspect for
+# CQL's 0 %.
+# <!-- claim: of_paper('cql').scores('returns').max() < of('rule').scores('returns').max() and
+#   sorted(of_paper('gail').scores('success'))[0] == 0 < sorted(of_paper('gail').scores('success'))[1]
+#   and len(of_paper('gail')) == 10 -->
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Collect the votes before the table. The class will be tempted to conclude that the paper is wrong.
@@ -176,7 +175,8 @@ def discriminator_loss(rule_logits, own_logits):
 check.discriminator_loss(discriminator_loss)
 
 # %% [markdown]
-# The agent learns to get a high D. In place of the road's reward it is paid
+# The agent learns to get a high D, by the SAC of lesson [[update_and_loop]]. In place of the road's
+# reward it is paid
 #
 # $$ r(s,a) = -\log (1 - D(s,a)) $$
 #
@@ -344,8 +344,8 @@ check.offline_loss(offline_loss)
 # Why *conservative*? Suppose that the data held each action, and let π = softmax(Q). Where this
 # loss is smallest, an action that π takes more often than the data do has a Q *below* its target,
 # and the value of the policy, Σ π Q, is at most what the targets say. But our agent takes the
-# action with the highest Q, and the rule's drives hold one action in a state. So the table of
-# promises below tests the critic.
+# action with the highest Q, and the rule's drives hold one action in a state. So the last table of
+# this round tests the critic.
 #
 # <details><summary>The derivation</summary>
 #
@@ -446,7 +446,7 @@ table(headings, rows)
 #
 # **Explain.** The term *is* the cloning loss of softmax(Q) (lesson [[demonstrations]]). So **CQL is
 # Q-learning and cloning in one.** The agents without rewards are told what to do by the term alone:
-# here they drive as well. That rewards add something shows only in Round 1.
+# here, after 3,000 updates, they drive no worse.
 # <!-- claim: bool(torch.isclose(conservative_loss(torch.eye(9)[2:3], torch.tensor([4])),
 #   torch.nn.functional.cross_entropy(torch.eye(9)[2:3], torch.tensor([4])))) -->
 #
@@ -464,8 +464,10 @@ table(["", "agents that escape", "mean speed", "returns of the agents, sorted"],
 
 # %% [markdown]
 # **See.** No agent of the second kind escapes. Six of ten stay behind trap 1, as the paper's CQL
-# does; the other four have an accident in all of their drives. So the paper's CQL may have had an
-# actor.
+# does; the other four have an accident in all of their drives. In our study with faster traps
+# (`calibrated`) all ten stay. So the paper's CQL may have had an actor.
+# <!-- claim: (lambda r: len(r) == 10 and np.ptp(r) < 0.1 and r.mean() >
+#   23)(shipped_results('calibrated').of('cql_sac').scores('returns')) -->
 # <!-- claim: escaped('cql_sac') == 0 and np.allclose(np.sort(of('cql_sac').scores('returns'))[4:],
 #   idle().rewards.sum(), atol=1) and (of('cql_sac').scores('accident') == 1).sum() == 4 -->
 
@@ -479,12 +481,12 @@ table(["", "agents that escape", "mean speed", "returns of the agents, sorted"],
 # %% [markdown]
 # ## Round 4: choosing without a simulator
 #
-# You have six trained drivers, the recorded drives, and no road on which to try them. Which one do
+# You have seven trained drivers, the recorded drives, and no road on which to try them. Which one do
 # you let out? **Fitted Q evaluation** (FQE) estimates what a *given* policy π is worth. It fits
 # Q(s, a) to r + γ Q(s', π(s')) over the recorded seconds. Where the drives begin, Q(s, π(s)) is the
 # estimate.
 #
-# > **Predict.** For which of the six will the estimate be nearest to the truth?
+# > **Predict.** For which of the seven will the estimate be nearest to the truth?
 
 # %%
 choices = ["those that act as the data do", "those that earn most", "all alike"]
@@ -497,26 +499,30 @@ starts = torch.stack(
     [torch.from_numpy(drive.observations[0]) for drive in bc.record(bc.idle_policy, roads)]
 ).float()
 rows, misses = [], []
-for method in ("bc", "cql", "cql_sac", "gail", "sac", "bootstrapped"):
-    driver = bc.shipped_agents(method)[0].as_policy()
+for method in ("bc", "cql", "cql_sac", "gail", "sac", "bootstrapped", "bootstrapped"):
+    which = sum(row[0].startswith(bc.display_name(method)) for row in rows)  # the next of its kind
+    driver = bc.shipped_agents(method)[which].as_policy()
     alike = choosing.overlap(driver, data)
     guess = choosing.estimate(driver, data, starts, gamma=0.8)
     true, earned = choosing.worth(driver, roads, gamma=0.8)
     misses.append((alike, abs(guess - true)))
     cells = [f"{alike:.0%}", f"{guess:.2f}", f"{true:.2f}", f"{earned:.0f}"]
-    rows.append([bc.display_name(method), *cells])
+    rows.append([f"{bc.display_name(method)}, agent {which + 1}", *cells])
 headings = ["acts as the data do", "estimate, γ = 0.8", "on the road, γ = 0.8", "return"]
-table(["first agent of", *headings], rows)
+table(["", *headings], rows)
 
 # %% [markdown]
 # **See.** Where a driver does what the data hold, the estimate has something to stand on. Where it
 # does something else, Q is a guess, which may be near the truth all the same. So print the overlap
 # beside the estimate.
 #
-# Whom would you choose? The largest estimate of all is no choice: here its driver acts as the data
-# do in little more than half of the seconds. And compare the last two columns: at γ = 0.8 CQL with
-# an actor, which stays behind trap 1, is truly worth more than the clone and CQL. A choice is no
-# better than the number that it is made by.
+# Whom would you choose? Little overlap means *unknown*, not bad: the second bootstrapped agent acts as
+# the data do in {{ 100 * overlap_of('bootstrapped', 1) | .0f }} % of the seconds, and is worth most
+# on the road, at γ = 0.8 too. And compare the last two columns: at γ = 0.8 CQL with an actor, which
+# stays behind trap 1, is worth more than the clone and CQL. A choice is no better than the number
+# that it is made by. (Would you trust the order of the estimates? They come from one fit.)
+# <!-- claim: worth_of('bootstrapped', 1) > max(worth_of(m) for m in ('bc', 'cql', 'cql_sac', 'gail',
+#   'sac', 'bootstrapped')) and overlap_of('bootstrapped', 1) < 0.5 -->
 # <!-- claim: worth_of('cql_sac') > worth_of('bc') and worth_of('cql_sac') > worth_of('cql') -->
 # <!-- claim: overlap_of('bc') > 0.85 and overlap_of('cql') > 0.8 and max(overlap_of(m) for m in
 #   ('cql_sac', 'sac', 'bootstrapped')) < 0.7 -->
@@ -549,8 +555,8 @@ compare_predictions(
 #
 # 1. BC and CQL learn without driving; GAIL has to drive. BC and GAIL do not use the road's reward.
 # 2. GAIL is paid by its discriminator; the sign of that reward decides whether going on pays.
-# 3. A success rate that counts who is ahead hides later accidents. A method whose training stopped
-#    too early looks like a failure.
+# 3. A success rate that counts who is ahead hides later accidents. One agent can look like a failure
+#    of its method.
 # <!-- claim: accidents('gail') > 10 * max(accidents('bc'), accidents('cql')) -->
 # 4. Without CQL's term offline Q-learning trusts guesses about actions that the data do not hold.
 #    The term is the cloning loss of softmax(Q). All ten CQL agents without an actor escape, and
