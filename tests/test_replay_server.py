@@ -230,7 +230,9 @@ def test_in_a_browser_the_buttons_and_the_slider_work(drives):
         assert until(lambda: f"{live.player.t:.1f}" in page.inner_text("body"))
         page.keyboard.press("f")
         assert until(lambda: not live.stage.drives[0].futures[0].visible), "key F"
-        page.get_by_label("Nine futures").click()
+        futures = page.get_by_label("Nine futures")
+        assert until(lambda: not futures.is_checked()), "the box follows the key"
+        futures.click()
         assert until(lambda: live.stage.drives[0].futures[0].visible)
         page.get_by_label("Dark", exact=True).click()
         assert until(lambda: live.stage.dark)

@@ -342,7 +342,8 @@ for name, setting in settings.items():
     driven = changed(**setting)
     shares = (100 * driven.success.mean(), 100 * np.mean(driven.accident > 0))
     far = f"{driven.distance.mean():,.0f} m"
-    rows.append([name, f"{driven.returns.mean():.1f}", far, *(f"{share:.0f} %" for share in shares)])
+    cells = (f"{driven.returns.mean():.1f}", far, *(f"{share:.0f} %" for share in shares))
+    rows.append([name, *cells])
 table(["200 roads", "return", "distance", "success", "accidents"], rows)
 
 # %% [markdown]
