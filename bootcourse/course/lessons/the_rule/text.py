@@ -149,10 +149,20 @@ explorable.gap()
 choices = ["positive", "zero", "negative"]
 predict("the_rule.2", "What is d_s when you are slower than both cars?", choices)
 
+# %%
+# NBVAL_CHECK_OUTPUT
+predicted("the_rule.2")
+slow, both = 8.25, 10.0  # m/s: yours, and that of both traps
+t_safe = bc.DEFAULT.rule.t_safe
+print(f"d_s = ({slow} − {both}) · {t_safe} = {(slow - both) * t_safe:.1f} m")
+
 # %% [markdown]
-# It is negative: any gap, however short, would do. So we set a *floor*: $d_s$ is at least
-# {{ DEFAULT.rule.floor | g }} m. The paper leaves $t_\text{safe}$ open: we take
-# {{ DEFAULT.rule.t_safe }} s. This course marks a choice of ours with §, and these are two.
+# **See.** It is negative: any gap, however short, would do.
+
+# %% [markdown]
+# So that a gap is always asked for, $d_s$ is at least {{ DEFAULT.rule.floor | g }} m, our *floor*.
+# The paper leaves $t_\text{safe}$ open: we take {{ DEFAULT.rule.t_safe }} s. This course marks a
+# choice of ours with §, and these are two.
 #
 # **Exercise (5 min, ●○○).** Write the distance with its floor.
 
