@@ -6,14 +6,15 @@ import numpy as np
 
 from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.course.lessons.your_teacher.example_teachers import careful
-from bootcourse.episodes.evaluate import drive_episodes
+from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.learn.training import Training
+from bootcourse.research.teachers import teacher_named
 from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD
+from tools.course.known import ROAD, shipped_teachers
 
 
 def ppo(kind: str) -> dict:
@@ -49,11 +50,22 @@ def ppo_gap(kind: str = "alone") -> np.ndarray:
 
 
 @cache
-def clones(seeds: int = 3) -> tuple[np.ndarray, np.ndarray]:
-    """The success and the mean return of clones of the rule on 100 roads, before PPO begins, each (seeds,)."""
-    training = Training(with_seeds(ppo_kinds.settings_of("cloned"), seeds), 1)
-    driven = [drive_episodes(training.agent(i).as_policy(), range(100)) for i in range(seeds)]
-    return np.array([each.success.mean() for each in driven]), np.array([each.returns.mean() for each in driven])
+def clones(teacher: str, seeds: int = 5) -> list[Episodes]:
+    """How clones of one of the study's teachers drive 100 roads by drawn actions, before PPO begins."""
+    training = Training(with_seeds(settings_for("ppo_cloned"), seeds), 1, teacher=teacher_named(teacher))
+    agents = [training.agent(i) for i in range(seeds)]
+    return [drive_episodes(each.as_policy(np.random.default_rng(0)), held_out_seeds(1, 100)) for each in agents]
+
+
+def clones_ahead(teacher: str) -> str:
+    """On how many of the 100 roads each of them ends ahead of trap 1: "3 to 6"."""
+    ahead = [100 * each.success.mean() for each in clones(teacher)]
+    return f"{min(ahead):.0f} to {max(ahead):.0f}"
+
+
+def cloned_escape(teacher: str) -> int:
+    """How many of the study's ten agents of PPO after cloning this teacher escape."""
+    return shipped_teachers()[teacher, "ppo_cloned"].escapers("ppo_cloned")
 
 
 @cache
