@@ -44,7 +44,7 @@ predict("start.1", "How many attempts until you are ahead of trap 1?", unit="att
 
 # %% [markdown]
 # Not out after five attempts? Choose *the rule* as a **ghost**, a faint car that drives the same
-# road: a hand-written controller, the **rule**, knows a way.
+# road: a hand-written controller, the **rule**, knows a way, a slow one.
 # <!-- claim: by_rule(10).success -->
 #
 # ## Your drive, and two others
@@ -75,8 +75,9 @@ bc.recording([shipped.beginning(drive, seconds) for drive in drives], height=480
 # A driver is paid for each second: most at {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
 # little at the traps' {{ DEFAULT.traps.speed }} m/s. An accident costs about what a minute behind
 # the traps earns. This course asks two questions. Why does a program that learns stay behind slow
-# cars, although the left lane is free? And how can an imperfect teacher, such as the rule, help it
-# out, without the learner becoming a copy of the teacher?
+# cars, although the left lane is free? (That is the **trap**: to stay pays a little at once, and to
+# get out you first fall back or risk a crash.) And how can an imperfect teacher, such as the rule,
+# help it out, without the learner becoming a copy of the teacher?
 #
 # ## An agent of your own
 #
@@ -90,8 +91,9 @@ training = bc.Training([bc.settings_for("bootstrapped")], episodes=5000)
 learned = training.run(updates=2000)
 
 # %% [markdown]
-# **See.** Whether yours gets out depends on chance and on your machine. Click on a curve: the agent
-# of that moment drives. Lesson [[the_trap]] says what the curves show.
+# **See.** *When* yours gets out on most of its drives depends on chance and on your machine; the
+# success curve is a mean of past drives, so it lags. Click on a curve: the agent of that moment
+# drives. Lesson [[the_trap]] says what the curves show.
 #
 # The results that we got are saved below each cell. Those that answer a prediction, and the text
 # that explains them, are folded in JupyterLab until you commit to a prediction of your own, or
