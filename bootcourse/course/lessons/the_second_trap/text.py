@@ -47,9 +47,9 @@ progress("the_second_trap")
 # %% [markdown]
 # ## Look first
 #
-# The road is a fast program (compiled by numba), and the paper's learner makes little use of that.
-# PPO, *proximal policy optimisation*, drives hundreds of roads at once. Here is one of ten agents
-# trained with it, alone, without a rule or demonstrations.
+# The road is a fast program, and the paper's learner makes little use of that. PPO, *proximal
+# policy optimisation*, drives hundreds of roads at once. Here is one of ten agents trained with it,
+# without a rule or demonstrations.
 # <!-- claim: ppo_agents() == 10 -->
 
 # %%
@@ -86,8 +86,8 @@ table(["", "ahead of trap 1 in the end, %", "return"], rows)
 
 # %% [markdown]
 # The agents end behind trap 1. Yet they earn {{ ppo('alone')['returns'].min() | .0f }} to {{
-# ppo('alone')['returns'].max() | .0f }}, on average twice what keeping straight earns and about what
-# the rule earns, which gets out.
+# ppo('alone')['returns'].max() | .0f }}, on average twice what keeping straight earns and about
+# what the rule earns, which gets out.
 # <!-- claim: (ppo('alone')['success'] < 0.05).all() -->
 # <!-- claim: ppo('alone')['returns'].mean() > 1.8 * idle().rewards.sum() and
 #   abs(ppo('alone')['returns'].mean() / of('rule').scores('returns')[0] - 1) < 0.25 -->
@@ -145,10 +145,10 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # discounted(ppo_drive(), settings_for('ppo').gamma) | .0f }} at the start, and that of `careful`, a
 # rule of lesson [[your_teacher]] that gets out, {{ discounted(careful_drive(),
 # settings_for('ppo').gamma) | .0f }}. The agent would gain by leaving, and has not found the way.
-# With the paper's γ = {{ SETTINGS.gamma }} `careful`'s drive is worth less than keeping straight ({{
-# discounted(careful_drive(), SETTINGS.gamma) | .2f }} and {{ discounted(idle(), SETTINGS.gamma) |
-# .2f }}): the first seconds decide. (Many would call it *reward hacking* either way: the agent is
-# paid for what nobody wanted.)
+# With the paper's γ = {{ SETTINGS.gamma }} `careful`'s drive is worth less than keeping straight
+# ({{ discounted(careful_drive(), SETTINGS.gamma) | .2f }} and {{ discounted(idle(), SETTINGS.gamma)
+# | .2f }}): the first seconds decide. (Paid for what nobody wanted: many would call it *reward
+# hacking*.)
 # <!-- claim: all(discounted(careful_drive(road), SETTINGS.gamma) < discounted(record(idle_policy,
 #   [road])[0], SETTINGS.gamma) for road in range(10, 20)) -->
 #
@@ -182,7 +182,7 @@ table(["", "mean speed, m/s", "mean r_v", "r_v at the mean speed", "gap"], rows)
 # depend on it, and add 0 on average.
 #
 # A **baseline** adds 0 on average, too: subtract a number from R, such as the mean, and the
-# gradient's mean stays, since E[∇ log π] = Σ ∇π = ∇ 1 = 0. An example: three actions that pay 10,
+# gradient's mean stays, since E[∇ log π] = Σ ∇π = ∇ 1 = 0. Example: three actions that pay 10,
 # 11 and 12, each with probability ⅓.
 
 # %%
@@ -200,10 +200,10 @@ table(["", "baseline", *logits, "spread"], rows)
 
 # %% [markdown]
 # Both means agree with the exact gradient up to noise. The baseline makes the spread about twenty
-# times smaller, so the same precision needs about four hundred times fewer draws (noise falls with
-# the *square root* of their number). PPO adds to this a baseline V(s) that is learned, and a loss
-# that stops paying for larger changes of the policy. It drives its roads for {{
-# settings_for('ppo').horizon }} seconds, learns from these decisions, and deletes them.
+# times smaller, so the same precision needs about four hundred times fewer draws. PPO adds to this
+# a baseline V(s) that is learned, and a loss that stops paying for larger changes of the policy. It
+# drives its roads for {{ settings_for('ppo').horizon }} seconds, learns from these decisions, and
+# deletes them.
 #
 # **How good was a decision?** It was good if more came than V expected. The surprise of one second
 # is the temporal difference
@@ -222,8 +222,8 @@ table(["", "baseline", *logits, "spread"], rows)
 # the last state still has its value. In both cases the sum stops: the next row belongs to another
 # episode.
 #
-# **Exercise (15 min, ●●●).** Write it, in torch. Can you do it in one loop, from the last row
-# to the first? Rewards 1, 2, 4 with V = 0 and γ = λ = ½ give A = 1.75, 3, 4.
+# **Exercise (15 min, ●●●).** Write it, in torch. Rewards 1, 2, 4 with V = 0 and γ = λ = ½ give A =
+# 1.75, 3, 4.
 
 
 # %%
@@ -307,9 +307,8 @@ check.ppo_loss(ppo_loss)
 
 # %% [markdown]
 # Train one agent with it, for 500,000 decisions; those that ship had {{
-# ppo_kinds.KINDS['alone'].decisions | , }}. All have a small network and large steps
-# (`ppo_kinds.QUICK`), to be fast. **Yours will differ**: the result depends on your
-# processor.
+# ppo_kinds.KINDS['alone'].decisions | , }}. All have the same settings (`ppo_kinds.QUICK`: a small
+# network, large steps). **Yours will differ**: the result depends on your processor.
 
 # %% tags=["nbval-ignore-output"]
 MOST = 100_000  # episodes; the number of decisions ends each training
@@ -339,10 +338,10 @@ title = "After 200,000 decisions some drives end ahead of trap 1, at the end non
 bc.show(charts.lines(alone["at"][0] / 1000, named, title, *axes, looks=(PPO,)))
 
 # %% [markdown]
-# **See.** After 200,000 decisions the ten were ahead in {{ 100 * ppo('alone')['escapes'][:, 3].min()
-# | .1f }} to {{ 100 * ppo('alone')['escapes'][:, 3].max() | .1f }} % of 300 episodes (a crash after
-# overtaking counts), from 300,000 on in at most {{ 100 * ppo('alone')['escapes'][:, 5:].max() | .0f
-# }} %. Meanwhile their return rose.
+# **See.** After 200,000 decisions the ten were ahead in {{ 100 * ppo('alone')['escapes'][:,
+# 3].min() | .1f }} to {{ 100 * ppo('alone')['escapes'][:, 3].max() | .1f }} % of 300 episodes (a
+# crash after overtaking counts), from 300,000 on in at most {{ 100 * ppo('alone')['escapes'][:,
+# 5:].max() | .0f }} %. Meanwhile their return rose.
 # <!-- claim: (ppo('alone')['escapes'][:, -1] == 0).all() and abs(ppo('alone')['at'][0, [3, 5]] -
 #   [200_000, 300_000]).max() < 500 and ppo('alone')['escapes'][:, 3].max() ==
 #   ppo('alone')['escapes'].max() and (ppo('alone')['curve'][:, 5] > ppo('alone')['curve'][:,
@@ -372,7 +371,7 @@ bc.show(charts.lines(alone["at"][0] / 1000, named, title, *axes, looks=(PPO,)))
 #   and 0 < paid_concavely(careful_drive()) - paid_concavely(idle()) < 0.5 *
 #   (discounted(careful_drive(), 0.99) - discounted(idle(), 0.99)) -->
 #
-# > **Predict.** PPO alone trains with this reward. What does it do?
+# > **Predict.** What does PPO alone do with this reward?
 
 # %%
 choices = ["it leaves", "it drives steadily behind trap 1", "it falls back and sprints as before"]
@@ -392,10 +391,10 @@ marks, axes = {"the traps": bc.DEFAULT.traps.speed}, ("time (s)", "speed (m/s)")
 bc.show(charts.lines(seconds, speeds, title, *axes, marks=marks, looks=looks))
 
 # %% [markdown]
-# **See.** None of the {{ ppo_agents() }} agents that ship escapes. All drive at 9 to 10 m/s on
-# average; one has an accident in {{ 100 * ppo('concave')['accident'].max() | .0f }} % of its drives,
-# the others hardly ever. On the road's terms they earn {{ ppo('concave')['returns'].mean() | .0f }}
-# on average, about what keeping straight earns: they are back in the first trap.
+# **See.** None of the {{ ppo_agents() }} agents escapes. All drive at 9 to 10 m/s on average; one
+# has an accident in {{ 100 * ppo('concave')['accident'].max() | .0f }} % of its drives. On the
+# road's terms they earn {{ ppo('concave')['returns'].mean() | .0f }}, about what keeping straight
+# earns: they are back in the first trap.
 # <!-- claim: all(9 <= drive_episodes(ppo_kinds.agent_of('concave', i).as_policy(),
 #   ppo_kinds.ROADS).speed.mean() <= 10.05 for i in range(ppo_agents())) and
 #   np.sort(ppo('concave')['accident'])[-2] < 0.01 -->
@@ -415,8 +414,7 @@ bc.show(charts.lines(seconds, speeds, title, *axes, marks=marks, looks=looks))
 # its Φ, and the best policy stays the best (Ng, Harada and Russell 1999). With {{
 # second_trap.PER_LANE | g }} for each lane that the car has come to the left, {{
 # ppo_escapes('shaped') }} of {{ ppo_agents() }} agents escape: as soon as V is lower by Φ, F
-# cancels in each δ, and shaping acts like another initial V (Wiewiora 2003). Another potential may
-# do better.
+# cancels in each δ, and shaping acts like another initial V (Wiewiora 2003).
 #
 # </details>
 # <!-- claim: ppo_escapes('shaped') == 0 and ppo_kinds.KINDS['shaped'].decisions ==
@@ -433,7 +431,7 @@ bc.show(charts.lines(seconds, speeds, title, *axes, marks=marks, looks=looks))
 # The rule drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads, one action in ten
 # at random, and the actor learns to predict its actions in {{
 # settings_for('ppo_cloned').cloning_updates }} updates. Then PPO begins, with the road's own
-# reward, and the rule is not asked again: no KL, no demonstrations in a batch.
+# reward, and the rule is not asked again.
 # <!-- claim: settings_for('ppo_cloned').xi_multiplier == 0 ==
 #   settings_for('ppo_cloned').beta_start -->
 #
@@ -477,10 +475,10 @@ title = "PPO alone stays behind trap 1; after cloning it passes trap 1 and stays
 bc.show(bc.traces(list(fast.values()), title=title, what=("speed", "distance", "return")))
 
 # %% [markdown]
-# **See.** All {{ ppo_agents() }} cloned agents that ship escape. They earn {{
-# ppo('cloned')['returns'].mean() | .0f }} on average, about twice what the rule earns, and their
-# return still rises. They are not safe: {{ 100 * ppo('cloned')['accident'].mean() | .1f }} % of
-# their drives end in an accident, and none of the rule's.
+# **See.** All {{ ppo_agents() }} cloned agents escape. They earn {{ ppo('cloned')['returns'].mean()
+# | .0f }} on average, about twice what the rule earns, and their return still rises. They are not
+# safe: {{ 100 * ppo('cloned')['accident'].mean() | .1f }} % of their drives end in an accident, and
+# none of the rule's.
 # <!-- claim: ppo_escapes('cloned') == ppo_agents() and 1.8 < ppo('cloned')['returns'].mean() /
 #   of('rule').scores('returns')[0] < 2.4 and ppo('cloned')['accident'].mean() > 0 -->
 # <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_kinds.ROADS).accident.any() and
@@ -518,8 +516,8 @@ compare_predictions(
 # 1. Agents with the rule's return can be in a trap: look at success, and at a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one. Jensen's gap says
 #    how much.
-# 3. A policy gradient makes likelier what went better than V expected. GAE adds up these surprises,
-#    and in PPO's loss a good action counts until it is ε likelier, a bad one until it is ε rarer.
+# 3. A policy gradient makes likelier what went better than V expected. GAE adds up these surprises.
+#    In PPO's loss a good action counts until it is ε likelier, a bad one until it is ε rarer.
 # 4. A changed reward may change what is best, a shaping reward does not. Neither says how it is
 #    found.
 # 5. After a short cloning of the rule PPO leaves the trap.
@@ -543,9 +541,8 @@ compare_predictions(
 # Ng, Harada and Russell (1999), *Policy Invariance under Reward Transformations*. Wiewiora (2003),
 # *Potential-Based Shaping and Q-Value Initialization are Equivalent*.
 #
-# **Try**: train a cloned agent with the concave reward, `Training(...,
-# make_env=ppo_kinds.KINDS["concave"].make_env)`. Does it leave, and what does that say about the two
-# reasons of Round 3? Next: [looking ahead](looking_ahead.ipynb).
+# **Try**: cloning, then the concave reward (`make_env=ppo_kinds.KINDS["concave"].make_env` for the
+# training). Which of Round 3's two reasons is it? Next: [looking ahead](looking_ahead.ipynb).
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** r_v against v with a chord from 5 to 15 m/s; below it the speed of an agent that
