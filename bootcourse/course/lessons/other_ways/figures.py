@@ -38,7 +38,7 @@ def what_is_taken() -> Diagram:
     """A row for each learner: a bar while it uses the teacher, which gets thinner where that fades."""
     height = TOP + ROW * len(TAKES) + 4
     parts = [label(8, 18, "A teacher can help before, during or after training", "start", bold=True)]
-    middles = {"before": START - 40, "training": (START + TRAINED) / 2, "driving": (TRAINED + END) / 2}
+    middles = {"before": START - 40, "training": (START + TRAINED) / 2, "after": (TRAINED + END) / 2}
     parts += [label(x, 40, words) for words, x in middles.items()]
     for x in (START, TRAINED):
         dash = 'stroke="currentColor" stroke-dasharray="4 4" opacity="0.6"'

@@ -63,6 +63,11 @@ def pairs(budget: int) -> dict[tuple[str, str], float]:
     return {pair: float(each) for pair, each in zip(of, holm(p), strict=True)}
 
 
+def with_buffer(budget: int) -> np.ndarray:
+    """The returns of all agents that have a teacher and a replay buffer."""
+    return np.concatenate([at(method, "returns", budget) for method in TAUGHT if method != "ppo_cloned"])
+
+
 def at_edge() -> set[str]:
     """The methods with a teacher whose best setting of the search is its first or its last."""
     places = {method: np.argmax(list(search(method).values())) for method in TAUGHT}

@@ -6,10 +6,11 @@ import numpy as np
 
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
+from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
-from tools.course.known import of, shipped_results
+from tools.course.known import idle, of, shipped_experiment, shipped_results
 
 
 def share(what: str) -> float:
@@ -26,6 +27,21 @@ def others() -> np.ndarray:
     """The success of the GAIL agents that do not escape."""
     success = of("gail").scores("success")
     return success[success < ESCAPES]
+
+
+def last_drives(method: str) -> np.ndarray:
+    """Each agent's success in its last 500 training drives, (agents,)."""
+    return of(method).curves["success"][:, -500:].mean(axis=1)
+
+
+def with_entropy(place: int) -> Results:
+    """The CQL agents with an actor of the experiment on η: of the lower η (0), or of the one within reach (1)."""
+    return list(by_entropy(shipped_experiment("reachable-entropy")["cql_sac"]).values())[place]
+
+
+def staying(results: Results) -> int:
+    """How many agents stay behind trap 1 on each road: they earn what one does that never acts."""
+    return int(np.isclose(results.scores("returns"), idle().rewards.sum(), atol=1).sum())
 
 
 def of_paper(method: str) -> Results:

@@ -48,8 +48,8 @@ progress("recorded_drives")
 #
 # Three agents drive on the same road. All learned from the same {{ SETTINGS.demonstration_episodes
 # }} drives of the rule: a clone (BC, behaviour cloning), GAIL (*generative adversarial imitation
-# learning*) and CQL (*conservative Q-learning*). All get ahead of trap 1. Watch what happens
-# afterwards to GAIL, whose drive we chose among 100 because it leaves the road.
+# learning*) and CQL (*conservative Q-learning*). All get ahead of trap 1. Watch GAIL afterwards; we
+# chose its drive among 100 because it leaves the road.
 
 # %% tags=["nbval-ignore-output"]
 by_gail = [
@@ -72,14 +72,13 @@ bc.recording([shipped.beginning(drive, 50) for drive in (gail, *others)], height
 # %% [markdown]
 # > **Predict.** Our ten GAIL agents end ahead of trap 1 on {{ share('success') | .0f }} % of the
 # > held-out roads on average. An agent *escapes* if it does so on at least
-# > {{ 100 * ESCAPES | .0f }} % of them. Does one agent fail on nearly all roads, or do several fail
-# > on some? How many escape?
+# > {{ 100 * ESCAPES | .0f }} % of them. What follows for the number that escape?
 
 # %%
 predict(
     "recorded_drives.1",
-    "How many of ten GAIL agents escape?",
-    ["none", "1 to 5", "6 to 9", "all ten"],
+    "What follows for the number of GAIL agents that escape?",
+    ["at least eight", "at most nine", "both", "neither"],
 )
 
 # %% [markdown]
@@ -95,7 +94,7 @@ predict(
 #
 # BC and CQL are **offline**: recorded drives are all they have. Here is the paper's table beside
 # ours, ten agents of each on {{ roads() | , }} held-out roads. The paper prints mean ± standard
-# deviation. Ours are means over agents with their 95 % interval.
+# deviation, we the agents' mean with its 95 % interval.
 # <!-- claim: 'bc' not in PRINTED and len(of('bc')) == 10 -->
 
 # %%
@@ -113,11 +112,14 @@ for method in ("bc", "cql", "gail", "rule"):
 table(["", "success, %: paper", "ours", "return: paper", "ours"], rows)
 
 # %% [markdown]
-# **See.** All ten clones escape, and end a little under the rule's return. All ten CQL agents
-# escape, and their return is above the rule's. Of the ten GAIL agents {{ escaped('gail') }} escape.
-# The others succeed on {{ 100 * others().min() | .0f }} to {{ 100 * others().max() | .0f }} % of
-# the roads, so the mean is still {{ share('success') | .0f }} %. In the paper's table CQL and GAIL
-# stand at 0 %.
+# **See.** All ten clones escape, and end a little under the rule's return; all ten CQL agents do,
+# too, and end above it. If all ten GAIL agents escaped, their mean would be {{ 100 * ESCAPES | .0f
+# }} % or more; with ten at {{ share('success') | .0f }} % none would. In truth {{ escaped('gail')
+# }} do, and the others succeed on {{ 100 * others().min() | .0f }} to {{ 100 * others().max() | .0f
+# }} %. In its last 500 training drives each succeeds in {{ 100 * last_drives('gail').min() | .0f }}
+# % or more: who escapes may depend on when we stop. The paper's CQL and GAIL stand at 0 %.
+# <!-- claim: 80 < share('success') < 100 * ESCAPES and of('gail').curves['success'].shape[1] > 1000
+#   and last_drives('gail').min() > others().max() -->
 # <!-- claim: escaped('cql') == len(of('cql')) and of('cql').scores('returns').min() >
 #   of('rule').scores('returns').max() -->
 # <!-- claim: escaped('bc') == len(of('bc')) and 0.8 < of('bc').scores('returns').max() /
@@ -125,15 +127,13 @@ table(["", "success, %: paper", "ours", "return: paper", "ours"], rows)
 # <!-- claim: len(of('gail')) / 2 < escaped('gail') < len(of('gail')) -->
 # <!-- claim: PRINTED['cql']['success'].mean == PRINTED['gail']['success'].mean == 0 -->
 #
-# What may make 0 %? The data, the seed and the settings count. In our study `paper` the drives are
-# the *stochastic* rule's, and each decision has more updates: there CQL's agents earn {{
-# of_paper('cql').scores('returns').min() | .0f }} to {{ of_paper('cql').scores('returns').max() |
-# .0f }} and leave the road in {{ 100 * of_paper('cql').episodes('road_departure').mean() | .0f }}
-# % of their drives, and one of ten GAIL agents succeeds on no road. Round 3 has another suspect for
-# CQL's 0 %.
+# Data and settings count: in our study `paper` the drives are the *stochastic* rule's, with more
+# updates for a decision: there CQL's agents earn {{ of_paper('cql').scores('returns').min() | .0f
+# }} to {{ of_paper('cql').scores('returns').max() | .0f }} and leave the road in {{ 100 *
+# of_paper('cql').episodes('road_departure').mean() | .0f }} % of their drives, and one of ten GAIL
+# agents succeeds on no road.
 # <!-- claim: of_paper('cql').scores('returns').max() < of('rule').scores('returns').max() and
-#   sorted(of_paper('gail').scores('success'))[0] == 0 < sorted(of_paper('gail').scores('success'))[1]
-#   and len(of_paper('gail')) == 10 -->
+#   (of_paper('gail').scores('success') == 0).sum() == 1 and len(of_paper('gail')) == 10 -->
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Collect the votes before the table. The class will be tempted to conclude that the paper is wrong.
@@ -175,8 +175,8 @@ def discriminator_loss(rule_logits, own_logits):
 check.discriminator_loss(discriminator_loss)
 
 # %% [markdown]
-# The agent learns to get a high D, by the SAC of lesson [[update_and_loop]]. In place of the road's
-# reward it is paid
+# The agent learns to get a high D, by the SAC of lesson [[update_and_loop]]. (The program also
+# smooths D by a *gradient penalty*.) In place of the road's reward the agent is paid
 #
 # $$ r(s,a) = -\log (1 - D(s,a)) $$
 #
@@ -221,10 +221,10 @@ table(headings, rows, below="γ = 0.8. A crash ends a drive: 0 from then on.")
 # worth something, however bad the imitation is. With log D each second costs something: where the
 # judge says the same D everywhere, an early crash is the cheapest drive.
 #
-# > **Predict.** GAIL leaves the road in {{ share('road_departure') | .0f }} % of its test drives,
-# > and {{ share('success') | .0f }} % of them are a success. Had each of the others left the road,
+# > **Predict.** GAIL leaves the road in {{ share('road_departure') | .1f }} % of its test drives,
+# > and {{ share('success') | .1f }} % of them are a success. Had each of the others left the road,
 # > {{ least_share() | .0f }} % of the drives that leave it would still be a success. In truth some
-# > of the others hit a car, so the share is higher. How high is it?
+# > of the others hit a car. How high is the share?
 # <!-- claim: ((of('gail').episodes('collision') > 0) & (of('gail').episodes('success') == 0)).any()
 #   and (of('gail').episodes('success')[of('gail').episodes('road_departure') > 0]).mean() >
 #   least_share() / 100 -->
@@ -265,7 +265,7 @@ def note(training):
 
 
 training = own_code.training(agents, episodes=5000)
-result = training.run(callback=note, stop=lambda: training.updates >= 2500)
+result = training.run(progress=False, callback=note, stop=lambda: training.updates >= 2500)
 loss = torch.stack([each["discriminator_loss"] for each in noted]).T.numpy()
 smooth = loss[:, : len(noted) // 50 * 50].reshape(len(agents), -1, 50).mean(-1)
 updates, marks = np.arange(smooth.shape[1]) * 50, {"guessing: D = ½": 2 * np.log(2)}
@@ -285,10 +285,9 @@ headings = ["200 roads", "success, %", "collisions, %", "road departures, %", "s
 table(headings, rows)
 
 # %% [markdown]
-# **See.** Your numbers will differ from ours. A discriminator that says D = ½ to everything has a
-# loss of 2 log 2, the dotted line. The loss says how well the agent is told from the rule, and its
-# level alone not what the agent earns. The same code with two seeds can end in two ways; the
-# study's agents made many more updates.
+# **See.** Yours will differ. A discriminator that says D = ½ to everything has a loss of 2 log 2,
+# the dotted line. The loss says how well the agent is told from the rule, and its level alone not
+# what the agent earns. The same code with two seeds can end in two ways.
 
 # %% [markdown] tags=["instructor"] minutes=9
 # Let them say in one sentence what a clone is told in a state that no demonstration holds, and what
@@ -299,8 +298,8 @@ table(headings, rows)
 # ## Round 3: what is an untried action worth?
 #
 # Q-learning asks of each next state: what is the best action worth? The action with the highest Q
-# may be missing from the data, so its value is a guess. An agent that drives would try it and see.
-# An offline agent keeps its guess. CQL adds a term to the critic's loss, the mean over the batch of
+# may be missing from the data, so its value is a guess. An agent that drives would try it; an
+# offline agent keeps its guess. CQL adds a term to the critic's loss, the mean over the batch of
 #
 # $$ \log \sum_a e^{Q(s,a)} - Q(s, a_\text{data}) $$
 #
@@ -344,8 +343,8 @@ check.offline_loss(offline_loss)
 # Why *conservative*? Suppose that the data held each action, and let π = softmax(Q). Where this
 # loss is smallest, an action that π takes more often than the data do has a Q *below* its target,
 # and the value of the policy, Σ π Q, is at most what the targets say. But our agent takes the
-# action with the highest Q, and the rule's drives hold one action in a state. So the last table of
-# this round tests the critic.
+# action with the highest Q, and the rule's drives hold one action in a state. The last table of
+# this round tests it.
 #
 # <details><summary>The derivation</summary>
 #
@@ -375,7 +374,7 @@ predict("recorded_drives.4", "How does Q-learning value the best untried action?
 
 # %%
 torch.set_num_threads(1)  # small matrices are faster on one thread
-SEEDS, UPDATES = 2, 3000
+SEEDS, UPDATES = 2, 9000
 with_term = bc.with_seeds(bc.settings_for("cql"), SEEDS)
 without = bc.with_seeds(bc.settings_for("cql", cql_weight=0.0), SEEDS)
 by_rule = bc.record(bc.rule_policy(bc.DEFAULT), range(20), label="rule")
@@ -439,14 +438,14 @@ headings = ["own drives, first 20 s", "Q of the action taken", "what it then ear
 table(headings, rows)
 
 # %% [markdown]
-# **See.** Yours will differ. Without the term Q-learning values the best untried action highest,
-# and promises far more than it then earns: no row corrects a guess about an untried action, and the
-# highest of nine in each target raises them all. With the term both agents promise less than they
-# earn.
+# **See.** Yours will differ. Without the term Q-learning values the best untried action highest, at
+# last above what any drive is worth, and promises far more than it then earns: no row corrects a
+# guess about an untried action, and the highest of nine in each target raises them all. With the
+# term both agents promise less than they earn.
 #
 # **Explain.** The term *is* the cloning loss of softmax(Q) (lesson [[demonstrations]]). So **CQL is
 # Q-learning and cloning in one.** The agents without rewards are told what to do by the term alone:
-# here, after 3,000 updates, they drive no worse.
+# in our run they escape, too, and earn less.
 # <!-- claim: bool(torch.isclose(conservative_loss(torch.eye(9)[2:3], torch.tensor([4])),
 #   torch.nn.functional.cross_entropy(torch.eye(9)[2:3], torch.tensor([4])))) -->
 #
@@ -465,7 +464,12 @@ table(["", "agents that escape", "mean speed", "returns of the agents, sorted"],
 # %% [markdown]
 # **See.** No agent of the second kind escapes. Six of ten stay behind trap 1, as the paper's CQL
 # does; the other four have an accident in all of their drives. In our study with faster traps
-# (`calibrated`) all ten stay. So the paper's CQL may have had an actor.
+# (`calibrated`) all ten stay. So the paper's CQL may have had an actor. The target entropy η
+# counts, too: {{ staying(with_entropy(0)) }} of five agents stay with η = −1, none with an η that
+# nine actions can reach (12,000 updates).
+# <!-- claim: staying(with_entropy(1)) == 0 and len(with_entropy(0)) == len(with_entropy(1)) == 5
+#   and with_entropy(0).agents[0]['target_entropy'] == -1 and
+#   0 < with_entropy(1).agents[0]['target_entropy'] < math.log(9) -->
 # <!-- claim: (lambda r: len(r) == 10 and np.ptp(r) < 0.1 and r.mean() >
 #   23)(shipped_results('calibrated').of('cql_sac').scores('returns')) -->
 # <!-- claim: escaped('cql_sac') == 0 and np.allclose(np.sort(of('cql_sac').scores('returns'))[4:],
@@ -481,8 +485,8 @@ table(["", "agents that escape", "mean speed", "returns of the agents, sorted"],
 # %% [markdown]
 # ## Round 4: choosing without a simulator
 #
-# You have seven trained drivers, the recorded drives, and no road on which to try them. Which one do
-# you let out? **Fitted Q evaluation** (FQE) estimates what a *given* policy π is worth. It fits
+# You have seven trained drivers, the recorded drives, and no road on which to try them. Which one
+# do you let out? **Fitted Q evaluation** (FQE) estimates what a *given* policy π is worth. It fits
 # Q(s, a) to r + γ Q(s', π(s')) over the recorded seconds. Where the drives begin, Q(s, π(s)) is the
 # estimate.
 #
@@ -513,16 +517,15 @@ table(["", *headings], rows)
 
 # %% [markdown]
 # **See.** Where a driver does what the data hold, the estimate has something to stand on. Where it
-# does something else, Q is a guess, which may be near the truth all the same. So print the overlap
-# beside the estimate.
+# does something else, Q is a guess. So print the overlap beside the estimate.
 #
-# Whom would you choose? Little overlap means *unknown*, not bad: the second bootstrapped agent acts as
-# the data do in {{ 100 * overlap_of('bootstrapped', 1) | .0f }} % of the seconds, and is worth most
-# on the road, at γ = 0.8 too. And compare the last two columns: at γ = 0.8 CQL with an actor, which
-# stays behind trap 1, is worth more than the clone and CQL. A choice is no better than the number
-# that it is made by. (Would you trust the order of the estimates? They come from one fit.)
-# <!-- claim: worth_of('bootstrapped', 1) > max(worth_of(m) for m in ('bc', 'cql', 'cql_sac', 'gail',
-#   'sac', 'bootstrapped')) and overlap_of('bootstrapped', 1) < 0.5 -->
+# Whom would you choose? Little overlap means *unknown*, not bad: the second bootstrapped agent acts
+# as the data do in {{ 100 * overlap_of('bootstrapped', 1) | .0f }} % of the seconds, and is worth
+# most on the road, at γ = 0.8 too. And compare the last two columns: at γ = 0.8 CQL with an actor,
+# which stays behind trap 1, is worth more than the clone and CQL. A choice is no better than the
+# number that it is made by. (And these estimates come from one fit.)
+# <!-- claim: worth_of('bootstrapped', 1) > max(worth_of(m) for m in ('bc', 'cql', 'cql_sac',
+#   'gail', 'sac', 'bootstrapped')) and overlap_of('bootstrapped', 1) < 0.5 -->
 # <!-- claim: worth_of('cql_sac') > worth_of('bc') and worth_of('cql_sac') > worth_of('cql') -->
 # <!-- claim: overlap_of('bc') > 0.85 and overlap_of('cql') > 0.8 and max(overlap_of(m) for m in
 #   ('cql_sac', 'sac', 'bootstrapped')) < 0.7 -->
@@ -542,7 +545,7 @@ near, far = (
 compare_predictions(
     "recorded_drives",
     {
-        1: f"{escaping} of ten",
+        1: f"at most nine: {escaping} escape",
         2: "−log (1 − D)",
         3: round(100 * ahead),
         4: f"{more} than the rule's action",
@@ -555,8 +558,8 @@ compare_predictions(
 #
 # 1. BC and CQL learn without driving; GAIL has to drive. BC and GAIL do not use the road's reward.
 # 2. GAIL is paid by its discriminator; the sign of that reward decides whether going on pays.
-# 3. A success rate that counts who is ahead hides later accidents. One agent can look like a failure
-#    of its method.
+# 3. A success rate that counts who is ahead hides later accidents. One agent can look like a
+#    failure of its method.
 # <!-- claim: accidents('gail') > 10 * max(accidents('bc'), accidents('cql')) -->
 # 4. Without CQL's term offline Q-learning trusts guesses about actions that the data do not hold.
 #    The term is the cloning loss of softmax(Q). All ten CQL agents without an actor escape, and
