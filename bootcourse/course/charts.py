@@ -64,7 +64,7 @@ def lines(
         numbered = getattr(ax, f"{axis}axis")
         numbered.set_major_formatter("{x:g}")
         numbered.set_minor_formatter("")
-        if np.ptp(np.log10(getattr(ax, f"get_{axis}lim")())) < 2:
+        if np.ptp(np.log10(getattr(ax, f"get_{axis}lim")())) < 3:
             numbered.set_minor_locator(LogLocator(subs=(2, 5)))
             numbered.set_minor_formatter("{x:g}")
         ax.tick_params(axis=axis, which="minor", length=0, labelsize=SMALL, labelcolor=QUIET)

@@ -1,4 +1,4 @@
-"""To drag in this lesson: γ, and what a critic learns about the pushes before a fall, with and without the end."""
+"""To drag in this lesson: γ, and the values at which targets of the pushes before a fall rest, with and without the end."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing
 
 LAST = 40  # pushes before the fall that are shown
-AXES = Axes("pushes that are left before the pole falls", "what the critic learns to expect", (0.0, 55.0))
+AXES = Axes("pushes that are left before the pole falls", "the value where a target stops to change", (0.0, 55.0))
 
 
 def the_end() -> Explorable:
@@ -28,7 +28,7 @@ def the_end() -> Explorable:
             "the target knows the end": Curve(knows, style("sac").colour),
             "the target forgets it": Curve(forgets, OTHER.colour, "--"),
         }
-        says = f"γ = {gamma:g}: before the last push the two expect {knows[0]:.3g} and {forgets[0]:.3g}."
+        says = f"γ = {gamma:g}: before the last push the two are {knows[0]:.3g} and {forgets[0]:.3g}."
         return curves(says, AXES, np.arange(1, LAST + 1), named, mark=1)
 
     gamma = Number("γ", 0.9, 0.5, 0.98, 0.01, "What a reward one push later is worth, as a share of one now.")
