@@ -1,4 +1,4 @@
-"""To drag in this lesson: γ, and the values at which targets of the pushes before a fall rest, with and without the end."""
+"""To drag in this lesson: γ, and where the targets of the pushes before a fall stop to change, if they know the end or not."""
 
 import numpy as np
 
