@@ -293,7 +293,7 @@ def has_box2d() -> bool:
     return find_spec("Box2D") is not None
 
 
-LANDER = "lander"
+DOORKEY, LANDER = "doorkey", "lander"
 PROBLEMS = {
     "chain": Problem(
         "chain with a decoy", Chain, 2, to_the_right, 0.8, lambda seen: seen[:, 10:12].any(1), 0.97, 400
@@ -303,7 +303,7 @@ PROBLEMS = {
     ),
     "acrobot": Problem("Acrobot", several(swinging), 3, swing, 0.7, lambda seen: seen[:, 5] > 0, 0.99, 80),
     "cartpole": Problem("CartPole", several(balancing), 2, lean, 0.8, lambda seen: seen[:, 0] > 0.2, 0.99, 250),
-    "doorkey": Problem(
+    DOORKEY: Problem(
         "DoorKey 5x5", DoorKey, 5, fetch_and_open, 0.8, lambda seen: seen[:, 12] == 1, 0.97, 300
     ),
     LANDER: Problem(

@@ -12,11 +12,11 @@ from bootcourse.learn.settings import with_seeds
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.learn.training import Training
 from bootcourse.research.cells import results_of, tested_results
-from bootcourse.research.elsewhere import ALONE, NOBODY, TAUGHT, WINDOW, settings_of
+from bootcourse.research.elsewhere import ALONE, BONUSES, NOBODY, TAUGHT, WINDOW, settings_of
 from bootcourse.research.elsewhere_page import write_page
 from bootcourse.research.experiment import Computed, Experiment
 from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned
-from bootcourse.research.problems import LANDER, PROBLEMS, has_box2d
+from bootcourse.research.problems import DOORKEY, LANDER, PROBLEMS, has_box2d
 from bootcourse.research.results import Results
 from bootcourse.statistics import found
 
@@ -26,7 +26,8 @@ def cells(seeds: int = 10, episodes: int = 0, tests: int = 100) -> dict[str, dic
     named = {}
     for problem, one in PROBLEMS.items():
         numbers = {"seeds": seeds, "episodes": episodes, "tests": tests}
-        for teacher, method in [*product([NOBODY], ALONE), *product(one.teachers(), TAUGHT)]:
+        taught = TAUGHT | (BONUSES if problem == DOORKEY else {})
+        for teacher, method in [*product([NOBODY], ALONE), *product(one.teachers(), taught)]:
             words = {"problem": problem, "teacher": teacher, "method": method}
             named[", ".join(words.values())] = words | numbers
     return named

@@ -1,4 +1,4 @@
-"""To drag in this lesson: γ, and where a target stops to change before a fall, if it knows the end and if it does not."""
+"""To drag in this lesson: γ, and where a target stops to change before a fall, if it knows the end and if not."""
 
 import numpy as np
 
