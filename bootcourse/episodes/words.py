@@ -56,7 +56,7 @@ def doing(rollout: Rollout, time: float) -> str:
         if start[EGO, LANE] != end[EGO, LANE]:
             return f"changes lane, {side}"
     if now[EGO, X] > now[TRAP_1, X]:
-        return "ahead of trap 1"
+        return "ahead of trap 1" if now[EGO, X] - now[TRAP_1, X] >= BESIDE else "passes trap 1"
     if abs(sideways) > 1.0:
         return f"moves {side}"
     return "follows" if abs(faster) < 0.3 else ("catches up" if faster > 0 else "falls back")
@@ -82,7 +82,8 @@ def transcript(rollout: Rollout) -> list[str]:
         changes, lane = phase.startswith("changes lane"), _lane(rollout, time)
         lasting = i == 0 or changes or phases[i : i + patience] == [phase] * patience
         if (phase != last and lasting) or time - when >= PAUSE:
-            lines.append(f"t = {time:g} s: {phase}. {_state(rollout, time)}")
+            again = "still " if phase == "ahead of trap 1" and any(phase in line for line in lines) else ""
+            lines.append(f"t = {time:g} s: {again}{phase}. {_state(rollout, time)}")
             last, when = phase, time
         elif lane != last_lane:
             lines.append(f"t = {time:g} s: in the next lane. {_state(rollout, time)}")
