@@ -269,8 +269,14 @@ def test_a_slider_shows_its_effect_within_a_tenth_of_a_second(notebook):
 
 def test_a_training_grows_on_the_page_and_stops(notebook):
     shown = panel(notebook, 0)
-    button(notebook, 0, "Train").press("Enter")
+    train, road = button(notebook, 0, "Train"), shown.locator("#road")
+    height = train.bounding_box()["y"]
+    train.press("Enter")
     waits_for(notebook, 0, "<circle")
+    notebook.page.wait_for_timeout(700)
+    assert abs(train.bounding_box()["y"] - height) < 5, "the sliders stay where they are"
+    curves = shown.get_by_role("img", name="Training curves").first.bounding_box()
+    assert road.bounding_box()["x"] >= curves["x"] + curves["width"], "the road stands beside the curves"
     notebook.page.wait_for_function("document.activeElement.getAttribute('aria-label') === 'Stop'")
     waits_for(notebook, 0, "episodes in")
     assert until(lambda: shown.locator("#clock").inner_text() not in ("", "0 of 150 s")), "the present agent drives"

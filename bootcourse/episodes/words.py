@@ -104,7 +104,10 @@ def transcripts(rollouts: Sequence[Rollout]) -> str:
 def _ending(rollout: Rollout) -> str:
     if rollout.accident == Accident.COLLISION:
         return f"collision with {names_of(np.flatnonzero(rollout.states[-1, 1:, CRASHED]) + 1)}, the drive is over"
-    return f"{ACCIDENTS[Accident(rollout.accident)]}, the drive is over" if rollout.accident else "the time is up"
+    if rollout.accident:
+        return f"{ACCIDENTS[Accident(rollout.accident)]}, the drive is over"
+    whole = len(rollout.rewards) >= rollout.scenario.clock.decisions
+    return "the time is up" if whole else "here the recording stops"
 
 
 def names_of(cars: np.ndarray) -> str:

@@ -140,7 +140,8 @@ def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episod
         for row, (episode, changed) in enumerate(marks):
             (x, y), down = axes.at(episode, axes.y[1]), 9 + 11 * (row % 4)  # so that two close ones can be read
             parts.append(line(x, y, x, y + HIGH, QUIET, 1, 'stroke-dasharray="3 3"'))
-            parts.append(text(x + 3, y + down, changed, size=9))
+            side = (x + 3, "start") if episode < 0.6 * max(episodes, 1) else (x - 3, "end")  # inside the chart
+            parts.append(text(side[0], y + down, changed, side[1], size=9))
         for method in names if done else ():
             own = means[[each == method for each in methods]]
             end = draw_training(axes, at, own, style(method))

@@ -174,6 +174,7 @@ class Game {
   begin({ number = this.number, ghost = this.ghostName, driver = this.driverName }) {
     const valid = isRoad(number), solved = this.finished && this.drive.outAfter !== null;
     if (solved || this.seat && Number(number) !== this.number) this.attempts = 0;
+    if (this.finished && driver === "you" && this.pace > 1) this.setPace(1); // a faster clock is for the way after the traps
     this.number = valid ? Number(number) : this.number ?? FIRST_ROAD;
     [this.ghostName, this.driverName] = [ghost, driver];
     this.begun = (this.begun ?? 0) + 1; // drives, so that two of one road can be told apart
@@ -182,8 +183,8 @@ class Game {
     const seat = driver => new Seat(this.road, this.number, driver);
     this.seat = seat(this.mine ?? { decide: () => ({ action: IDLE }) });
     this.ghosts = this.rivals.map(seat);
-    this.shown = 0;
-    this.finished = false;
+    this.shown = this.arrived = 0;
+    this.wasAhead = this.finished = false;
     this.controls.forget();
     const held = this.find("end").contains(this.root.activeElement);
     this.find("end").hidden = true;
@@ -255,19 +256,28 @@ class Game {
 
   // One decision of all cars.
   decide() {
-    const { drive } = this, ahead = () => drive.cars[X] > row(drive.cars, TRAP_1)[X], wasAhead = ahead();
+    const { drive } = this;
+    this.arrive();
     if (!this.mine) {
       this.attempts += Number(drive.time === 0);
       this.seat.thought = { action: this.controls.take() };
     }
     for (const seat of [this.seat, ...this.ghosts]) seat.decide();
-    const justOut = ahead() && !wasAhead;
-    if (!this.mine) this.remark(remark(drive.cars, justOut, this.attempts));
-    else if (this.options.watch && justOut) this.say(`Ahead of trap 1 after ${drive.time} s.`);
     this.before = this.futures;
     this.think();
     if (this.pace === 0 || drive.time % PATIENCE === 0) this.tell(`${drive.time} s. ${stateInWords(drive.cars)}`);
     this.event("decided", drive);
+  }
+
+  // The picture shows what the last decision led to: what is worth saying about it.
+  arrive() {
+    const { drive, drive: { cars, time } } = this;
+    if (this.arrived === time || drive.over) return;
+    this.arrived = time;
+    const ahead = cars[X] > row(cars, TRAP_1)[X], justOut = ahead && !this.wasAhead;
+    this.wasAhead = ahead;
+    if (!this.mine) this.remark(remark(cars, justOut, this.attempts));
+    else if (this.options.watch && justOut) this.say(`Ahead of trap 1 after ${time} s.`);
   }
 
   // What the driver, or the ghost in your place, thinks of the road as it is now.
@@ -316,6 +326,7 @@ class Game {
     const limit = this.drive.over ? this.drive.end : this.drive.time;
     if (this.shown < limit) return;
     this.shown = limit;
+    this.arrive();
     if (this.drive.over) this.finish();
     else if (this.pace === 0 && !this.waiting) this.run(false);
   }

@@ -38,6 +38,8 @@ class View {
     }
     this.signs = { above: 0, below: 0, beside: [] }; // of the ghosts: how many beyond the picture, and at which heights
     for (const ghost of ghosts) this.ghost(ghost);
+    const before = row(cars, TRAP_1)[X] - cars[X]; // who falls back still sees where the car is that is to be overtaken
+    if (before * this.scale > this.height * AHEAD) this.signAway("trap 1", before, this.colour("trap"));
     this.car(cars, colour, { label: "" });
     const [px, py] = this.spot(cars[X], cars[Y]);
     if (wreck) this.ring(px, py);

@@ -19,10 +19,10 @@ class Watched {
     this.stop = make("button", "margin-right: 12px; padding: 4px 10px; cursor: pointer", "Stop, and keep what was learned");
     this.words = make("span", "");
     this.chart = make("div", "cursor: pointer");
-    el.style.cssText = "display: flex; flex-flow: row wrap; gap: 8px 16px; width: 100%";
-    host.style.cssText += "flex: 1 1 360px";
+    host.style.cssText += "flex: 1 1 360px; min-width: 0";
     const line = make("p", "font: 13px system-ui, sans-serif; margin: 4px 12px", this.stop, this.words);
-    el.prepend(make("div", "flex: 1 1 440px; max-width: 600px", line, this.chart));
+    const curves = make("div", "flex: 1 1 440px; max-width: 600px", line, this.chart);
+    el.append(make("div", "display: flex; flex-flow: row wrap; gap: 8px 16px", curves, host)); // a box takes el's own style
     // The kernel is busy with the training and hears no message, but it can be interrupted: the training ends early.
     this.stop.addEventListener("click", () => { model.send({ kind: "stop" }); model.widget_manager.kernel?.interrupt?.(); });
     this.chart.addEventListener("click", event => this.choose(event));

@@ -23,7 +23,8 @@ async function show({ model, el, signal }) {
     waiting.set(number, answer);
     model.send({ kind: "ask", number, driver, time: drive.time, cars: [...drive.cars] });
   });
-  if (watched && model.get("running") && !seen.has(watched.id)) { // what is worth a look may begin below the screen
+  // What is worth a look may begin below the screen; below a panel's sliders it would push these out of it.
+  if (watched && model.get("running") && model.get("opens").button && !seen.has(watched.id)) {
     seen.add(watched.id);
     setTimeout(() => el.scrollIntoView({ block: "nearest" }), 500);
   }
@@ -46,10 +47,9 @@ async function show({ model, el, signal }) {
     game.announce(message.error);
   };
   const offered = async () => game.offer(...await Promise.all(guests().map(guest)));
-  if (watched) watched.chosen = async () => { // who was clicked drives from the start
+  if (watched) watched.chosen = async () => { // who was clicked drives from the start, each on the same road
     await offered();
-    game.again();
-    game.run(true);
+    game.open({ road: model.get("opens").road, run: true });
   };
   const opened = () => { game.open(model.get("opens")); };
   const themed = new MutationObserver(() => game.theme(notebookTheme() ?? host.dataset.theme));

@@ -11,7 +11,7 @@ CHANGED = {
     "KL in the actor only": {"kl_in_target": False, "methods": ("soft", "bootstrapped")},
     "β over 300 episodes": {"beta_episodes": 300, "methods": HELPED},
     "β for ever": {"beta_episodes": None, "methods": HELPED},
-    "ξ stays at 2": {"xi_fixed": 2.0, "methods": ("soft",)},
+    **{f"ξ stays at {xi:g}": {"xi_fixed": xi, "methods": ("soft",)} for xi in (2.0, 0.5, 0.1)},
 }
 
 

@@ -1,13 +1,15 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from collections import Counter
 from functools import cache
 
 import numpy as np
 from scipy import stats
 
-from bootcourse.course.lessons.the_barrier import attempts, easier, figures
+from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.policies import random_policy
+from bootcourse.policies import PlanPolicy, idle_policy, random_policy
+from bootcourse.research.cells import HELD_OUT
 from bootcourse.research.planner import Search, discounted_values, plan_episodes
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
@@ -37,19 +39,6 @@ def stayed() -> int:
 def by_chance():
     """The barrier's 5,000 random drives."""
     return drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
-
-
-@cache
-def chance_worth() -> np.ndarray:
-    """What those of them that end ahead are worth at γ = 0.8."""
-    driven = attempts.drive(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
-    return driven.values(0.8)[driven.ahead]
-
-
-def lone_escaper(measure: str) -> float:
-    """A measure of the one agent of twenty that escapes on the road as it is."""
-    here = easy("as it is")
-    return float(here.scores(measure)[here.scores("success") >= ESCAPES].item())
 
 
 FOUR = "4 random actions, then accelerates"
@@ -92,20 +81,18 @@ def stay_well() -> int:
     return int((safe & (agents.scores("returns") > 20)).sum())
 
 
-def often_ahead(kind: str) -> int:
-    """How many of them end ahead of trap 1 on at least one road in ten."""
-    return int((easy(kind).scores("success") >= 0.1).sum())
-
-
-def ahead_and_crashed(kind: str) -> tuple[int, int]:
-    """How many of their drives end ahead of trap 1, and how many of these in an accident."""
-    ahead = easy(kind).episodes("success") > 0
-    return int(ahead.sum()), int((ahead & (easy(kind).episodes("accident") > 0)).sum())
+def slowest(measure: str) -> float:
+    """A measure of the slowest of those on the road as it is."""
+    agents = easy("as it is")
+    safe = (agents.scores("success") < 0.05) & (agents.scores("accident") < 0.05)
+    return float(agents.scores(measure)[np.where(safe, agents.scores("speed"), np.inf).argmin()])
 
 
 ONCE = "accelerates once, then nothing"
 FREE, RAM = "free accidents", "accelerates into trap 1"
-MIDDLE = easier.MIDDLE
+MIDDLE, STRAIGHT_ON = easier.MIDDLE, "accelerates straight on"
+STRAIGHT = (easier.ACCELERATE,) * DEFAULT.clock.decisions
+CRASHES = (STRAIGHT, (6, 8, 8, 6, 8, 8))  # actions that agents with free accidents take on each road
 
 
 def staying_return(kind: str) -> float:
@@ -149,19 +136,27 @@ def decided() -> int:
     return int((of("sac").curves["entropy"][:, -100:].mean(axis=1) <= 0.01).sum())
 
 
-def crash_soon(gamma: float | None = None) -> int:
-    """Of the agents with free accidents (and this γ), how many have crashed after 6 s in their median drive."""
-    agents = easy(FREE)
-    chosen = [gamma in (None, agent["gamma"]) for agent in agents.agents]
-    lasted = np.median(agents.tested["distance"] / agents.tested["speed"], axis=1)
-    return int((lasted[chosen] < 6.05).sum())
+@cache
+def repeating(kind: str, gamma: float, *drives: tuple[int, ...]) -> list[float]:
+    """What the drives of these agents with this γ are worth at it, who drive so on each of their held-out roads.
+
+    That an agent drives so is seen by its returns: on each road that of these actions.
+    """
+    agents, found = easy(kind), []
+    here, seeds = np.array([agent["gamma"] == gamma for agent in agents.agents]), held_out_seeds(HELD_OUT, easier.TESTS)
+    for actions in drives:
+        driven = attempts.drive(PlanPolicy(actions), seeds, easier.KINDS[kind][0])
+        same = np.isclose(agents.episodes("returns"), driven.values(1.0), atol=1e-3).all(axis=1)
+        found += [float(driven.values(gamma).mean())] * int((same & here).sum())
+    return found
 
 
 @cache
 def easier_outcomes(road: str) -> dict[str, attempts.Outcome]:
     """What came of the lesson's drives on its 100 roads, made easier."""
     roads, make_env = held_out_seeds(7, 100), easier.KINDS[road][0]
-    return {name: attempts.drive(each, roads, make_env) for name, each in easier.drivers(road).items()}
+    drivers = {**easier.drivers(road), STRAIGHT_ON: PlanPolicy(STRAIGHT)}
+    return {name: attempts.drive(each, roads, make_env) for name, each in drivers.items()}
 
 
 def easier_outcome(road: str, name: str) -> attempts.Outcome:
@@ -174,10 +169,46 @@ def worth_of(road: str, name: str, gamma: float) -> float:
     return float(easier_outcome(road, name).values(gamma).mean())
 
 
+def once_of_fast() -> float:
+    """Mid-lane: what one acceleration adds to the return of staying, as a share of what 15 m/s adds."""
+    stays, once, fast = (worth_of(MIDDLE, name, 1.0) for name in ("stays", ONCE, "to 15 m/s, in its lane"))
+    return (once - stays) / (fast - stays)
+
+
 @cache
-def six_actions() -> attempts.Outcome:
-    """Six actions of the planner's drive on road 1, blind, then the lane keeper; on the roads of the other kinds."""
-    return attempts.drive(attempts.ThenAccelerate([7, 8, 6, 6, 7, 5]), ROADS)
+def first_sixes() -> list[tuple[int, ...]]:
+    """The first six actions of the planner's best drive at γ = 0.8 on each of the roads 0 to 11."""
+    return [tuple(plan.actions[:6].tolist()) for plan in plan_episodes(range(12), search=Search(50, 0.8))]
+
+
+@cache
+def _blind(actions: tuple[int, ...]) -> attempts.Outcome:
+    return attempts.drive(attempts.ThenAccelerate(actions), ROADS)
+
+
+def six_actions(road: int) -> attempts.Outcome:
+    """Those of one road, blind, then the lane keeper; on the roads of the other kinds."""
+    return _blind(first_sixes()[road])
+
+
+def commonest_six() -> tuple[int, attempts.Outcome]:
+    """On how many of the twelve roads the commonest six actions are the first, and what comes of them."""
+    actions, roads = Counter(first_sixes()).most_common(1)[0]
+    return roads, _blind(actions)
+
+
+def sixes_that_pay() -> int:
+    """For how many of the twelve roads these actions are worth more than staying at γ = 0.8."""
+    return sum(_blind(each).values(0.8).mean() > tested("stays").values(0.8).mean() for each in first_sixes())
+
+
+def may_crash(gamma: float) -> int:
+    """How many of a hundred attempts of the panel may end in an accident before the others no longer pay for them."""
+    roads = range(explorable.ROADS)
+    plan, stays = attempts.drive(attempts.ThenAccelerate(attempts.PLAN), roads), attempts.drive(idle_policy, roads)
+    values = plan.values(gamma)
+    out, crashed = values[~plan.accident].mean(), values[plan.accident].mean()
+    return int(100 * (out - stays.values(gamma).mean()) / (out - crashed))
 
 
 def farther() -> np.ndarray:

@@ -26,9 +26,9 @@ def discount() -> Explorable:
         out, quick, behind = (np.cumsum(gamma**times * rewards) for rewards in (escape, sooner, stay))
         ranked = sorted(((out[-1], "the rule's way out"), (quick[-1], "the plan"), (behind[-1], "staying")))
         named = {
-            f"the rule's way out: {out[-1]:.2f} in all": Curve(out[:SECONDS], style("rule").colour),
-            f"the plan: {quick[-1]:.2f} in all": Curve(quick[:SECONDS], INK),
-            f"staying behind: {behind[-1]:.2f} in all": Curve(behind[:SECONDS], style("idle").colour, "--"),
+            f"the rule's way out: {out[-1]:.2f} in 150 s": Curve(out[:SECONDS], style("rule").colour),
+            f"the plan: {quick[-1]:.2f} in 150 s": Curve(quick[:SECONDS], INK),
+            f"staying behind: {behind[-1]:.2f} in 150 s": Curve(behind[:SECONDS], style("idle").colour, "--"),
         }
         what = "sum of the rewards until then, each × γ to the power of its second"
         top = 1.15 * max(float(each[SECONDS]) for each in (out, quick, behind))

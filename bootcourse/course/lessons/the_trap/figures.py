@@ -69,11 +69,10 @@ def nine_actions(seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
     ax.set(xlim=(left, right), ylim=(bottom + 4.0, top - 0.4), aspect="equal")
     for side in ("top", "right", "left", "bottom"):
         ax.spines[side].set_visible(False)
-    sideways = np.arange(0, start + width / 2 + 0.1, 2)
-    ax.set_yticks(start - sideways, [f"{metres:g}" for metres in sideways])
+    ax.set_yticks(np.arange(0, start + 0.1, 2))
     ax.tick_params(labelsize=SMALL, labelcolor=QUIET, length=3)
     ax.set_xlabel("distance along the road from the start (m)", fontsize=TEXT, color=INK)
-    ax.set_ylabel("to the left (m)", fontsize=TEXT, color=INK)
+    ax.set_ylabel("y, to the right (m)", fontsize=TEXT, color=INK)
     alt = f"Nine paths fan out from the ego in the right lane. After {seconds} s: {'; '.join(ends)}."
     sideways = abs(path_of(3, seconds, scenario)[-1, 1])
     return finish(figure, f"Nine actions, held for {seconds} s: steering moves the car {sideways:.1f} m sideways", alt)

@@ -490,9 +490,10 @@ table(headings, rows, below)
 
 # %% [markdown]
 # **Slide.** Press *Train*: two agents learn with the rule's help, and the road shows how one drives
-# now. As soon as the curves begin, drag ξ to its lower end and β, the share of the rule's drives in
-# what they learn from, to 0: the help is gone. Train again, and do so when half of the episodes are
-# a success. Until when do they need the help, and what becomes of the return?
+# now. (The slider's ξ is multiplied by α, a number of the learner that falls; the curve shows the
+# product.) As soon as the curves begin, drag ξ to its lower end and β, the share of the rule's
+# drives in what they learn from, to 0: the help is gone. Train again, and do so when half of the
+# episodes are a success. Until when do they need the help, and what becomes of the return?
 
 # %%
 bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)
