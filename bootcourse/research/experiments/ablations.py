@@ -1,4 +1,4 @@
-"""One choice of the method changed: the KL's place, how long β lasts, a ξ that stays."""
+"""One choice of the method changed: the KL's place, no bonus, how long β lasts, a ξ that stays."""
 
 from pathlib import Path
 
@@ -9,6 +9,7 @@ from bootcourse.research.experiment import Computed, Experiment
 HELPED = ("demos", "bootstrapped")
 CHANGED = {
     "KL in the actor only": {"kl_in_target": False, "methods": ("soft", "bootstrapped")},
+    "c = 0": {"bonus": 0.0, "methods": HELPED},
     "β over 300 episodes": {"beta_episodes": 300, "methods": HELPED},
     "β for ever": {"beta_episodes": None, "methods": HELPED},
     **{f"ξ stays at {xi:g}": {"xi_fixed": xi, "methods": ("soft",)} for xi in (2.0, 0.5, 0.1)},

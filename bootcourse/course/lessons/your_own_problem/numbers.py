@@ -32,6 +32,12 @@ def percent(problem: str, teacher: str, method: str, measure: str = "success") -
     return f"{100 * score(problem, teacher, method, measure):.0f}"
 
 
+def by_bonus(teacher: str) -> np.ndarray:
+    """The success of both aids on DoorKey with c = 0, 0.03, 0.1, 0.3, 1 and 2, by drawn actions, (6,)."""
+    names = [f"both, c = {c}" for c in (0, 0.03, 0.1, 0.3, 1)]
+    return np.array([score("doorkey", teacher, name, "drawn_success") for name in (*names, "both")])
+
+
 def majority_right(right: float, votes: int) -> float:
     """The exercise's solution."""
     return registry()["majority_right"](right, votes)
