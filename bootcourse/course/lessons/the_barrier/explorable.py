@@ -3,20 +3,19 @@
 import numpy as np
 
 from bootcourse.course.lessons.the_barrier.attempts import PLAN, ThenAccelerate, drive
+from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.methods import style
 from bootcourse.panels.explorable import Axes, Curve, Explorable, curves
 from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing
 from bootcourse.policies import idle_policy
 
-ROADS = 50
-AXES = Axes("accidents of a hundred attempts", "discounted sum of the rewards, from the start", (-10.0, 20.0))
+ROADS = held_out_seeds(7, 500)
 
 
 def price() -> Explorable:
     """What attempts are worth, of which some end as a plan's accidents do and the others as its ways out."""
-    roads = range(ROADS)
-    out, stay = drive(ThenAccelerate(PLAN), roads), drive(idle_policy, roads)
+    out, stay = drive(ThenAccelerate(PLAN), ROADS), drive(idle_policy, ROADS)
     shares = np.linspace(0, 1, 101)
 
     def draw(gamma: float, accidents: float) -> Drawing:
@@ -29,7 +28,9 @@ def price() -> Explorable:
             f"staying: {behind:.2f}": Curve(np.full(101, behind), style("idle").colour, "--"),
         }
         says = f"γ = {gamma:g}: with {accidents:g} accidents in a hundred, an attempt {pays}."
-        return curves(says, AXES, 100 * shares, named, mark=accidents)
+        limits = 1.1 * min(attempts.min(), 0.0), 1.15 * max(attempts.max(), behind)
+        axes = Axes("accidents of a hundred attempts", "discounted sum of the rewards, from the start", limits)
+        return curves(says, axes, 100 * shares, named, mark=accidents)
 
     numbers = {
         "gamma": Number("γ", 0.8, 0.5, 0.98, 0.01, "What a reward one second later is worth, as a share of one now."),

@@ -204,7 +204,7 @@ def sixes_that_pay() -> int:
 
 def may_crash(gamma: float) -> int:
     """How many of a hundred attempts of the panel may end in an accident before the others no longer pay for them."""
-    roads = range(explorable.ROADS)
+    roads = explorable.ROADS
     plan, stays = attempts.drive(attempts.ThenAccelerate(attempts.PLAN), roads), attempts.drive(idle_policy, roads)
     values = plan.values(gamma)
     out, crashed = values[~plan.accident].mean(), values[plan.accident].mean()
