@@ -10,7 +10,8 @@ from bootcourse.statistics import rate
 
 MOST = 60  # agents
 DRAWN = {*range(1, 11), 12, 15, 20, 25, 30, 40, 50, MOST}  # the numbers of agents whose interval is drawn
-AXES = Axes("agents that were trained", "% of all agents that may escape", (0.0, 100.0))
+SAMPLE = "agents that were trained (how many of them escape is rounded)"
+AXES = Axes(SAMPLE, "rate of escape (%), 95 % interval", (0.0, 100.0))
 
 
 def certainty() -> Explorable:

@@ -3,6 +3,7 @@
 import numpy as np
 import torch
 
+from bootcourse.colours import QUIET
 from bootcourse.learn.bootstrap import log_stochastic_rule, regularised_policy
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
@@ -39,10 +40,10 @@ def pull() -> Explorable:
         )
         named = {
             "the best policy, ξ = 200 α": Curve(together, style("soft").colour),
-            "the same with ξ = 2 for ever": Curve(alone, style("rule").colour),
+            "the same with ξ = 2 for ever": Curve(alone, QUIET),
         }
         return bars(says, AXES, ACTION_NAMES, named)
 
-    alpha = Number("α", settings.alpha_init, 1e-5, 0.1, 0.05, "The temperature; it falls while the agent learns.",
-                   logarithmic=True)  # fmt: skip
+    help_text = f"The temperature; it starts at {settings.alpha_init:g}, and falls while the agent learns."
+    alpha = Number("α", 0.002, 1e-5, 0.1, 0.05, help_text, logarithmic=True)
     return Explorable("Another action is worth more than the rule's. When is it taken?", draw, alpha=alpha)

@@ -1,15 +1,18 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 import math
+from functools import cache
 
 import numpy as np
 
 from bootcourse.course.shipped import shipped_agents
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
-from bootcourse.panels.compromise import CHOSEN, Ways
+from bootcourse.panels.compromise import CHOSEN, Ways, compromise
 from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES, found_after
-from tools.course.known import RULE_P, by_rule, escapers, of, shipped_experiment
+from tools.course.known import RULE_P, escapers, of, shipped_experiment
 
 
 def stays() -> Results:
@@ -39,10 +42,16 @@ def losers() -> list[float]:
     return sorted(soft.scores("returns")[soft.scores("success") < ESCAPES])
 
 
-def falling_back_pays_from() -> float:
-    """The ξ from which falling back as the rule does is worth more than following trap 1, with the KL in the target."""
-    lost = (0.15625 - float(by_rule().rewards[3])) / (1 - 0.8)
-    return lost / (4 * (np.log(80) + np.log(RULE_P)))
+def sooner_without() -> bool:
+    """Does each agent without the KL in the target find the way before any agent with it?"""
+    without = shipped_experiment("ablations")["KL in the actor only"].of("soft")
+    first, then = (found_after(agents.curves["success"]) for agents in (without, of("soft")))
+    return bool(0 < first.min() and first.max() < then.min())
+
+
+def at_the_end() -> np.ndarray:
+    """What the agents whose ξ stays at 2 earn in their last 50 training episodes, (agents,)."""
+    return stays().curves["return"][:, -50:].mean(axis=1)
 
 
 def entropy_of_the_rule() -> float:
@@ -61,3 +70,12 @@ def compromised(xi: float) -> bool:
     helped = shipped_agents("soft")[0]
     drive = record(helped.as_policy(with_q=True), [10])[0]
     return Ways(drive, helped).at(0, 0.9, xi, 0.01)[CHOSEN].accident != 0
+
+
+@cache
+def crashing(xi: float | None) -> float:
+    """The share of 100 held-out roads on which the first agent has an accident: by the compromise of its Q and the
+    rule, or by its own π (None)."""
+    helped = shipped_agents("soft")[0]
+    policy = helped.as_policy() if xi is None else compromise(helped, DEFAULT, RULE_P, xi, 0.01)
+    return float((drive_episodes(policy, held_out_seeds(1, 100)).accident > 0).mean())

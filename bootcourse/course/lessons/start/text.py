@@ -26,10 +26,9 @@ from bootcourse.course import compare_predictions, predict, predicted, progress,
 # %% [markdown]
 # ## Drive first
 #
-# Two slow cars, dark red, box you in: **trap 1** is ahead of you, **trap 2** a little ahead in the
-# next lane. Get ahead of trap 1. You decide once a second, by nine buttons, or click on the road
-# and use the arrow keys. The clock starts with your first decision, and Space stops it. Crash as
-# often as you like. (Shift+Enter runs a cell.)
+# Two slow cars, dark red, box you in: **trap 1** ahead of you, **trap 2** in the next lane. Get
+# ahead of trap 1. Click on the road and use the arrow keys, or the nine buttons: you decide once a
+# second. Crash as often as you like. (Shift+Enter runs a cell.)
 # <!-- claim: N_ACTIONS == 9 -->
 #
 # > **Predict.** How many attempts do you need until you are ahead of trap 1?
