@@ -1,4 +1,4 @@
-"""What the lesson on demonstrations shows of the margin in one state: loss, slopes, and why the filter is off there."""
+"""What the lesson on demonstrations shows of a bonus in four learners, and of the margin in one state."""
 
 from collections.abc import Sequence
 
@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from bootcourse.learn.bootstrap import large_margin_loss
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, one_axes
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
 from bootcourse.scenario import ACTION_NAMES
 
 
@@ -42,3 +42,33 @@ def margin_bars(q: Sequence[float], expert: int, margin: float = 1.0) -> Figure:
         f"Bars of Q: {named}. The expert's is {ACTION_NAMES[expert]}; all others have the margin of {margin:g} on top."
     )
     return finish(figure, title, alt)
+
+
+def with_and_without_bonus(
+    updates: Sequence[int], lead: np.ndarray, largest: np.ndarray, success: np.ndarray
+) -> Figure:
+    """What c = 2 changes in the critics and on the road, each (4, times): two learners with it, then two without.
+
+    lead: of the demonstrated action's Q over the others' mean. largest: % of states. success: % of the last episodes.
+    """
+    with_it, without = (" and ".join(f"{each:.0f}" for each in pair) for pair in (largest[:2, -1], largest[2:, -1]))
+    title = f"At the end the demonstrated action has the largest Q in {with_it} % of the states, without a bonus in "
+    title += without
+    figure, bonus, control = new_figure(3.0), style("demos").colour, QUIET
+    parts = {"lead over the others' mean, in Q": lead, "largest Q, % of states": largest}
+    parts |= {"success in training, %": success}
+    alts = []
+    for i, (label, values) in enumerate(parts.items()):
+        ax = axes_at(figure, 0.35 + 2.3 * i, 1.05, 1.9, 1.4)
+        plain_axes(ax, label)
+        ax.plot(updates, values[2:].T, color=control, linewidth=1.2, linestyle="--")
+        ax.plot(updates, values[:2].T, color=bonus, linewidth=1.2)
+        ax.set(xlim=(0, max(updates)), ylim=(0, 100) if i else None)
+        ax.xaxis.set_major_formatter("{x:,.0f}")
+        ax.locator_params(axis="x", nbins=4)
+        ax.set_xlabel("update", fontsize=TEXT, color=INK)
+        ends = [" and ".join(f"{each:.3g}" for each in pair) for pair in (values[:2, -1], values[2:, -1])]
+        alts.append(f"{label}, at the end: {ends[0]} with c = 2, {ends[1]} with c = 0.")
+    for x, words, colour in ((0.35, "c = 2", bonus), (0.9, "c = 0, dashed", control)):
+        figure.text(x / 7, 1 - 0.68 / 3.0, words, color=colour, fontsize=TEXT, fontweight="bold")
+    return finish(figure, title, " ".join(alts))

@@ -4,16 +4,18 @@ from functools import cache
 
 import numpy as np
 
-from tools.course.known import escapers, rule_drives, shipped_experiment, shipped_runs
+from bootcourse.scenario import ACTION_NAMES
+from bootcourse.statistics import found_after
+from tools.course.known import escapers, of, rule_drives, shipped_experiment, shipped_runs
 
 
 @cache
-def demonstrated_q() -> np.ndarray:
-    """After training, what the shipped agents with demonstrations only think of the rule's actions, (agents,).
+def demonstrated_q(method: str) -> np.ndarray:
+    """After training, what the shipped agents of a method think of the rule's actions, (agents,).
 
     The mean over the first 20 seconds of the rule's drives on 20 roads.
     """
-    values, did = _way_out("demos")
+    values, did = _way_out(method)
     return np.array([each[np.arange(len(did)), did].mean() for each in values])
 
 
@@ -35,3 +37,19 @@ def _way_out(method: str) -> tuple[list[np.ndarray], np.ndarray]:
 def others_with_the_bonus() -> int:
     """How many of ten other agents with demonstrations alone escape: other seeds, twice the episodes."""
     return escapers(shipped_experiment("stress")["demos"], "demos")
+
+
+def straight_on_the_way() -> int:
+    """In how many of the states of the rule's way out on 20 roads it keeps straight."""
+    did = np.concatenate([drive.actions[:20] for drive in rule_drives()[:20]])
+    return int((did == ACTION_NAMES.index("keep straight")).sum())
+
+
+def found_by(method: str) -> np.ndarray:
+    """The training episodes after which the study's agents of a method have found the way out, (agents,)."""
+    return found_after(of(method).curves["success"])
+
+
+def in_50(method: str, first: int, measure: str = "success") -> np.ndarray:
+    """The mean of a measure over 50 training episodes of each of the study's agents of a method, (agents,)."""
+    return of(method).curves[measure][:, first : first + 50].mean(axis=1)

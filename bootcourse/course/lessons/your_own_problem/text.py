@@ -51,9 +51,8 @@ progress("your_own_problem")
 # %% [markdown]
 # ## Look first
 #
-# The course has one road. Does a teacher help elsewhere? Here is another problem with a barrier: a
-# car in a valley, MountainCar. It pays −1 per decision until the car reaches the flag, at position
-# 0.5, or 200 decisions are over. The engine is weak.
+# The course has one road. Does a teacher help elsewhere? Here is a car in a valley, MountainCar. It
+# pays −1 per decision until the car reaches the flag, at position 0.5, or 200 decisions are over.
 #
 # > **Predict.** A driver pushes to the right in every decision. How far does the car come?
 
@@ -73,9 +72,9 @@ bc.show(charts.lines(np.arange(longest), shown, title, "decision", "position", m
 
 # %% [markdown]
 # **See.** Pushed to the right, the car swings in the valley to the end. To get up it has to drive
-# away from the flag in between. (This is not the barrier of lesson [[the_barrier]], where an
-# attempt costs: all drives that miss the flag earn the same, so nothing says which way is up.) A
-# rule of one line does it. Look at the figure: where does it push to the left, where to the right?
+# away from the flag in between. (An attempt costs nothing here, unlike in lesson [[the_barrier]]:
+# all drives that miss the flag earn the same, so nothing says which way is up.) A rule of one line
+# does it. Look at the figure: where does it push to the left, where to the right?
 # <!-- claim: loops.climbed(lambda position, speed: 2).max() < 0 -->
 # <!-- claim: loops.climbed(lambda position, speed: 2 if speed >= 0 else 0)[-1] >= 0.5 -->
 
@@ -131,9 +130,8 @@ predict(
 )
 
 # %% [markdown]
-# A clone sees many alike states with different labels, and its most probable action is what most of
-# them say. Think of n labels of alike states, each right with probability q, independent of each
-# other, and two actions.
+# A clone's most probable action is what most labels of alike states say. Think of n such labels,
+# each right with probability q, independent of each other, and two actions.
 #
 # **Exercise (10 min, ●●○).** How probable is it that the majority is right?
 
@@ -185,9 +183,8 @@ four = ["cloning", "soft", "demonstrations", "both"]
 predict("your_own_problem.3", "Which reaches the flag most often?", list(figures.NAMES.values()))
 
 # %% [markdown]
-# `bc.compare` trains five agents of each and tests them in the same episodes. Each agent makes as
-# many decisions: who finds the flag sooner has shorter episodes, and equal episodes would give it
-# less practice.
+# `bc.compare` trains five agents of each and tests them in the same episodes. Each makes as many
+# decisions: with equal episodes, who finds the flag sooner would practise less.
 
 # %% tags=["nbval-ignore-output"]
 predicted("your_own_problem.3")
