@@ -22,7 +22,7 @@ from bootcourse.colours import OTHER
 from bootcourse.errors import BootcourseError, described, whole
 from bootcourse.markup import html
 from bootcourse.plots.road import road_svg
-from bootcourse.plots.svg import drawing, printed
+from bootcourse.plots.svg import QUIET, drawing, printed, text
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, N_ACTIONS, Scenario
 from bootcourse.web import bundle
@@ -153,7 +153,8 @@ class World(anywidget.AnyWidget):
         env.reset(seed=[self.opens["road"]])
         road, height = road_svg(env.cars[0], self.scenario, OTHER.colour, 1000, 8.0)
         words = "A road of three lanes from above: one slow car ahead of the ego, another one beside it."
-        return printed(drawing(1000, height, road, words))
+        live = text(8, height + 18, "Run the cell, and the road moves: you drive the purple car.", fill=QUIET)
+        return printed(drawing(1000, height + 28, [*road, live], words))
 
     @staticmethod
     def picture(svg: bytes, alt: str, page: str = "") -> dict[str, str]:

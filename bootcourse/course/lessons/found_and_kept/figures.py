@@ -10,6 +10,7 @@ from bootcourse.course.charts import lines
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import (
+    GRID,
     INK,
     QUIET,
     SMALL,
@@ -22,7 +23,6 @@ from bootcourse.plots.figure import (
     plain_axes,
     wrapped,
 )
-from bootcourse.plots.training_curves import WINDOW
 from bootcourse.research.experiments.clocks import UPDATES
 from bootcourse.research.results import Results
 from bootcourse.statistics import IN_A_ROW, found_after, rolling_means
@@ -51,30 +51,36 @@ def one_agent(success: np.ndarray, method: str, title: str) -> Figure:
 
 
 def agent_by_agent(results: Results, method: str, title: str, mark: int, words: str) -> Figure:
-    """Success in training of a method's agents, a thin line for each and a thick one for their mean.
+    """When each of a method's agents has the way out in training: a row for each, a bar where it has.
 
     mark: the episode of a vertical line, and the words at it.
     """
-    each = f"success, {WINDOW} episodes (%); thick: mean"
-    figure, ax = one_axes(4.0, title, "training episode", each)
-    at, success = rolling_means(100 * results.of(method).curves["success"], WINDOW)
-    mean, colour = success.mean(axis=0), style(method).colour
-    ax.plot(at, success.T, color=colour, linewidth=0.8, alpha=0.55)
-    ax.plot(at, mean, color=colour, linewidth=2.6)
-    ax.axvline(mark, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+    figure, ax = one_axes(4.0, title, "training episode", f"bar: over half of the last {IN_A_ROW} ended ahead")
+    success, seeds = results.of(method).curves["success"], []
+    shares = np.lib.stride_tricks.sliding_window_view(success, IN_A_ROW, axis=1).mean(axis=-1)
+    for row, share in enumerate(shares):
+        edges = IN_A_ROW + np.flatnonzero(np.diff(np.concatenate([[0], share > 0.5, [0]])))
+        ax.plot([0, success.shape[1]], [row, row], color=GRID, linewidth=0.8, zorder=1)
+        ax.broken_barh([(a, b - a) for a, b in edges.reshape(-1, 2)], (row - 0.33, 0.66), color=style(method).colour)
+        seeds.append(f"seed {results.of(method).agents[row]['seed']} {_spans(edges)}")
+    ax.axvline(mark, color=INK, linewidth=1, linestyle=(0, (2, 2)), zorder=3)
     ax.annotate(words, (mark, 1.03), xycoords=("data", "axes fraction"), xytext=(5, 0), va="bottom",
                 textcoords="offset points", fontsize=TEXT, color=QUIET)  # fmt: skip
-    ax.set(xlim=(0, at[-1]), ylim=(-4, 104), yticks=(0, 50, 100))
-    near = np.searchsorted(at, [mark - 200, mark, at[-1]])
-    means = ", ".join(f"{mean[i]:.0f} % at episode {at[i]}" for i in near)
-    alt = (
-        f"Success in the last {WINDOW} episodes, a thin line for each agent. {display_name(method)}, the mean: {means}."
-    )
-    return finish(figure, title, alt)
+    ax.grid(False)
+    ax.set(xlim=(0, success.shape[1]), ylim=(len(shares) - 0.4, -0.6))
+    ax.set_yticks(range(len(shares)), [f"seed {agent['seed']}" for agent in results.of(method).agents])
+    return finish(figure, title, f"When each agent has the way out, {display_name(method)}: {'; '.join(seeds)}.")
+
+
+def _spans(edges: np.ndarray) -> str:
+    """ "206 to 900 and 990 to 1,200", of (first, one after the last) of each bar."""
+    return " and ".join(f"{a:,} to {b - 1:,}" for a, b in edges.reshape(-1, 2)) or "never"
 
 
 def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
     """ξ over training with each number of updates, and β beside it; dots where half have found the way out.
+
+    ξ on logarithmic axes, β, a straight line, on linear ones.
 
     cells: `clocks.cells`. Dots on ξ: agents with the soft constraint alone; on β: with demonstrations by π̃ alone.
     """
@@ -92,30 +98,35 @@ def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
         below = part[half - 1] < LEAST
         ax.plot(half, max(part[half - 1], LEAST), "v" if below else "o", color=soft, mec=INK, ms=8, zorder=4,
                 clip_on=False)  # fmt: skip
-        _number(ax, SHORT.get(updates, updates), half, max(part[half - 1], LEAST), (8, 5))
+        number, low = SHORT.get(updates, updates), 5 * LEAST
+        _number(ax, number, int(np.argmax(part < low)), low, (9, -2))
+        if below:
+            _number(ax, number, half, LEAST, (-10, 4))
         words = f"ξ with {updates} updates is a tenth after {tenth} episodes, and half have the way out after {half}"
         alt_parts.append(f"{words}, at {part[half - 1]:.2g} of ξ")
     of = cells["1/4", "π̃"].of("demos").agents[0]
     share = demonstration_share(episodes, of["beta_start"], of["beta_episodes"]) / of["beta_start"]
-    beside.plot(episodes, np.where(share > 0, share, np.nan), color=demos, linewidth=2)
+    beside.plot(episodes, share, color=demos, linewidth=2)
     found = [half_found(cells[updates, "π̃"].of("demos")) for updates in UPDATES]
     beside.plot(found, share[np.array(found) - 1], "o", color=demos, mec=INK, ms=8, zorder=4)
     for episode in sorted({round(at, -1) for at in found}):  # dots that lie on each other have one label
         numbers = [SHORT.get(u, u) for u, at in zip(UPDATES, found, strict=True) if round(at, -1) == episode]
-        _number(beside, " and ".join(numbers), episode, share[episode - 1], (-3, -14))
-    for each, words in ((ax, "ξ, soft constraint alone"), (beside, "β, demonstrations alone, driven by π̃")):
+        _number(beside, " and ".join(numbers), episode, share[episode - 1], (-9 - 4 * len(numbers), -13))
+    for each, words in ((ax, "ξ, soft constraint alone (logarithmic)"), (beside, "β, demonstrations alone, by π̃")):
         plain_axes(each, "")
         each.set_title(words, loc="left", fontsize=TEXT, color=INK, pad=8)
-        each.set_xlabel("training episode (logarithmic)", fontsize=TEXT, color=INK)
-        each.set(xscale="log", yscale="log", xlim=(30, len(part)), ylim=(LEAST, 1.5))
-        for axis, places in ((each.xaxis, [50, 100, 200, 500, 1000]), (each.yaxis, [1, 1e-1, 1e-2, 1e-3, 1e-4])):
-            axis.set_major_locator(FixedLocator(places))
-            axis.set_major_formatter("{x:,g}" if axis is each.xaxis else lambda y, _: f"{y:g}")
-            axis.set_minor_locator(NullLocator())
-    beside.tick_params(labelleft=False)
+        each.set_xlabel("training episode" + " (logarithmic)" * (each is ax), fontsize=TEXT, color=INK)
+    ax.set(xscale="log", yscale="log", xlim=(30, len(part)), ylim=(LEAST, 1.5))
+    for axis, places in ((ax.xaxis, [50, 100, 200, 500, 1000]), (ax.yaxis, [1, 1e-1, 1e-2, 1e-3, 1e-4])):
+        axis.set_major_locator(FixedLocator(places))
+        axis.set_major_formatter("{x:,g}" if axis is ax.xaxis else lambda y, _: f"{y:g}")
+        axis.set_minor_locator(NullLocator())
+    beside.set(xlim=(0, len(part)), ylim=(0, 1.05), xticks=(0, 500, 1000), yticks=(0, 0.5, 1))
+    beside.xaxis.set_major_formatter("{x:,g}")
+    beside.yaxis.set_major_formatter("{x:g}")
     height = figure.get_figheight()
-    figure.text(0.012, 1 - 0.55 / height, "share of its start (logarithmic; ξ: median agent)", fontsize=TEXT, color=INK)
-    key = "Dot: half of the agents have found the way out. Its number: updates for a decision. ▼ below the axis."
+    figure.text(0.012, 1 - 0.55 / height, "share of its start that is left (ξ: median agent)", fontsize=TEXT, color=INK)
+    key = "Dot: half of the agents have found the way out (▼: below the axis). Numbers: updates for a decision."
     figure.text(0.012, 0.1 / height, key, fontsize=TEXT, color=INK)
     alt_parts.append(f"On β half of the agents with demonstrations alone have the way out after {found}")
     return finish(figure, title, ". ".join(alt_parts) + ".")

@@ -7,6 +7,7 @@ import numpy as np
 from scipy import stats
 
 from bootcourse.course.lessons.found_and_kept.exercises import forgetting
+from bootcourse.course.lessons.found_and_kept.explorable import EPISODES, Fading
 from bootcourse.course.lessons.found_and_kept.figures import half_found
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
@@ -15,8 +16,10 @@ from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
 from bootcourse.rule import stochastic_rule
 from bootcourse.statistics import IN_A_ROW as WINDOW
+from bootcourse.statistics import found_after as found_after_episode
 from tools.course.known import clocks, fisher, in_training, of, shipped_experiment, shipped_results
 
+LATE = 900  # the episode from which agents that lose the way out are counted: a tenth of β is left
 SHORTER = study_clocks.TRAINED  # training episodes of the agents of rounds 4 and 5
 
 
@@ -88,19 +91,46 @@ def over_updates(driver: str) -> Counted:
     return Counted(*(sum(column) for column in zip(*each, strict=True)))
 
 
-def lost_it(method: str, results: Results | None = None) -> np.ndarray:
-    """Which agents lose the way out as β ends: half or less of 50 episodes in a row from 900 to 1,100, (agents,).
+def lost_it(method: str, results: Results | None = None, first: int = LATE, last: int | None = None) -> np.ndarray:
+    """Which agents lose the way out: half or less of some 50 episodes in a row, after episode `first`, (agents,).
 
     results: of other agents than the study's.
     """
-    around = (results or of_all()).of(method).curves["success"][:, 900:1100]
-    return (np.lib.stride_tricks.sliding_window_view(around, WINDOW, axis=1).mean(-1) <= 0.5).any(axis=1)
+    success = (results or of_all()).of(method).curves["success"][:, first:last]
+    return found_after_episode(1 - success, least=WINDOW / 2) > 0
 
 
-def losing_p() -> float:
-    """Fisher's p: do more agents with both aids lose the way out around episode 1,000 if β ends there than if not?"""
-    groups = (lost_it("bootstrapped"), lost_it("bootstrapped", ablations()["β for ever"]))
+def has_it(method: str) -> np.ndarray:
+    """In which windows the study's agents of a method have the way out in training, (agents, windows)."""
+    return np.lib.stride_tricks.sliding_window_view(of(method).curves["success"], WINDOW, axis=1).mean(-1) > 0.5
+
+
+def kept_until_late(method: str) -> bool:
+    """Does each agent of a method have the way out in each window from its first good one to episode 900?"""
+    return all(bool(row[int(row.argmax()) : LATE - WINDOW + 1].all()) for row in has_it(method))
+
+
+def losing_p(fade: Results | None = None, stay: Results | None = None) -> float:
+    """Fisher's p: do more agents with both aids lose the way out from episode 900 on if β ends than if not?"""
+    groups = (lost_it("bootstrapped", fade), lost_it("bootstrapped", stay or ablations()["β for ever"]))
     return float(stats.fisher_exact([[int(each.sum()), int((~each).sum())] for each in groups]).pvalue)
+
+
+def ended_at_300() -> Results:
+    """The ten agents of each method with demonstrations whose β ends at episode 300."""
+    return ablations()["β over 300 episodes"]
+
+
+def factors() -> str:
+    """ "1.00 × 0.40 = 0.40": the chances that a row reads as the paper's, with two updates and π̃, and their product."""
+    agents = clocks()["2", "π̃"]
+    each = [study_clocks.as_printed(agents.of(m).scores("success"), m).mean() for m in study_clocks.VARIED]
+    return f"{' × '.join(f'{chance:.2f}' for chance in each)} = {np.prod(each):.2f}"
+
+
+def fades_by(updates: float) -> int:
+    """By which episode ξ has lost 99 % in the panel to drag, with so many updates for each decision."""
+    return int(EPISODES[np.argmax(Fading().left(updates) < 0.01)])
 
 
 def found_after(updates: str, method: str) -> int:
@@ -179,7 +209,6 @@ def trend_p() -> float:
 @cache
 def p_values() -> dict[str, float]:
     """Every p value that the lesson prints."""
-    kept = {m: way(shipped_results("paper"), m).kept for m in ("demos", "margin", "bootstrapped", "margin_soft")}
     return {
         "keeping": keeping_p("demos"),
         "losing, both": losing_p(),
@@ -187,8 +216,6 @@ def p_values() -> dict[str, float]:
         "driver": driver_p(),
         "updates": updates_p(),
         "choices": fisher(*(way(clocks()[cell], "demos").kept for cell in (("1/4", "μ"), ("2", "π̃")))),
-        "bonus, margin": fisher(kept["demos"], kept["margin"]),
-        "bonus, margin, with ξ": fisher(kept["bootstrapped"], kept["margin_soft"]),
     }
 
 
@@ -202,22 +229,19 @@ def holm() -> dict[str, float]:
 
 def comparison(name: str) -> str:
     """A row of the lesson's table, without its first cell: who keeps the way out, p, and p after Holm."""
-    open_numbers, paper = ((clocks()["1/4", "μ"], "demos"), (clocks()["2", "π̃"], "demos")), shipped_results("paper")
     kept = {
         "keeping": f"{kept_of('demos', True)} against {kept_of('demos', False)} that found it",
         "losing, both": f"{_losers(ablations()['β for ever'])} against {_losers(of_all())} that lose it",
         "trend": soft_kept(),
         "updates": f"{of_updates('1/4')} against {of_updates('2')}",
         "driver": f"{of_driver('μ')} against {of_driver('π̃')}",
-        "choices": kept_against(*open_numbers),
-        "bonus, margin": kept_against((paper, "demos"), (paper, "margin")),
-        "bonus, margin, with ξ": kept_against((paper, "bootstrapped"), (paper, "margin_soft")),
+        "choices": kept_against((clocks()["1/4", "μ"], "demos"), (clocks()["2", "π̃"], "demos")),
     }
     return f"{kept[name]}|{_short(p_values()[name])}|{_short(holm()[name])}"
 
 
 def _losers(results: Results) -> str:
-    """ "7 of 10": how many agents with both aids lose the way out around episode 1,000."""
+    """ "7 of 10": how many agents with both aids lose the way out from episode 900 on."""
     lost = lost_it("bootstrapped", results)
     return f"{lost.sum()} of {len(lost)}"
 

@@ -15,9 +15,9 @@ from bootcourse.statistics import ESCAPES, found_after
 from tools.course.known import RULE_P, escapers, of, shipped_experiment
 
 
-def stays() -> Results:
-    """The ten agents with the soft constraint whose ξ stays at 2."""
-    return shipped_experiment("ablations")["ξ stays at 2"]
+def stays(xi: float = 2.0) -> Results:
+    """The ten agents with the soft constraint whose ξ stays at this number."""
+    return shipped_experiment("ablations")[f"ξ stays at {xi:g}"]
 
 
 def beyond_the_rule() -> int:
@@ -49,9 +49,15 @@ def sooner_without() -> bool:
     return bool(0 < first.min() and first.max() < then.min())
 
 
-def at_the_end() -> np.ndarray:
-    """What the agents whose ξ stays at 2 earn in their last 50 training episodes, (agents,)."""
-    return stays().curves["return"][:, -50:].mean(axis=1)
+def found(agents: Results) -> int:
+    """How many agents have found the way out in training."""
+    return int((found_after(agents.curves["success"]) > 0).sum())
+
+
+def of_the_finders(xi: float) -> str:
+    """As `found_between`, of the agents whose ξ stays and who found the way out: "484 to 1,037"."""
+    after = found_after(stays(xi).curves["success"])
+    return f"{after[after > 0].min():,} to {after.max():,}"
 
 
 def entropy_of_the_rule() -> float:
