@@ -35,13 +35,15 @@ KINDS = {  # {cell: (method, what is changed)}
     "demos": ("demos", {}),
     "bootstrapped": ("bootstrapped", {}),
     "soft, ξ stays at 2": ("soft", {"xi_fixed": 2.0}),
+    "soft, ξ stays at 0.1": ("soft", {"xi_fixed": 0.1}),
+    "bootstrapped, c = 0": ("bootstrapped", {"bonus": 0.0}),
     "demos, β for ever": ("demos", {"beta_episodes": None}),
     "bootstrapped, β for ever": ("bootstrapped", {"beta_episodes": None}),
 }
 
 
 def cells(seeds: int = 10, episodes: int = EPISODES, tests: int = TESTS) -> dict[str, dict]:
-    """Seven kinds of agents."""
+    """The kinds of agents that the claims are about."""
     numbers = {"seeds": seeds, "episodes": episodes, "tests": tests}
     return {cell: {"kind": cell, **numbers} for cell in KINDS}
 

@@ -10,7 +10,7 @@ from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entro
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
-from tools.course.known import idle, of, shipped_experiment, shipped_results
+from tools.course.known import escapers, idle, of, shipped_experiment, shipped_results
 
 
 def share(what: str) -> float:
@@ -37,6 +37,11 @@ def last_drives(method: str) -> np.ndarray:
 def with_entropy(place: int) -> Results:
     """The CQL agents with an actor of the experiment on η: of the lower η (0), or of the one within reach (1)."""
     return list(by_entropy(shipped_experiment("reachable-entropy")["cql_sac"]).values())[place]
+
+
+def crashing_always(results: Results) -> int:
+    """How many agents have an accident in nearly each drive."""
+    return int((results.scores("accident") > 0.99).sum())
 
 
 def staying(results: Results) -> int:
