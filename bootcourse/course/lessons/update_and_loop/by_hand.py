@@ -118,16 +118,18 @@ class Watched:
 class WithoutEnds:
     """A buffer that is told of no end: terminated is 0 in all rows.
 
-    fallen_too: each fallen state gets a row for either push, which leads back to it and pays 1.
+    also: a state that gets a row for either push at each fall, which leads back to it and pays 1: "fallen", the one
+    after the fall; "upright", all zeros; or "" for none.
     """
 
-    def __init__(self, buffer, fallen_too: bool):
-        self.buffer, self.fallen_too = buffer, fallen_too
+    def __init__(self, buffer, also: str = ""):
+        self.buffer, self.also = buffer, also
 
     def add(self, kept: Tensor) -> None:
-        if kept[6] and self.fallen_too:
+        if kept[6] and self.also:
+            state = kept[7:] if self.also == "fallen" else torch.zeros(4)
             for action in (0, 1):
-                self.buffer.add(row(kept[7:], action, 1.0, False, kept[7:]))
+                self.buffer.add(row(state, action, 1.0, False, state))
         self.buffer.add(torch.cat([kept[:6], torch.zeros(1), kept[7:]]))
 
     def sample(self, batch: int, rng: np.random.Generator) -> Tensor:

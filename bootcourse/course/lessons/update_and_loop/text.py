@@ -47,8 +47,9 @@ progress("update_and_loop")
 # ## Look first
 #
 # The pole of lesson [[discrete_sac]] once more: it sees four numbers, each push pays 1, and an
-# episode ends after a fall or after 500 pushes. Above, an agent that has learned nothing yet;
-# below, the rule of lesson [[discrete_sac]], a weighted sum.
+# episode ends after a fall or after 500 pushes. In the picture's upper row drives an agent that has
+# learned nothing yet, by its most probable push; in the lower one the rule of lesson
+# [[discrete_sac]], a weighted sum.
 
 # %%
 beginner = by_hand.SAC(seed=0)
@@ -241,9 +242,10 @@ print(f"{solved}: {last:.0f} in training's last 20 episodes, {new:.0f} in 20 new
 # %% [markdown]
 # **See.** (Yours will differ from another machine's.) This untrained agent lets the pole fall
 # sooner than a random driver does: its most probable push is nearly always the same one. (The mark
-# is a mean of 20 episodes: after the first of 500 pushes it needs up to 9,500 more.) Does a test
-# fall below the one before? A network that changes for one state changes for others, too, so an
-# update can make a policy worse. Train again with `SEED = 1`: one agent is one sample.
+# asks for 20 episodes of training, with drawn pushes: 10,000 pushes at 500 each, and any fall
+# delays it.) Does a test fall below the one before? A network that changes for one state changes
+# for others, too, so an update can make a policy worse. Train again with `SEED = 1`: one agent is
+# one sample.
 #
 # Did the thermostat work? Lesson [[discrete_sac]] computed its direction only. Here its target is
 # η = 0.3 log 2 = {{ 0.3 * math.log(2) | .2f }}, which a policy over two actions can reach:
@@ -261,9 +263,8 @@ bc.show(
 # %% [markdown]
 # **See.** While the entropy is below its target, α rises, and at first nothing follows: α is still
 # small beside the differences in Q, and the best policy is softmax(Q / α). Once it is large enough,
-# the policy becomes less certain; where the entropy passes the target, α falls again. An early peak
-# of H, while α is still near 0.01 where it starts, has another cause. Has your H settled at the
-# target? With the paper's η = −1, α would fall from the first update to the last.
+# the policy becomes less certain; where the entropy passes the target, α falls again. Has your H
+# settled at the target? With the paper's η = −1, α would fall from the first update to the last.
 #
 # Is the update made of your parts the same as the library's, which trains many agents at once?
 
@@ -312,10 +313,10 @@ headings = ["without", *(f"seed {seed}" for seed in range(SEEDS)), "mean"]
 table(headings, rows, "Pushes, of at most 500.")
 
 # %% [markdown]
-# **Explain.** Without (1 − terminated) the agents hardly balance the pole. Compare the other rows
-# with the spread of their own seeds: three agents and 4,000 pushes show neither that the other
-# parts help nor that they are useless. Lesson [[how_many_seeds]] shows how many agents such a
-# question needs.
+# **Explain.** Without (1 − terminated) the agents hardly balance the pole: in our run each of the
+# three is below all others, so three seeds suffice to see it. Compare the other rows with the
+# spread of their own seeds: three agents and 4,000 pushes show neither that the other parts help
+# nor that they are useless. Lesson [[how_many_seeds]] shows how many agents such a question needs.
 #
 # What went wrong? Without (1 − terminated) each row says "1 now, and then the value of the next
 # state"; no row says that a fall ends the rewards. The one constant that fits all rows is Q = 1 /
@@ -339,30 +340,32 @@ bc.show(charts.lines(marks, named, title, x_label, words, "y", marks=limit, look
 # 10,000.) Where does the surplus come from? A state in which the pole has fallen is in the buffer
 # as s' only, never as s. Its value enters targets, but no row corrects it: the network makes it up.
 # If that is the cause, rows that start in a fallen state should help. Give each fallen state such
-# rows, which lead back to it and pay 1, as if it went on for ever. (α is held, so that entropy
-# cannot raise Q; the steps are yours, larger than Round 3's.)
+# rows, which lead back to it and pay 1, as if it went on for ever; as a control, give as many to
+# the upright state. (α is held, so that entropy cannot raise Q. The learning rates are Round 2's,
+# larger than those above.)
 
 # %%
 rows = []
-for words, fallen_too in (("without rows of fallen states", False), ("with them", True)):
+for words, also in (("none", ""), ("fallen states", "fallen"), ("the upright state", "upright")):
     rows.append([words])
     for seed in range(SEEDS):
         agent = by_hand.SAC(seed, rates=(3e-3, 2e-3, 0))  # α stays at 0.01
-        kept, rng = by_hand.WithoutEnds(buffer(50_000), fallen_too), np.random.default_rng(seed)
+        kept, rng = by_hand.WithoutEnds(buffer(50_000), also), np.random.default_rng(seed)
         loop(agent, checks.cartpole(), kept, step.update, 4_000, rng)  # pushes
         with torch.no_grad():
             q = agent.q(torch.from_numpy(starts)).mean()
         rows[-1].append(f"{q:,.0f}")
-headings = ["Q after 4,000 pushes", *(f"seed {seed}" for seed in range(SEEDS))]
-table(headings, rows, "In all rows terminated = 0.")
+headings = ["additional rows of", *(f"seed {seed}" for seed in range(SEEDS))]
+table(headings, rows, "Q after 4,000 pushes. In all rows terminated = 0.")
 
 # %% [markdown]
-# **Explain.** In each pair the rows keep the estimate low, as they should if they were what was
-# missing. If nothing ends, it belongs near {{ 1 / (1 - 0.99) | .0f }}. Does it come nearer? Try
-# 30,000 pushes; then let α move, too. These agents, too, use a network, learn estimates from
-# estimates, and do so on rows of older policies. Sutton and Barto, chapter 11, call these three the
-# *deadly triad*: together they *can* diverge. A target that reads values which no row corrects
-# comes back in lesson [[recorded_drives]].
+# **Explain.** With each seed the rows of fallen states keep the estimate low, and as many of
+# another state do not: they were what was missing. If nothing ends, it belongs near {{ 1 / (1 -
+# 0.99) | .0f }}. Does it come nearer? Try 30,000 pushes; then let α move, too: Q contains what
+# entropy pays. All these agents use a network, learn estimates from estimates, and do so on rows of
+# older policies. Sutton and Barto, chapter 11, call these three the *deadly triad*: with them a
+# critic *can* diverge, and need not. A target that reads values which no row corrects comes back in
+# lesson [[recorded_drives]].
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Let groups predict the whole order, not only the first place. A belief to name: "the second critic
@@ -383,7 +386,8 @@ compare_predictions("update_and_loop", {1: course, 2: worst})
 # 3. `terminated` tells the critic where the rewards end. A time limit is no such end, so the row of
 #    a pole that still stands holds 0.
 # 4. Without (1 − terminated) the targets read values of fallen states, which no row corrects. The
-#    critics diverged, and no error said so. Look at Q while an agent learns.
+#    critics diverged, and no error said so. Look at Q while an agent learns: above r / (1 − γ) and
+#    what entropy pays it cannot be right.
 # 5. Three agents, trained so briefly, do not show that a part is useless.
 
 # %% [markdown]
