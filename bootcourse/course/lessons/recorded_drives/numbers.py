@@ -10,7 +10,7 @@ from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entro
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
-from tools.course.known import escapers, idle, of, shipped_experiment, shipped_results
+from tools.course.known import idle, of, shipped_experiment, shipped_results
 
 
 def share(what: str) -> float:

@@ -472,9 +472,10 @@ table(["", "agents that escape", "mean speed", "returns of the agents, sorted"],
 # with η = −1 {{ staying(with_entropy(0)) }} of five agents stay; with an η that nine actions can
 # reach none does, {{ escapers(with_entropy(1), 'cql_sac') }} escapes and the others fail in other
 # ways (12,000 updates).
-# <!-- claim: escapers(with_entropy(1), 'cql_sac') == 1 and staying(with_entropy(1)) == 0 and len(with_entropy(0)) == len(with_entropy(1)) == 5
-#   and with_entropy(0).agents[0]['target_entropy'] == -1 and
-#   0 < with_entropy(1).agents[0]['target_entropy'] < math.log(9) -->
+# <!-- claim: escapers(with_entropy(1), 'cql_sac') == 1 and staying(with_entropy(1)) == 0 and
+#   len(with_entropy(0)) == len(with_entropy(1)) == 5 and
+#   with_entropy(0).agents[0]['target_entropy'] == -1 and 0 <
+#   with_entropy(1).agents[0]['target_entropy'] < math.log(9) -->
 # <!-- claim: (lambda r: len(r) == 10 and np.ptp(r) < 0.1 and r.mean() >
 #   23)(shipped_results('calibrated').of('cql_sac').scores('returns')) -->
 # <!-- claim: escaped('cql_sac') == 0 and np.allclose(np.sort(of('cql_sac').scores('returns'))[4:],

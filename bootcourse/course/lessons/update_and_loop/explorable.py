@@ -10,7 +10,7 @@ from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing
 
 LAST = 40  # pushes before the fall that are shown
-AXES = Axes("pushes that are left before the pole falls", "the value at which the target no longer changes", (0.0, 55.0))
+AXES = Axes("pushes that are left before the pole falls", "value at which the target no longer changes", (0.0, 55.0))
 
 
 def the_end() -> Explorable:
