@@ -175,6 +175,17 @@ def together(study: StudyResults) -> Claim:
     )  # fmt: skip
 
 
+def bonus(study: StudyResults) -> Claim:
+    ours, others = study.experiments["ablations"]["c = 0"].of("bootstrapped"), twice(study, "bootstrapped, c = 0")
+    paid = study.results["default"].of("bootstrapped"), twice(study, "bootstrapped")
+    return Claim(
+        "bonus", "With both aids most agents escape without the bonus, too (c = 0).", told(ours),
+        {TWICE: (share(others) > 0.5, told(others))},
+        different(ours, study.results["default"].of("sac"), escaping),
+        [f"With c = 2 {told(paid[0])}; of the other agents {told(paid[1])}. So it is not shown to help or to harm."],
+    )  # fmt: skip
+
+
 def ends(study: StudyResults) -> Claim:
     """Who loses a way out that it had found."""
     ours, changed = study.results["default"], study.experiments["ablations"]
@@ -269,7 +280,8 @@ def strength(study: StudyResults) -> Claim:
         },
         also=[
             "It is the size of ξ, not that it stays: "
-            + "; ".join(f"with a ξ that stays at {xi} {told(changed[f'ξ stays at {xi}'])}" for xi in (0.5, 0.1)) + ".",
+            + "; ".join(f"with a ξ that stays at {xi} {told(changed[f'ξ stays at {xi}'])}" for xi in (0.5, 0.1))
+            + f"; of ten others at 0.1 {told(twice(study, 'soft, ξ stays at 0.1'))}.",
             f"The rule's head start in the logits stays {HEAD_START:.2f}; the temperature 201 α is what fades.",
         ],
     )  # fmt: skip
@@ -459,7 +471,7 @@ CLAIMS = {  # by the lesson in which a reader meets them
     "the_rule": (sight, room),
     "demonstrations": (copies,),
     "soft_constraint": (constraint, strength),
-    "learning_from_demonstrations": (forgotten, together, margin),
+    "learning_from_demonstrations": (forgotten, together, bonus, margin),
     "found_and_kept": (ends, clocks),
     "the_second_trap": (second_trap,),
     "looking_ahead": (ahead,),

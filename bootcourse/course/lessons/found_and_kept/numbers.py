@@ -116,6 +116,11 @@ def losing_p(fade: Results | None = None, stay: Results | None = None) -> float:
     return float(stats.fisher_exact([[int(each.sum()), int((~each).sum())] for each in groups]).pvalue)
 
 
+def without_bonus() -> Results:
+    """Ten others with both aids and c = 0: other seeds, another implementation of the learner, twice the episodes."""
+    return shipped_experiment("stress")["bootstrapped, c = 0"]
+
+
 def ended_at_300() -> Results:
     """The ten agents of each method with demonstrations whose β ends at episode 300."""
     return ablations()["β over 300 episodes"]
