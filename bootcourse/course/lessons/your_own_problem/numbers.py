@@ -59,6 +59,12 @@ def above_clones() -> int:
     return int((agents > clones.max()).sum())
 
 
+def arriving() -> np.ndarray:
+    """The returns of the agents with demonstrations of MountainCar's systematic teacher that ever arrive."""
+    agents = cells().scores("mountain-car", "systematic", "demonstrations", "returns")
+    return agents[agents > -200]
+
+
 def decisions_on_doorkey(teacher: str, method: str) -> float:
     """The median number of decisions in training, in thousands: a success pays 1 − 0.9 t / 100, t decisions."""
     curves = cells().get("doorkey", teacher, method).curves
