@@ -14,14 +14,14 @@ import traitlets
 
 from bootcourse import one_per_cell
 from bootcourse.learn.training import Result, Training
-from bootcourse.methods import display_name, style
+from bootcourse.methods import METHODS, display_name, style
 from bootcourse.plots.svg import INK, QUIET, Drawing, SvgAxes, drawing, line, printed, span, text
-from bootcourse.plots.training_curves import MEASURES, draw_training, finished, window_of
+from bootcourse.plots.training_curves import MEASURES, draw_training, finished, in_unit, window_of
 from bootcourse.statistics import rolling_means
 from bootcourse.web.guests import Guest, alone, guest
 from bootcourse.web.widget import World
 
-SHOWN = ("success", "return", "entropy", "xi")  # of the measures
+SHOWN = ("success", "return", "entropy")  # of the measures; a fourth says what the method has of its own
 LEFT, TOP, ACROSS, DOWN, WIDE, HIGH = 46, 58, 270, 176, 216, 110  # px, of the small charts
 SIZE = (2 * ACROSS + 10, 2 * DOWN + 40)
 SHARE, PAUSE = 0.03, 1.0  # of the training's time, at most; s between two looks, at least
@@ -118,6 +118,8 @@ def reach(done: int, episodes: int) -> int:
 def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episodes: int, marks: Marks = ()) -> Drawing:
     """Four small charts of a training, always of the same size: thin lines are agents, thick ones a method's mean.
 
+    Success, return, entropy, and ξ, or accidents where no method has a soft constraint.
+
     methods: of each agent. curves: as `Result.curves`, each (agents, episodes), NaN where still to come; empty before
     the training.
     """
@@ -129,10 +131,11 @@ def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episod
         parts.append(text(x, 18, display_name(method), fill=style(method).colour, bold=True))
         x += 7.4 * len(display_name(method)) + 12
     parts.append(text(x, 18, words, fill=QUIET))
-    for i, shown in enumerate(SHOWN):
+    pulled = any(METHODS[method].settings.get("xi_multiplier") != 0 for method in names)  # by the soft constraint
+    for i, shown in enumerate((*SHOWN, "xi" if pulled else "accident")):
         measure, at, means = MEASURES[shown], np.zeros(0), np.zeros((0, 0))
         if done:
-            at, means = rolling_means(curves[shown][:, :done] * measure.factor, window)
+            at, means = rolling_means(in_unit(shown, curves[shown][:, :done]), window)
         left, top = LEFT + (i % 2) * ACROSS, TOP + (i // 2) * DOWN
         limits = measure.limits or span(means.ravel(), measure.least)
         axes = SvgAxes(left, top, WIDE, HIGH, (0, max(episodes, 1)), limits)

@@ -44,6 +44,7 @@ class Measure(NamedTuple):
 MEASURES = {
     "success": Measure("success (% of episodes)", 100.0, limits=(0.0, 100.0)),
     "return": Measure("return of an episode", least=4.0),
+    "accident": Measure("accidents (% of episodes)", 100.0, limits=(0.0, 100.0)),
     "speed": Measure("speed (m/s)", least=1.0),
     "distance": Measure("distance (m)", least=200.0),
     "alpha": Measure("α, weight of the entropy", least=0.002),
@@ -52,6 +53,11 @@ MEASURES = {
     "entropy": Measure("entropy of π (nats)", least=0.5),
     "effective": Measure("effective number of actions", least=1.0),
 }
+
+
+def in_unit(measure: str, values: np.ndarray) -> np.ndarray:
+    """What `Result.curves` holds of a measure, in its unit. An `Accident` counts as one, whichever it is."""
+    return (np.sign(values) if measure == "accident" else values) * MEASURES[measure].factor
 
 
 def finished(curves: Mapping[str, np.ndarray]) -> int:
@@ -138,7 +144,7 @@ def training_curves(
 
 def _points(curves: Mapping, method: str, measure: str, window: int, updates: np.ndarray | None) -> tuple:
     """Where a method's points lie, (points,), and its agents' means there, (agents, points)."""
-    values = _values(curves, method, measure) * MEASURES[measure].factor
+    values = in_unit(measure, _values(curves, method, measure))
     return rolling_means(values, window, POINTS) if updates is None else (updates, values)
 
 
