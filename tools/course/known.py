@@ -178,6 +178,8 @@ def in_training(method: str, first: int, last: int | None) -> np.ndarray:
     return of(method).curves["success"][:, first:last].mean(axis=1)
 
 
-def losing(method: str) -> np.ndarray:
-    """Which agents lose 20 points of success as the demonstrations end: 600 to 800 against 900 to 1,100, (agents,)."""
-    return in_training(method, 900, 1100) < in_training(method, 600, 800) - 0.2
+def others(kind: str) -> Results:
+    """Ten other agents of a kind of experiments/stress.py, such as "soft": other seeds, another implementation of the
+    learner, twice the episodes.
+    """
+    return shipped_experiment("stress")[kind]

@@ -38,11 +38,6 @@ def ablations() -> dict[str, Results]:
     return shipped_experiment("ablations")
 
 
-def others(method: str, stays: bool = False) -> Results:
-    """Ten other agents, with other seeds. stays: β does not end."""
-    return shipped_experiment("stress")[f"{method}, β for ever" if stays else method]
-
-
 class Counted(NamedTuple):
     """How many agents found the way out, how many of these kept it, and of how many."""
 
@@ -114,11 +109,6 @@ def losing_p(fade: Results | None = None, stay: Results | None = None) -> float:
     """Fisher's p: do more agents with both aids lose the way out from episode 900 on if β ends than if not?"""
     groups = (lost_it("bootstrapped", fade), lost_it("bootstrapped", stay or ablations()["β for ever"]))
     return float(stats.fisher_exact([[int(each.sum()), int((~each).sum())] for each in groups]).pvalue)
-
-
-def without_bonus() -> Results:
-    """Ten others with both aids and c = 0: other seeds, another implementation of the learner, twice the episodes."""
-    return shipped_experiment("stress")["bootstrapped, c = 0"]
 
 
 def ended_at_300() -> Results:

@@ -266,15 +266,15 @@ table(["β is 0 after, episodes", "return of agents with both aids that keep the
 # (a start that we chose after the figure) {{ lost_it('bootstrapped').sum() }} of ten lose it at
 # least once as β ends, and {{ lost_it('bootstrapped', ablations()['β for ever']).sum() }} of ten if
 # β stays (Fisher's p < 0.001); of ten others, in twice the episodes, {{ lost_it('bootstrapped',
-# others('bootstrapped')).sum() }} and {{ lost_it('bootstrapped', others('bootstrapped',
-# True)).sum() }}. With the soft constraint alone, which has no β, it is {{ lost_it('soft').sum()
+# others('bootstrapped')).sum() }} and {{ lost_it('bootstrapped', others('bootstrapped, β for
+# ever')).sum() }}. With the soft constraint alone, which has no β, it is {{ lost_it('soft').sum()
 # }}, of ten others {{ lost_it('soft', others('soft')).sum() }}. With both aids and *no bonus* it is
 # {{ lost_it('bootstrapped', ablations()['c = 0']).sum() }} of ten, of ten others {{
-# lost_it('bootstrapped', without_bonus(), last=2000).sum() }} (by episode 2,000; with the bonus {{
-# lost_it('bootstrapped', others('bootstrapped'), last=2000).sum() }}): the bonus may have a share
-# in it.
-# <!-- claim: losing_p() < 0.001 and losing_p(others('bootstrapped'), others('bootstrapped', True))
-#   < 0.001 and {len(r) for r in (others('bootstrapped'), others('bootstrapped', True),
+# lost_it('bootstrapped', others('bootstrapped, c = 0'), last=2000).sum() }} (by episode 2,000; with
+# the bonus {{ lost_it('bootstrapped', others('bootstrapped'), last=2000).sum() }}): the bonus may
+# have a share in it.
+# <!-- claim: losing_p() < 0.001 and losing_p(others('bootstrapped'), others('bootstrapped, β for ever'))
+#   < 0.001 and {len(r) for r in (others('bootstrapped'), others('bootstrapped, β for ever'),
 #   others('soft'), of('soft'), of('bootstrapped'), ablations()['β for
 #   ever'].of('bootstrapped'))} == {10} -->
 # <!-- claim: min(way(r, 'bootstrapped').kept for r in (of_all(), ended_at_300(), ablations()['β for
@@ -291,7 +291,7 @@ table(["β is 0 after, episodes", "return of agents with both aids that keep the
 # Demonstrations that stay have a price: agents with both aids that keep the way out earn
 # {{ keepers(ablations()['β for ever'], 'bootstrapped', 'returns') | .0f }} instead of {{
 # keepers(of_all(), 'bootstrapped', 'returns') | .0f }} (of the others {{
-# keepers(others('bootstrapped', True), 'bootstrapped', 'returns') | .0f }} instead of {{
+# keepers(others('bootstrapped, β for ever'), 'bootstrapped', 'returns') | .0f }} instead of {{
 # keepers(others('bootstrapped'), 'bootstrapped', 'returns') | .0f }}). Is it the bonus? We trained
 # none without.
 

@@ -5,9 +5,8 @@ from functools import cache
 import numpy as np
 from scipy import stats
 
-from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES, Estimate, bracketed, improvement, interval, power, rate
-from tools.course.known import escaped, escapers, fisher, in_training, of, shipped_experiment
+from tools.course.known import escaped, escapers, fisher, in_training, of, others, shipped_experiment
 
 
 def p_changed(method: str) -> float:
@@ -54,11 +53,6 @@ def half_interval(method: str) -> float:
     """Half the length of the 95 % interval of a method's mean return."""
     _, low, high = interval(of(method).scores("returns"), np.mean)
     return (high - low) / 2
-
-
-def others(method: str) -> Results:
-    """Ten other agents of a method: other seeds, another implementation of the learner, twice the episodes."""
-    return shipped_experiment("stress")[method]
 
 
 def apart(method: str) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 from bootcourse.research.results import Results
 from bootcourse.scenario import ACTION_NAMES
 from bootcourse.statistics import found_after
-from tools.course.known import escapers, of, rule_drives, shipped_experiment, shipped_runs
+from tools.course.known import of, rule_drives, shipped_experiment, shipped_runs
 
 
 @cache
@@ -35,20 +35,10 @@ def _way_out(method: str) -> tuple[list[np.ndarray], np.ndarray]:
     return [run.agent.q_values(seen) for run in shipped_runs(method)], did
 
 
-def others_with_the_bonus() -> int:
-    """How many of ten other agents with demonstrations alone escape: other seeds, twice the episodes."""
-    return escapers(shipped_experiment("stress")["demos"], "demos")
-
-
 def without_bonus(method: str = "") -> Results:
     """The agents whose demonstrations pay no bonus, c = 0: ten of each of two methods."""
     agents = shipped_experiment("ablations")["c = 0"]
     return agents.of(method) if method else agents
-
-
-def others_without_bonus() -> Results:
-    """Ten others of them with demonstrations and KL: other seeds, another implementation, twice the episodes."""
-    return shipped_experiment("stress")["bootstrapped, c = 0"]
 
 
 def straight_on_the_way() -> int:

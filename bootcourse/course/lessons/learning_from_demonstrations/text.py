@@ -490,7 +490,7 @@ table(["where the rule", "the filter is on, with the margin, after 250 updates"]
 #
 # **Does it work?** Without the soft constraint none of the study's ten agents escapes with the
 # margin, and none with the bonus; of ten others with the bonus, trained for twice as long, {{
-# others_with_the_bonus() }} do. With the soft constraint {{ escaped('margin_soft') }} of ten escape
+# escapers(others('demos'), 'demos') }} do. With the soft constraint {{ escaped('margin_soft') }} of ten escape
 # with the margin, {{ escaped('bootstrapped') }} with the bonus, and {{ escaped('soft') }} without
 # demonstrations (lesson [[soft_constraint]]): at the end ten agents show no difference. But the
 # demonstrations make it *sooner*: the way is found (more than half of 50 episodes succeed) after {{
@@ -510,15 +510,15 @@ table(["where the rule", "the filter is on, with the margin, after 250 updates"]
 # **Is the bonus needed?** Round 2 asked which return is larger, not what a learner needs. With c =
 # 0 {{ escapers(without_bonus(), 'bootstrapped') }} of ten agents with demonstrations and KL escape,
 # with c = 2 {{ escaped('bootstrapped') }}; of ten others each, trained for twice as long, {{
-# escapers(others_without_bonus(), 'bootstrapped') }} and {{
-# escapers(shipped_experiment('stress')['bootstrapped'], 'bootstrapped') }}. So most escape without
+# escapers(others('bootstrapped, c = 0'), 'bootstrapped') }} and {{
+# escapers(others('bootstrapped'), 'bootstrapped') }}. So most escape without
 # a bonus, too, and forty agents do not show that it helps or harms. Demonstrations alone get none
 # of ten out without it, either.
 # <!-- claim: escapers(without_bonus(), 'bootstrapped') == 10 and escapers(without_bonus(),
 #   'demos') == 0 and {len(without_bonus(m)) for m in ('demos', 'bootstrapped')} == {10} -->
-# <!-- claim: escapers(others_without_bonus(), 'bootstrapped') > 5 and abs(10 +
-#   escapers(others_without_bonus(), 'bootstrapped') - escaped('bootstrapped') -
-#   escapers(shipped_experiment('stress')['bootstrapped'], 'bootstrapped')) <= 2 -->
+# <!-- claim: escapers(others('bootstrapped, c = 0'), 'bootstrapped') > 5 and abs(10 +
+#   escapers(others('bootstrapped, c = 0'), 'bootstrapped') - escaped('bootstrapped') -
+#   escapers(others('bootstrapped'), 'bootstrapped')) <= 2 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # `settings_for("margin")` and `settings_for("margin", paper_q_filter=False)` train the two filters.

@@ -23,7 +23,7 @@ def least_share() -> float:
     return 100 * (1 - (100 - share("success")) / share("road_departure"))
 
 
-def others() -> np.ndarray:
+def failing() -> np.ndarray:
     """The success of the GAIL agents that do not escape."""
     success = of("gail").scores("success")
     return success[success < ESCAPES]

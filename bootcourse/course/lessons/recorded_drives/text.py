@@ -115,11 +115,11 @@ table(["", "success, %: paper", "ours", "return: paper", "ours"], rows)
 # **See.** All ten clones escape, and end a little under the rule's return; all ten CQL agents do,
 # too, and end above it. If all ten GAIL agents escaped, their mean would be {{ 100 * ESCAPES | .0f
 # }} % or more; with ten at {{ share('success') | .0f }} % none would. In truth {{ escaped('gail')
-# }} do, and the others succeed on {{ 100 * others().min() | .0f }} to {{ 100 * others().max() | .0f
+# }} do, and the others succeed on {{ 100 * failing().min() | .0f }} to {{ 100 * failing().max() | .0f
 # }} %. In its last 500 training drives each succeeds in {{ 100 * last_drives('gail').min() | .1f }}
 # % or more: who escapes may depend on when we stop. The paper's CQL and GAIL stand at 0 %.
 # <!-- claim: 80 < share('success') < 100 * ESCAPES and of('gail').curves['success'].shape[1] > 1000
-#   and last_drives('gail').min() > others().max() -->
+#   and last_drives('gail').min() > failing().max() -->
 # <!-- claim: escaped('cql') == len(of('cql')) and of('cql').scores('returns').min() >
 #   of('rule').scores('returns').max() -->
 # <!-- claim: escaped('bc') == len(of('bc')) and 0.8 < of('bc').scores('returns').max() /

@@ -20,11 +20,6 @@ def stays(xi: float = 2.0) -> Results:
     return shipped_experiment("ablations")[f"ξ stays at {xi:g}"]
 
 
-def others_at_a_tenth() -> Results:
-    """Ten others whose ξ stays at 0.1: other seeds, another implementation of the learner, twice the episodes."""
-    return shipped_experiment("stress")["soft, ξ stays at 0.1"]
-
-
 def beyond_the_rule() -> int:
     """How many of the ten agents whose ξ fades earn more than twice as much as the rule."""
     return int((of("soft").scores("returns") > 2 * of("rule").scores("returns").mean()).sum())

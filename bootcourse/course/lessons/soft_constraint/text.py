@@ -546,7 +546,7 @@ bc.show(figure)
 # price is higher than what speed pays. At {{ (second_pays(15) - second_pays(10)) / math.log(80) |
 # .2f }} the two are equal. With 0.1, {{ escapers(stays(0.1), 'soft') }} of ten escape and return
 # more than twice as much as the rule, as {{ beyond_the_rule() }} of ten do whose ξ fades. (Of ten
-# others with 0.1, trained for twice as long, {{ escapers(others_at_a_tenth(), 'soft') }} do.) So a
+# others with 0.1, trained for twice as long, {{ escapers(others('soft, ξ stays at 0.1'), 'soft') }} do.) So a
 # pull need not fade; it has to be weak in the end. Fading has two other effects here: the way is
 # found sooner (after {{ found_between(of('soft')) }} episodes, with 0.1 {{ of_the_finders(0.1) }}),
 # by all ten agents, of whom two end elsewhere ({{ losers()[0] | .0f }} and {{ losers()[1] | .0f
@@ -568,8 +568,8 @@ bc.show(figure)
 #   -->
 # <!-- claim: (stays(0.1).scores('returns') > 2 * of('rule').scores('returns').mean()).sum() ==
 #   escapers(stays(0.1), 'soft') == 8 and found(stays(0.1)) == 8 and found(of('soft')) == 10 -->
-# <!-- claim: (others_at_a_tenth().scores('returns') > 2 * of('rule').scores('returns').mean()).sum()
-#   == escapers(others_at_a_tenth(), 'soft') and len(others_at_a_tenth()) == 10 -->
+# <!-- claim: (others('soft, ξ stays at 0.1').scores('returns') > 2 * of('rule').scores('returns').mean()).sum()
+#   == escapers(others('soft, ξ stays at 0.1'), 'soft') and len(others('soft, ξ stays at 0.1')) == 10 -->
 # <!-- claim: 0.1 < (second_pays(15) - second_pays(10)) / math.log(80) < 0.5 -->
 # <!-- claim: 110 < of('soft').scores('returns')[of('soft').scores('success') > 0.9].min() -->
 
