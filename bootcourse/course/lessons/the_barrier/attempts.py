@@ -11,9 +11,10 @@ from bootcourse.learn.teachers import toward
 from bootcourse.policies import PlanPolicy, Policy, PolicyOutput, idle_policy, random_policy, rule_policy
 from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import DEFAULT, N_ACTIONS
+from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS
 
 FAST = 15.0  # m/s; the speed that pays most
+ACCELERATE = 7  # straight on
 PLAN = [5, *[3] * 4, *[5] * 3, *[7] * 5]  # right 1 s, left 4 s, right 3 s, accelerate 5 s
 
 
@@ -73,6 +74,24 @@ def drive(policy: Policy, seeds: Sequence[int], make_env: Callable[..., VectorEn
         rewards.append(step.rewards)
         accident |= step.infos["accident"] > 0
     return Outcome(np.stack(rewards, axis=1), step.infos["is_success"], accident)
+
+
+def stays_and_accelerates(
+    share: float, seeds: Sequence[int], make_env: Callable[..., VectorEnv], seed: int = 0
+) -> list[Outcome]:
+    """Two drives on each road, of which one does nothing at first and one accelerates; then both do nothing.
+
+    share: the probability that a later action is random instead, the same in both drives; drawn with `seed`.
+    """
+    rng = np.random.default_rng(seed)
+    actions = np.full((DEFAULT.clock.decisions, len(seeds)), IDLE)
+    errs = rng.random(actions.shape) < share
+    actions[errs] = rng.integers(N_ACTIONS, size=errs.sum())
+    outcomes = []
+    for first in (IDLE, ACCELERATE):
+        actions[0] = first
+        outcomes.append(drive(PlanPolicy(actions), seeds, make_env))
+    return outcomes
 
 
 def kinds(roads: int, seed: int = 0) -> Mapping[str, Policy]:

@@ -16,7 +16,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from bootcourse.course.lessons.the_barrier.attempts import PLAN, ThenAccelerate, keep_lane
+from bootcourse.course.lessons.the_barrier.attempts import ACCELERATE, PLAN, ThenAccelerate, keep_lane
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.policies import PlanPolicy, Policy, idle_policy, random_policy
@@ -88,7 +88,6 @@ KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the set
     "free accidents": (free_accidents, {}),
 }
 
-ACCELERATE = 7  # straight on
 LATER_DRIVES = {
     "accelerates once, then nothing": PlanPolicy([ACCELERATE]),
     "to 15 m/s, in its lane": ThenAccelerate([]),

@@ -2,32 +2,25 @@
 
 from collections import Counter
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
 
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.policies import PlanPolicy, idle_policy, random_policy
 from bootcourse.research.cells import HELD_OUT
-from bootcourse.research.planner import Search, discounted_values, plan_episodes
+from bootcourse.research.planner import Search, plan_episodes
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD, idle, of, shipped_experiment, shipped_runs
+from tools.course.known import ROAD, idle, of, shipped_experiment
 
 
 @cache
 def planned(beam: int, gamma: float, keep_lane: bool = False) -> float:
     """What the planner's best drive on the lesson's road is worth."""
     return plan_episodes([ROAD], search=Search(beam, gamma, keep_lane))[0].value
-
-
-@cache
-def discounted_scores(method: str) -> np.ndarray:
-    """The shipped agents' discounted returns at their own γ, each the mean of 200 held-out roads: (agents,)."""
-    agents, seeds = [run.agent for run in shipped_runs(method)], held_out_seeds(1, 200)
-    return np.array([discounted_values(a.as_policy(), seeds, DEFAULT, a.settings.gamma).mean() for a in agents])
 
 
 def stayed() -> int:
@@ -81,17 +74,16 @@ def stay_well() -> int:
     return int((safe & (agents.scores("returns") > 20)).sum())
 
 
-def slowest(measure: str) -> float:
-    """A measure of the slowest of those on the road as it is."""
+def the_escaper(measure: str) -> float:
+    """A measure of the one agent that escapes on the road as it is."""
     agents = easy("as it is")
-    safe = (agents.scores("success") < 0.05) & (agents.scores("accident") < 0.05)
-    return float(agents.scores(measure)[np.where(safe, agents.scores("speed"), np.inf).argmin()])
+    return float(agents.scores(measure)[agents.scores("success") >= ESCAPES].item())
 
 
 ONCE = "accelerates once, then nothing"
 FREE, RAM = "free accidents", "accelerates into trap 1"
 MIDDLE, STRAIGHT_ON = easier.MIDDLE, "accelerates straight on"
-STRAIGHT = (easier.ACCELERATE,) * DEFAULT.clock.decisions
+STRAIGHT = (attempts.ACCELERATE,) * DEFAULT.clock.decisions
 CRASHES = (STRAIGHT, (6, 8, 8, 6, 8, 8))  # actions that agents with free accidents take on each road
 
 
@@ -105,10 +97,64 @@ def paying(kind: str) -> int:
     return int(figures.paying(easy(kind), staying_return(kind)).sum())
 
 
-def middle_p() -> float:
-    """Fisher's p of these agents, as it is and mid-lane."""
-    won = [paying(kind) for kind in ("as it is", MIDDLE)]
-    return float(stats.fisher_exact([[each, 20 - each] for each in won]).pvalue)
+# The drives of the two slower agents from mid-lane with γ = 0.95 on the first of their held-out roads, by their seeds.
+SLOWER = {
+    1: "11144444444444444444444444444444444444444444444444444444444444444447777"
+    "77774444444444444444444444444444444777777777777777777177447777111111111",
+    3: "26626226626226626262626262626266226266226266226626226626262266262626262"
+    "62626266262262626266262622626626262622662626262626262662622626626226622",
+}
+
+
+class Slower(NamedTuple):
+    """One of them."""
+
+    returns: float  # the mean of its 200 held-out roads
+    worth: float  # at γ = 0.95, on the first
+    is_its_drive: bool  # returns on this road what the agent did
+
+
+@cache
+def slower(seed: int) -> Slower:
+    """The agent with this seed."""
+    agents, first = easy(MIDDLE), held_out_seeds(HELD_OUT, 1)
+    mine = [(agent["gamma"], agent["seed"]) for agent in agents.agents].index((0.95, seed))
+    driven = attempts.drive(PlanPolicy([int(action) for action in SLOWER[seed]]), first, easier.MidLaneStart)
+    same = np.isclose(driven.values(1.0)[0], agents.episodes("returns")[mine, 0], atol=1e-3)
+    return Slower(float(agents.scores("returns")[mine]), float(driven.values(0.95)[0]), bool(same))
+
+
+MANY = held_out_seeds(7, 2000)  # of the lesson's random actions
+
+
+@cache
+def _random_later(share: float) -> tuple[attempts.Outcome, attempts.Outcome]:
+    return attempts.stays_and_accelerates(share, MANY, easier.MidLaneStart)
+
+
+def added(share: float, gamma: float) -> tuple[float, float]:
+    """Mid-lane: what one acceleration adds to staying if later actions are random so often, and its standard error."""
+    stays, once = _random_later(share)
+    more = once.values(gamma) - stays.values(gamma)
+    return float(more.mean()), float(more.std() / np.sqrt(len(more)))
+
+
+def sooner(share: float) -> float:
+    """By how many seconds the accident comes sooner after one acceleration, if every drive has one."""
+    assert all(each.accident.all() for each in _random_later(share))
+    stays, once = ((each.rewards != 0).cumsum(axis=1).argmax(axis=1).mean() for each in _random_later(share))
+    return float(stays - once)
+
+
+@cache
+def random_mid_lane() -> attempts.Outcome:
+    """2,000 random drives from mid-lane."""
+    return attempts.drive(random_policy(np.random.default_rng(0)), MANY, easier.MidLaneStart)
+
+
+def median_return(method: str, first: int, last: int) -> float:
+    """The study's median agent: its mean return over these episodes of its training."""
+    return float(np.median(of(method).curves["return"][:, first:last].mean(axis=1)))
 
 
 def _straight() -> np.ndarray:
@@ -167,12 +213,6 @@ def easier_outcome(road: str, name: str) -> attempts.Outcome:
 def worth_of(road: str, name: str, gamma: float) -> float:
     """What a drive on an easier road is worth, on average."""
     return float(easier_outcome(road, name).values(gamma).mean())
-
-
-def once_of_fast() -> float:
-    """Mid-lane: what one acceleration adds to the return of staying, as a share of what 15 m/s adds."""
-    stays, once, fast = (worth_of(MIDDLE, name, 1.0) for name in ("stays", ONCE, "to 15 m/s, in its lane"))
-    return (once - stays) / (fast - stays)
 
 
 @cache
