@@ -27,6 +27,9 @@ class View {
     return [this.width / 2 + (y - middle) * this.scale, this.height * AHEAD - (x - this.x) * this.scale];
   }
 
+  // The road's right edge on the canvas.
+  get right() { return this.spot(0, (this.scenario.lanes - 0.5) * this.scenario.laneWidth)[0]; }
+
   // name: of the car at the wheel, to be written beside it. wreck: whether its drive ended here, in an accident.
   draw({ cars, ghosts, coming, colour, futures, wreck, name }) {
     this.x = cars[X];
@@ -39,18 +42,20 @@ class View {
     this.signs = { above: 0, below: 0, beside: [] }; // of the ghosts: how many beyond the picture, and at which heights
     for (const ghost of ghosts) this.ghost(ghost);
     const before = row(cars, TRAP_1)[X] - cars[X]; // who falls back still sees where the car is that is to be overtaken
-    if (before * this.scale > this.height * AHEAD) this.signAway("trap 1", before, this.colour("trap"));
+    if (before * this.scale > this.height * AHEAD) { // beside the road, where it covers no car
+      this.sign(`▲ trap 1, ${before.toFixed(0)} m`, this.right + 8, 76, this.colour("trap"), "left");
+    }
     this.car(cars, colour, { label: "" });
     const [px, py] = this.spot(cars[X], cars[Y]);
     if (wreck) this.ring(px, py);
-    if (name) this.sign(name, this.spot(0, (this.scenario.lanes - 0.5) * this.scenario.laneWidth)[0] + 8, py + 4, colour, "left");
+    if (name) this.sign(name, this.right + 8, py + 4, colour, "left");
     if (coming !== null) this.coming(cars, coming, colour);
   }
 
   ground() {
     const { pen, scenario, width, height, scale } = this;
     const [left] = this.spot(0, -scenario.laneWidth / 2);
-    const [right] = this.spot(0, (scenario.lanes - 0.5) * scenario.laneWidth);
+    const { right } = this;
     const first = this.x - (height * (1 - AHEAD)) / scale, last = this.x + (height * AHEAD) / scale;
     pen.fillStyle = this.colour("ground");
     pen.fillRect(0, 0, width, height);

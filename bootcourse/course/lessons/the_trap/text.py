@@ -492,8 +492,9 @@ table(headings, rows, below)
 # **Slide.** Press *Train*: two agents learn with the rule's help, and the road shows how one drives
 # now. (The slider's ξ is multiplied by α, a number of the learner that falls; the curve shows the
 # product.) As soon as the curves begin, drag ξ to its lower end and β, the share of the rule's
-# drives in what they learn from, to 0: the help is gone. Train again, and do so when half of the
-# episodes are a success. Until when do they need the help, and what becomes of the return?
+# drives in what they learn from, to 0: the help is gone. Put both back (ξ 200, β 0.6), train again,
+# and drag when half of the episodes are a success. Until when do they need the help, and what
+# becomes of the return?
 
 # %%
 bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)
