@@ -36,6 +36,7 @@ def test_a_logarithmic_slider_is_read_to_two_digits_and_a_typed_number_as_it_is(
     number = Number("ξ", 200, 0.1, 10_000, 0.05, "A strength.", logarithmic=True)
     from_page(number.slider, value=10**2.25)
     assert number.value == number.field.value == 180
+    assert number.slider.value == 10**2.25, "nobody moves a slider that is being dragged"
     from_page(number.field, value=177.5)
     assert number.value == 177.5 and number.slider.value == pytest.approx(177.5)
     from_page(number.field, value=0)

@@ -26,6 +26,7 @@ class Number(widgets.VBox):
     ):  # fmt: skip
         self.check, self.symbol, self.sentence = check, symbol, help
         self._showing = False  # what `show` writes into the controls is not an entry
+        self._dragged = False  # while the slider is moved nobody else moves it: it would stop short of the hand
         self.low, self.high = low, high
         kind = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
         least, most = map(float, np.log10([low, high])) if logarithmic else (low, high)
@@ -41,14 +42,14 @@ class Number(widgets.VBox):
             part.layout.width = f"{width}px"
         self.show()
         dragged = (lambda value: float(f"{value:.2g}")) if logarithmic else float  # 180, and not 177.8279
-        self.slider.observe(lambda change: self._enter(dragged(change["new"])), "value")
+        self.slider.observe(lambda change: self._enter(dragged(change["new"]), by_slider=True), "value")
         self.field.observe(lambda change: self._enter(change["new"]), "value")
         self.observe(lambda change: self.show(), "value")
 
-    def _enter(self, value: float) -> None:
+    def _enter(self, value: float, by_slider: bool = False) -> None:
         if self._showing:
             return
-        value = round(float(value), 10)
+        value, self._dragged = round(float(value), 10), by_slider
         try:
             if not math.isfinite(value):
                 raise BootcourseError(f"{self.symbol} = {value}: give a finite number.")
@@ -58,12 +59,15 @@ class Number(widgets.VBox):
         else:
             self.value = value
             self.show()
+        finally:
+            self._dragged = False
 
     def show(self) -> None:
         """Show the value, in place of a refused number; one beyond the slider's range puts the slider at its end."""
         self.help.value = html('<div class="bc-quiet">{}</div>', self.sentence)
         self._showing = True
-        self.slider.value = min(max(self.value, self.low), self.high)
+        if not self._dragged:
+            self.slider.value = min(max(self.value, self.low), self.high)
         self.field.value = self.value
         self._showing = False
 
