@@ -90,10 +90,11 @@ def test_what_answers_a_prediction_is_folded_outputs_and_text_and_what_comes_nex
         text("**See.** It is 7.\n\nSo there.\n\n> **Predict.** And now?"),
         code('predict("a.2", "And now?")'),
         text("**See.** Nothing was answered here."),
+        code('compare_predictions("a", {1: 7})'),
     ])  # fmt: skip
     hidden = {"outputs_hidden": True}, {"source_hidden": True}
     marks = [cell.metadata.get("jupyter") for cell in cells]
-    assert marks == [None, None, hidden[0], None, hidden[0], hidden[1], None, None, None]
+    assert marks == [None, None, hidden[0], None, hidden[0], hidden[1], None, None, None, hidden[0]]
     assert [cell.source for cell in cells[5:7]] == ["**See.**\nIt is 7.\n\nSo there.", "> **Predict.** And now?"]
 
 

@@ -233,7 +233,10 @@ class Game {
 
   // The Start button and the space bar: start or stop the clock, or make one decision.
   go() {
-    if (this.finished) this.again();
+    if (this.finished) {
+      this.again();
+      if (!this.mine) return; // your first decision starts the clock
+    }
     if (this.pace === 0) this.step();
     else this.run(!this.running);
   }

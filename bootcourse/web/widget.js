@@ -23,10 +23,12 @@ async function show({ model, el, signal }) {
     waiting.set(number, answer);
     model.send({ kind: "ask", number, driver, time: drive.time, cars: [...drive.cars] });
   });
-  // What is worth a look may begin below the screen; below a panel's sliders it would push these out of it.
-  if (watched && model.get("running") && model.get("opens").button && !seen.has(watched.id)) {
+  if (watched && model.get("running") && !seen.has(watched.id)) { // what is worth a look may begin below the screen
     seen.add(watched.id);
-    setTimeout(() => el.scrollIntoView({ block: "nearest" }), 500);
+    setTimeout(() => {
+      const whole = el.closest(".bc-panel") ?? el, screen = el.closest(".jp-WindowedPanel-outer")?.clientHeight ?? innerHeight;
+      if (whole === el || whole.offsetHeight <= screen) whole.scrollIntoView({ block: "nearest" }); // with its sliders
+    }, 500);
   }
   const drivers = () => (watched ? watched.pair : model.get("drivers"));
   const guests = () => drivers().map(each => (each.network || each.plan ? each : { ...each, ask: ask(each.id) }));

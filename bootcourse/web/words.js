@@ -52,7 +52,8 @@ function remark(cars, justOut, attempts) {
   if (justOut) return `You are out${tries}. 15 m/s pays best. Press 5 for a faster clock.`;
   if (cars[SPEED] < 3) return "Slow: below 1 m/s the drive ends.";
   if (cars[SPEED] > 16.5) return "Above 15 m/s every second pays less.";
-  if (cars[Y] < -1.2 || cars[Y] > 9.2) return "You are at the edge of the road.";
+  if (cars[Y] < -1.2) return "You are at the edge of the road: steer right (→).";
+  if (cars[Y] > 9.2) return "You are at the edge of the road: steer left (←).";
   return "";
 }
 

@@ -54,13 +54,14 @@ def folded(nodes: list[nbformat.NotebookNode]) -> list[nbformat.NotebookNode]:
 
     That is every output from `predicted(` on, and the text below that says what is to be seen in them, but for its
     first word: JupyterLab shows the first line of what it folds. Where the text goes on with the next question,
-    exercise or round, this part becomes a cell of its own, which stays open.
+    exercise or round, this part becomes a cell of its own, which stays open. The table of all answers is folded, too.
     """
     shown, answering = [], False
     for cell in nodes:
         answering = answering or cell.cell_type == "code" and bool(re.search(r"^predicted\(", cell.source, re.M))
         shown.append(cell)
-        if answering and cell.cell_type == "code":
+        answers_all = cell.cell_type == "code" and bool(re.search(r"^compare_predictions\(", cell.source, re.M))
+        if cell.cell_type == "code" and (answering or answers_all):
             cell.metadata["jupyter"] = {"outputs_hidden": True}
         elif answering:
             said, *goes_on = GOES_ON.split(cell.source, maxsplit=1)

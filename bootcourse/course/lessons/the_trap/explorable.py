@@ -32,7 +32,7 @@ def discount() -> Explorable:
         }
         what = "sum of the rewards until then, each × γ to the power of its second"
         top = 1.15 * max(float(each[SECONDS]) for each in (out, quick, behind))
-        axes = Axes("second of the drive", what, (0.0, top))
+        axes = Axes("second of the drive, the first 60 of 150", what, (0.0, top))
         best, middle, least = (name for _, name in reversed(ranked))
         says = f"γ = {gamma:g}: at the start {best} is worth most, then {middle}, then {least}."
         return curves(says, axes, times[:SECONDS], named)

@@ -489,12 +489,11 @@ table(headings, rows, below)
 # on the projector's machine, the saved picture tells the same story.
 
 # %% [markdown]
-# **Slide.** Press *Train*: two agents learn with the rule's help, and the road shows how one drives
-# now. (The slider's ξ is multiplied by α, a number of the learner that falls; the curve shows the
-# product.) As soon as the curves begin, drag ξ to its lower end and β, the share of the rule's
-# drives in what they learn from, to 0: the help is gone. Put both back (ξ 200, β 0.6), train again,
-# and drag when half of the episodes are a success. Until when do they need the help, and what
-# becomes of the return?
+# **Slide.** Drag ξ to its lower end and β, the share of the rule's drives in what they learn from,
+# to 0. Press *Train*: two agents learn without help, and the road shows how one drives now. Then
+# put both back (ξ 200, β 0.6), train again, and drag them down when half of the episodes are a
+# success. Until when do they need the help, and what becomes of the return? (The slider's ξ is
+# multiplied by α, a number of the learner that falls; the curve shows the product.)
 
 # %%
 bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)
