@@ -502,7 +502,7 @@ compare_predictions(
 #    present. Jump-start RL hands over when the return is good enough, the paper's β after a number
 #    of episodes.
 # 3. After {{ FIRST | , }} decisions bootstrapped SAC and IBRL earn more than PPO after cloning. Ten
-#    agents of each tell no other pair apart, and after {{ SECOND | , }} decisions none.
+#    agents of each tell no other pair apart, and after {{ SECOND | , }} decisions no single pair.
 # 4. PPO needs by far the least computing time.
 # 5. A ranking needs equal budgets (the teacher's time is one), an equal search, usable settings for
 #    each method, and a correction for the number of pairs.
