@@ -1,8 +1,9 @@
 """SAC with one thing made easier: what the other roads do, and that nothing else is different."""
 
 import numpy as np
+import pytest
 
-from bootcourse.course.lessons.the_barrier.easier import LATER, LaneKeeper, LaterStart, MidLaneStart, free_accidents
+from bootcourse.course.lessons.the_barrier.easier import LATER, LaneKeeper, LaterStart, MidLaneStart, costing
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 
@@ -55,18 +56,19 @@ def test_an_episode_that_is_over_starts_later_again_and_the_others_go_on():
     assert env.cars[0, EGO, LANE] == 0 and np.allclose(env.cars[1:, EGO, X] - before, 10, atol=0.5)
 
 
-def test_a_free_accident_ends_the_drive_and_pays_0():
-    free, costly = free_accidents(len(SEEDS)), TrapVectorEnv(len(SEEDS))
-    for env in (free, costly):
+@pytest.mark.parametrize("price", [0.0, 1.0])
+def test_an_accident_with_another_price_ends_the_drive_as_ever_and_pays_it(price):
+    cheap, costly = costing(price)(len(SEEDS)), TrapVectorEnv(len(SEEDS))
+    for env in (cheap, costly):
         env.reset(seed=SEEDS)
     crashed = np.zeros(len(SEEDS), dtype=bool)
     for _ in range(6):  # seconds of acceleration, towards trap 1
         actions = np.full(len(SEEDS), 7)
-        _, rewards, terminated, _, _ = free.step(actions)
+        _, rewards, terminated, _, _ = cheap.step(actions)
         _, paid, ended, _, _ = costly.step(actions)
         first = terminated & ~crashed
         assert np.array_equal(first, ended & ~crashed)
-        assert (rewards[first] == 0).all() and (paid[first] == -10).all()
+        assert (rewards[first] == -price).all() and (paid[first] == -10).all()
         assert np.array_equal(rewards[~first & ~crashed], paid[~first & ~crashed])
         crashed |= terminated
     assert crashed.all()

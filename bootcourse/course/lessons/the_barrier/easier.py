@@ -6,7 +6,7 @@
 `LaterStart`: an episode begins after the 8 s in which the lesson's plan steers, on the free lane, behind the traps and
 as fast as they are. (One second later a car passes them even if it does nothing.) The plan leaves the car 1.9 m left of
 the lane's middle, so each action that steers left ends the drive; `MidLaneStart` puts it in the middle. In a third kind
-the temperature does not fall to 0, either. `free_accidents`: an accident ends the drive and costs nothing. Each kind
+the temperature does not fall to 0, either. `costing`: an accident ends the drive, and costs less or nothing. Each kind
 has ten agents with the paper's γ and ten that look further ahead; they learn by themselves, as those of the lesson's
 first round do.
 """
@@ -73,19 +73,24 @@ class MidLaneStart(LaterStart):
         self.cars[mask, EGO, Y] = 0.0
 
 
-def free_accidents(roads: int, scenario: Scenario = DEFAULT, *more) -> TrapVectorEnv:
-    """The road as it is, where an accident ends the drive and costs nothing. more: as `TrapVectorEnv` takes it."""
-    return TrapVectorEnv(roads, replace(scenario, reward=replace(scenario.reward, accident=0.0)), *more)
+def costing(price: float) -> Callable[..., TrapVectorEnv]:
+    """The road as it is, where an accident ends the drive and costs this much in place of 10: as `TrapVectorEnv`."""
+
+    def make_env(roads: int, scenario: Scenario = DEFAULT, *more) -> TrapVectorEnv:
+        return TrapVectorEnv(roads, replace(scenario, reward=replace(scenario.reward, accident=-price)), *more)
+
+    return make_env
 
 
-MIDDLE = "a later start, mid-lane"
+MIDDLE, CHEAP = "a later start, mid-lane", "accidents cost 1"
 KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the settings that differ
     "as it is": (TrapVectorEnv, {}),
     "a lane keeper": (LaneKeeper, {}),
     "a later start": (LaterStart, {}),
     MIDDLE: (MidLaneStart, {}),
     "a later start, η = 1": (LaterStart, {"target_entropy": 1.0}),
-    "free accidents": (free_accidents, {}),
+    "free accidents": (costing(0.0), {}),
+    CHEAP: (costing(1.0), {}),
 }
 
 LATER_DRIVES = {
@@ -97,11 +102,13 @@ WISHES = [3, *[1] * 8, *[5] * 6]  # of the lane keeper: slower for 1 s, to the l
 
 def drivers(kind: str, seed: int = 0) -> Mapping[str, Policy]:
     """Whom the lesson lets drive on the roads of a kind: who stays, who acts at random, who is skilled."""
+    ram = {"accelerates into trap 1": PlanPolicy([ACCELERATE] * DEFAULT.clock.decisions)}
     skilled = {
         "a lane keeper": {"one plan": PlanPolicy(WISHES)},
         "a later start": LATER_DRIVES,
         MIDDLE: LATER_DRIVES,
-        "free accidents": {"accelerates into trap 1": PlanPolicy([ACCELERATE] * DEFAULT.clock.decisions)},
+        "free accidents": ram,
+        CHEAP: ram,
     }
     return {"stays": idle_policy, "at random": random_policy(np.random.default_rng(seed))} | skilled[kind]
 

@@ -50,9 +50,9 @@ def worth(outcomes: Mapping[str, Outcome], title: str) -> Figure:
 
 FAR, SOME, NOT = 2, 1, 0  # how far a learner got: its square is dark, light or empty
 AGENTS = (
-    "ends ahead, crashed or not, on 95 % of the roads or more, with a return above staying's",
-    "ends ahead on 10 % or more, but on fewer than 95 % or with a return below staying's",
-    "ends ahead on fewer",
+    "ends ahead on 95 % of the roads or more, and its return is above staying's",
+    "ends ahead on 10 % or more, but misses the 95 %, staying's return, or both",
+    "ends ahead on fewer than 10 %",
 )
 LEARNERS = ("learned to leave", "was on the free road, and did not learn to leave", "was not on the free road")
 SHADES = {FAR: style("sac").colour, SOME: "#A9CFE6", NOT: "white"}

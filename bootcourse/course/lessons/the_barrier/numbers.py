@@ -8,11 +8,12 @@ import numpy as np
 
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.policies import PlanPolicy, idle_policy, random_policy
+from bootcourse.policies import PlanPolicy, Policy, PolicyOutput, idle_policy, random_policy
 from bootcourse.research.cells import HELD_OUT
 from bootcourse.research.planner import Search, plan_episodes
 from bootcourse.research.results import Results
-from bootcourse.scenario import DEFAULT
+from bootcourse.road.state import EGO, LANE
+from bootcourse.scenario import DEFAULT, N_ACTIONS
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, idle, of, shipped_experiment
 
@@ -81,10 +82,9 @@ def the_escaper(measure: str) -> float:
 
 
 ONCE = "accelerates once, then nothing"
-FREE, RAM = "free accidents", "accelerates into trap 1"
-MIDDLE, STRAIGHT_ON = easier.MIDDLE, "accelerates straight on"
+MIDDLE, CHEAP = easier.MIDDLE, easier.CHEAP
+RAM, STRAIGHT_ON = "accelerates into trap 1", "accelerates straight on"
 STRAIGHT = (attempts.ACCELERATE,) * DEFAULT.clock.decisions
-CRASHES = (STRAIGHT, (6, 8, 8, 6, 8, 8))  # actions that agents with free accidents take on each road
 
 
 def staying_return(kind: str) -> float:
@@ -95,6 +95,24 @@ def staying_return(kind: str) -> float:
 def paying(kind: str) -> int:
     """How many of the twenty agents of a kind escape and earn more than staying."""
     return int(figures.paying(easy(kind), staying_return(kind)).sum())
+
+
+def below_staying(kind: str) -> int:
+    """How many of those that do not escape return at least 3 less than staying."""
+    agents = easy(kind)
+    less = staying_return(kind) - agents.scores("returns") >= 3
+    return int((less & (agents.scores("success") < ESCAPES)).sum())
+
+
+def often_ahead(kind: str) -> int:
+    """How many of the twenty end ahead on 10 % of their held-out roads or more."""
+    return int((easy(kind).scores("success") >= 0.1).sum())
+
+
+def hurt_ahead(kind: str) -> float:
+    """Of the twenty agents' drives that end ahead, the share with an accident."""
+    ahead = easy(kind).episodes("success") > 0
+    return float(easy(kind).episodes("accident")[ahead].mean())
 
 
 # The drives of the two slower agents from mid-lane with γ = 0.95 on the first of their held-out roads, by their seeds.
@@ -147,14 +165,28 @@ def sooner(share: float) -> float:
 
 
 @cache
-def random_mid_lane() -> attempts.Outcome:
-    """2,000 random drives from mid-lane."""
-    return attempts.drive(random_policy(np.random.default_rng(0)), MANY, easier.MidLaneStart)
+def _kept(share: float) -> list[attempts.Outcome]:
+    """Mid-lane, 500 roads: a lane keeper at 10 m/s, and one that goes to 15 m/s, with the same random actions."""
+    rng, shape = np.random.default_rng(0), (DEFAULT.clock.decisions, len(ROADS))
+    errs, actions = rng.random(shape) < share, rng.integers(N_ACTIONS, size=shape)
+
+    def keeper(speed: float) -> Policy:
+        decisions = iter(range(len(errs)))
+
+        def decide(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+            t, wanted = next(decisions), np.full(len(cars), speed)
+            return PolicyOutput(np.where(errs[t], actions[t], attempts.keep_lane(cars, wanted, cars[:, EGO, LANE])))
+
+        return decide
+
+    return [attempts.drive(keeper(speed), ROADS, easier.MidLaneStart) for speed in (10.0, attempts.FAST)]
 
 
-def median_return(method: str, first: int, last: int) -> float:
-    """The study's median agent: its mean return over these episodes of its training."""
-    return float(np.median(of(method).curves["return"][:, first:last].mean(axis=1)))
+def kept(share: float, gamma: float) -> tuple[float, float]:
+    """What going to 15 m/s adds if a lane keeper steers and a share of its actions is random; its standard error."""
+    stays, goes = _kept(share)
+    more = goes.values(gamma) - stays.values(gamma)
+    return float(more.mean()), float(more.std() / np.sqrt(len(more)))
 
 
 def _straight() -> np.ndarray:
@@ -183,18 +215,16 @@ def decided() -> int:
 
 
 @cache
-def repeating(kind: str, gamma: float, *drives: tuple[int, ...]) -> list[float]:
-    """What the drives of these agents with this γ are worth at it, who drive so on each of their held-out roads.
+def going_straight(gamma: float) -> list[float]:
+    """What the drives of these agents with this γ are worth at it, who accelerate on each of their held-out roads.
 
     That an agent drives so is seen by its returns: on each road that of these actions.
     """
-    agents, found = easy(kind), []
+    agents = easy(MIDDLE)
     here, seeds = np.array([agent["gamma"] == gamma for agent in agents.agents]), held_out_seeds(HELD_OUT, easier.TESTS)
-    for actions in drives:
-        driven = attempts.drive(PlanPolicy(actions), seeds, easier.KINDS[kind][0])
-        same = np.isclose(agents.episodes("returns"), driven.values(1.0), atol=1e-3).all(axis=1)
-        found += [float(driven.values(gamma).mean())] * int((same & here).sum())
-    return found
+    driven = attempts.drive(PlanPolicy(STRAIGHT), seeds, easier.MidLaneStart)
+    same = np.isclose(agents.episodes("returns"), driven.values(1.0), atol=1e-3).all(axis=1)
+    return [float(driven.values(gamma).mean())] * int((same & here).sum())
 
 
 @cache
@@ -237,9 +267,11 @@ def commonest_six() -> tuple[int, attempts.Outcome]:
     return roads, _blind(actions)
 
 
-def sixes_that_pay() -> int:
-    """For how many of the twelve roads these actions are worth more than staying at γ = 0.8."""
-    return sum(_blind(each).values(0.8).mean() > tested("stays").values(0.8).mean() for each in first_sixes())
+@cache
+def sixes_that_pay() -> list[attempts.Outcome]:
+    """What comes of them for each of the twelve roads, where that is worth more than staying at γ = 0.8."""
+    stays = tested("stays").values(0.8).mean()
+    return [outcome for outcome in map(_blind, first_sixes()) if outcome.values(0.8).mean() > stays]
 
 
 def may_crash(gamma: float) -> int:
@@ -267,6 +299,12 @@ def changed_agents(method: str) -> np.ndarray:
     varied = shipped_experiment("sensitivity").items()
     scores = [each.of(method).scores("success") for what, each in varied if "γ" in what or "entropy" in what]
     return np.concatenate(scores) >= ESCAPES
+
+
+def larger_entropy() -> np.ndarray:
+    """What those of them return that have another target entropy than the paper's, (agents,)."""
+    varied = shipped_experiment("sensitivity").items()
+    return np.concatenate([each.of("sac").scores("returns") for what, each in varied if "entropy" in what])
 
 
 def crashing(kind: str) -> int:
