@@ -67,7 +67,7 @@ def test_the_best_policy_of_two_numbers_is_the_one_of_the_learner_and_its_head_s
     panel, says = shown("soft_constraint"), []
     for alpha in (1e-1, 1e-2, 1e-4):
         from_page(panel.numbers["alpha"].field, value=alpha)
-        says.append(re.search(r"leads by ([\d.]+)", panel.svg.alt)[1])
+        says.append(re.search(r"head start is ([\d.]+)", panel.svg.alt)[1])
     assert says == ["4.26"] * 3
     module = importlib.import_module("bootcourse.course.lessons.soft_constraint.explorable")
     log_rule = torch.log(torch.tensor([[0.0125] * 9], dtype=torch.float64))

@@ -125,7 +125,8 @@ def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episod
     """
     names, done, window = dict.fromkeys(methods), finished(curves), window_of([curves])
     called = " and ".join(map(display_name, names))
-    words = f"Means of {window} episodes. Thin: an agent." if done else "No episode has ended yet."
+    thin = " Thin: an agent." if len(methods) > len(names) else ""
+    words = f"Means of {window} episodes.{thin}" if done else "No episode has ended yet."
     parts, ends, x = [], [], 12.0
     for method in names:
         parts.append(text(x, 18, display_name(method), fill=style(method).colour, bold=True))

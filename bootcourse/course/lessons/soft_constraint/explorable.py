@@ -35,9 +35,9 @@ def pull() -> Explorable:
     def draw(alpha: float) -> Drawing:
         together, alone = (regularised_policy(q, log_rule, alpha, xi)[0] for xi in (multiplier * alpha, 2.0))
         lead = head_start(log_rule[0].numpy(), alpha, multiplier * alpha)
-        says = (
-            f"α = {alpha:.2g}, ξ = {multiplier * alpha:.2g}: the rule's action leads by {lead:.2f} nats in the logits."
-        )
+        q_lead = LEAD / ((1 + multiplier) * alpha)
+        says = f"α = {alpha:.2g}, ξ = {multiplier * alpha:.2g}: "
+        says += f"the rule's head start is {lead:.2f} nats, Q's lead {q_lead:.2f}."
         named = {
             "the best policy, ξ = 200 α": Curve(together, style("soft").colour),
             "the same with ξ = 2 for ever": Curve(alone, QUIET),

@@ -79,9 +79,23 @@ def compromised(xi: float) -> bool:
 
 
 @cache
-def crashing(xi: float | None) -> float:
-    """The share of 100 held-out roads on which the first agent has an accident: by the compromise of its Q and the
-    rule, or by its own π (None)."""
-    helped = shipped_agents("soft")[0]
-    policy = helped.as_policy() if xi is None else compromise(helped, DEFAULT, RULE_P, xi, 0.01)
-    return float((drive_episodes(policy, held_out_seeds(1, 100)).accident > 0).mean())
+def crashing(xi: float | None) -> np.ndarray:
+    """The share of 100 held-out roads on which each shipped agent has an accident, (agents,): by the compromise of its
+    Q and the rule, or by its own π (None)."""
+    shares = []
+    for helped in shipped_agents("soft"):
+        policy = helped.as_policy() if xi is None else compromise(helped, DEFAULT, RULE_P, xi, 0.01)
+        shares.append((drive_episodes(policy, held_out_seeds(1, 100)).accident > 0).mean())
+    return np.array(shares)
+
+
+@cache
+def unlike_the_rule() -> np.ndarray:
+    """The share of its seconds on 100 held-out roads in which each shipped agent differs from the rule, (agents,)."""
+    agents = [record(helped.as_policy(), held_out_seeds(1, 100)) for helped in shipped_agents("soft")]
+    return np.array([np.mean(np.concatenate([d.actions != d.rule_actions for d in drives])) for drives in agents])
+
+
+def percent(shares: np.ndarray) -> str:
+    """The lowest and the highest share, in per cent: "49 to 88"."""
+    return f"{100 * shares.min():.0f} to {100 * shares.max():.0f}"

@@ -46,8 +46,8 @@ progress("soft_constraint")
 # %% [markdown]
 # ## Look first
 #
-# Here are the probabilities of the nine actions in the first second of a drive: those of an
-# untrained agent, π, and those of the stochastic rule of lesson [[the_rule]], π̃ ("pi tilde").
+# Here are the probabilities of the nine actions in the first second of a drive: an untrained
+# agent's, π, and those of the stochastic rule of lesson [[the_rule]], π̃ ("pi tilde").
 
 # %% tags=["hide-input"]
 ROAD = 10
@@ -63,12 +63,12 @@ SKY, GREEN, GREY = charts.Style("#56B4E9"), charts.Style("#009E73"), charts.Styl
 bc.show(charts.action_bars(named, title, looks=[SKY, GREEN]))
 
 # %% [markdown]
-# The rule gets out of the trap and is slow afterwards. So the agent should follow it at first, and
-# find something better later. This lesson builds such a **pull**, the *soft constraint*: a penalty
-# that grows with the difference between π and π̃.
+# The rule gets out of the trap and is slow afterwards, so the agent should follow it at first, and
+# improve on it later. This lesson builds such a **pull**, the *soft constraint*: a penalty that
+# grows with the difference between π and π̃.
 #
-# This lesson's agents train with the parts that you wrote in lessons [[discrete_sac]] and
-# [[update_and_loop]]. The next cell runs the files in the folder `answers`, which hold them.
+# This lesson's agents train with what you wrote in lessons [[discrete_sac]] and
+# [[update_and_loop]]. The next cell loads it from the folder `answers`.
 
 # %%
 own_code.load()
@@ -126,13 +126,12 @@ check.log_stochastic_rule(log_stochastic_rule)
 # %% [markdown]
 # ## Round 2: what does a whole policy pay?
 #
-# A policy has a probability for each action. Its mean price, minus its own entropy, is the
-# **Kullback-Leibler divergence** (KL) from π̃:
+# A policy's mean price, minus its own entropy, is the **Kullback-Leibler divergence** (KL) from π̃:
 #
 # $$ D_\mathrm{KL}(\pi \,\|\, \tilde\pi) = \sum_a \pi(a|s) \big( -\log \tilde\pi(a|s) \big)
 # - \mathcal{H}(\pi) = \sum_a \pi(a|s) \log \frac{\pi(a|s)}{\tilde\pi(a|s)} $$
 #
-# The KL is 0 if the two policies are equal, and positive if they differ.
+# The KL is 0 if the two policies are equal, otherwise positive.
 # <!-- claim: bool((lambda a, p: bootstrap.kl_to_rule(bootstrap.log_stochastic_rule(a, p), a,
 #   p))(torch.tensor([3]), torch.tensor(0.9)) == 0) -->
 #
@@ -158,10 +157,9 @@ rows = [[words, f"{kl_of(pi, rule_says, p=0.9):.3f}"] for words, pi in policies.
 table(["the agent is sure of", "its KL (nats)"], rows)
 
 # %% [markdown]
-# **Explain.** A policy that is sure of another action pays the full price of that action. One that
-# is sure of the rule's action pays little, but not 0: the KL is 0 where the policy equals π̃, which
-# gives that action {{ 100 * RULE_P | .0f }} %. So the constraint also charges for being surer than
-# π̃.
+# **Explain.** A policy that is sure of another action pays its full price. One that is sure of the
+# rule's action pays little, but not 0: the KL is 0 where the policy equals π̃, which gives that
+# action {{ 100 * RULE_P | .0f }} %. So the constraint also charges for being surer than π̃.
 #
 # **Exercise (5 min, ●●○).** Write the KL for a batch of states.
 
@@ -189,8 +187,8 @@ check.soft_constraint(soft_constraint)
 # - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
 #
 # > **Predict.** For a very large ξ the rule decides; for ξ = 0 the best π is SAC's softmax(Q / α)
-# > (lesson [[discrete_sac]]). Which π is best if Q is the same for all actions and α = ξ? (Write
-# > the KL out: it contains an entropy.)
+# > of lesson [[discrete_sac]]. Which π is best if Q is the same for all actions and α = ξ? Write
+# > the KL out: it contains an entropy.
 
 # %%
 predict(
@@ -252,7 +250,7 @@ bc.show(charts.action_bars(pi, title, looks=[GREY, GREEN, SKY]))
 # %% [markdown]
 # **The soft constraint is SAC with another reward and another temperature**, $r +
 # \xi\log\tilde\pi(a|s)$ and α + ξ. It pays $\xi \log \frac{8p}{1-p}$ more for the rule's action
-# than for any other: the **head start** of the rule's action.
+# than for any other: the rule's **head start**.
 #
 # > **Predict.** With p = 0.9 and the paper's first ξ = 2, how large is the head start, compared
 # > with the most that one second on the road can pay, about 1?
@@ -272,7 +270,7 @@ below = f"The best second pays {best_second:.2f}; γ = 0.8 counts about {1 / (1 
 table(["ξ", "head start, in Q"], rows, below)
 
 # %% [markdown]
-# Above, Q prefers *accelerate straight* (1.2) to the rule's *keep left* (0.6). From which ξ on is
+# Above, Q is 1.2 for *accelerate straight* and 0.6 for the rule's *keep left*. From which ξ on is
 # the head start larger than 0.6?
 
 # %% tags=["hide-input"]
@@ -295,9 +293,9 @@ bc.show(charts.lines(strengths, probability, title, x_label, y_label, "x", looks
 # <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident
 #   -->
 #
-# **Drag** ξ. You see a trained agent's π and Q, the rule's π̃, and the best compromise (*optimum*).
-# The car drives on by the compromise's most probable actions (black; red if it ends in an
-# accident), beside the agent's own way and the rule's (green). Does each compromise lead out?
+# **Drag** ξ. You see a trained agent's π and Q, the rule's π̃, and the best compromise, *optimum*.
+# The car drives on by the compromise's most probable actions: the black line, red if it ends in an
+# accident. The rule's way is green. Does each compromise lead out?
 
 # %%
 helped = bc.shipped_agents("soft")[0]
@@ -305,12 +303,13 @@ its_drive = bc.record(helped.as_policy(with_q=True), [ROAD], label="soft")[0]
 bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 
 # %% [markdown]
-# **See.** Near ξ = 0.1 this drive leaves the road. On 100 roads {{ 100 * crashing(0.1) | .0f }} %
-# of such drives end in an accident, by Q alone {{ 100 * crashing(1e-6) | .0f }} %, by the agent's
-# own π {{ 100 * crashing(None) | .0f }} %: a Q that was learned under one policy need not rank
-# other actions well.
+# **See.** Near ξ = 0.1 this drive leaves the road. On 100 roads each, five agents end {{
+# percent(crashing(0.1)) }} % of such drives in an accident, by Q alone {{ percent(crashing(1e-6)) }}
+# %, by their own π {{ percent(crashing(None)) }} %. A Q learned under one policy need not rank other
+# actions well.
 # <!-- claim: compromised(0.1) and not compromised(0.001) and not compromised(10) -->
-# <!-- claim: 2 * crashing(None) < crashing(1e-6) < crashing(0.1) / 2 -->
+# <!-- claim: len(crashing(0.1)) == 5 and bool((2 * crashing(None) < crashing(1e-6)).all()) and
+#   2 * crashing(None).max() < crashing(0.1).min() -->
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Do the derivation on the board up to the line in which π log π is collected, then let them finish.
@@ -324,8 +323,8 @@ bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 #
 # **The actor's loss** is minus the soft value, now with the KL in it.
 #
-# **Exercise (8 min, ●●○).** Write it. The check also looks at where your loss sends a
-# gradient: the actor's loss must not change Q.
+# **Exercise (8 min, ●●○).** Write it. The check also looks at gradients: the actor's loss must not
+# change Q.
 
 
 # %%
@@ -342,10 +341,10 @@ check.constrained_loss(constrained_loss)
 # %% [markdown]
 # **The critics' loss.** Its target follows from the same sum over time.
 #
-# **Exercise (15 min, ●●●).** Derive the target, then write it. Begin on paper: which seconds
-# does $Q(s,a)$ count, if a has been taken already? In which states does the policy choose after
-# that, and so pay a KL and earn an entropy? Then put the whole target into code: the smaller of two
-# critics, the entropy, the KL, the end of an episode.
+# **Exercise (15 min, ●●●).** Derive the target on paper, then write it. Which seconds does $Q(s,a)$
+# count, if a has been taken already? In which states does the policy choose after that, and so pay
+# a KL and earn an entropy? The target also needs the smaller of two critics, and the end of an
+# episode.
 
 
 # %%
@@ -364,9 +363,8 @@ check.constrained_target(constrained_target)
 #
 # In $Q(s,a)$ the action a is given and not chosen by the policy, so Q contains neither the entropy
 # nor the KL of s. From s' on the policy chooses: $V(s') = \sum_a \pi\,Q(s',a) + \alpha\mathcal{H} -
-# \xi D_\mathrm{KL}$, with π, H and the KL of s', and $y = r + \gamma\,(1 -
-# \text{terminated})\,V(s')$. After an accident the policy does not choose again, so the KL of s' is
-# not charged.
+# \xi D_\mathrm{KL}$, all of s', and $y = r + \gamma\,(1 - \text{terminated})\,V(s')$. After an
+# accident the policy does not choose again, so the KL of s' is not charged.
 #
 # </details>
 #
@@ -394,17 +392,19 @@ falls_back = by_rule.rewards[3]  # the reward of a second behind the traps
 other, same, gamma = math.log(8 / 0.1), -math.log(0.9), 0.8  # prices in nats
 strengths, crash = np.geomspace(0.01, 2, 100), bc.DEFAULT.reward.accident
 later = gamma / (1 - gamma)  # the KL is charged from the next second on
+follows = idle.rewards.mean() * (1 + later)
+staying = follows - strengths * other * later
+lowest = f"{staying.min():.0f}".replace("-", "−")  # beyond the axis
 worth = {
-    "idle: follows trap 1": idle.rewards.mean() * (1 + later) - strengths * other * later,
+    f"idle: follows trap 1 (to {lowest})": staying,
     "rule: falls back": falls_back * (1 + later) - strengths * same * later,
 }
-follows = idle.rewards.mean() * (1 + later)
 overtaken = (follows - falls_back * (1 + later)) / (other - same) / later
 crossing = (follows - crash) / other / later
 title = f"From ξ = {overtaken:.2f} on (dashed) falling back is worth more than following trap 1; "
 title += f"from {crossing:.2f} on a crash is, too"
 x_label, y_label = "ξ (logarithmic)", "Q, if it went on for ever (γ = 0.8)"
-marks, limits = {"a crash": crash}, (-12, 1)  # following is worth less still
+marks, limits = {"a crash": crash}, (-12, 1)
 figure = charts.lines(strengths, worth, title, x_label, y_label, "x", marks=marks, limits=limits)
 figure.axes[0].axvline(overtaken, color=GREY.colour, linestyle="--", linewidth=1)
 bc.show(figure)
@@ -414,17 +414,17 @@ bc.show(figure)
 # it and ξ = 2 it is worth {{ 0.15625 / (1 - 0.8) - 2 * math.log(80) * 4 | .0f }}, less than a
 # crash: Q charges the KL from the next second on, four times in all. Falling back as the rule does
 # is then better than both: it costs 0.21 a second, and is worth {{ by_rule().rewards[3] / (1 - 0.8)
-# + 2 * math.log(RULE_P) * 4 | .1f }}. So through the critic the KL raises the cost of futures in
-# which the rule would have acted differently.
+# + 2 * math.log(RULE_P) * 4 | .1f }}. That is what the KL in the target is for: it raises the cost of
+# futures in which the rule would have acted differently.
 # <!-- claim: round(-2 * math.log(RULE_P), 2) == 0.21 -->
 # <!-- claim: 0.15625 * 5 - 2 * math.log(8 / 0.1) * 4 < DEFAULT.reward.accident < -1 <
 #   by_rule().rewards[3] * 5 + 2 * math.log(RULE_P) * 4 < 0.15625 -->
 # <!-- claim: math.isclose(0.8 / (1 - 0.8), 4) -->
 #
-# Do agents need this to get out? No: with it {{ escaped('soft') }} of ten escape, and find the way
-# (more than half of 50 episodes succeed) after {{ found_between(of('soft')) }} episodes; with the
-# KL in the actor's loss alone {{ with_kl_in_actor_only() }} of ten escape, and find it sooner,
-# after {{ found_between(shipped_experiment('ablations')['KL in the actor only'].of('soft')) }}.
+# Do agents need this to get out? No: with it {{ escaped('soft') }} of ten escape, and all find the
+# way, in more than half of 50 episodes, after {{ found_between(of('soft')) }} episodes. With the KL
+# in the actor's loss alone {{ with_kl_in_actor_only() }} of ten escape, and all find it sooner, after
+# {{ found_between(shipped_experiment('ablations')['KL in the actor only'].of('soft')) }}.
 # <!-- claim: with_kl_in_actor_only() >= escaped('soft') == 8 and found_between(of('soft')) == '301
 #   to 367' -->
 # <!-- claim: sooner_without() -->
@@ -442,8 +442,8 @@ bc.show(figure)
 #
 # The paper couples the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. It
 # starts at α = {{ SETTINGS.alpha_init }}, so ξ = {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init
-# }}, and with a target entropy of {{ SETTINGS.target_entropy }} α falls at each update (lesson
-# [[discrete_sac]]). Train two agents with the soft constraint alone, and watch their ξ.
+# }}, and with a target entropy of {{ SETTINGS.target_entropy }} α falls at each update, as in lesson
+# [[discrete_sac]]. Train two agents with the soft constraint alone, and watch their ξ.
 
 # %%
 UPDATES, EVERY = 5000, 250
@@ -453,7 +453,7 @@ noted, episodes = {}, {}  # {update: ξ of both agents}, {update: episodes of an
 def note(training):
     """Every 250 updates: the agents' ξ, and how many episodes each has had."""
     if training.updates % EVERY == 0:
-        noted[training.updates] = 200 * training.learner.log_alpha.detach().exp().numpy()
+        noted[training.updates] = training.learner.coefficients()["xi"]
         episodes[training.updates] = training.curves.finished.mean()
 
 
@@ -480,13 +480,13 @@ explorable.pull()
 # $$ \pi^*(a) \propto
 # \exp\Big( \frac{Q(a)}{201\,\alpha} + \tfrac{200}{201} \log\tilde\pi(a) \Big) $$
 #
-# The second term, the rule's head start in *logits*, does not fade: it is $\tfrac{200}{201} \log
-# 72$ = {{ 200 / 201 * math.log(72) | .2f }} at the first update and at the last. The head start in
-# Q, {{ 2 * math.log(72) | .2f }} at first, is this number times the temperature, which fades from
-# {{ 201 * SETTINGS.alpha_init | .2f }} towards 0. A lead of 1 in Q is 1 / (201 α)
-# nats: {{ 1 / 201 / SETTINGS.alpha_init | .1f }} at first, and more than the head start once α < {{
-# 1 / 201 / (200 / 201 * math.log(72)) | .4f }}. Where two actions have almost the same Q, the
-# rule's action stays the more probable one.
+# The second term, the rule's head start in *logits*, does not fade: it stays at $\tfrac{200}{201}
+# \log 72$ = {{ 200 / 201 * math.log(72) | .2f }}. The head start in Q, {{ 2 * math.log(72) | .2f }}
+# at first, is this number times the temperature, which fades from {{
+# 201 * SETTINGS.alpha_init | .2f }} towards 0. A lead of 1 in Q is 1 / (201 α) nats: {{
+# 1 / 201 / SETTINGS.alpha_init | .1f }} at first, and more than the head start once α < {{
+# 1 / 201 / (200 / 201 * math.log(72)) | .4f }}. Of actions with almost the same Q, the rule's stays
+# the more probable one.
 # <!-- claim: math.isclose(200 / 201 * math.log(8 * RULE_P / (1 - RULE_P)), 4.26, abs_tol=0.005) -->
 #
 # Do your parts make the same update as ours?
@@ -495,8 +495,8 @@ explorable.pull()
 own_code.compare()
 
 # %% [markdown]
-# What if ξ does not fade? The study has trained ten agents whose ξ fades, and ten each whose ξ stays
-# at 2, at 0.5 and at 0.1, for {{ of('soft').sizes[1] | , }} episodes.
+# What if ξ does not fade? The study trained ten agents whose ξ fades, and ten each whose ξ stays at
+# 2, 0.5 and 0.1, for {{ of('soft').sizes[1] | , }} episodes.
 #
 # > **Predict.** A second at 15 m/s pays {{ second_pays(15) - second_pays(10) | .2f }} more than one
 # > at 10 m/s; an action that is surely not the rule's costs ξ log 80 = {{ math.log(80) | .2f }} ξ in
@@ -542,21 +542,36 @@ for each, look in zip(drawn.values(), looks, strict=True):
 bc.show(figure)
 
 # %% [markdown]
-# **Explain.** With ξ at 2 and at 0.5 all agents stay near the rule's return: in each second the
-# price is higher than what speed pays. At {{ (second_pays(15) - second_pays(10)) / math.log(80) |
-# .2f }} the two are equal. With 0.1, {{ escapers(stays(0.1), 'soft') }} of ten escape and return
-# more than twice as much as the rule, as {{ beyond_the_rule() }} of ten do whose ξ fades. (Of ten
-# others with 0.1, trained for twice as long, {{ escapers(others('soft, ξ stays at 0.1'), 'soft') }} do.) So a
-# pull need not fade; it has to be weak in the end. Fading has two other effects here: the way is
-# found sooner (after {{ found_between(of('soft')) }} episodes, with 0.1 {{ of_the_finders(0.1) }}),
-# by all ten agents, of whom two end elsewhere ({{ losers()[0] | .0f }} and {{ losers()[1] | .0f
-# }}). With 0.1, two never find it. (Ten agents, one update for four decisions; lesson
-# [[found_and_kept]] has others.)
+# **Explain.** With ξ at 2 and at 0.5 all agents stay near the rule's return: leaving the rule costs
+# more than speed pays. At {{ (second_pays(15) - second_pays(10)) / math.log(80) | .2f }} the two
+# are equal. This is a rough guide and no threshold: five agents whose ξ fades differ from the rule
+# in {{ percent(unlike_the_rule()) }} % of the seconds. With 0.1, {{ escapers(stays(0.1), 'soft') }}
+# of ten escape and return more than twice as much as the rule, as do {{ beyond_the_rule() }} of ten
+# whose ξ fades. Of ten others with 0.1, trained twice as long, {{
+# escapers(others('soft, ξ stays at 0.1'), 'soft') }} do. So a pull need not fade; it has to be weak
+# in the end.
+#
+# Strong early, weak late: that is what fading does. With a strong pull early, all ten agents find the
+# way:
+#
+# | ξ | agents | after episode |
+# |---|---|---|
+# | stays at 2 | {{ found(stays(2)) }} | {{ of_the_finders(2) }} |
+# | 0.5 | {{ found(stays(0.5)) }} | {{ of_the_finders(0.5) }} |
+# | 0.1 | {{ found(stays(0.1)) }} | {{ of_the_finders(0.1) }} |
+# | fades from 2 | {{ found(of('soft')) }} | {{ found_between(of('soft')) }} |
+#
+# Two of those whose ξ fades end elsewhere, and return {{ losers()[0] | .0f }} and {{ losers()[1] |
+# .0f }}. Lesson [[found_and_kept]] asks who keeps the way.
 #
 # α fades because the target entropy, η = −1, is out of reach. With η = 1, above the {{
 # entropy_of_the_rule() | .2f }} nats of π̃, α and ξ run away: a larger ξ holds the policy closer to
-# π̃, so its entropy stays below η and α rises on. The study's three such agents earn {{
-# with_target(1).min() | .0f }} to {{ with_target(1).max() | .0f }}.
+# π̃, so its entropy stays below η and α rises on. Of the study's three such trainings one stopped
+# with a non-finite loss; the agents return {{ with_target(1).min() | .0f }} to {{
+# with_target(1).max() | .0f }}.
+# <!-- claim: (varied()['target entropy 1'].of('soft').stopped >= 0).sum() == 1 -->
+# <!-- claim: found(stays(2)) == found(stays(0.5)) == found(of('soft')) == 10 and
+#   0.45 < unlike_the_rule().min() < unlike_the_rule().max() < 0.7 -->
 # <!-- claim: entropy_of_the_rule() < 1 and with_target(1).max() < of('rule').scores('returns').mean()
 #   and len(with_target(1)) == 3 -->
 # <!-- claim: beyond_the_rule() == escaped('soft') == 8 and
@@ -587,7 +602,7 @@ bc.panels.train_panel("soft", seeds=2, episodes=600)
 
 # %% [markdown]
 # **See.** In our run both kept it. Their return fell, and rose again. Their entropy went on
-# falling: π̃ has {{ entropy_of_the_rule() | .2f }} nats. And ξ, a multiple of α, fell, too.
+# falling, below the {{ entropy_of_the_rule() | .2f }} nats of π̃. ξ, a multiple of α, fell, too.
 
 # %%
 kl_alone = "less than a crash, but only with the KL"
