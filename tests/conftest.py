@@ -1,5 +1,6 @@
 """What every test shares."""
 
+import os
 import signal
 import sys
 from dataclasses import dataclass
@@ -13,25 +14,33 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # a shell ignores Ctrl-C 
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
+# Students' notebooks, as they come, hold no answer: nothing that judges one is loaded ahead, seconds for each kernel.
+os.environ["BOOTCOURSE_NO_ANSWERS"] = "1"
+
+
 @pytest.hookimpl(wrapper=True, optionalhook=True)
 def pytest_xdist_auto_num_workers(config):
     """One more than pytest-xdist takes: a quarter of the time a test waits, for a kernel, a browser or a process."""
     return (yield) + 1
 
 
-# These compute the numbers in the lessons' texts, about a minute for each process: one process does it for all.
-OF_THE_TEXTS = ("test_book", "test_classroom", "test_course", "test_teaching")
+# What takes each process a minute to compute, one process computes for all files that need it: the numbers in the
+# lessons' texts, and the right answers to the exercises.
+TOGETHER = {
+    **dict.fromkeys(("test_book", "test_classroom", "test_course", "test_teaching"), "texts"),
+    **dict.fromkeys(("test_lessons_checks", "test_lessons_values", "test_answer_forms"), "answers"),
+}
 
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config, log):
-    """Each file in one process, and those of the texts together."""
+    """Each file in one process, and the files of `TOGETHER` in the same."""
     from xdist.scheduler import LoadFileScheduling
 
     class Scheduling(LoadFileScheduling):
         def _split_scope(self, nodeid: str) -> str:
             file = super()._split_scope(nodeid)
-            return "texts" if Path(file).stem in OF_THE_TEXTS else file
+            return TOGETHER.get(Path(file).stem, file)
 
     return Scheduling(config, log) if config.getvalue("dist") == "loadfile" else None
 

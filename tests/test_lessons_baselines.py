@@ -22,8 +22,8 @@ def test_what_a_policy_is_worth_is_read_from_recorded_decisions_where_it_acts_as
     none = torch.zeros(2, dtype=torch.int64)
     data = Batch(states, after, none + 4, torch.tensor([1.0, 2.0]), torch.tensor([0.0, 1.0]), none, none, none.float())
     assert choosing.overlap(plan(4), data) == 1 and choosing.overlap(plan(7), data) == 0
-    assert choosing.estimate(plan(4), data, states[:1], gamma=0.5) == pytest.approx(2, abs=0.02)
-    assert choosing.estimate(plan(4), data, states[1:], gamma=0.5) == pytest.approx(2, abs=0.02)
+    for start in (states[:1], states[1:]):
+        assert choosing.estimates([plan(4), plan(4)], data, start, gamma=0.5) == pytest.approx([2, 2], abs=0.02)
 
 
 def test_agents_with_a_reachable_target_entropy_ship_beside_agents_that_differ_from_them_in_it_alone():

@@ -33,6 +33,7 @@ mkdir -p "$settings"
 {"@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": false}}
 JSON
 
-echo "Now the road is compiled, once."
+echo "Now the road and the learner are compiled, once."
 "$python" -c "from bootcourse.doctor import road; print(next(road()).what)"
 "$python" -c "from bootcourse.web.bundle import content; content()"
+"$python" -c "import bootcourse as bc; t = bc.Training([bc.settings_for('sac')], 1, learner='compiled'); t.run(False, updates=1)"

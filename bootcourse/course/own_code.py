@@ -25,6 +25,7 @@ from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import mlp
+from bootcourse.learn.records import refusal
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
@@ -77,14 +78,18 @@ def whose(names: Sequence[str]) -> str:
 def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Training:
     """A `Training` of these settings with the student's parts; prints whose they are. more: as for `Training`.
 
+    As long as no part is the student's, the library's compiled learner trains, if it has these settings.
     Raises BootcourseError for parts of the student on another device than the CPU.
     """
     names = parts_of(settings, _own) if settings else []
     own = {name: _own[name] for name in names if name in _own}
     if own and more.get("device", "cpu") != "cpu":
         raise BootcourseError(f"Your own code trains on the CPU: leave out device={more['device']!r}.")
-    make_learner = functools.partial(own_learner, own) if own else None
-    mine = Training(settings, episodes, make_learner=make_learner, **more)
+    if own:
+        more["make_learner"] = functools.partial(own_learner, own)
+    elif settings and not more and not any(map(refusal, settings)):
+        more["learner"] = "compiled"
+    mine = Training(settings, episodes, **more)
     print(f"Training with {whose(names) or 'no part that an exercise writes'}.".replace("`", ""))
     return mine
 

@@ -450,7 +450,8 @@ settings = {
     "as it is": bc.settings_for("bootstrapped"),
     "changed": bc.settings_for("bootstrapped", **CHANGE),
 }
-mine = bc.compare(settings, seeds=5, episodes=150, tests=200, progress=False)  # half a minute
+training = {"episodes": 150, "learner": "compiled"}
+mine = bc.compare(settings, seeds=5, tests=200, progress=False, **training)
 bc.show(mine.figure("Their training, with drawn actions"))
 
 # %%

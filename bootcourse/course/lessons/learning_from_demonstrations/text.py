@@ -249,7 +249,7 @@ predict(
 )
 
 # %%
-UPDATES, EVERY = 12_000, 200
+UPDATES, EVERY = 8_000, 200
 way = np.concatenate([drive.observations[:20] for drive in by_rule])
 rule_did = torch.from_numpy(np.concatenate([drive.rule_actions[:20] for drive in by_rule]))
 agents = bc.with_seeds(bc.settings_for("demos", beta_episodes=None), 2)
@@ -276,7 +276,7 @@ def note(training):
 
 # %%
 predicted("learning_from_demonstrations.4")
-training = bc.Training(agents, episodes=20_000)
+training = bc.Training(agents, episodes=20_000, learner="compiled")  # the same, faster
 result = training.run(callback=note, updates=UPDATES + 1)
 print(f"episodes of each agent: {training.curves.finished.tolist()}")
 
@@ -301,10 +301,10 @@ below = "Largest: the states in which the demonstrated action has the largest Q 
 table(headings, rows, below=below)
 
 # %% [markdown]
-# **See.** (Yours will differ.) The bonus raises the Q of all actions, that of the demonstrated one
-# by about one bonus more. In our run the demonstrated action had the largest Q no more often than
-# without a bonus after 4,000 updates, and in most states after 12,000. At the end the agents with
-# c = 2 succeed more often. All this still moves (`UPDATES = 20_000`).
+# **See.** Yours will differ. The bonus raises the Q of all actions, that of the demonstrated one by
+# about one bonus more. Does the demonstrated action then come first in more states, and do the
+# agents with c = 2 succeed more often? Two agents of each kind do not say: of our own runs, one of
+# 8,000 and one of 12,000 updates, each gave another answer.
 #
 # **Does the raised value last?** In the critics of five shipped `demos` agents, long after β has
 # reached 0, little or nothing of the bonus is left: the mean Q of the rule's actions on the way out
@@ -455,7 +455,8 @@ def ask(training):
 # %%
 predicted("learning_from_demonstrations.6")
 control = bc.with_seeds(bc.settings_for("bootstrapped", bonus=0.0), 2)
-training = bc.Training(bc.with_seeds(bc.settings_for("margin_soft"), 2) + control, episodes=20_000)
+agents = bc.with_seeds(bc.settings_for("margin_soft"), 2) + control
+training = bc.Training(agents, episodes=20_000, learner="compiled")
 training.run(callback=ask, updates=1001)
 states_on = np.array(list(switched_on.values()))  # (times, 4, states)
 shares = 100 * states_on.mean(2).T  # (4, times)
@@ -597,9 +598,9 @@ drives = [shipped.beginning(drive, 60) for drive in (yours, *ours)]
 bc.recording(drives, height=480, details=True)
 
 # %% [markdown]
-# **See.** In our run the three agents with demonstrations had learned the rule's way, and earned
-# about as much as the rule or less. The lower replay shows an agent of our study, trained for {{
-# of('bootstrapped').sizes[1] | , }} episodes.
+# **See.** In our run the three agents with demonstrations were ahead on nine of ten roads or more,
+# and earned about as much as the rule or less. The lower replay shows an agent of our study,
+# trained for {{ of('bootstrapped').sizes[1] | , }} episodes.
 #
 # Of the study's ten agents with demonstrations and KL {{ escaped('bootstrapped') }} escape, and
 # earn {{ of('bootstrapped').scores('returns')[of('bootstrapped').scores('success') >=

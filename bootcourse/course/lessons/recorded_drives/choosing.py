@@ -1,14 +1,16 @@
 """Choosing a driver without a simulator: what a policy is worth, estimated from recorded drives alone."""
 
-from copy import deepcopy
+from collections.abc import Sequence
 
 import numpy as np
 import torch
 
 from bootcourse.episodes.record import record
 from bootcourse.learn.demonstrations import collect
+from bootcourse.learn.networks import init_mlp, mlp
+from bootcourse.learn.protocol import adam
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
-from bootcourse.learn.textbook import minimise, mlp
+from bootcourse.learn.textbook import minimise
 from bootcourse.policies import Policy
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 
@@ -29,33 +31,40 @@ def overlap(policy: Policy, data: Batch) -> float:
     return float((actions_of(policy, data.states) == data.actions).float().mean())
 
 
-def fitted_q(policy: Policy, data: Batch, gamma: float, updates: int = 2000, batch: int = 64, seed: int = 0):
-    """Q of a given policy by fitted Q evaluation (Le et al., arXiv 1903.08738): Q(s, a) = r + γ Q(s', π(s')).
+def fitted_q(
+    policies: Sequence[Policy], data: Batch, gamma: float, updates: int = 2000, batch: int = 64, seed: int = 0
+):
+    """Q of given policies by fitted Q evaluation (Le et al., arXiv 1903.08738): Q(s, a) = r + γ Q(s', π(s')).
 
-    A network that gives Q, (n, 9), of states (n, observation). Nothing is driven.
+    The parameters of one network for each policy, side by side: see `networks.mlp`. Each begins with the same weights
+    and gets the same batches. Nothing is driven.
     """
-    torch.manual_seed(seed)
-    rng, network = np.random.default_rng(seed), mlp(data.states.shape[1], N_ACTIONS, (64, 64))
-    slow, optimiser = deepcopy(network), torch.optim.Adam(network.parameters(), lr=1e-3)
-    next_actions = actions_of(policy, data.next_states)
+    sizes, rng = (data.states.shape[1], 64, 64, N_ACTIONS), np.random.default_rng(seed)
+    q = init_mlp(sizes, [torch.Generator().manual_seed(seed) for _ in policies])
+    slow, optimiser = [parameter.clone() for parameter in q], adam((q, 1e-3))
+    next_actions = torch.stack([actions_of(policy, data.next_states) for policy in policies])  # (policies, transitions)
     for _ in range(updates):
         i = torch.from_numpy(rng.integers(len(data.actions), size=batch))
         with torch.no_grad():
-            next_q = slow(data.next_states[i]).gather(1, next_actions[i, None])[:, 0]
+            next_q = q_of(slow, data.next_states[i], next_actions[:, i])  # (policies, batch)
             target = data.rewards[i] + gamma * (1 - data.terminated[i]) * next_q
-        loss = (network(data.states[i]).gather(1, data.actions[i, None])[:, 0] - target).square().mean()
-        minimise(optimiser, loss)
+        losses = (q_of(q, data.states[i], data.actions[i].expand(len(policies), -1)) - target).square().mean(-1)
+        minimise(optimiser, losses.sum())
         with torch.no_grad():
-            for average, parameter in zip(slow.parameters(), network.parameters(), strict=True):
-                average.lerp_(parameter, 0.01)
-    return network
+            torch._foreach_lerp_(slow, q, 0.01)
+    return q
 
 
-def estimate(policy: Policy, data: Batch, starts: torch.Tensor, gamma: float) -> float:
-    """What the driver is worth from these first states, (n, observation), on average, by the recorded drives alone."""
-    network = fitted_q(policy, data, gamma)
-    with torch.no_grad():
-        return float(network(starts).gather(1, actions_of(policy, starts)[:, None]).mean())
+def q_of(parameters: Sequence[torch.Tensor], states: torch.Tensor, actions: torch.Tensor) -> torch.Tensor:
+    """Q(s, a) of each policy's network: states (n, observation), actions (policies, n) -> (policies, n)."""
+    q = mlp(parameters, states.expand(len(actions), *states.shape))
+    return q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)
+
+
+def estimates(policies: Sequence[Policy], data: Batch, starts: torch.Tensor, gamma: float) -> list[float]:
+    """What each driver is worth from these first states, (n, observation), on average, by the recorded drives alone."""
+    chosen = torch.stack([actions_of(policy, starts) for policy in policies])
+    return q_of(fitted_q(policies, data, gamma), starts, chosen).mean(-1).tolist()
 
 
 def worth(policy: Policy, roads, gamma: float) -> tuple[float, float]:
