@@ -89,14 +89,14 @@ def test_a_script_has_no_error_of_syntax_and_calls_files_that_exist(script):
 
 
 @pytest.mark.skipif(not shutil.which("bash"), reason="the scripts are for Linux and macOS")
-def test_the_install_compiles_the_road_and_jupyterlab_will_ask_nothing(tmp_path):
+def test_the_install_compiles_the_road_and_the_learner_and_jupyterlab_will_ask_nothing(tmp_path):
     python, called = tmp_path / "python", tmp_path / "called"
     python.write_text(f'#!/bin/sh\necho "$@" >> {called}\ncase "$2" in *sys.prefix*) echo {tmp_path};; esac\n')
     python.chmod(0o755)
     subprocess.run(["sh", "tools/install.sh", str(python), "student.lock"], cwd=ROOT, check=True, capture_output=True)
-    *_, lock, package, prefix, compiled, page = called.read_text().splitlines()
+    *_, lock, package, prefix, compiled, page, learner = called.read_text().splitlines()
     assert lock.endswith("--require-hashes -r student.lock") and "--editable ." in package
-    assert "bootcourse.doctor import road" in compiled and "bundle" in page
+    assert "bootcourse.doctor import road" in compiled and "bundle" in page and "learner='compiled'" in learner
     settings = json.loads((tmp_path / "share/jupyter/lab/settings/overrides.json").read_text())
     assert settings == {name: CALM[name] for name in settings}, "the settings that the tests of JupyterLab rely on"
     assert CALM["@jupyterlab/apputils-extension:notification"] in settings.values()
