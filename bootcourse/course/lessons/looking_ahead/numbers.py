@@ -22,7 +22,6 @@ from bootcourse.scenario import DEFAULT
 
 LATE = "everything a second late"
 KEEPING = "others keep speed and lane"
-NOISY = "places off by 1 m, speeds by 0.5 m/s"
 
 
 @cache
@@ -69,12 +68,6 @@ def alone_ahead() -> str:
     return f"{', '.join(shares[:-1])} and {shares[-1]}"
 
 
-def of_the_four() -> float:
-    """The share of the accidents of the paper's agents, alone, that are those of the four that crash most."""
-    alone = np.sort(each("alone", "accidents"))
-    return float(alone[-4:].sum() / alone.sum())
-
-
 def safer_shield(base: str) -> int:
     """With how many of the wrong models the shield has fewer accidents than the rollouts."""
     wrong = (model for model in MODELS if model != "exact")
@@ -95,13 +88,6 @@ def less_safe(base: str) -> np.ndarray:
 def of_the_nine() -> np.ndarray:
     """How often plain SAC's agents get out with rollouts, those that stay behind alone: shares, (9,)."""
     return outs("sac")[outs("sac", "alone") < 0.01]
-
-
-def most_harmed(base: str) -> tuple[int, int]:
-    """The accidents alone and with rollouts of the agent that gains most of them, on its 1,000 roads."""
-    alone, ahead = _accidents(base)
-    worst = int((ahead - alone).argmax())
-    return int(alone[worst]), int(ahead[worst])
 
 
 @cache

@@ -40,11 +40,6 @@ def at(method: str, measure: str, budget: int = FIRST) -> np.ndarray:
     return equal_decisions.at(later(method), measure, budget)
 
 
-def cost(method: str) -> float:
-    """Seconds of one core for a decision of these agents, until the first of their budgets."""
-    return float(at(method, "seconds").mean()) / FIRST
-
-
 def score_at(method: str, budget: int = FIRST) -> Estimate:
     """The interquartile mean of these agents' returns, with its interval."""
     return interval(at(method, "returns", budget))
@@ -117,13 +112,6 @@ def ahead_next() -> float:
     """The share of the next 50 episodes that end ahead of trap 1."""
     following = (~untrained()).cumsum(axis=1)  # 1 in the episode of the first update
     return float(rlpd().curves["success"][(following > 0) & (following <= 50)].mean())
-
-
-def next_decisions() -> float:
-    """How many decisions these 50 episodes have, the mean over the agents."""
-    following = (~untrained()).cumsum(axis=1)
-    of = np.where((following > 0) & (following <= 50), rlpd().curves["decisions"], 0)
-    return float(np.nansum(of, axis=1).mean())
 
 
 def escapers_accidents() -> str:

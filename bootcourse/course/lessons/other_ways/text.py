@@ -120,11 +120,10 @@ bc.show(figures.one_above_the_other(at, named, title, "training episode", "rlpd"
 # %% [markdown]
 # **See.** Until the first update, about {{ untrained().sum(axis=1).mean() | .0f }} episodes long,
 # an untrained network drives: an episode lasts {{ rlpd().curves['decisions'][untrained()].mean() |
-# .1f }} s. Of the next 50 episodes, {{ next_decisions() | ,.0f }} decisions in the mean, {{ 100 *
-# ahead_next() | .0f }} % end ahead. After {{ rlpd().curves['success'].shape[1] }} episodes {{
-# rlpd().escapers('rlpd') }} of ten agents succeed on {{ 100 * ESCAPES | .0f }} % of the roads or
-# more (we say that they *escape*); in the drives of these {{ rlpd().escapers('rlpd') }} accidents
-# come in {{ escapers_accidents() }} %.
+# .1f }} s. Of the next 50 episodes {{ 100 * ahead_next() | .0f }} % end ahead. After {{
+# rlpd().curves['success'].shape[1] }} episodes {{ rlpd().escapers('rlpd') }} of ten agents succeed
+# on {{ 100 * ESCAPES | .0f }} % of the roads or more: we say that they *escape*. An accident ends
+# {{ escapers_accidents() }} % of their drives.
 # <!-- claim: len(rlpd()) == 10 and ahead_next() < 0.15 -->
 #
 # **Explain.** The demonstrations are in the batch, but they do not drive: the agent drives by its
@@ -193,8 +192,7 @@ table(["", "takes the rule's action, %"], rows)
 #
 # **Explain.** A strong KL or bonus that stays keeps pulling the agent towards the teacher, also
 # where the teacher is wrong. This choice need not fade: as soon as the critic values π's action
-# more, the rule's is not taken. In return the teacher must be present whenever the agent drives, so
-# a teacher that needs what the car cannot measure is of no use here.
+# more, the rule's is not taken. In return the teacher must be present whenever the agent drives.
 # <!-- claim: METHODS['ibrl'].learner_class().needs_teacher -->
 
 # %% [markdown] tags=["instructor"] minutes=8
@@ -250,9 +248,8 @@ bc.show(figures.handing_over(at, h, mean, needed, title))
 
 # %% [markdown]
 # **See.** (Yours will differ.) h can fall once {{ settings_for('jsrl').window }} episodes have
-# begun with it. (The first fall is free: there is no best mean yet.) Where the mean is below the
-# dashed line by then, the agent may have taken over too early, and h waits until the pair has
-# recovered.
+# begun with it. Where the mean is below the dashed line by then, the agent may have taken over too
+# early, and h waits until the pair has recovered.
 # <!-- claim: 0.6 < np.mean(rules_overtaking() <= settings_for('jsrl').guide_decisions) < 0.73 -->
 #
 # **Explain.** A **curriculum** like this one begins with the easy part, the end of the way. The
@@ -322,13 +319,12 @@ ppos = [[bc.display_name(m), *best_in_bold(tried[m])] for m in tried if m.starts
 table(["return in the search", *tried["ppo"]], ppos)
 
 # %% [markdown]
-# **See.** PPO after cloning earns the least of the five; the test, with other seeds and roads, has
-# to confirm it. And η can decide much (three seeds each): with η = −1, the paper's target, which
-# nine actions cannot reach, jump-start RL earns {{ search('jsrl')['η = -1'] | .0f }}, with η = 0.3
-# {{ search('jsrl')['η = 0.3'] | .0f }}. Bootstrapped SAC earns {{ search('bootstrapped')['η = -1']
-# - search('bootstrapped')['η = 0.3'] | .0f }} *less* with 0.3 than with −1. (Other choices are by a
-# point or two, which three seeds do not settle.) With one η for all, the table would have ranked
-# the methods by how well that η suits them.
+# **See.** In the search PPO after cloning earns the least of the five. And η can decide much: with
+# η = −1, the paper's target, which nine actions cannot reach, jump-start RL earns {{
+# search('jsrl')['η = -1'] | .0f }}, with η = 0.3 {{ search('jsrl')['η = 0.3'] | .0f }}.
+# Bootstrapped SAC earns {{ search('bootstrapped')['η = -1'] - search('bootstrapped')['η = 0.3'] |
+# .0f }} *less* with 0.3 than with −1. With one η for all, the table would have ranked the methods
+# by how well that η suits them.
 # <!-- claim: min(TAUGHT, key=lambda m: max(search(m).values())) == 'ppo_cloned' -->
 # <!-- claim: search('jsrl')['η = 0.3'] > search('jsrl')['η = -1'] + 20 and
 #   max(search('bootstrapped'), key=search('bootstrapped').get) == 'η = -1' -->
@@ -371,11 +367,9 @@ title = (
 bc.show(figures.at_equal_budgets(compared, by_rule.returns.mean(), title))
 
 # %% [markdown]
-# (The fourth panel shows training episodes, with drawn actions, that ended within 5 s of a core: {{
-# 5 / cost('ppo_cloned') / 1000 | .0f }},000 decisions of PPO after cloning, {{ 5 / cost('rlpd') /
-# 1000 | .0f }},000 of RLPD. The seconds are those of agents that train side by side, divided by
-# their number. Jump-start RL's episodes begin with the rule. The rule's drives before and PPO's
-# cloning are not in the seconds.)
+# The fourth panel shows training episodes, with drawn actions, that ended within 5 s of a core.
+# Jump-start RL's episodes begin with the rule. The rule's drives before and PPO's cloning are not
+# in the seconds.
 # <!-- claim: equal_decisions.SECONDS == 5 -->
 #
 # > **Predict.** IBRL may take the rule's action in each state, and the rule alone has no accident.
@@ -434,10 +428,8 @@ table(["", *headings], rows, below)
 #   len(pairs(FIRST)) == 10 -->
 #
 # None is safe. After {{ FIRST | , }} decisions {{ 100 * at('ibrl', 'accident').mean() | .0f }} % of
-# IBRL's drives end in an accident (of one agent {{ 100 * at('ibrl', 'accident').max() | .0f }} %,
-# of the other nine {{ 100 * np.sort(at('ibrl', 'accident'))[0] | .0f }} to {{ 100 *
-# np.sort(at('ibrl', 'accident'))[-2] | .0f }} %), although the rule, which has none, drives beside
-# it.
+# IBRL's drives end in an accident, and {{ 100 * at('ibrl', 'accident').max() | .0f }} % of one
+# agent's, although the rule, which has none, drives beside it.
 # <!-- claim: min(at(m, 'accident').mean() for m in TAUGHT) > 0.02 -->
 
 # %% [markdown]

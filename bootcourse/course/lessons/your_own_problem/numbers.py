@@ -51,22 +51,3 @@ def drowning_bonus(*arguments: float) -> float:
 def pushes(method: str) -> float:
     """The median number of decisions in training on CartPole, with the systematic teacher: each earns 1."""
     return float(np.median(cells().get("cartpole", "systematic", method).curves["return"].sum(axis=1)))
-
-
-def above_clones() -> int:
-    """How many agents with demonstrations of MountainCar's systematic teacher earn more than each clone of it."""
-    clones, agents = (cells().scores("mountain-car", "systematic", m, "returns") for m in ("cloning", "demonstrations"))
-    return int((agents > clones.max()).sum())
-
-
-def arriving() -> np.ndarray:
-    """The returns of the agents with demonstrations of MountainCar's systematic teacher that ever arrive."""
-    agents = cells().scores("mountain-car", "systematic", "demonstrations", "returns")
-    return agents[agents > -200]
-
-
-def decisions_on_doorkey(teacher: str, method: str) -> float:
-    """The median number of decisions in training, in thousands: a success pays 1 − 0.9 t / 100, t decisions."""
-    curves = cells().get("doorkey", teacher, method).curves
-    each = np.where(curves["success"] > 0.5, (1 - curves["return"].astype(float)) / 0.009, 100.0)
-    return float(np.median(each.sum(axis=1))) / 1000

@@ -72,9 +72,8 @@ bc.show(charts.lines(np.arange(longest), shown, title, "decision", "position", m
 
 # %% [markdown]
 # **See.** Pushed to the right, the car swings in the valley to the end. To get up it has to drive
-# away from the flag in between. (An attempt costs nothing here, unlike in lesson [[the_barrier]]:
-# all drives that miss the flag earn the same, so nothing says which way is up.) A rule of one line
-# does it. Look at the figure: where does it push to the left, where to the right?
+# away from the flag in between. The reward does not say so: all drives that miss the flag earn the
+# same. Look at the figure: where does the rule of one line push to the left, where to the right?
 # <!-- claim: loops.climbed(lambda position, speed: 2).max() < 0 -->
 # <!-- claim: loops.climbed(lambda position, speed: 2 if speed >= 0 else 0)[-1] >= 0.5 -->
 
@@ -96,10 +95,8 @@ check.climb_rule(climb_rule)
 # %% [markdown]
 # A rule may be wrong in two ways. The **random** teacher takes a wrong action in some states,
 # chosen as if at random; on MountainCar it is right in {{ 100 *
-# elsewhere_claims.PROBLEMS['mountain-car'].right | .0f }} % of the *states* (and, by chance,
-# reaches the flag in as many episodes). The **systematic** one errs in one region and nowhere else:
-# to the right of 0.1 it does not push where the rule pushes left, and pushes left where the rule
-# pushes right.
+# elsewhere_claims.PROBLEMS['mountain-car'].right | .0f }} % of the *states*. The **systematic** one
+# errs in one region and nowhere else: on MountainCar in each state to the right of 0.1.
 
 # %%
 climb = own_code.yours_or_ours("climb_rule", doing="Driving")
@@ -159,19 +156,17 @@ below = "100 held-out episodes of each; the table of Round 1 has 100 others."
 table(["MountainCar, success in %", *headings], rows, below)
 
 # %% [markdown]
-# **See.** The clones' most probable actions keep next to nothing of the random teacher's errors:
-# they reach the flag in {{ percent('mountain-car', 'random', 'cloning') }} % of the episodes. Their
-# drawn actions repeat the errors. By their most probable actions the systematic teacher's clones
-# are as good as their teacher, and no better.
+# **See.** The clones' most probable actions keep next to nothing of the random teacher's errors.
+# Their drawn actions repeat the errors. By their most probable actions the systematic teacher's
+# clones are as good as their teacher, and no better.
 # <!-- claim: score('mountain-car', 'random', 'cloning') > 0.95 and
 #   score('mountain-car', 'random', 'cloning', 'drawn_success') < 0.8 -->
 # <!-- claim: abs(score('mountain-car', 'systematic', 'cloning') -
 #   score('mountain-car', 'systematic', 'the teacher')) < 0.05 -->
 #
-# **Explain.** In 70 % of the *states* the random teacher is right. Of 25 labels of alike states the
+# **Explain.** The random teacher is right in 70 % of the *states*. Of 25 labels of alike states the
 # majority is then right in {{ 100 * majority_right(0.7, 25) | .0f }} %. In the region of a
-# systematic error it is right in 0 %, of one label or a thousand. So ask of your teacher first:
-# which kind of error does it make? A clone ends near the rule *without its random errors*.
+# systematic error it is right in 0 %, of one label or a thousand.
 
 # %% [markdown]
 # ## Round 3: which one wins?
@@ -184,8 +179,8 @@ four = ["cloning", "soft", "demonstrations", "both"]
 predict("your_own_problem.3", "Which reaches the flag most often?", list(figures.NAMES.values()))
 
 # %% [markdown]
-# `bc.compare` trains five agents of each and tests them in the same episodes. Each makes as many
-# decisions: with equal episodes, who finds the flag sooner would practise less.
+# `bc.compare` trains five agents of each and tests them in the same episodes. All make equally many
+# decisions: with equal episodes, an agent that finds the flag sooner would practise less.
 
 # %% tags=["nbval-ignore-output"]
 predicted("your_own_problem.3")
@@ -220,20 +215,16 @@ for name in four:
 table(["MountainCar, systematic teacher", "reach the flag, %", "return"], rows)
 
 # %% [markdown]
-# **See.** The agents with the soft constraint reach the flag most often, and need longer for it.
-# One agent with demonstrations never arrives; the nine others earn {{ arriving().mean() | .0f }} on
-# average, and {{ above_clones() }} of them more than each clone. So who wins depends on what you
-# count. (And on the decisions: try `DECISIONS = 20_000`, about a minute.) Both aids without the
-# bonus (c = 0) reach the flag in {{ percent('mountain-car', 'systematic', 'both, c = 0') }} %:
-# Round 4 asks what the bonus does.
+# **See.** The agents with the soft constraint reach the flag most often, and need longer for it: by
+# return the four differ by less than 5. So which one wins depends on what you count.
 # <!-- claim: score('mountain-car', 'systematic', 'soft') > 0.95 and
 #   score('mountain-car', 'systematic', 'cloning') < 0.85 and max(earned := [score('mountain-car',
 #   'systematic', m, 'returns') for m in FOUR]) - min(earned) < 5 and max(FOUR, key=lambda m:
-#   score('mountain-car', 'systematic', m)) == 'soft' and len(arriving()) == 9 -->
+#   score('mountain-car', 'systematic', m)) == 'soft' -->
 #
-# Is this so elsewhere? Here are the returns with both flawed teachers on three problems:
-# MountainCar; CartPole, where a pole is balanced for up to 500 decisions and the good rule falls
-# early; and Lunar lander, where the rule hovers and then lands. Each mean is over ten agents.
+# Which one wins elsewhere? Here are the returns with both flawed teachers on three problems:
+# MountainCar; CartPole, where a pole is balanced for up to 500 decisions and the good rule lets it
+# fall early; and Lunar lander. Each mean is over ten agents, after equal episodes.
 # <!-- claim: {len(cells().scores(p, t, m)) for p, t in SHOWN for m in FOUR} == {10} -->
 
 # %% tags=["hide-input"]
@@ -250,29 +241,24 @@ headings = [figures.NAMES[name] for name in four]
 table(["return", "good teacher", "this teacher", *headings, "plain SAC"], rows)
 
 # %% [markdown]
-# **See.** No way to use a teacher earns most in all six rows; on MountainCar and Lunar lander each
-# earns more than plain SAC, whose target entropy is here the paper's, η = −1 (with η = 0.3 log |A|
-# it earns {{ score('mountain-car', 'good', elsewhere_claims.ENTROPY, 'returns') | .0f }}, {{
+# **See.** No way to use a teacher earns most in all six rows. On MountainCar and Lunar lander each
+# earns more than plain SAC with the paper's target entropy, η = −1. With η = 0.3 log |A| plain SAC
+# earns {{ score('mountain-car', 'good', elsewhere_claims.ENTROPY, 'returns') | .0f }}, {{
 # score('cartpole', 'good', elsewhere_claims.ENTROPY, 'returns') | .0f }} and {{ score('lander',
-# 'good', elsewhere_claims.ENTROPY, 'returns') | .0f }}). (Means, after equal episodes; the report
-# has intervals and three more problems.)
+# 'good', elsewhere_claims.ENTROPY, 'returns') | .0f }} on the three problems.
 # <!-- claim: not any(all(cells().mean(*row, m) >= max(cells().mean(*row, o) for o in FOUR) for row
 #   in SHOWN if row[1] != 'good') for m in FOUR) -->
 #
 # **Explain.**
-# - **A clone drops random errors** (and may add its own: Lunar lander, systematic). Where the rule
-#   without them is good you can stop there: on MountainCar and Lunar lander the clones of the
-#   random teacher earn nearly what the good teacher does. Where it is weak, go on: on CartPole the
-#   agents with the soft constraint of the random teacher earn more than twice as much as its
-#   clones, and as the good teacher.
+# - **A clone drops random errors**, and may add its own. Where the rule without them is good you
+#   can stop there: on MountainCar and Lunar lander the clones of the random teacher earn nearly
+#   what the good teacher does. Where it is weak, go on: on CartPole the agents with the soft
+#   constraint of the random teacher earn more than twice as much as its clones.
 # - **Some agents outgrow their teacher.** On CartPole all ten agents with the soft constraint of
-#   the systematic teacher balance to the end, and {{ (cells().scores('cartpole', 'good', 'soft') ==
-#   500).sum() }} of the good one's. Those with demonstrations alone do it, too; of plain SAC's ten
-#   agents {{ (cells().scores('cartpole', 'good', 'SAC') == 500).sum() }}. But equal episodes are
-#   unequal practice: the median agent of plain SAC made {{ pushes('SAC') / 1000 | .0f }} thousand
-#   decisions, of these {{ pushes('soft') / 1000 | .0f }} and {{ pushes('demonstrations') / 1000 |
-#   .0f }} thousand. With more practice, and another η, SAC alone solved it in lesson
-#   [[update_and_loop]].
+#   the systematic teacher balance to the end. Those with its demonstrations alone do it, too; of
+#   plain SAC's ten agents {{ (cells().scores('cartpole', 'good', 'SAC') == 500).sum() }}. But equal
+#   episodes are unequal practice: with more of it, and another η, SAC alone solved CartPole in
+#   lesson [[update_and_loop]].
 # <!-- claim: score('mountain-car', 'random', 'cloning', 'returns') >
 #   score('mountain-car', 'good', 'the teacher', 'returns') - 10 and score('lander', 'random',
 #   'cloning', 'returns') > score('lander', 'good', 'the teacher', 'returns') - 25 -->
@@ -293,9 +279,8 @@ table(["return", "good teacher", "this teacher", *headings, "plain SAC"], rows)
 # ## Round 4: DoorKey, a goal that pays once
 #
 # In DoorKey an agent fetches a key, opens a door and walks to a goal. The goal pays 1 − 0.9 t / 100
-# if it is reached at decision t, and nothing else pays. An episode has at most 100 decisions, and
-# the observation does not contain the time. Here is a drive of a teacher that is right in 80 % of
-# the states.
+# if it is reached at decision t, and nothing else pays. An episode has at most 100 decisions. Here
+# is a drive of a teacher that is right in 80 % of the states.
 # <!-- claim: elsewhere_claims.PROBLEMS['doorkey'].right == 0.8 -->
 
 # %%
@@ -331,15 +316,14 @@ for seed, (states, reached) in enumerate(drives):
 table(["drive", "it ends", "the loop, decisions", "return", "with c = 2"], rows)
 
 # %% [markdown]
-# The teacher errs in a state *whenever it comes back to it*, so some of its drives end in a loop,
-# often of a single decision that moves nothing. With the bonus such a demonstration pays 200.
+# The teacher errs in a state *whenever it comes back to it*, so some of its drives end in a loop.
+# With the bonus such a demonstration pays 200.
 #
 # **Exercise (18 min, ●●●).** A loop earns `reward` + c in each decision, for ever: the time limit
 # is no end for the critic (lesson [[update_and_loop]]). The way to the goal takes `decisions`
 # decisions that earn `reward` each, the last one also `goal`; then the episode ends. The first
 # `shown` of them are in the demonstrations and earn c, too. At which c are both worth the same,
-# discounted? (In training c is paid while demonstrations are in the batch: the limit says when they
-# *can* mislead.)
+# discounted?
 
 
 # %%
@@ -375,21 +359,14 @@ below = "By the most probable actions, in the last column by drawn ones. Plain S
 table(["DoorKey, success in %", *headings], rows, below)
 
 # %% [markdown]
-# **See.** With c = 2 and a flawed teacher the agents hardly ever reach the goal. Practice is not
-# what they lack: the median agent with both aids and the random teacher made {{
-# decisions_on_doorkey('random', 'both') | .0f }} thousand decisions, that of plain SAC {{
-# decisions_on_doorkey('random', 'SAC') | .0f }} thousand.
+# **See.** With c = 2 and a flawed teacher the agents hardly ever reach the goal.
 #
-# The clones of the random teacher keep its errors here ({{ percent('doorkey', 'random', 'cloning')
-# }} %, the teacher {{ percent('doorkey', 'random', 'the teacher') }} %): each time a state comes
-# back it has the same wrong label, and no majority outvotes it. Even the good teacher's clones
-# reach the goal in only {{ percent('doorkey', 'good', 'cloning') }} % (drawn actions: {{
-# percent('doorkey', 'good', 'cloning', 'drawn_success') }}). Without the bonus it depends on *how
-# you test*. By their most probable actions the random teacher's agents succeed less often than
-# plain SAC, by drawn actions about as often: we think that drawn actions leave a loop that the most
-# probable ones repeat.
-# <!-- claim: decisions_on_doorkey('random', 'both') > 1.5 * decisions_on_doorkey('random', 'SAC')
-#   -->
+# The clones of the random teacher keep its errors here: each time a state comes back it has the
+# same wrong label, and no majority outvotes it.
+#
+# Without the bonus the result depends on *how you test*. By their most probable actions the random
+# teacher's agents succeed less often than plain SAC, by drawn actions about as often. We think that
+# drawn actions leave a loop that the most probable ones repeat.
 # <!-- claim: all(score('doorkey', t, 'both', s) < 0.005 for t in ('random', 'systematic') for s in
 #   ('success', 'drawn_success')) -->
 # <!-- claim: all(score('doorkey', 'random', m) < score('doorkey', 'random', 'SAC') - 0.1 and
@@ -399,8 +376,11 @@ table(["DoorKey, success in %", *headings], rows, below)
 # **Explain.** If the whole way is shown, the limit is c = (1 − γ) · goal / γ − reward. On DoorKey γ
 # is {{ PROBLEMS['doorkey'].gamma }}, a decision on the way pays 0 and the goal at most 1, so the
 # limit is at most {{ drowning_bonus(0, 1, 1, 1, PROBLEMS['doorkey'].gamma) | .3f }}, and the bonus
-# is 2. (On MountainCar the reward is −1 and the goal pays 0, so the limit is {{ drowning_bonus(-1,
-# 0, 100, 100, PROBLEMS['mountain-car'].gamma) | .0f }}, and c = 2 is above it, too.)
+# is 2. In training c is paid while demonstrations are in the batch, not for ever: above the limit
+# the bonus *can* mislead. On MountainCar the limit is {{ drowning_bonus(-1, 0, 100, 100,
+# PROBLEMS['mountain-car'].gamma) | .0f }}. Both aids with the systematic teacher reach the flag
+# there in {{ percent('mountain-car', 'systematic', 'both, c = 0') }} % without the bonus, instead
+# of {{ percent('mountain-car', 'systematic', 'both') }} % with c = 2.
 #
 # > **Predict.** By drawn actions both aids with the random teacher and c = 0 reach the goal in
 # > {{ percent('doorkey', 'random', 'both, c = 0', 'drawn_success') }} %. And with c = 0.3, ten
@@ -421,14 +401,10 @@ for kind in teachers:
 table(["the teacher", *bonuses], rows, "Both aids, drawn actions, success in %. Ten agents each.")
 
 # %% [markdown]
-# **See.** From the limit on a bonus *can* mislead. With the flawed teachers success falls with c
-# (steps as small as the first may be chance), and with c = 1 the goal is hardly reached. By the
-# most probable actions little happens before that: {{ percent('doorkey', 'random', 'both, c = 0')
-# }} % with c = 0, {{ percent('doorkey', 'random', 'both, c = 0.3') }} % with 0.3 (random teacher).
-# With the good teacher, whose drives hold no loop, both aids bear c = 2. Its demonstrations alone
-# do not ({{ percent('doorkey', 'good', 'demonstrations') }} % by the most probable actions, without
-# the bonus {{ percent('doorkey', 'good', 'demonstrations, c = 0') }} %): we think that the agent
-# steps back and walks the shown way again.
+# **See.** By drawn actions success falls with c for both flawed teachers, and with c = 1 the goal
+# is hardly reached. Steps as small as the first may be chance. With the good teacher, whose drives
+# hold no loop, both aids bear c = 2. In the table before, its demonstrations alone do not: we think
+# that the agent steps back and walks the shown way again.
 # <!-- claim: all(np.diff(by_bonus(t)).max() < 0 and by_bonus(t)[-2] <= 0.1 for t in ('random',
 #   'systematic')) and by_bonus('good').min() > 0.99 and by_bonus('random')[0] > 0.9 -->
 # <!-- claim: score('doorkey', 'good', 'demonstrations') < 0.1 and 0.1 < by_bonus('random')[3] < 0.8
@@ -506,7 +482,7 @@ compare_predictions(
 # - **Rank.** By return, on the board. An entry that a rank test (lesson [[your_teacher]]) does not
 #   tell from the best of a place shares it, and the page decides between them.
 #
-# An entry with a tenth of the budget, on the roads of a block:
+# An example with a tenth of the budget:
 
 # %%
 BUDGET, BLOCK = 20_000, 2026  # decisions of each agent: the challenge has ten times as many
@@ -518,10 +494,9 @@ result = entry.run(progress=False, stop=lambda: entry.decisions >= BUDGET * len(
 bc.board(result, block=BLOCK)
 
 # %% [markdown]
-# **See.** (Trained on your machine: your numbers will differ from ours.) The table has 95 %
-# intervals: over the five agents for your entry, over the roads for the rules. Which drivers do
-# your agents beat, and which beat them? (*Gap acceptance* is a rule of ten lines; a better teacher
-# is an entry, too.)
+# **See.** Your numbers will differ from ours. The table has 95 % intervals: over the five agents
+# for your entry, over the roads for the rules. Which drivers do your agents beat, and which beat
+# them?
 #
 # ## What you now know
 #
