@@ -15,7 +15,7 @@ import traitlets
 from bootcourse import one_per_cell
 from bootcourse.learn.training import Result, Training
 from bootcourse.methods import METHODS, display_name, style
-from bootcourse.plots.svg import INK, QUIET, Drawing, SvgAxes, drawing, line, printed, span, text
+from bootcourse.plots.svg import INK, QUIET, Drawing, SvgAxes, drawing, line, over, printed, span, text
 from bootcourse.plots.training_curves import MEASURES, draw_training, finished, in_unit, window_of
 from bootcourse.statistics import rolling_means
 from bootcourse.web.guests import Guest, alone, guest
@@ -141,11 +141,12 @@ def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episod
         limits = measure.limits or span(means.ravel(), measure.least)
         axes = SvgAxes(left, top, WIDE, HIGH, (0, max(episodes, 1)), limits)
         axes.frame(measure.label.split(",")[0], "episode")
+        labels = []
         for row, (episode, changed) in enumerate(marks):
-            (x, y), down = axes.at(episode, axes.y[1]), 9 + 11 * (row % 4)  # so that two close ones can be read
+            (x, y), down = axes.at(episode, axes.y[1]), 9 + 12 * (row % 4)  # so that two close ones can be read
             parts.append(line(x, y, x, y + HIGH, QUIET, 1, 'stroke-dasharray="3 3"'))
             side = (x + 3, "start") if episode < 0.6 * max(episodes, 1) else (x - 3, "end")  # inside the chart
-            parts.append(text(side[0], y + down, changed, side[1], size=9))
+            labels.append(over(text(side[0], y + down, changed, side[1], size=10)))
         for method in names if done else ():
             own = means[[each == method for each in methods]]
             end = draw_training(axes, at, own, style(method))
@@ -154,7 +155,7 @@ def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episod
                 ends.append(f"{display_name(method)} {measure.label} {end:.3g}")
                 if len(names) == 1:
                     parts.append(text(left + WIDE, top - 8, f"{end:.3g}".replace("-", "−"), "end", INK, 12, bold=True))
-        parts += axes.parts
+        parts += [*axes.parts, *labels]
     ends = f" After {done} episodes: {', '.join(ends)}." if ends else f" {called}: no episode has ended yet."
     return drawing(*SIZE, parts, f"Training curves.{ends}")
 

@@ -59,6 +59,11 @@ def text(
     return str(html(page, x, y, anchor, fill, size, 650 if bold else 400, words))
 
 
+def over(words: str) -> str:
+    """A `text` with a rim of the page's colour, so that it can be read over curves."""
+    return words.replace("<text ", '<text stroke="#FFFFFF" stroke-width="3" paint-order="stroke" ', 1)
+
+
 def rect(x: float, y: float, width: float, height: float, fill: str, more: str = "") -> str:
     width, height = max(width, 0), max(height, 0)
     return f'<rect x="{x:.2f}" y="{y:.2f}" width="{width:.2f}" height="{height:.2f}" fill="{fill}" {more}/>'
