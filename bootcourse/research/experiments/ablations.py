@@ -1,4 +1,4 @@
-"""One choice of the method changed: the KL's place, no bonus, how long β lasts, a ξ that stays."""
+"""One choice of the method changed, or two: the KL's place, no bonus, how long β lasts, a ξ that stays."""
 
 from pathlib import Path
 
@@ -12,6 +12,7 @@ CHANGED = {
     "c = 0": {"bonus": 0.0, "methods": HELPED},
     "β over 300 episodes": {"beta_episodes": 300, "methods": HELPED},
     "β for ever": {"beta_episodes": None, "methods": HELPED},
+    "β for ever, c = 0": {"beta_episodes": None, "bonus": 0.0, "methods": ("bootstrapped",)},
     **{f"ξ stays at {xi:g}": {"xi_fixed": xi, "methods": ("soft",)} for xi in (2.0, 0.5, 0.1)},
 }
 

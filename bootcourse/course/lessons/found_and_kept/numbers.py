@@ -105,6 +105,28 @@ def kept_until_late(method: str) -> bool:
     return all(bool(row[int(row.argmax()) : LATE - WINDOW + 1].all()) for row in has_it(method))
 
 
+def lost_by(last: int, results: Results | None = None, method: str = "bootstrapped") -> int:
+    """How many agents, once ahead in 40 of 50 training episodes, are ahead in 25 or fewer of 50 later, by an episode.
+
+    results: of other agents than the study's.
+    """
+    success = (results or of_all()).of(method).curves["success"]
+    shares = np.lib.stride_tricks.sliding_window_view(success, WINDOW, axis=1).mean(-1)
+    won = np.maximum.accumulate(shares >= 0.8, axis=1)
+    return int((won & (shares <= 0.5))[:, : last - WINDOW + 1].any(axis=1).sum())
+
+
+def accidents_of_the_lost() -> np.ndarray:
+    """Of the study's agents with both aids: the share of accidents in their failed drives while they have lost it."""
+    curves = of("bootstrapped").curves
+    lost = np.lib.stride_tricks.sliding_window_view(curves["success"], WINDOW, axis=1).mean(-1) <= 0.5
+    shares = []
+    for each, success, accident in zip(lost[:, LATE:], curves["success"], curves["accident"], strict=True):
+        within = np.convolve(each, np.ones(WINDOW))[: len(success) - LATE] > 0  # episodes in a lost window
+        shares.append(np.mean(accident[LATE:][within & (success[LATE:] == 0)] > 0))
+    return np.array(shares)
+
+
 def losing_p(fade: Results | None = None, stay: Results | None = None) -> float:
     """Fisher's p: do more agents with both aids lose the way out from episode 900 on if β ends than if not?"""
     groups = (lost_it("bootstrapped", fade), lost_it("bootstrapped", stay or ablations()["β for ever"]))
