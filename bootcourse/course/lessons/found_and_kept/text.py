@@ -290,7 +290,8 @@ table(["β is 0 after, episodes", "return of agents with both aids that keep the
 #
 # Both parts hold in these agents. Of twenty whose β never ends, with the bonus, one loses the way
 # out by 2,000. Without the bonus most lose it,
-# {{ lost_by(LATE, ablations()['c = 0']) + lost_by(LATE, others('bootstrapped, c = 0')) + lost_by(LATE, ablations()['β for ever, c = 0']) }}
+# {{ lost_by(LATE, ablations()['c = 0']) + lost_by(LATE, others('bootstrapped, c = 0')) +
+#   lost_by(LATE, ablations()['β for ever, c = 0']) }}
 # of thirty while β is still large, and even if β never ends. But the reading is not the whole
 # story. Demonstrations of the stochastic rule π̃ do not hold them, although c = 2:
 # {{ lost_by(LATE, clocks()['1/4', 'π̃']) }} of ten agents with the study's seeds lose it before {{

@@ -1,6 +1,7 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 import math
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -8,11 +9,12 @@ import numpy as np
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.panels.compromise import CHOSEN, Ways, compromise
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES, found_after
-from tools.course.known import RULE_P, escapers, of, shipped_experiment
+from tools.course.known import RULE_P, of, others, shipped_experiment
 
 
 def stays(xi: float = 2.0) -> Results:
@@ -25,39 +27,62 @@ def beyond_the_rule() -> int:
     return int((of("soft").scores("returns") > 2 * of("rule").scores("returns").mean()).sum())
 
 
-def with_kl_in_actor_only() -> int:
-    """How many of ten agents with the soft constraint escape if the KL is in the actor's loss alone."""
-    return escapers(shipped_experiment("ablations")["KL in the actor only"], "soft")
+def actor_only() -> Results:
+    """The ten agents with the soft constraint that have the KL in the actor's loss alone."""
+    return shipped_experiment("ablations")["KL in the actor only"].of("soft")
+
+
+def worst_of_actor_only() -> tuple[float, float]:
+    """Accidents (%) and return of the one with the most accidents of these agents that escape."""
+    agents = actor_only()
+    crashes = np.where(agents.scores("success") >= ESCAPES, agents.scores("accident"), -1)
+    return 100 * crashes.max(), agents.scores("returns")[crashes.argmax()]
 
 
 def found_between(agents: Results) -> str:
-    """The first and the last training episode after which one of the agents has found the way out: "301 to 367"."""
+    """The first and the last training episode after which one of the agents has found the way: "484 to 1,037"."""
     after = found_after(agents.curves["success"])
-    return f"{after.min()} to {after.max()}"
-
-
-def losers() -> list[float]:
-    """What the agents with the soft constraint earn that do not escape, in ascending order."""
-    soft = of("soft")
-    return sorted(soft.scores("returns")[soft.scores("success") < ESCAPES])
+    return f"{after[after > 0].min():,} to {after.max():,}"
 
 
 def sooner_without() -> bool:
     """Does each agent without the KL in the target find the way before any agent with it?"""
-    without = shipped_experiment("ablations")["KL in the actor only"].of("soft")
-    first, then = (found_after(agents.curves["success"]) for agents in (without, of("soft")))
+    first, then = (found_after(agents.curves["success"]) for agents in (actor_only(), of("soft")))
     return bool(0 < first.min() and first.max() < then.min())
 
 
 def found(agents: Results) -> int:
     """How many agents have found the way out in training."""
-    return int((found_after(agents.curves["success"]) > 0).sum())
+    return int(agents.found_and_kept("soft")[0].sum())
 
 
-def of_the_finders(xi: float) -> str:
-    """As `found_between`, of the agents whose ξ stays and who found the way out: "484 to 1,037"."""
-    after = found_after(stays(xi).curves["success"])
-    return f"{after[after > 0].min():,} to {after.max():,}"
+def kept(agents: Results) -> int:
+    """How many of those that found the way out escape after training."""
+    return int(agents.found_and_kept("soft")[1].sum())
+
+
+def fast_keepers(agents: Results) -> int:
+    """How many of those that kept the way out return more than twice as much as the rule."""
+    fast = agents.scores("returns") > 2 * of("rule").scores("returns").mean()
+    return int((agents.found_and_kept("soft")[1] & fast).sum())
+
+
+def in_all(count: Callable[[Results], int], xi: float | None = None) -> int:
+    """A count of the study's ten agents and the ten others: of those whose ξ fades (None), or stays at 0.1 or 2."""
+    study, more = (of("soft"), "soft") if xi is None else (stays(xi), f"soft, ξ stays at {xi:g}")
+    return count(study) + count(others(more))
+
+
+def row_of(agents: Results) -> str:
+    """How many found the way out, after which episodes, how many kept it, and the median return of these."""
+    keepers = agents.found_and_kept("soft")[1]
+    half = np.median(agents.scores("returns")[keepers])
+    return f"{found(agents)} | {found_between(agents)} | {kept(agents)} | {half:.0f}"
+
+
+def alpha_at_the_end() -> np.ndarray:
+    """The temperature α with which the training of each shipped agent ended, (agents,)."""
+    return np.array([helped.alpha for helped in shipped_agents("soft")])
 
 
 def entropy_of_the_rule() -> float:
@@ -90,10 +115,36 @@ def crashing(xi: float | None) -> np.ndarray:
 
 
 @cache
+def as_the_rule(xi: float) -> np.ndarray:
+    """The share of its seconds on 100 held-out roads in which each shipped agent does what the rule would, (agents,),
+    if it drives by the compromise of its Q and the rule."""
+    ways = [compromise(helped, DEFAULT, RULE_P, xi, 0.01) for helped in shipped_agents("soft")]
+    driven = [record(way, held_out_seeds(1, 100)) for way in ways]
+    return np.array([np.mean(np.concatenate([d.actions == d.rule_actions for d in drives])) for drives in driven])
+
+
+@cache
+def by_their_own() -> list[list[Rollout]]:
+    """Each shipped agent's drives by its own π, with its Q, on 100 held-out roads."""
+    return [record(helped.as_policy(with_q=True), held_out_seeds(1, 100)) for helped in shipped_agents("soft")]
+
+
 def unlike_the_rule() -> np.ndarray:
-    """The share of its seconds on 100 held-out roads in which each shipped agent differs from the rule, (agents,)."""
-    agents = [record(helped.as_policy(), held_out_seeds(1, 100)) for helped in shipped_agents("soft")]
-    return np.array([np.mean(np.concatenate([d.actions != d.rule_actions for d in drives])) for drives in agents])
+    """The share of these seconds in which each agent differs from the rule, (agents,)."""
+    return np.array([np.mean(np.concatenate([d.actions != d.rule_actions for d in each])) for each in by_their_own()])
+
+
+@cache
+def preferred() -> tuple[np.ndarray, np.ndarray]:
+    """The share of these seconds in which the action that is best by each agent's Q is not the one it takes, and by how
+    much its Q is larger there, in the mean, each (agents,)."""
+    shares, leads = [], []
+    for drives in by_their_own():
+        lead = np.concatenate([d.q_values.max(1) - np.take_along_axis(d.q_values, d.actions[:, None], 1)[:, 0]
+                               for d in drives])  # fmt: skip
+        shares.append(np.mean(lead > 0))
+        leads.append(lead[lead > 0].mean())
+    return np.array(shares), np.array(leads)
 
 
 def percent(shares: np.ndarray) -> str:

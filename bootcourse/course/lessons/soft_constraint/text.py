@@ -63,7 +63,7 @@ SKY, GREEN, GREY = charts.Style("#56B4E9"), charts.Style("#009E73"), charts.Styl
 bc.show(charts.action_bars(named, title, looks=[SKY, GREEN]))
 
 # %% [markdown]
-# The rule gets out of the trap and is slow afterwards, so the agent should follow it at first, and
+# The rule escapes from the trap and is slow afterwards, so the agent should follow it at first, and
 # improve on it later. This lesson builds such a **pull**, the *soft constraint*: a penalty that
 # grows with the difference between π and π̃.
 #
@@ -80,7 +80,8 @@ own_code.load()
 # %% [markdown]
 # ## Round 1: what does it cost to ignore the rule?
 #
-# The rule names one action, μ(s). The stochastic rule takes it with probability $p$ (Equation 16):
+# The rule names one action, μ(s). The stochastic rule takes it with probability $p$ (Equation 16
+# of the paper):
 #
 # $$ \tilde\pi(a|s) = p \text{ if } a = \mu(s), \qquad \tfrac{1-p}{8} \text{ otherwise} $$
 #
@@ -287,15 +288,15 @@ looks = [GREEN, GREY]
 bc.show(charts.lines(strengths, probability, title, x_label, y_label, "x", looks=looks))
 
 # %% [markdown]
-# **Explain.** While ξ is near 2 no higher speed lifts another action above the rule's in this
-# compromise: its head start is larger than the discounted rewards of the best drive. An accident in
-# the same second, {{ DEFAULT.reward.accident }}, outweighs it.
-# <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident
-#   -->
+# **Explain.** With ξ = 2 the head start is {{ 2 * math.log(72) | .2f }}. The best drive for ever is
+# worth {{ second_pays(15) | .2f }} · 5, about {{ second_pays(15) / (1 - 0.8) | .1f }}. So speed alone
+# never makes another action the most probable one; an accident, {{ DEFAULT.reward.accident }}, can.
+# <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident -->
 #
 # **Drag** ξ. You see a trained agent's π and Q, the rule's π̃, and the best compromise, *optimum*.
 # The car drives on by the compromise's most probable actions: the black line, red if it ends in an
-# accident. The rule's way is green. Does each compromise lead out?
+# accident. The rule's way is green. Does each compromise get past the traps
+# unharmed?
 
 # %%
 helped = bc.shipped_agents("soft")[0]
@@ -303,10 +304,15 @@ its_drive = bc.record(helped.as_policy(with_q=True), [ROAD], label="soft")[0]
 bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 
 # %% [markdown]
-# **See.** Near ξ = 0.1 this drive leaves the road. On 100 roads each, five agents end {{
-# percent(crashing(0.1)) }} % of such drives in an accident, by Q alone {{ percent(crashing(1e-6)) }}
-# %, by their own π {{ percent(crashing(None)) }} %. A Q learned under one policy need not rank other
-# actions well.
+# **See.** Near ξ = 0.1 this drive ends in an accident. On 100 roads each, five agents end {{
+# percent(crashing(0.1)) }} % of such drives in an accident, by Q alone {{ percent(crashing(1e-6))
+# }} %, by their own π {{ percent(crashing(None)) }} %. At ξ = 1 all five drive as the rule does, in
+# more than 99 % of the seconds, without an accident. While they drive by π, Q prefers another
+# action in {{ percent(preferred()[0]) }} % of the seconds; on average it promises only {{
+# preferred()[1].min() | .2f }} to {{ preferred()[1].max() | .2f }} more there. So small errors of Q
+# can decide.
+# <!-- claim: as_the_rule(1).min() > 0.99 and (crashing(1) == 0).all() and len(as_the_rule(1)) == 5 -->
+# <!-- claim: preferred()[1].max() < 0.25 -->
 # <!-- claim: compromised(0.1) and not compromised(0.001) and not compromised(10) -->
 # <!-- claim: len(crashing(0.1)) == 5 and bool((2 * crashing(None) < crashing(1e-6)).all()) and
 #   2 * crashing(None).max() < crashing(0.1).min() -->
@@ -368,9 +374,10 @@ check.constrained_target(constrained_target)
 #
 # </details>
 #
-# > **Predict.** An agent follows trap 1 to the end, is sure of each action, and gets 0.15625 each
-# > second. The rule would always do something else. With γ = 0.8 and ξ = 2, what is following worth
-# > to the critic, without the KL in the target and with it? A crash pays −10.
+# > **Predict.** An agent follows trap 1 to the end, is sure of each action, and gets
+# > {{ idle().rewards.mean() | .2f }} each second. The rule would always do something else. With
+# > γ = 0.8 and ξ = 2, what is following worth to the critic, without the KL in the target and with
+# > it? A crash pays −10.
 # <!-- claim: not (idle().rule_actions == idle().actions).any() -->
 
 # %%
@@ -401,8 +408,8 @@ worth = {
 }
 overtaken = (follows - falls_back * (1 + later)) / (other - same) / later
 crossing = (follows - crash) / other / later
-title = f"From ξ = {overtaken:.2f} on (dashed) falling back is worth more than following trap 1; "
-title += f"from {crossing:.2f} on a crash is, too"
+title = f"From ξ = {overtaken:.2f} on falling back beats following trap 1; "
+title += f"from {crossing:.2f} on even a crash does"
 x_label, y_label = "ξ (logarithmic)", "Q, if it went on for ever (γ = 0.8)"
 marks, limits = {"a crash": crash}, (-12, 1)
 figure = charts.lines(strengths, worth, title, x_label, y_label, "x", marks=marks, limits=limits)
@@ -414,19 +421,21 @@ bc.show(figure)
 # it and ξ = 2 it is worth {{ 0.15625 / (1 - 0.8) - 2 * math.log(80) * 4 | .0f }}, less than a
 # crash: Q charges the KL from the next second on, four times in all. Falling back as the rule does
 # is then better than both: it costs 0.21 a second, and is worth {{ by_rule().rewards[3] / (1 - 0.8)
-# + 2 * math.log(RULE_P) * 4 | .1f }}. That is what the KL in the target is for: it raises the cost of
-# futures in which the rule would have acted differently.
+# + 2 * math.log(RULE_P) * 4 | .1f }}. That is what the KL in the target does: it lowers Q of futures
+# in which the rule would act otherwise. It belongs there because the objective is a sum over time.
 # <!-- claim: round(-2 * math.log(RULE_P), 2) == 0.21 -->
 # <!-- claim: 0.15625 * 5 - 2 * math.log(8 / 0.1) * 4 < DEFAULT.reward.accident < -1 <
 #   by_rule().rewards[3] * 5 + 2 * math.log(RULE_P) * 4 < 0.15625 -->
 # <!-- claim: math.isclose(0.8 / (1 - 0.8), 4) -->
 #
-# Do agents need this to get out? No: with it {{ escaped('soft') }} of ten escape, and all find the
-# way, in more than half of 50 episodes, after {{ found_between(of('soft')) }} episodes. With the KL
-# in the actor's loss alone {{ with_kl_in_actor_only() }} of ten escape, and all find it sooner, after
-# {{ found_between(shipped_experiment('ablations')['KL in the actor only'].of('soft')) }}.
-# <!-- claim: with_kl_in_actor_only() >= escaped('soft') == 8 and found_between(of('soft')) == '301
-#   to 367' -->
+# Does it help to find the way? In these agents not. All find it (they end ahead in more than half of
+# 50 episodes) after {{ found_between(of('soft')) }} episodes, and {{ escaped('soft') }} of ten escape.
+# With the KL in the actor's loss alone all find it sooner, after {{ found_between(actor_only()) }},
+# and {{ actor_only().escapers('soft') }} escape; one of these has accidents on {{
+# worst_of_actor_only()[0] | .0f }} % of its roads and returns {{ worst_of_actor_only()[1] | .0f }}. We
+# do not know why.
+# <!-- claim: actor_only().escapers('soft') >= escaped('soft') == 8 and len(of('soft')) ==
+#   len(actor_only()) == found(of('soft')) == found(actor_only()) == 10 -->
 # <!-- claim: sooner_without() -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -515,7 +524,7 @@ kinds |= {name: changed[name] for name in ("ξ stays at 2", "ξ stays at 0.5", "
 rows = []
 for name, agents_of in kinds.items():
     escape = agents_of.scores("success") >= bc.statistics.ESCAPES
-    for who, chosen in (("escape", escape), ("do not", ~escape)):
+    for who, chosen in (("do", escape), ("do not", ~escape)):
         if chosen.any():
             row = [name, f"{chosen.sum()} {who}"]
             for scores in (agents_of.scores("returns"), 100 * agents_of.scores("accident")):
@@ -523,7 +532,7 @@ for name, agents_of in kinds.items():
                 row.append(f"{half:.0f} ({low:.0f} to {high:.0f})")
             rows.append(row)
 below = "The median agent (lowest to highest) on 1,000 roads, with its most probable actions."
-table(["ten agents each", "", "return", "accidents, %"], rows, below=below)
+table(["ten agents each", "escape", "return", "accidents, %"], rows, below=below)
 
 # %%
 window = 50  # training episodes that are averaged
@@ -544,34 +553,36 @@ bc.show(figure)
 # %% [markdown]
 # **Explain.** With ξ at 2 and at 0.5 all agents stay near the rule's return: leaving the rule costs
 # more than speed pays. At {{ (second_pays(15) - second_pays(10)) / math.log(80) | .2f }} the two
-# are equal. This is a rough guide and no threshold: five agents whose ξ fades differ from the rule
-# in {{ percent(unlike_the_rule()) }} % of the seconds. With 0.1, {{ escapers(stays(0.1), 'soft') }}
-# of ten escape and return more than twice as much as the rule, as do {{ beyond_the_rule() }} of ten
-# whose ξ fades. Of ten others with 0.1, trained twice as long, {{
-# escapers(others('soft, ξ stays at 0.1'), 'soft') }} do. So a pull need not fade; it has to be weak
-# in the end.
+# are equal. It is a guide, not a threshold: a fast agent need not contradict the rule in each second.
+# With 0.1, {{ stays(0.1).escapers('soft') }} of ten escape and return more than twice as much as the
+# rule, as do {{ beyond_the_rule() }} of ten whose ξ fades.
 #
-# Strong early, weak late: that is what fading does. With a strong pull early, all ten agents find the
-# way:
+# | ξ | find the way | after episode | keep it: escape at the end | their median return |
+# |---|---|---|---|---|
+# | stays at 2 | {{ row_of(stays(2)) }} |
+# | 0.5 | {{ row_of(stays(0.5)) }} |
+# | 0.1 | {{ row_of(stays(0.1)) }} |
+# | fades from 2 | {{ row_of(of('soft')) }} |
+
+# %% [markdown]
+# **Find and keep.** With ξ = 0.1 throughout, {{ in_all(found, 0.1) }} of {{ in_all(len, 0.1) }} agents
+# (ten others, trained twice as long, included) find the way, and all that find it keep it. With a ξ
+# that fades all {{ in_all(found) }} find it, and {{ in_all(kept) }} keep it. A strong pull early finds
+# the way; a weak one late keeps it and lets it become faster. By plain fading α ends at about {{
+# alpha_at_the_end().mean() | .0e }}: ξ is then off, not weak. Lesson [[found_and_kept]] asks who keeps
+# the way.
+# <!-- claim: in_all(kept, 0.1) == in_all(found, 0.1) == 13 and in_all(len, 0.1) == 20 -->
+# <!-- claim: in_all(len) == in_all(found) == 20 and in_all(kept) == 16 -->
+# <!-- claim: 3e-10 < alpha_at_the_end().min() and alpha_at_the_end().max() < 6e-10 -->
 #
-# | ξ | agents | after episode |
-# |---|---|---|
-# | stays at 2 | {{ found(stays(2)) }} | {{ of_the_finders(2) }} |
-# | 0.5 | {{ found(stays(0.5)) }} | {{ of_the_finders(0.5) }} |
-# | 0.1 | {{ found(stays(0.1)) }} | {{ of_the_finders(0.1) }} |
-# | fades from 2 | {{ found(of('soft')) }} | {{ found_between(of('soft')) }} |
-#
-# Two of those whose ξ fades end elsewhere, and return {{ losers()[0] | .0f }} and {{ losers()[1] |
-# .0f }}. Lesson [[found_and_kept]] asks who keeps the way.
-#
-# α fades because the target entropy, η = −1, is out of reach. With η = 1, above the {{
-# entropy_of_the_rule() | .2f }} nats of π̃, α and ξ run away: a larger ξ holds the policy closer to
-# π̃, so its entropy stays below η and α rises on. Of the study's three such trainings one stopped
-# with a non-finite loss; the agents return {{ with_target(1).min() | .0f }} to {{
+# **What if α cannot fade?** α fades because the target entropy, η = −1, is out of reach. With η = 1,
+# above the {{ entropy_of_the_rule() | .2f }} nats of π̃, α and ξ run away: a larger ξ holds the policy
+# closer to π̃, so its entropy stays below η and α rises on. Of the study's three such trainings one
+# stopped with a non-finite loss; the agents return {{ with_target(1).min() | .0f }} to {{
 # with_target(1).max() | .0f }}.
 # <!-- claim: (varied()['target entropy 1'].of('soft').stopped >= 0).sum() == 1 -->
 # <!-- claim: found(stays(2)) == found(stays(0.5)) == found(of('soft')) == 10 and
-#   0.45 < unlike_the_rule().min() < unlike_the_rule().max() < 0.7 -->
+#   unlike_the_rule().max() < 0.7 -->
 # <!-- claim: entropy_of_the_rule() < 1 and with_target(1).max() < of('rule').scores('returns').mean()
 #   and len(with_target(1)) == 3 -->
 # <!-- claim: beyond_the_rule() == escaped('soft') == 8 and
@@ -582,9 +593,7 @@ bc.show(figure)
 #   stays(xi).scores('returns').max() < 1.1 * of('rule').scores('returns').mean() for xi in (2, 0.5))
 #   -->
 # <!-- claim: (stays(0.1).scores('returns') > 2 * of('rule').scores('returns').mean()).sum() ==
-#   escapers(stays(0.1), 'soft') == 8 and found(stays(0.1)) == 8 and found(of('soft')) == 10 -->
-# <!-- claim: (others('soft, ξ stays at 0.1').scores('returns') > 2 * of('rule').scores('returns').mean()).sum()
-#   == escapers(others('soft, ξ stays at 0.1'), 'soft') and len(others('soft, ξ stays at 0.1')) == 10 -->
+#   stays(0.1).escapers('soft') == found(stays(0.1)) == 8 -->
 # <!-- claim: 0.1 < (second_pays(15) - second_pays(10)) / math.log(80) < 0.5 -->
 # <!-- claim: 110 < of('soft').scores('returns')[of('soft').scores('success') > 0.9].min() -->
 
@@ -594,15 +603,15 @@ bc.show(figure)
 # <!-- claim: round(2 * math.log(80), 1) == 8.8 -->
 
 # %% [markdown]
-# **Slide.** Let two agents get out. Then drag ξ to 10,000 α: do they keep the way out? Which way do
+# **Slide.** Let two agents find the way. Then drag ξ to 10,000 α: do they keep it? Which way do
 # return, entropy and ξ itself go?
 
 # %%
 bc.panels.train_panel("soft", seeds=2, episodes=600)
 
 # %% [markdown]
-# **See.** In our run both kept it. Their return fell, and rose again. Their entropy went on
-# falling, below the {{ entropy_of_the_rule() | .2f }} nats of π̃. ξ, a multiple of α, fell, too.
+# **See.** In our run both kept it, their return fell and rose again, and their entropy fell below the
+# {{ entropy_of_the_rule() | .2f }} nats of π̃. Did yours? ξ, a multiple of α, fell, too.
 
 # %%
 kl_alone = "less than a crash, but only with the KL"
@@ -623,19 +632,20 @@ compare_predictions(
 #    (8p / (1 − p)) in Q. This is SAC with the reward r + ξ log π̃ and the temperature α + ξ.
 # 4. The KL stands in the actor's loss and in the critics' target. In the target it lowers the value
 #    of staying in the trap. The study's agents find the way without it, and sooner.
-# 5. With ξ fixed at 2 or 0.5 the study's agents end near the rule's return. With 0.1, or with ξ = {{
-#    SETTINGS.xi_multiplier }} α, {{ beyond_the_rule() }} of ten return more than twice as much. The
-#    rule's head start in logits stays; the temperature fades, so small differences in Q come to
-#    count.
-# <!-- claim: beyond_the_rule() == escaped('soft') -->
+# 5. With ξ fixed at 2 or 0.5 the study's agents end near the rule's return. With 0.1, {{
+#    in_all(found, 0.1) }} of {{ in_all(len, 0.1) }} (with the others) find the way, and keep it; with ξ
+#    = {{ SETTINGS.xi_multiplier }} α all find it, and {{ in_all(kept) }} keep it. Those that keep it
+#    return more than twice as much as the rule.
+# <!-- claim: in_all(fast_keepers) == in_all(kept) and in_all(fast_keepers, 0.1) == in_all(kept, 0.1)
+#   == in_all(found, 0.1) -->
 
 # %% [markdown]
 # **Three questions to think about**
 # - p and ξ both say how much the rule counts. Which of them can you change without changing the
 #   policy that has a KL of 0?
 # - Where the rule is wrong, which p would you want? Could p depend on the state?
-# - ξ stays at 2. What does the agent's critic expect on the free road, and why does a higher speed
-#   not look better to it?
+# - ξ stays at 2. Why does a higher speed not look better to the critic on the free road? What would a
+#   ξ do that fades to 0.1 and stays there?
 #
 # **Read on**: Huang et al., *Efficient Deep Reinforcement Learning with Imitative Expert Priors for
 # Autonomous Driving* (arXiv 2103.10690); Levine, *Reinforcement Learning and Control as
@@ -650,8 +660,8 @@ compare_predictions(
 # then π̃ is surest where the rule has proved itself. **If ξ stays at 2:** the best policy of the
 # objective *with* the KL is softmax((Q + ξ log π̃) / (α + ξ)). It stays near π̃ on the free road as
 # well, where the rule is slow. The critic counts each second's KL as a cost: a second at a higher
-# speed pays a few tenths more, and leaving the rule for it costs 8.8. So it expects little more on
-# the free road than what a drive by the rule earns there.
+# speed pays a few tenths more, and leaving the rule for it costs 8.8. **A ξ that fades
+# to 0.1 and stays:** it would be strong early and weak late. The study has no such agents: train some.
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** Nine bars for π, nine for π̃; below them the two logarithms 0.105 and 4.38 for p
