@@ -179,9 +179,9 @@ def safety_distance(v_ego, v_current, v_new, t_safe, floor):
 check.safety_distance(safety_distance)
 
 # %% [markdown]
-# Why not the printed $d_{13}$? The paper's Algorithm 1 changes lane when $d_{13} - x_\text{current}
-# > 0$. We read this as $d_{13} - \Delta x_\text{current} > 0$. Put Equation 13 into it: $\Delta
-# x_\text{current}$ drops out, and what is left is
+# Why not the printed $d_{13}$? The paper's Algorithm 1 changes lane when
+# $d_{13} - x_\text{current} > 0$. We read this as $d_{13} - \Delta x_\text{current} > 0$. Put
+# Equation 13 into it: $\Delta x_\text{current}$ drops out, and what is left is
 #
 # $$ (v_e - \min\{v_\text{current}, v_\text{new}\})\, t_\text{safe} > \Delta x_\text{new}. $$
 #
