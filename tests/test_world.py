@@ -1,12 +1,15 @@
 """`bc.world`: who drives, what Python is told of it, and what readers without a kernel see."""
 
 import json
+import threading
+import time
 
 import numpy as np
 import pytest
 
 import bootcourse as bc
 from bootcourse import one_per_cell
+from bootcourse.episodes import interactive
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for
@@ -56,6 +59,21 @@ def test_the_drive_is_driven_again_from_its_actions_equal_in_every_number(world)
         assert np.array_equal(getattr(shown.drive, name), getattr(expected, name)), name
     assert shown.drive.accident == OUT_OF_THE_ROAD and shown.drive.seed == 4 and shown.drive.label == "you"
     assert [drive.accident for drive in ended] == [OUT_OF_THE_ROAD]
+
+
+def test_a_cell_reads_the_drive_while_decisions_arrive_in_another_thread(world, monkeypatch):
+    def slowly(*arguments):
+        for state in real(*arguments):
+            time.sleep(0.001)
+            yield state
+
+    real, shown, read = interactive.driven, world(road=4), []
+    monkeypatch.setattr(interactive, "driven", slowly)
+    page = threading.Thread(target=lambda: [driven(shown, [4] * n) for n in range(1, 10)])
+    page.start()
+    while page.is_alive():
+        read += [len(drive.actions) for drive in shown.attempts]
+    assert set(read) <= set(range(1, 10)) and len(shown.drive.actions) == 9
 
 
 def test_attempts_are_your_own_drives_and_not_those_of_others(world):

@@ -11,6 +11,7 @@ drives them again on the compiled road. It works where anywidget does: JupyterLa
 
 import base64
 import hashlib
+import threading
 from collections.abc import Callable, Mapping, Sequence
 
 import anywidget
@@ -55,18 +56,21 @@ class World(anywidget.AnyWidget):
 
             opens = opens | {"scenario": scenario_data(scenario)}
         self._drives, self._ends, self._eye = {}, [], None
+        self._one_at_a_time = threading.RLock()  # JupyterLab's messages come in another thread than the cells
         super().__init__(library=library(), opens=opens, drivers=self._told())
         self.on_msg(self._heard)
 
     @property
     def drive(self):
         """What is driven now, or was driven last: a `Rollout`, driven again by the compiled road from its actions."""
-        return self._drives[list(self._drives)[-1]].rollout() if self._drives else None
+        with self._one_at_a_time:
+            return self._drives[list(self._drives)[-1]].rollout() if self._drives else None
 
     @property
     def attempts(self) -> list:
         """Your own drives on these roads so far, with the present one, each a `Rollout`."""
-        return [drive.rollout() for drive in self._drives.values() if drive.label == "you"]
+        with self._one_at_a_time:
+            return [drive.rollout() for drive in self._drives.values() if drive.label == "you"]
 
     def on_end(self, callback: Callable) -> None:
         """Call `callback(rollout)` whenever a drive is over: after 150 s, or by an accident."""
@@ -128,12 +132,13 @@ class World(anywidget.AnyWidget):
         from bootcourse.episodes.interactive import InteractiveEpisode
 
         name, driver = told["drive"], told["driver"]
-        if name not in self._drives:
-            label = self.guests[driver].label if driver in self.guests else KNOWN[driver]
-            self._drives[name] = InteractiveEpisode(told["road"], self.scenario, label)
-        drive = self._drives[name]
-        for action in told["actions"][len(drive.actions) :]:
-            drive.decide(action)
+        with self._one_at_a_time:
+            if name not in self._drives:
+                label = self.guests[driver].label if driver in self.guests else KNOWN[driver]
+                self._drives[name] = InteractiveEpisode(told["road"], self.scenario, label)
+            drive = self._drives[name]
+            for action in told["actions"][len(drive.actions) :]:
+                drive.decide(action)
         if told["over"]:
             for callback in self._ends:
                 callback(drive.rollout())
