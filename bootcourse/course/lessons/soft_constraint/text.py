@@ -68,7 +68,7 @@ bc.show(charts.action_bars(named, title, looks=[SKY, GREEN]))
 # grows with the difference between π and π̃.
 #
 # This lesson's agents train with what you wrote in lessons [[discrete_sac]] and
-# [[update_and_loop]]. The next cell loads it from the folder `answers`.
+# [[update_and_loop]], loaded from the folder `answers`.
 
 # %%
 own_code.load()
@@ -86,7 +86,7 @@ own_code.load()
 # $$ \tilde\pi(a|s) = p \text{ if } a = \mu(s), \qquad \tfrac{1-p}{8} \text{ otherwise} $$
 #
 # Call $-\log \tilde\pi(a|s)$ the **price** of an action. Its unit is the **nat**: probability 1
-# costs 0 nats, probability $1/e$ costs 1.
+# costs 0 nats, $1/e$ costs 1.
 #
 # > **Predict.** Raise p from 0.9 to 0.99. Any other action than the rule's becomes ten times as
 # > unlikely. By what factor does its price grow?
@@ -106,8 +106,8 @@ for p in (0.5, 0.9, 0.99, 0.999):
 table(["p", "price of the rule's action (nats)", "of any other (nats)"], rows)
 
 # %% [markdown]
-# **See.** A tenth of the probability costs $\log 10$, about 2.3 nats, more. A larger p does not
-# make the rule better; it raises the price of doing something else.
+# **See.** A tenth of the probability costs $\log 10$, about 2.3 nats, more. A larger p raises
+# prices; it does not make the rule better.
 #
 # **Exercise (3 min, ●○○).** Write $\log\tilde\pi$ for a batch of states.
 
@@ -159,8 +159,8 @@ table(["the agent is sure of", "its KL (nats)"], rows)
 
 # %% [markdown]
 # **Explain.** A policy that is sure of another action pays its full price. One that is sure of the
-# rule's action pays little, but not 0: the KL is 0 where the policy equals π̃, which gives that
-# action {{ 100 * RULE_P | .0f }} %. So the constraint also charges for being surer than π̃.
+# rule's action pays little, but not 0: π̃ gives that action only {{ 100 * RULE_P | .0f }} %. So the
+# constraint also charges for being surer than π̃.
 #
 # **Exercise (5 min, ●●○).** Write the KL for a batch of states.
 
@@ -294,9 +294,9 @@ bc.show(charts.lines(strengths, probability, title, x_label, y_label, "x", looks
 # <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident -->
 #
 # **Drag** ξ. You see a trained agent's π and Q, the rule's π̃, and the best compromise, *optimum*.
-# The car drives on by the compromise's most probable actions: the black line, red if it ends in an
-# accident. The rule's way is green. Does each compromise get past the traps
-# unharmed?
+# The car drives on by its most probable actions: the black line, red if it ends in an
+# accident. The rule's way is green. Does each compromise get past the
+# traps unharmed?
 
 # %%
 helped = bc.shipped_agents("soft")[0]
@@ -305,12 +305,11 @@ bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 
 # %% [markdown]
 # **See.** Near ξ = 0.1 this drive ends in an accident. On 100 roads each, five agents end {{
-# percent(crashing(0.1)) }} % of such drives in an accident, by Q alone {{ percent(crashing(1e-6))
-# }} %, by their own π {{ percent(crashing(None)) }} %. At ξ = 1 all five drive as the rule does, in
-# more than 99 % of the seconds, without an accident. While they drive by π, Q prefers another
-# action in {{ percent(preferred()[0]) }} % of the seconds; on average it promises only {{
-# preferred()[1].min() | .2f }} to {{ preferred()[1].max() | .2f }} more there. So small errors of Q
-# can decide.
+# percent(crashing(0.1)) }} % of such drives in one, by Q alone {{ percent(crashing(1e-6)) }} %, by their
+# own π {{ percent(crashing(None)) }} %. At ξ = 1 they drive as the rule does, in more than 99 % of the
+# seconds, without an accident. In π's drives Q prefers another action in {{ percent(preferred()[0])
+# }} % of the seconds, and promises only {{ preferred()[1].min() | .2f }} to {{ preferred()[1].max() |
+# .2f }} more for it in the mean. So small errors of Q can decide.
 # <!-- claim: as_the_rule(1).min() > 0.99 and (crashing(1) == 0).all() and len(as_the_rule(1)) == 5 -->
 # <!-- claim: preferred()[1].max() < 0.25 -->
 # <!-- claim: compromised(0.1) and not compromised(0.001) and not compromised(10) -->
@@ -345,7 +344,7 @@ def constrained_loss(log_pi, q, alpha, xi, kl):
 check.constrained_loss(constrained_loss)
 
 # %% [markdown]
-# **The critics' loss.** Its target follows from the same sum over time.
+# **The critics' loss.** Its target follows from the same sum.
 #
 # **Exercise (15 min, ●●●).** Derive the target on paper, then write it. Which seconds does $Q(s,a)$
 # count, if a has been taken already? In which states does the policy choose after that, and so pay
@@ -375,9 +374,9 @@ check.constrained_target(constrained_target)
 # </details>
 #
 # > **Predict.** An agent follows trap 1 to the end, is sure of each action, and gets
-# > {{ idle().rewards.mean() | .2f }} each second. The rule would always do something else. With
-# > γ = 0.8 and ξ = 2, what is following worth to the critic, without the KL in the target and with
-# > it? A crash pays −10.
+# > {{ idle().rewards.mean() | .2f }} each second. The rule would always do something else. With γ = 0.8
+# > and ξ = 2, what is following worth to the critic, without the KL in the target and with it? A crash
+# > pays −10.
 # <!-- claim: not (idle().rule_actions == idle().actions).any() -->
 
 # %%
@@ -428,12 +427,12 @@ bc.show(figure)
 #   by_rule().rewards[3] * 5 + 2 * math.log(RULE_P) * 4 < 0.15625 -->
 # <!-- claim: math.isclose(0.8 / (1 - 0.8), 4) -->
 #
-# Does it help to find the way? In these agents not. All find it (they end ahead in more than half of
-# 50 episodes) after {{ found_between(of('soft')) }} episodes, and {{ escaped('soft') }} of ten escape.
-# With the KL in the actor's loss alone all find it sooner, after {{ found_between(actor_only()) }},
-# and {{ actor_only().escapers('soft') }} escape; one of these has accidents on {{
-# worst_of_actor_only()[0] | .0f }} % of its roads and returns {{ worst_of_actor_only()[1] | .0f }}. We
-# do not know why.
+# Does it help to find the way? In these agents not, and we do not know why. All find it (they end
+# ahead in more than half of 50 episodes) after {{ found_between(of('soft')) }} episodes, and {{
+# escaped('soft') }} of ten escape. With the KL in the actor's loss alone all find it sooner, after {{
+# found_between(actor_only()) }}, and {{ actor_only().escapers('soft') }} escape; one of these has
+# accidents on {{ worst_of_actor_only()[0] | .0f }} % of its roads and returns {{
+# worst_of_actor_only()[1] | .0f }}.
 # <!-- claim: actor_only().escapers('soft') >= escaped('soft') == 8 and len(of('soft')) ==
 #   len(actor_only()) == found(of('soft')) == found(actor_only()) == 10 -->
 # <!-- claim: sooner_without() -->
@@ -494,8 +493,7 @@ explorable.pull()
 # at first, is this number times the temperature, which fades from {{
 # 201 * SETTINGS.alpha_init | .2f }} towards 0. A lead of 1 in Q is 1 / (201 α) nats: {{
 # 1 / 201 / SETTINGS.alpha_init | .1f }} at first, and more than the head start once α < {{
-# 1 / 201 / (200 / 201 * math.log(72)) | .4f }}. Of actions with almost the same Q, the rule's stays
-# the more probable one.
+# 1 / 201 / (200 / 201 * math.log(72)) | .4f }}.
 # <!-- claim: math.isclose(200 / 201 * math.log(8 * RULE_P / (1 - RULE_P)), 4.26, abs_tol=0.005) -->
 #
 # Do your parts make the same update as ours?
@@ -504,7 +502,7 @@ explorable.pull()
 own_code.compare()
 
 # %% [markdown]
-# What if ξ does not fade? The study trained ten agents whose ξ fades, and ten each whose ξ stays at
+# The study trained ten agents whose ξ fades, and ten each whose ξ stays at
 # 2, 0.5 and 0.1, for {{ of('soft').sizes[1] | , }} episodes.
 #
 # > **Predict.** A second at 15 m/s pays {{ second_pays(15) - second_pays(10) | .2f }} more than one
@@ -553,11 +551,10 @@ bc.show(figure)
 # %% [markdown]
 # **Explain.** With ξ at 2 and at 0.5 all agents stay near the rule's return: leaving the rule costs
 # more than speed pays. At {{ (second_pays(15) - second_pays(10)) / math.log(80) | .2f }} the two
-# are equal. It is a guide, not a threshold: a fast agent need not contradict the rule in each second.
-# With 0.1, {{ stays(0.1).escapers('soft') }} of ten escape and return more than twice as much as the
-# rule, as do {{ beyond_the_rule() }} of ten whose ξ fades.
+# are equal. This is a guide, not a threshold: a fast agent need not contradict the rule in each second.
+# With 0.1, {{ stays(0.1).escapers('soft') }} of ten return more than twice as much as the rule.
 #
-# | ξ | find the way | after episode | keep it: escape at the end | their median return |
+# | ξ | find the way | after episode | keep it (escape) | median return |
 # |---|---|---|---|---|
 # | stays at 2 | {{ row_of(stays(2)) }} |
 # | 0.5 | {{ row_of(stays(0.5)) }} |
@@ -565,12 +562,13 @@ bc.show(figure)
 # | fades from 2 | {{ row_of(of('soft')) }} |
 
 # %% [markdown]
-# **Find and keep.** With ξ = 0.1 throughout, {{ in_all(found, 0.1) }} of {{ in_all(len, 0.1) }} agents
-# (ten others, trained twice as long, included) find the way, and all that find it keep it. With a ξ
-# that fades all {{ in_all(found) }} find it, and {{ in_all(kept) }} keep it. A strong pull early finds
-# the way; a weak one late keeps it and lets it become faster. By plain fading α ends at about {{
-# alpha_at_the_end().mean() | .0e }}: ξ is then off, not weak. Lesson [[found_and_kept]] asks who keeps
-# the way.
+# **Finding and keeping are two things.** With ξ = 0.1 throughout, {{ in_all(found, 0.1) }} of {{
+# in_all(len, 0.1) }} agents (with ten others, trained twice as long) find the way, and all that find
+# it keep it. With a fading ξ all {{ in_all(found) }} find it, and {{ in_all(kept) }} keep it. A strong
+# pull early finds the way; a weak one late keeps it and lets it become faster. By plain fading α ends
+# at {{ alpha_at_the_end().min() * 1e10 | .0f }} to {{ alpha_at_the_end().max() * 1e10 | .0f }} · 10⁻¹⁰:
+# ξ is then off, not weak. Lesson
+# [[found_and_kept]] asks who keeps the way.
 # <!-- claim: in_all(kept, 0.1) == in_all(found, 0.1) == 13 and in_all(len, 0.1) == 20 -->
 # <!-- claim: in_all(len) == in_all(found) == 20 and in_all(kept) == 16 -->
 # <!-- claim: 3e-10 < alpha_at_the_end().min() and alpha_at_the_end().max() < 6e-10 -->
@@ -611,7 +609,7 @@ bc.panels.train_panel("soft", seeds=2, episodes=600)
 
 # %% [markdown]
 # **See.** In our run both kept it, their return fell and rose again, and their entropy fell below the
-# {{ entropy_of_the_rule() | .2f }} nats of π̃. Did yours? ξ, a multiple of α, fell, too.
+# {{ entropy_of_the_rule() | .2f }} nats of π̃. ξ, a multiple of α, fell, too.
 
 # %%
 kl_alone = "less than a crash, but only with the KL"
@@ -630,12 +628,12 @@ compare_predictions(
 #    than π̃.
 # 3. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)): the rule has a head start of ξ log
 #    (8p / (1 − p)) in Q. This is SAC with the reward r + ξ log π̃ and the temperature α + ξ.
-# 4. The KL stands in the actor's loss and in the critics' target. In the target it lowers the value
-#    of staying in the trap. The study's agents find the way without it, and sooner.
+# 4. The KL stands in the actor's loss and in the critics' target, where it lowers the value of
+#    staying in the trap. The study's agents find the way sooner without it.
 # 5. With ξ fixed at 2 or 0.5 the study's agents end near the rule's return. With 0.1, {{
 #    in_all(found, 0.1) }} of {{ in_all(len, 0.1) }} (with the others) find the way, and keep it; with ξ
-#    = {{ SETTINGS.xi_multiplier }} α all find it, and {{ in_all(kept) }} keep it. Those that keep it
-#    return more than twice as much as the rule.
+#    = {{ SETTINGS.xi_multiplier }} α all find it, and {{ in_all(kept) }} keep it. These return more than
+#    twice as much as the rule.
 # <!-- claim: in_all(fast_keepers) == in_all(kept) and in_all(fast_keepers, 0.1) == in_all(kept, 0.1)
 #   == in_all(found, 0.1) -->
 
@@ -644,8 +642,8 @@ compare_predictions(
 # - p and ξ both say how much the rule counts. Which of them can you change without changing the
 #   policy that has a KL of 0?
 # - Where the rule is wrong, which p would you want? Could p depend on the state?
-# - ξ stays at 2. Why does a higher speed not look better to the critic on the free road? What would a
-#   ξ do that fades to 0.1 and stays there?
+# - ξ stays at 2. Why does a higher speed not look better to the critic? What would a ξ do that fades
+#   to 0.1 and stays there?
 #
 # **Read on**: Huang et al., *Efficient Deep Reinforcement Learning with Imitative Expert Priors for
 # Autonomous Driving* (arXiv 2103.10690); Levine, *Reinforcement Learning and Control as
