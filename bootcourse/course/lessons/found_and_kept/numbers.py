@@ -95,9 +95,14 @@ def lost_it(method: str, results: Results | None = None, first: int = LATE, last
     return found_after_episode(1 - success, least=WINDOW / 2) > 0
 
 
+def ahead(results: Results, method: str) -> np.ndarray:
+    """The share of each window of training episodes that a method's agents end ahead, (agents, windows)."""
+    return np.lib.stride_tricks.sliding_window_view(results.of(method).curves["success"], WINDOW, axis=1).mean(-1)
+
+
 def has_it(method: str) -> np.ndarray:
     """In which windows the study's agents of a method have the way out in training, (agents, windows)."""
-    return np.lib.stride_tricks.sliding_window_view(of(method).curves["success"], WINDOW, axis=1).mean(-1) > 0.5
+    return ahead(of_all(), method) > 0.5
 
 
 def kept_until_late(method: str) -> bool:
@@ -110,8 +115,7 @@ def lost_by(last: int, results: Results | None = None, method: str = "bootstrapp
 
     results: of other agents than the study's.
     """
-    success = (results or of_all()).of(method).curves["success"]
-    shares = np.lib.stride_tricks.sliding_window_view(success, WINDOW, axis=1).mean(-1)
+    shares = ahead(results or of_all(), method)
     won = np.maximum.accumulate(shares >= 0.8, axis=1)
     return int((won & (shares <= 0.5))[:, : last - WINDOW + 1].any(axis=1).sum())
 
@@ -119,8 +123,7 @@ def lost_by(last: int, results: Results | None = None, method: str = "bootstrapp
 def accidents_of_the_lost() -> np.ndarray:
     """Of the study's agents with both aids: the share of accidents in their failed drives while they have lost it."""
     curves = of("bootstrapped").curves
-    lost = np.lib.stride_tricks.sliding_window_view(curves["success"], WINDOW, axis=1).mean(-1) <= 0.5
-    shares = []
+    lost, shares = ahead(of_all(), "bootstrapped") <= 0.5, []
     for each, success, accident in zip(lost[:, LATE:], curves["success"], curves["accident"], strict=True):
         within = np.convolve(each, np.ones(WINDOW))[: len(success) - LATE] > 0  # episodes in a lost window
         shares.append(np.mean(accident[LATE:][within & (success[LATE:] == 0)] > 0))

@@ -296,8 +296,8 @@ bc.show(figures.worth(outcomes, title))
 # <!-- claim: all(tested(kind).values(0.95).mean() > tested('stays').values(0.95).mean() for kind in
 #   (THE_PLAN, "the rule's way")) -->
 #
-# Some other blind ways are worth more: the first six actions of the planner's best drive on one
-# road, and then the lane keeper.
+# Other ways are as blind: they take the first six actions of the planner's best drive on one road,
+# and then the lane keeper. Some of them are worth more than staying:
 #
 # | six actions | accidents on 500 roads | worth at γ = 0.8 |
 # |---|---|---|
@@ -471,7 +471,7 @@ table(headings, rows, below=below + "else nothing is done. ±: standard error.")
 # %% [markdown]
 # ## What gets agents out on the road?
 #
-# The paper's answer is somebody who knows a way, although not the best one. It uses the rule as a
+# In the paper a driver helps who knows a way, although not the best one: the rule. It serves as a
 # **soft constraint** (lesson [[soft_constraint]]) and for **demonstrations** (lesson
 # [[demonstrations]]):
 
