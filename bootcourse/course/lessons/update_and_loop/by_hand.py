@@ -77,29 +77,19 @@ class SAC:
         """An action from π(·|s); state (4,)."""
         return int(rng.random() < self.log_pi(torch.from_numpy(state)[None])[0, 1].exp())
 
+    def as_policy(self) -> Policy:
+        """The agent's most probable actions, as a policy."""
 
-def policy(agent: SAC) -> Policy:
-    """The agent's most probable actions, as a policy."""
+        @torch.no_grad()
+        def drive(observations, cars):
+            return PolicyOutput(self.log_pi(torch.from_numpy(observations).float()).argmax(-1).numpy())
 
-    @torch.no_grad()
-    def drive(observations, cars):
-        return PolicyOutput(agent.log_pi(torch.from_numpy(observations).float()).argmax(-1).numpy())
-
-    return drive
+        return drive
 
 
 def balanced(agent: SAC, episodes: int = 10) -> float:
     """For how many pushes the agent balances the pole, with its most probable actions: a mean."""
-    env, pushes = checks.cartpole(), 0
-    for episode in range(episodes):
-        state, _ = env.reset(seed=checks.TEST_SEED + episode)
-        over = False
-        while not over:
-            with torch.no_grad():
-                action = int(agent.log_pi(torch.from_numpy(state)[None]).argmax())
-            state, _, terminated, truncated, _ = env.step(action)
-            over, pushes = terminated or truncated, pushes + 1
-    return pushes / episodes
+    return float(checks.scores([agent], checks.cartpole, episodes)[0])
 
 
 class Watched:

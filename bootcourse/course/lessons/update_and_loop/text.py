@@ -54,7 +54,7 @@ progress("update_and_loop")
 # %%
 beginner = by_hand.SAC(seed=0)
 drivers = {
-    "untrained": by_hand.policy(beginner),
+    "untrained": beginner.as_policy(),
     "rule: one weighted sum": bc.teacher_policy(checks.balance, None, 2),
 }
 drives = {}
