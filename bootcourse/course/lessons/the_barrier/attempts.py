@@ -77,20 +77,21 @@ def drive(policy: Policy, seeds: Sequence[int], make_env: Callable[..., VectorEn
 
 
 def stays_and_accelerates(
-    share: float, seeds: Sequence[int], make_env: Callable[..., VectorEnv], seed: int = 0
+    accelerations: int, share: float, seeds: Sequence[int], make_env: Callable[..., VectorEnv], seed: int = 0
 ) -> list[Outcome]:
-    """Two drives on each road, of which one does nothing at first and one accelerates; then both do nothing.
+    """Two drives on each road, of which one does nothing and one accelerates so often at first, then does nothing.
 
-    share: the probability that a later action is random instead, the same in both drives; drawn with `seed`.
+    share: the probability that an action after the first is random instead, the same in both drives; drawn with `seed`.
     """
     rng = np.random.default_rng(seed)
-    actions = np.full((DEFAULT.clock.decisions, len(seeds)), IDLE)
-    errs = rng.random(actions.shape) < share
-    actions[errs] = rng.integers(N_ACTIONS, size=errs.sum())
+    shape = DEFAULT.clock.decisions, len(seeds)
+    errs, wrong = rng.random(shape) < share, rng.integers(N_ACTIONS, size=shape)
+    errs[0] = False
     outcomes = []
-    for first in (IDLE, ACCELERATE):
-        actions[0] = first
-        outcomes.append(drive(PlanPolicy(actions), seeds, make_env))
+    for times in (0, accelerations):
+        actions = np.full(shape, IDLE)
+        actions[:times] = ACCELERATE
+        outcomes.append(drive(PlanPolicy(np.where(errs, wrong, actions)), seeds, make_env))
     return outcomes
 
 

@@ -1,19 +1,18 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-from collections import Counter
+from dataclasses import replace
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.policies import PlanPolicy, Policy, PolicyOutput, idle_policy, random_policy
+from bootcourse.policies import PlanPolicy, idle_policy, random_policy
 from bootcourse.research.cells import HELD_OUT
 from bootcourse.research.planner import Search, plan_episodes
 from bootcourse.research.results import Results
-from bootcourse.road.state import EGO, LANE
-from bootcourse.scenario import DEFAULT, N_ACTIONS
+from bootcourse.road.vector_env import TrapVectorEnv
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, idle, of, shipped_experiment
 
@@ -115,78 +114,48 @@ def hurt_ahead(kind: str) -> float:
     return float(easy(kind).episodes("accident")[ahead].mean())
 
 
-# The drives of the two slower agents from mid-lane with γ = 0.95 on the first of their held-out roads, by their seeds.
-SLOWER = {
-    1: "11144444444444444444444444444444444444444444444444444444444444444447777"
-    "77774444444444444444444444444444444777777777777777777177447777111111111",
-    3: "26626226626226626262626262626266226266226266226626226626262266262626262"
-    "62626266262262626266262622626626262622662626262626262662622626626226622",
-}
-
-
-class Slower(NamedTuple):
-    """One of them."""
-
-    returns: float  # the mean of its 200 held-out roads
-    worth: float  # at γ = 0.95, on the first
-    is_its_drive: bool  # returns on this road what the agent did
-
-
-@cache
-def slower(seed: int) -> Slower:
-    """The agent with this seed."""
-    agents, first = easy(MIDDLE), held_out_seeds(HELD_OUT, 1)
-    mine = [(agent["gamma"], agent["seed"]) for agent in agents.agents].index((0.95, seed))
-    driven = attempts.drive(PlanPolicy([int(action) for action in SLOWER[seed]]), first, easier.MidLaneStart)
-    same = np.isclose(driven.values(1.0)[0], agents.episodes("returns")[mine, 0], atol=1e-3)
-    return Slower(float(agents.scores("returns")[mine]), float(driven.values(0.95)[0]), bool(same))
+def slower() -> list[float]:
+    """What those that escape from mid-lane and earn more than staying return; all have γ = 0.95."""
+    agents, pays = easy(MIDDLE), figures.paying(easy(MIDDLE), staying_return(MIDDLE))
+    assert all(agent["gamma"] == 0.95 for agent, mine in zip(agents.agents, pays, strict=True) if mine)
+    return agents.scores("returns")[pays & ~_straight()].tolist()
 
 
 MANY = held_out_seeds(7, 2000)  # of the lesson's random actions
 
 
 @cache
-def _random_later(share: float) -> tuple[attempts.Outcome, attempts.Outcome]:
-    return attempts.stays_and_accelerates(share, MANY, easier.MidLaneStart)
+def _random_later(times: int, share: float) -> tuple[attempts.Outcome, attempts.Outcome]:
+    return attempts.stays_and_accelerates(times, share, MANY, easier.MidLaneStart)
 
 
-def added(share: float, gamma: float) -> tuple[float, float]:
-    """Mid-lane: what one acceleration adds to staying if later actions are random so often, and its standard error."""
-    stays, once = _random_later(share)
-    more = once.values(gamma) - stays.values(gamma)
-    return float(more.mean()), float(more.std() / np.sqrt(len(more)))
-
-
-def sooner(share: float) -> float:
-    """By how many seconds the accident comes sooner after one acceleration, if every drive has one."""
-    assert all(each.accident.all() for each in _random_later(share))
-    stays, once = ((each.rewards != 0).cumsum(axis=1).argmax(axis=1).mean() for each in _random_later(share))
-    return float(stays - once)
-
-
-@cache
-def _kept(share: float) -> list[attempts.Outcome]:
-    """Mid-lane, 500 roads: a lane keeper at 10 m/s, and one that goes to 15 m/s, with the same random actions."""
-    rng, shape = np.random.default_rng(0), (DEFAULT.clock.decisions, len(ROADS))
-    errs, actions = rng.random(shape) < share, rng.integers(N_ACTIONS, size=shape)
-
-    def keeper(speed: float) -> Policy:
-        decisions = iter(range(len(errs)))
-
-        def decide(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-            t, wanted = next(decisions), np.full(len(cars), speed)
-            return PolicyOutput(np.where(errs[t], actions[t], attempts.keep_lane(cars, wanted, cars[:, EGO, LANE])))
-
-        return decide
-
-    return [attempts.drive(keeper(speed), ROADS, easier.MidLaneStart) for speed in (10.0, attempts.FAST)]
-
-
-def kept(share: float, gamma: float) -> tuple[float, float]:
-    """What going to 15 m/s adds if a lane keeper steers and a share of its actions is random; its standard error."""
-    stays, goes = _kept(share)
+def added(times: int, share: float, gamma: float) -> tuple[float, float]:
+    """Mid-lane: what so many accelerations add to staying if later actions are random so often; its standard error."""
+    stays, goes = _random_later(times, share)
     more = goes.values(gamma) - stays.values(gamma)
     return float(more.mean()), float(more.std() / np.sqrt(len(more)))
+
+
+def gains(times: int, share: float, gamma: float) -> bool:
+    """Whether that is above 0 by more than two standard errors."""
+    return added(times, share, gamma)[0] > 2 * added(times, share, gamma)[1]
+
+
+def costs(times: int, share: float, gamma: float) -> bool:
+    """Whether it is below 0 by as much."""
+    return added(times, share, gamma)[0] < -2 * added(times, share, gamma)[1]
+
+
+def crashes(times: int, share: float) -> float:
+    """The share of these drives that end in an accident."""
+    return float(_random_later(times, share)[1].accident.mean())
+
+
+def sooner() -> float:
+    """By how many seconds the accident comes sooner after an acceleration, if each later action is random."""
+    assert all(each.accident.all() for each in _random_later(1, 1))
+    stays, goes = ((each.rewards != 0).cumsum(axis=1).argmax(axis=1).mean() for each in _random_later(1, 1))
+    return float(stays - goes)
 
 
 def _straight() -> np.ndarray:
@@ -252,26 +221,42 @@ def first_sixes() -> list[tuple[int, ...]]:
 
 
 @cache
-def _blind(actions: tuple[int, ...]) -> attempts.Outcome:
-    return attempts.drive(attempts.ThenAccelerate(actions), ROADS)
+def blind(actions: tuple[int, ...], step: float = DEFAULT.clock.dt) -> attempts.Outcome:
+    """What comes of these actions, then the lane keeper, on the roads of the other kinds. step: of the clock, s."""
+    scenario = replace(DEFAULT, clock=replace(DEFAULT.clock, simulation_rate=round(1 / step)))
+    return attempts.drive(
+        attempts.ThenAccelerate(actions), ROADS, lambda roads, _, *more: TrapVectorEnv(roads, scenario, *more)
+    )
 
 
-def six_actions(road: int) -> attempts.Outcome:
-    """Those of one road, blind, then the lane keeper; on the roads of the other kinds."""
-    return _blind(first_sixes()[road])
-
-
-def commonest_six() -> tuple[int, attempts.Outcome]:
-    """On how many of the twelve roads the commonest six actions are the first, and what comes of them."""
-    actions, roads = Counter(first_sixes()).most_common(1)[0]
-    return roads, _blind(actions)
+def six_actions(road: int, step: float = DEFAULT.clock.dt) -> attempts.Outcome:
+    """Those of one road."""
+    return blind(first_sixes()[road], step)
 
 
 @cache
-def sixes_that_pay() -> list[attempts.Outcome]:
-    """What comes of them for each of the twelve roads, where that is worth more than staying at γ = 0.8."""
-    stays = tested("stays").values(0.8).mean()
-    return [outcome for outcome in map(_blind, first_sixes()) if outcome.values(0.8).mean() > stays]
+def openings() -> list[attempts.Outcome]:
+    """What comes of the different ones; those worth most first."""
+    return sorted(map(blind, set(first_sixes())), key=lambda each: -each.values(0.8).mean())
+
+
+def above_staying(outcome: attempts.Outcome) -> int:
+    """Whether it is worth clearly more (1) than staying at γ = 0.8, clearly less (-1), or neither (0)."""
+    more = outcome.values(0.8) - tested("stays").values(0.8)
+    error = more.std() / np.sqrt(len(more))
+    return int(more.mean() > 2 * error) - int(more.mean() < -2 * error)
+
+
+def unhurt(kind: str) -> int:
+    """How many drives of a kind of attempt end ahead without an accident."""
+    return int((tested(kind).ahead & ~tested(kind).accident).sum())
+
+
+def half_ahead(method: str) -> int:
+    """The episode from which on half of the study's training episodes or more end ahead, to the next 50."""
+    success = of(method).curves["success"].mean(axis=0)
+    below = np.flatnonzero(success.reshape(-1, 50).mean(axis=1) < 0.5)
+    return 50 * int(below.max() + 1)
 
 
 def may_crash(gamma: float) -> int:
@@ -293,16 +278,8 @@ def farther() -> np.ndarray:
     return np.concatenate([ours, *varied]) >= ESCAPES
 
 
-@cache
-def changed_agents(method: str) -> np.ndarray:
-    """Which agents of a method escape with another γ, another target entropy or both, (agents,)."""
-    varied = shipped_experiment("sensitivity").items()
-    scores = [each.of(method).scores("success") for what, each in varied if "γ" in what or "entropy" in what]
-    return np.concatenate(scores) >= ESCAPES
-
-
 def larger_entropy() -> np.ndarray:
-    """What those of them return that have another target entropy than the paper's, (agents,)."""
+    """What the study's plain agents with another target entropy than the paper's return, (agents,)."""
     varied = shipped_experiment("sensitivity").items()
     return np.concatenate([each.of("sac").scores("returns") for what, each in varied if "entropy" in what])
 
