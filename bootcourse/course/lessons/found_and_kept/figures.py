@@ -100,8 +100,7 @@ def fading(cells: Mapping[tuple[str, str], Results]) -> Figure:
                 clip_on=False)  # fmt: skip
         number, low = SHORT.get(updates, updates), 5 * LEAST
         _number(ax, number, int(np.argmax(part < low)), low, (9, -2))
-        if below:
-            _number(ax, number, half, LEAST, (-10, 4))
+        _number(ax, number, half, max(part[half - 1], LEAST), (-10, 4) if below else (12, 3))
         words = f"ξ with {updates} updates is a tenth after {tenth} episodes, and half have the way out after {half}"
         alt_parts.append(f"{words}, at {part[half - 1]:.2g} of ξ")
     of = cells["1/4", "π̃"].of("demos").agents[0]
@@ -183,7 +182,7 @@ def found_and_kept(panels: Mapping[str, Rows], title: str, of_rows: str = "") ->
             ax.tick_params(axis="y", length=0)
     height = figure.get_figheight()
     figure.text(0.012, 1 - (top - 0.07) / height, of_rows, va="bottom", fontsize=SMALL, color=QUIET)
-    key = "■ found the way out and kept it   □ found it, did not keep it   · did not find it.   Each mark is an agent."
+    key = "■ found, and has it at the end   □ found, but not at the end   · did not find it.   Each mark is an agent."
     key += "\nRows with fewer marks have fewer agents." if uneven else ""
     figure.text(0.012, 0.14 / height, key, fontsize=TEXT, color=INK)
     return finish(figure, title, f"Agents that found and kept the way out. {'; '.join(alt_parts)}.")

@@ -6,6 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
+from bootcourse.course.lessons.found_and_kept import counts
+from bootcourse.course.lessons.found_and_kept.counts import BAR, lost
 from bootcourse.course.lessons.found_and_kept.exercises import forgetting
 from bootcourse.course.lessons.found_and_kept.explorable import EPISODES, Fading
 from bootcourse.course.lessons.found_and_kept.figures import half_found
@@ -13,13 +15,14 @@ from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
-from bootcourse.research.results import Results
+from bootcourse.research.results import Results, join
 from bootcourse.rule import stochastic_rule
 from bootcourse.statistics import IN_A_ROW as WINDOW
-from bootcourse.statistics import found_after as found_after_episode
-from tools.course.known import clocks, fisher, in_training, of, shipped_experiment, shipped_results
+from tools.course.known import clocks, fisher, in_training, of, others, shipped_experiment, shipped_results
 
-LATE = 900  # the episode from which agents that lose the way out are counted: a tenth of β is left
+LATE = 900  # an episode: a tenth of β is left
+FADES, HELD = tuple(counts.KINDS)[-2:]
+KINDS_WITH, KINDS_WITHOUT = tuple(counts.KINDS)[:2], tuple(counts.KINDS)[2:4]  # the bonus
 SHORTER = study_clocks.TRAINED  # training episodes of the agents of rounds 4 and 5
 
 
@@ -57,88 +60,94 @@ def way(results: Results, method: str) -> Counted:
     return Counted(int(found.sum()), int(kept.sum()), len(found))
 
 
-def keeps(method: str) -> np.ndarray:
-    """Which of the study's agents of a method keep the way out, (agents,)."""
-    return of_all().found_and_kept(method)[1]
-
-
-def demos_span() -> np.ndarray:
-    """Of the study's agents with demonstrations alone that found the way out: the episodes that end their first and
-    last good window, (agents, 2), in the order in which they found it."""
-    spans = forgetting(of("demos").curves["success"], WINDOW)
-    spans = spans[spans[:, 0] > 0]
-    return spans[spans[:, 0].argsort()]
-
-
-def demos_found() -> np.ndarray:
-    """When they found it, (agents,)."""
-    return demos_span()[:, 0]
-
-
-def demos_lost() -> np.ndarray:
-    """When they lost it, (agents,)."""
-    return demos_span()[:, 1]
-
-
 def over_updates(driver: str) -> Counted:
     """The agents with demonstrations alone of one driver, over all numbers of updates."""
     each = [way(clocks()[updates, driver], "demos") for updates in study_clocks.UPDATES]
     return Counted(*(sum(column) for column in zip(*each, strict=True)))
 
 
-def lost_it(method: str, results: Results | None = None, first: int = LATE, last: int | None = None) -> np.ndarray:
-    """Which agents lose the way out: half or less of some 50 episodes in a row, after episode `first`, (agents,).
-
-    results: of other agents than the study's.
-    """
-    success = (results or of_all()).of(method).curves["success"][:, first:last]
-    return found_after_episode(1 - success, least=WINDOW / 2) > 0
-
-
-def ahead(results: Results, method: str) -> np.ndarray:
-    """The share of each window of training episodes that a method's agents end ahead, (agents, windows)."""
-    return np.lib.stride_tricks.sliding_window_view(results.of(method).curves["success"], WINDOW, axis=1).mean(-1)
-
-
-def has_it(method: str) -> np.ndarray:
-    """In which windows the study's agents of a method have the way out in training, (agents, windows)."""
-    return ahead(of_all(), method) > 0.5
+def losers() -> np.ndarray:
+    """Which of the study's agents with both aids lose the way out at least once, (agents,)."""
+    return lost(of("bootstrapped").curves["success"])
 
 
 def kept_until_late(method: str) -> bool:
     """Does each agent of a method have the way out in each window from its first good one to episode 900?"""
-    return all(bool(row[int(row.argmax()) : LATE - WINDOW + 1].all()) for row in has_it(method))
+    windows = np.lib.stride_tricks.sliding_window_view(of(method).curves["success"], WINDOW, axis=1)
+    return all(bool(row[int(row.argmax()) : LATE - WINDOW + 1].all()) for row in windows.mean(axis=-1) > 0.5)
 
 
-def lost_by(last: int, results: Results | None = None, method: str = "bootstrapped") -> int:
-    """How many agents, once ahead in 40 of 50 training episodes, are ahead in 25 or fewer of 50 later, by an episode.
-
-    results: of other agents than the study's.
-    """
-    shares = ahead(results or of_all(), method)
-    won = np.maximum.accumulate(shares >= 0.8, axis=1)
-    return int((won & (shares <= 0.5))[:, : last - WINDOW + 1].any(axis=1).sum())
+def kind(name: str) -> list[Results]:
+    """The agents of one of the table's kinds: the study's, and the ten others where they were trained."""
+    return counts.groups(name, of_all(), ablations(), shipped_experiment("stress"))
 
 
-def accidents_of_the_lost() -> np.ndarray:
-    """Of the study's agents with both aids: the share of accidents in their failed drives while they have lost it."""
-    curves = of("bootstrapped").curves
-    lost, shares = ahead(of_all(), "bootstrapped") <= 0.5, []
-    for each, success, accident in zip(lost[:, LATE:], curves["success"], curves["accident"], strict=True):
-        within = np.convolve(each, np.ones(WINDOW))[: len(success) - LATE] > 0  # episodes in a lost window
-        shares.append(np.mean(accident[LATE:][within & (success[LATE:] == 0)] > 0))
-    return np.array(shares)
+def losing(name: str, bar: int = BAR) -> str:
+    """ "2 of 20": how many agents of a kind lose the way out at least once."""
+    return _of([lost(each.curves["success"], bar) for each in kind(name)])
 
 
-def losing_p(fade: Results | None = None, stay: Results | None = None) -> float:
-    """Fisher's p: do more agents with both aids lose the way out from episode 900 on if β ends than if not?"""
-    groups = (lost_it("bootstrapped", fade), lost_it("bootstrapped", stay or ablations()["β for ever"]))
-    return float(stats.fisher_exact([[int(each.sum()), int((~each).sum())] for each in groups]).pvalue)
+def early(*names: str, bar: int = BAR) -> str:
+    """The same before episode 900, of several kinds together."""
+    return _of([lost(each.curves["success"][:, :LATE], bar) for name in names for each in kind(name)])
 
 
-def ended_at_300() -> Results:
-    """The ten agents of each method with demonstrations whose β ends at episode 300."""
-    return ablations()["β over 300 episodes"]
+def early_by_noise() -> int:
+    """The same of the agents with both aids, ¼ update and demonstrations by the stochastic rule."""
+    return int(lost(clocks()["1/4", "π̃"].of("bootstrapped").curves["success"][:, :LATE]).sum())
+
+
+def found_at(name: str) -> np.ndarray:
+    """When the agents of a kind that find the way out find it."""
+    spans = np.concatenate([forgetting(each.curves["success"], WINDOW)[:, 0] for each in kind(name)])
+    return spans[spans > 0]
+
+
+def finding(name: str) -> str:
+    """How many agents of a kind find the way out."""
+    return _of([each.found_and_kept(counts.KINDS[name][0])[0] for each in kind(name)])
+
+
+def keeping(name: str) -> str:
+    """How many agents of a kind keep it."""
+    return _of([each.found_and_kept(counts.KINDS[name][0])[1] for each in kind(name)])
+
+
+def _of(hits: list[np.ndarray]) -> str:
+    return f"{sum(int(each.sum()) for each in hits)} of {sum(map(len, hits))}"
+
+
+def mean_of(results: Results, method: str, measure: str) -> float:
+    """The mean of a measure over all agents of a method."""
+    return float(results.of(method).scores(measure).mean())
+
+
+def of_both(updates: str) -> list[tuple[np.ndarray, np.ndarray]]:
+    """The agents with both aids and so many updates, of each driver: who loses the way out, and who keeps it."""
+    each = [clocks()[updates, driver].of("bootstrapped") for driver in ("μ", "π̃")]
+    return [(lost(r.curves["success"]), r.found_and_kept("bootstrapped")[1]) for r in each]
+
+
+def both(what: str) -> str:
+    """ "19 of 20 | 8 of 15 | ...": how many agents with both aids have "lost" or "kept" it, by the updates."""
+    place = ("lost", "kept").index(what)
+    return " | ".join(_of([pair[place] for pair in of_both(updates)]) for updates in study_clocks.UPDATES)
+
+
+def soft_kept_of(updates: str) -> int:
+    """How many agents of the soft constraint alone keep the way out with so many updates."""
+    return way(clocks()[updates, "π̃"], "soft").kept
+
+
+def of_others() -> Results:
+    """The ten others of the four methods."""
+    return join([others(method) for method in study_clocks.VARIED])
+
+
+def small_cells() -> list[int]:
+    """How often a table of single agents reads as the paper's, in %, of choices with fewer than ten agents."""
+    small = [r for r in clocks().values() if len(r.of("demos")) < 10]
+    return sorted(round(100 * study_clocks.pattern(r).value) for r in small)
 
 
 def factors() -> str:
@@ -201,6 +210,20 @@ def stratified_p(pairs: list[tuple[Counted, Counted]]) -> float:
     return float(chances[chances <= chances[won] * (1 + 1e-9)].sum())
 
 
+def losing_p(first: str, second: str) -> float:
+    """Fisher's p: of the agents that found the way out, do as many of both kinds lose it at least once?"""
+    pairs = [[int(part.split(" of ")[0]) for part in (losing(name), finding(name))] for name in (first, second)]
+    return float(stats.fisher_exact([[few, found - few] for few, found in pairs]).pvalue)
+
+
+def both_p() -> float:
+    """A quarter of an update against two, with both aids, for each driver: who loses the way out."""
+    few, many = (
+        [Counted(len(each), int(each.sum()), len(each)) for each, _ in of_both(updates)] for updates in ("1/4", "2")
+    )
+    return stratified_p(list(zip(few, many, strict=True)))
+
+
 def driver_p() -> float:
     """μ against π̃, with demonstrations alone, at each number of updates."""
     pairs = [tuple(way(clocks()[updates, d], "demos") for d in ("μ", "π̃")) for updates in study_clocks.UPDATES]
@@ -231,7 +254,9 @@ def p_values() -> dict[str, float]:
     """Every p value that the lesson prints."""
     return {
         "keeping": keeping_p("demos"),
-        "losing, both": losing_p(),
+        "losing, both": losing_p(KINDS_WITH[0], KINDS_WITH[1]),
+        "losing, soft": losing_p(FADES, HELD),
+        "both, updates": both_p(),
         "trend": trend_p(),
         "driver": driver_p(),
         "updates": updates_p(),
@@ -248,22 +273,19 @@ def holm() -> dict[str, float]:
 
 
 def comparison(name: str) -> str:
-    """A row of the lesson's table, without its first cell: who keeps the way out, p, and p after Holm."""
+    """A row of the lesson's table, without its first cell: how many agents of two groups, and p after Holm."""
     kept = {
-        "keeping": f"{kept_of('demos', True)} against {kept_of('demos', False)} that found it",
-        "losing, both": f"{_losers(ablations()['β for ever'])} against {_losers(of_all())} that lose it",
-        "trend": soft_kept(),
-        "updates": f"{of_updates('1/4')} against {of_updates('2')}",
-        "driver": f"{of_driver('μ')} against {of_driver('π̃')}",
-        "choices": kept_against((clocks()["1/4", "μ"], "demos"), (clocks()["2", "π̃"], "demos")),
+        "keeping": f"{kept_of('demos', True)} against {kept_of('demos', False)} keep it",
+        "losing, both": f"{losing(KINDS_WITH[0])} against {losing(KINDS_WITH[1])} lose it",
+        "losing, soft": f"{losing(FADES)} against {losing(HELD).split(' of ')[0]} of {finding(HELD).split(' of ')[0]} "
+        "lose it",
+        "both, updates": "{} against {} lose it".format(*both("lost").split(" | ")[::2]),
+        "trend": f"{soft_kept()} keep it",
+        "updates": f"{of_updates('1/4')} against {of_updates('2')} keep it",
+        "driver": f"{of_driver('μ')} against {of_driver('π̃')} keep it",
+        "choices": kept_against((clocks()["1/4", "μ"], "demos"), (clocks()["2", "π̃"], "demos")) + " keep it",
     }
-    return f"{kept[name]}|{_short(p_values()[name])}|{_short(holm()[name])}"
-
-
-def _losers(results: Results) -> str:
-    """ "7 of 10": how many agents with both aids lose the way out from episode 900 on."""
-    lost = lost_it("bootstrapped", results)
-    return f"{lost.sum()} of {len(lost)}"
+    return f"{kept[name]}|{_short(holm()[name])}"
 
 
 def soft_kept() -> str:
