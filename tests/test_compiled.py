@@ -134,8 +134,8 @@ def test_an_agent_is_a_snapshot_and_its_alpha_and_xi_are_those_of_the_curves():
     assert torch.equal(before.actor[0], weight) and not torch.equal(training.agent(0).actor[0], weight)
     now = training.learner.coefficients()
     assert now["alpha"][0] < alpha and np.allclose(now["xi"], 200 * now["alpha"])
-    fixed = CompiledLearner([settings_for("soft", xi_fixed=0.3)])
-    assert np.allclose(fixed.coefficients()["xi"], 0.3)
+    others = CompiledLearner([settings_for("soft", xi_fixed=0.3), settings_for("soft", xi_min=5.0)])
+    assert np.allclose(others.coefficients()["xi"], [0.3, 5.0])
 
 
 def test_a_setting_that_is_changed_meanwhile_acts_as_with_torch():

@@ -19,6 +19,7 @@ EVERY_METHOD = [settings_for(method, seed=seed) for seed, method in enumerate(AB
 VARIANTS = [
     settings_for("bootstrapped", kl_in_target=False),
     settings_for("bootstrapped", xi_fixed=0.3),
+    settings_for("soft", xi_min=3.0),
     settings_for("margin_soft", paper_q_filter=False, gamma=0.95, target_entropy=0.3, rule_p=0.5),
 ]
 

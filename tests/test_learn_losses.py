@@ -57,9 +57,11 @@ BY_HAND = {
         bootstrap.kl_to_rule(sure(0), T([0]), T(0.9)), [-math.log(0.9)]),
     "and much in the other direction": lambda: (
         bootstrap.kl_from_rule(sure(0), T([0]), T(0.9)), [0.9 * math.log(0.9) + 0.1 * (math.log(0.0125) + 200)]),
-    "ξ is 200 α unless it is fixed": lambda: (
-        bootstrap.constraint_strength(torch.full((3,), 0.01), torch.full((3,), 200.0), T([math.nan, 0.0, 0.7])),
-        [2.0, 0.0, 0.7]),
+    "ξ is 200 α unless it is fixed, and has a least value": lambda: (
+        bootstrap.constraint_strength(
+            torch.full((5,), 0.01), torch.full((5,), 200.0), T([math.nan, 0.0, 0.7, math.nan, 0.0]),
+            T([0.0, 0.0, 0.0, 3.0, 0.1])),
+        [2.0, 0.0, 0.7, 3.0, 0.1]),
     "the bonus is the demonstrations'": lambda: (
         bootstrap.augmented_reward(T([0.1, -10.0, 0.1]), T([1.0, 1.0, 0.0]), 2.0), [2.1, -8.0, 0.1]),
     "an action that leads by the margin": lambda: (bootstrap.large_margin_loss(1.0 * ONE, T([3])), [0.0]),

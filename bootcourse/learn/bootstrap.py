@@ -40,9 +40,9 @@ def regularised_policy(q: Tensor, log_rule: Tensor, alpha: float, xi: float) -> 
     return ((q + xi * log_rule) / (alpha + xi)).softmax(-1)
 
 
-def constraint_strength(alpha: Tensor, xi_multiplier: Tensor, xi_fixed: Tensor) -> Tensor:
-    """ξ = 200 α (Equation 15, Section IV-A), or xi_fixed where that is not NaN. All tensors have one shape."""
-    return torch.where(xi_fixed.isnan(), xi_multiplier * alpha, xi_fixed)
+def constraint_strength(alpha: Tensor, xi_multiplier: Tensor, xi_fixed: Tensor, xi_min: Tensor) -> Tensor:
+    """ξ = 200 α (Equation 15, Section IV-A), or xi_fixed where that is not NaN; at least xi_min. All have one shape."""
+    return torch.where(xi_fixed.isnan(), xi_multiplier * alpha, xi_fixed).maximum(xi_min)
 
 
 def demonstration_share(episode, beta_start, beta_episodes):

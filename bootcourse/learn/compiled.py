@@ -149,6 +149,12 @@ def log_rule(action, rule_action, s):
 
 
 @vectorised
+def strength(alpha, s):
+    """ξ = 200 α (Equation 15), or a fixed one; at least s.xi_min."""
+    return max(s.xi_multiplier * alpha if math.isnan(s.xi_fixed) else s.xi_fixed, s.xi_min)
+
+
+@vectorised
 def kl_to_rule(work, i, rule_action, s):
     """D_KL(π(·|s) ‖ π̃(·|s)) in state i, the soft constraint of Equation 15, in nats."""
     kl = ZERO
@@ -273,7 +279,7 @@ def follow(target, critic, tau):
 def find_slopes(agent, batch, s, work):
     """All losses of an agent on a batch, and their slopes in all weights: no weight changes."""
     work.alpha = math.exp(agent.log_alpha)
-    work.xi = s.xi_multiplier * work.alpha if math.isnan(s.xi_fixed) else s.xi_fixed  # ξ = 200 α
+    work.xi = strength(work.alpha, s)
 
     transpose(batch.next_states, work.states)
     forward(agent.actor, work.states, work.actor)

@@ -13,6 +13,7 @@ from torch import Tensor
 
 from bootcourse.learn import records
 from bootcourse.learn.agent import Agent
+from bootcourse.learn.bootstrap import constraint_strength
 from bootcourse.learn.compiled import update_all
 from bootcourse.learn.protocol import Learner, check_shared
 from bootcourse.learn.records import LOSSES, SEEN
@@ -51,8 +52,9 @@ class CompiledLearner(Learner):
 
     def coefficients(self) -> dict[str, np.ndarray]:
         """The present α and ξ of each agent, (agents,)."""
-        alpha, fixed = np.exp(self.records["log_alpha"]), self.given["xi_fixed"]
-        return {"alpha": alpha, "xi": np.where(np.isnan(fixed), self.given["xi_multiplier"] * alpha, fixed)}
+        alpha = np.exp(self.records["log_alpha"])
+        given = (torch.from_numpy(self.given[name]) for name in ("xi_multiplier", "xi_fixed", "xi_min"))
+        return {"alpha": alpha, "xi": constraint_strength(torch.from_numpy(alpha), *given).numpy()}
 
     def update(self, batch: Batch) -> dict[str, Tensor]:
         """One gradient step of all agents. Returns the numbers of `SACLearner.losses` before the step, (agents,)."""

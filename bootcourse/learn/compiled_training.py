@@ -14,7 +14,7 @@ import numpy as np
 from bootcourse.errors import require, whole
 from bootcourse.learn import records
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.compiled import follow, forward, policy, update
+from bootcourse.learn.compiled import follow, forward, policy, strength, update
 from bootcourse.learn.curves import NAMES
 from bootcourse.learn.records import ACTIONS, BATCH, MOST_DEMONSTRATIONS, MOST_EPISODES, ROADS, SEEN
 from bootcourse.learn.settings import Settings
@@ -196,7 +196,7 @@ def note(agent, run, road, reward, accident, s, plan, curves):
         row[RETURN], row[DISTANCE] = run.earned[road], cars[EGO, X]
         row[SPEEDS], row[ENTROPY], row[LENGTH] = run.speeds[road] / decided, run.entropies[road] / decided, decided
         row[ALPHA], row[BETA] = alpha, beta(run, plan)
-        row[XI] = s.xi_multiplier * alpha if math.isnan(s.xi_fixed) else s.xi_fixed
+        row[XI] = strength(alpha, s)
     run.finished += 1
     run.decided[road] = 0
     run.earned[road] = run.speeds[road] = run.entropies[road] = 0.0

@@ -50,6 +50,7 @@ class SACLearner(Learner):
         self.target_entropy = per_agent(settings, "target_entropy")
         self.xi_multiplier = per_agent(settings, "xi_multiplier")
         self.xi_fixed = per_agent(settings, "xi_fixed")  # NaN where ξ follows α
+        self.xi_min = per_agent(settings, "xi_min")
         self.kl_in_target = per_agent(settings, "kl_in_target")
         self.rule_p = per_agent(settings, "rule_p")
         self.bonus = per_agent(settings, "bonus")
@@ -66,7 +67,7 @@ class SACLearner(Learner):
     def note_temperature(self) -> None:
         """Set `alpha` and `xi` (Equation 15), each (agents, 1), from the present `log_alpha`."""
         self.alpha = self.log_alpha.detach().exp()[:, None]
-        self.xi = bootstrap.constraint_strength(self.alpha, self.xi_multiplier, self.xi_fixed)
+        self.xi = bootstrap.constraint_strength(self.alpha, self.xi_multiplier, self.xi_fixed, self.xi_min)
 
     def coefficients(self) -> dict[str, np.ndarray]:
         """The present α and ξ of each agent, (agents,)."""

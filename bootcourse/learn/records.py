@@ -79,6 +79,7 @@ COEFFICIENTS = record(  # of the update: an agent's `Settings`; units and source
     target_entropy=REAL,
     xi_multiplier=REAL,
     xi_fixed=REAL,  # NaN: ξ follows α
+    xi_min=REAL,
     kl_in_target=REAL,  # 0 or 1
     log_p=REAL,  # log π̃ of the rule's action
     log_others=REAL,  # and of each other

@@ -32,6 +32,7 @@ class Settings:
     alpha_init: float = limited(0.01, above=0)  # † initial entropy coefficient α
     xi_multiplier: float = limited(200.0, low=0)  # † ξ = 200 α; 0 switches the soft constraint off
     xi_fixed: float | None = limited(None, low=0)  # § a constant ξ; None: ξ follows α
+    xi_min: float = limited(0.0, low=0)  # § the least ξ: where 200 α has fallen below it, ξ stays there
     kl_in_target: bool = True  # ‡ the paper's KL is part of the return, so it is in the critic's target too
     rule_p: float = 0.9  # † p of the stochastic rule π̃
     beta_start: float = limited(0.6, low=0, high=1)  # † initial share of demonstrations in a batch; 0: none
@@ -71,7 +72,7 @@ class Settings:
     def _check_label(self) -> None:
         """Check that no ingredient is switched on that the method is defined by leaving out."""
         lacks = {name for name, value in METHODS[self.method].settings.items() if value == 0}
-        lacks |= {"xi_fixed"} if "xi_multiplier" in lacks else set()
+        lacks |= {"xi_fixed", "xi_min"} if "xi_multiplier" in lacks else set()
         for name in sorted(lacks):
             value, without = getattr(self, name), f"method '{self.method}' is defined by doing without"
             remedy = f"write settings_for('{self.method}'), or choose a method that has it"
@@ -85,7 +86,8 @@ class Settings:
     @property
     def asks_teacher(self) -> bool:
         """Whether the agent uses the teacher's actions in the states that it reaches itself, or in its batches."""
-        return (self.xi_multiplier if self.xi_fixed is None else self.xi_fixed) > 0 or METHODS[self.method].taught
+        xi = max(self.xi_min, self.xi_multiplier if self.xi_fixed is None else self.xi_fixed)
+        return xi > 0 or METHODS[self.method].taught
 
 
 def settings_class(method: str) -> type[Settings]:

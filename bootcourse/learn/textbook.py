@@ -86,6 +86,7 @@ class TextbookSAC:
         """One gradient step of critics, actor and temperature; all losses are computed before the first step."""
         alpha = self.log_alpha.exp().item()
         xi = self.s.xi_multiplier * alpha if self.s.xi_fixed is None else self.s.xi_fixed  # ξ = 200 α
+        xi = max(xi, self.s.xi_min)
         with torch.no_grad():
             target = self.critic_target(batch, alpha, xi)  # (batch,)
         log_pi = F.log_softmax(self.actor(batch.states), dim=1)  # (batch, 9)

@@ -25,6 +25,7 @@ from bootcourse.statistics import ESCAPES, IN_A_ROW
 
 TWICE = "other seeds, another implementation of the learner, twice the episodes"
 OTHER_ROADS, HALF = "200 other roads", "half the time step"
+Counted = Callable[[Results], np.ndarray]
 FOUR = "4 updates, no demonstrations"  # a cell of the experiment with the clocks
 HEAD_START = 200 / 201 * math.log(0.9 / (0.1 / (N_ACTIONS - 1)))  # of the rule's action, with p = 0.9 and ξ = 200 α
 BLOCK, ROADS = 9, 200  # held-out roads that no lesson and no study uses
@@ -62,10 +63,11 @@ def twice(study: StudyResults, cell: str) -> Results:
     return study.experiments["stress"][cell]
 
 
-def different(first: Results, second: Results, counted: Callable[[Results], np.ndarray]) -> float:
-    """Fisher's p for two groups of agents, some of which have what is counted, (agents,) bool."""
-    table = [[int(each.sum()), int((~each).sum())] for each in (counted(first), counted(second))]
-    return float(fisher_exact(table).pvalue)
+def different(first: Results | list[Results], second: Results | list[Results], counted: Counted) -> float:
+    """Fisher's p for two groups of agents, some of which have what is counted: Results -> (agents,) bool."""
+    groups = [each if isinstance(each, list) else [each] for each in (first, second)]
+    have = [np.concatenate([counted(agents) for agents in group]) for group in groups]
+    return float(fisher_exact([[int(each.sum()), int((~each).sum())] for each in have]).pvalue)
 
 
 def escaping(results: Results) -> np.ndarray:
@@ -130,7 +132,8 @@ def constraint(study: StudyResults) -> Claim:
 
 def forgotten(study: StudyResults) -> Claim:
     def fewer(results: Results, both: Results) -> tuple[bool, str]:
-        return share(results, "demos") < share(both, "bootstrapped"), told(results, "demos")
+        seen = f"alone {told(results, 'demos')}; with both aids {told(both, 'bootstrapped')}"
+        return share(results, "demos") < share(both, "bootstrapped"), seen
 
     def counted(results: Results) -> str:
         return f"{share(results, 'demos') * 10:.0f} and {share(results, 'bootstrapped') * 10:.0f} of ten"
@@ -141,7 +144,7 @@ def forgotten(study: StudyResults) -> Claim:
         "forgotten",
         "With one update for four decisions and drives by the rule itself, fewer agents escape with demonstrations "
         "alone than with the soft constraint as well.",
-        f"{told(ours, 'demos')}; with both aids {told(ours, 'bootstrapped')}",
+        fewer(ours, ours)[1],
         {
             TWICE: fewer(twice(study, "demos"), twice(study, "bootstrapped")),
             "1,200 episodes": fewer(sooner, sooner),
@@ -182,7 +185,8 @@ def bonus(study: StudyResults) -> Claim:
         "bonus", "With both aids most agents escape without the bonus, too (c = 0).", told(ours),
         {TWICE: (share(others) > 0.5, told(others))},
         different(ours, study.results["default"].of("sac"), escaping),
-        [f"With c = 2 {told(paid[0])}; of the other agents {told(paid[1])}. So it is not shown to help or to harm."],
+        [f"With c = 2 {told(paid[0])}; of the other agents {told(paid[1])}. So it is not shown that more or fewer "
+         "escape with the bonus."],
     )  # fmt: skip
 
 
@@ -294,6 +298,25 @@ def strength(study: StudyResults) -> Claim:
             + f"; of ten others at 0.1 {told(twice(study, 'soft, ξ stays at 0.1'))}.",
             f"The rule's head start in the logits stays {HEAD_START:.2f}; the temperature 201 α is what fades.",
         ],
+    )  # fmt: skip
+
+
+def floor(study: StudyResults) -> Claim:
+    changed = study.experiments["ablations"]
+    falls, more = changed["ξ falls to 0.1"], twice(study, "soft, ξ falls to 0.1")
+    weak = [changed["ξ stays at 0.1"], twice(study, "soft, ξ stays at 0.1")]
+    finer = more.measured["finer_success"] >= ESCAPES
+    return Claim(
+        "floor",
+        "If ξ = 200 α falls to 0.1 and no further, each agent with the soft constraint alone escapes; with 0.1 "
+        "throughout fewer do.",
+        f"{told(falls)}; with 0.1 throughout {told(weak[0])}",
+        {
+            TWICE: (share(more) == 1 and share(weak[1]) < 1, f"{told(more)}; with 0.1 throughout {told(weak[1])}"),
+            HALF: (bool(finer.all()), f"{finer.sum()} of {len(finer)} escape"),
+        },
+        different([falls, more], weak, escaping),
+        [f"With ξ = 200 α to the end {told(study.results['default'], 'soft')}, and {told(twice(study, 'soft'))}."],
     )  # fmt: skip
 
 
@@ -480,7 +503,7 @@ CLAIMS = {  # by the lesson in which a reader meets them
     "the_trap": (alone, discount, blind),
     "the_rule": (sight, room),
     "demonstrations": (copies,),
-    "soft_constraint": (constraint, strength),
+    "soft_constraint": (constraint, strength, floor),
     "learning_from_demonstrations": (forgotten, together, bonus, margin),
     "found_and_kept": (ends, clocks),
     "the_second_trap": (second_trap,),

@@ -79,7 +79,7 @@ def learning_data() -> dict:
     """All that learner.js, run_file.js and learn_worker.js read."""
     without = {m: [name for name, value in METHODS[m].settings.items() if value == 0] for m in LEARNABLE}
     for names in without.values():
-        names += ["xi_fixed"] * ("xi_multiplier" in names)
+        names += ["xi_fixed", "xi_min"] * ("xi_multiplier" in names)
     networks = ("actor", "critic_1", "critic_2", "target_1", "target_2")
     return {
         "names": list(NAMES),

@@ -14,6 +14,7 @@ CHANGED = {
     "β for ever": {"beta_episodes": None, "methods": HELPED},
     "β for ever, c = 0": {"beta_episodes": None, "bonus": 0.0, "methods": ("bootstrapped",)},
     **{f"ξ stays at {xi:g}": {"xi_fixed": xi, "methods": ("soft",)} for xi in (2.0, 0.5, 0.1)},
+    "ξ falls to 0.1": {"xi_min": 0.1, "methods": ("soft",)},
 }
 
 

@@ -36,6 +36,7 @@ KINDS = {  # {cell: (method, what is changed)}
     "bootstrapped": ("bootstrapped", {}),
     "soft, ξ stays at 2": ("soft", {"xi_fixed": 2.0}),
     "soft, ξ stays at 0.1": ("soft", {"xi_fixed": 0.1}),
+    "soft, ξ falls to 0.1": ("soft", {"xi_min": 0.1}),
     "bootstrapped, c = 0": ("bootstrapped", {"bonus": 0.0}),
     "demos, β for ever": ("demos", {"beta_episodes": None}),
     "bootstrapped, β for ever": ("bootstrapped", {"beta_episodes": None}),

@@ -13,6 +13,7 @@ KINDS = {  # of agents: the method, the change among the ablations ("": none), t
     "the same without the bonus, β ends": ("bootstrapped", "c = 0", "bootstrapped, c = 0"),
     "the same without the bonus, β never ends": ("bootstrapped", "β for ever, c = 0", ""),
     "soft constraint alone, ξ fades from 2": ("soft", "", "soft"),
+    "soft constraint alone, ξ falls to 0.1": ("soft", "ξ falls to 0.1", "soft, ξ falls to 0.1"),
     "soft constraint alone, ξ held at 0.1": ("soft", "ξ stays at 0.1", "soft, ξ stays at 0.1"),
 }
 HEADINGS = ["ten of the study · ten others", "found it", "lost it at least once", "have it at the end", "mean return"]

@@ -8,7 +8,7 @@ from scipy import stats
 
 from bootcourse.course.lessons.found_and_kept import counts
 from bootcourse.course.lessons.found_and_kept.counts import BAR, lost
-from bootcourse.course.lessons.found_and_kept.exercises import forgetting
+from bootcourse.course.lessons.found_and_kept.exercises import forgetting as forgetting
 from bootcourse.course.lessons.found_and_kept.explorable import EPISODES, Fading
 from bootcourse.course.lessons.found_and_kept.figures import half_found
 from bootcourse.course.shipped import shipped_agents
@@ -21,7 +21,7 @@ from bootcourse.statistics import IN_A_ROW as WINDOW
 from tools.course.known import clocks, fisher, in_training, of, others, shipped_experiment, shipped_results
 
 LATE = 900  # an episode: a tenth of β is left
-FADES, HELD = tuple(counts.KINDS)[-2:]
+FADES, FALLS, HELD = tuple(counts.KINDS)[-3:]
 KINDS_WITH, KINDS_WITHOUT = tuple(counts.KINDS)[:2], tuple(counts.KINDS)[2:4]  # the bonus
 SHORTER = study_clocks.TRAINED  # training episodes of the agents of rounds 4 and 5
 
@@ -95,12 +95,6 @@ def early(*names: str, bar: int = BAR) -> str:
 def early_by_noise() -> int:
     """The same of the agents with both aids, ¼ update and demonstrations by the stochastic rule."""
     return int(lost(clocks()["1/4", "π̃"].of("bootstrapped").curves["success"][:, :LATE]).sum())
-
-
-def found_at(name: str) -> np.ndarray:
-    """When the agents of a kind that find the way out find it."""
-    spans = np.concatenate([forgetting(each.curves["success"], WINDOW)[:, 0] for each in kind(name)])
-    return spans[spans > 0]
 
 
 def finding(name: str) -> str:
@@ -255,7 +249,7 @@ def p_values() -> dict[str, float]:
     return {
         "keeping": keeping_p("demos"),
         "losing, both": losing_p(KINDS_WITH[0], KINDS_WITH[1]),
-        "losing, soft": losing_p(FADES, HELD),
+        "losing, soft": losing_p(FADES, FALLS),
         "both, updates": both_p(),
         "trend": trend_p(),
         "driver": driver_p(),
@@ -277,8 +271,7 @@ def comparison(name: str) -> str:
     kept = {
         "keeping": f"{kept_of('demos', True)} against {kept_of('demos', False)} keep it",
         "losing, both": f"{losing(KINDS_WITH[0])} against {losing(KINDS_WITH[1])} lose it",
-        "losing, soft": f"{losing(FADES)} against {losing(HELD).split(' of ')[0]} of {finding(HELD).split(' of ')[0]} "
-        "lose it",
+        "losing, soft": f"{losing(FADES)} against {losing(FALLS)} lose it",
         "both, updates": "{} against {} lose it".format(*both("lost").split(" | ")[::2]),
         "trend": f"{soft_kept()} keep it",
         "updates": f"{of_updates('1/4')} against {of_updates('2')} keep it",

@@ -1,7 +1,7 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 
 import numpy as np
@@ -32,17 +32,17 @@ def actor_only() -> Results:
     return shipped_experiment("ablations")["KL in the actor only"].of("soft")
 
 
-def worst_of_actor_only() -> tuple[float, float]:
-    """Accidents (%) and return of the one with the most accidents of these agents that escape."""
-    agents = actor_only()
-    crashes = np.where(agents.scores("success") >= ESCAPES, agents.scores("accident"), -1)
-    return 100 * crashes.max(), agents.scores("returns")[crashes.argmax()]
-
-
 def found_between(agents: Results) -> str:
     """The first and the last training episode after which one of the agents has found the way: "484 to 1,037"."""
     after = found_after(agents.curves["success"])
     return f"{after[after > 0].min():,} to {after.max():,}"
+
+
+def place_row(agents: Results) -> str:
+    """After which episodes the agents found the way out, how many escape, and what these return."""
+    escape = agents.scores("success") >= ESCAPES
+    earned = agents.scores("returns")[escape]
+    return f"{found_between(agents)} | {escape.sum()} | {earned.min():.0f} to {earned.max():.0f}"
 
 
 def sooner_without() -> bool:
@@ -68,7 +68,7 @@ def fast_keepers(agents: Results) -> int:
 
 
 def in_all(count: Callable[[Results], int], xi: float | None = None) -> int:
-    """A count of the study's ten agents and the ten others: of those whose ξ fades (None), or stays at 0.1 or 2."""
+    """A count of the study's ten agents and ten others: of those whose ξ fades (None), or stays at 0.1 or 2."""
     study, more = (of("soft"), "soft") if xi is None else (stays(xi), f"soft, ξ stays at {xi:g}")
     return count(study) + count(others(more))
 
@@ -78,6 +78,24 @@ def row_of(agents: Results) -> str:
     keepers = agents.found_and_kept("soft")[1]
     half = np.median(agents.scores("returns")[keepers])
     return f"{found(agents)} | {found_between(agents)} | {kept(agents)} | {half:.0f}"
+
+
+def falls() -> Results:
+    """The study's agents whose ξ = 200 α falls to 0.1 and stays there."""
+    return shipped_experiment("ablations")["ξ falls to 0.1"]
+
+
+def stopped_row(agents: Results) -> str:
+    """How many found the way out and escape, the returns of all, lowest and highest, and their accidents."""
+    cells = [str(found(agents)), str(agents.escapers("soft"))]
+    for scores in (agents.scores("returns"), 100 * agents.scores("accident")):
+        cells.append(f"{scores.min():.0f} to {scores.max():.0f}")
+    return " | ".join(cells)
+
+
+def both_percent(rates: Sequence[float]) -> str:
+    """ "89 and 92 %"."""
+    return " and ".join(f"{100 * rate:.0f}" for rate in rates) + " %"
 
 
 def alpha_at_the_end() -> np.ndarray:
@@ -135,16 +153,24 @@ def unlike_the_rule() -> np.ndarray:
 
 
 @cache
-def preferred() -> tuple[np.ndarray, np.ndarray]:
-    """The share of these seconds in which the action that is best by each agent's Q is not the one it takes, and by how
-    much its Q is larger there, in the mean, each (agents,)."""
-    shares, leads = [], []
+def preferred() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The share of these seconds in which the action that is best by each agent's Q is not the one it takes, by how
+    much its Q is larger there, and by how much the best Q is larger than the second in all seconds (medians), each
+    (agents,)."""
+    shares, leads, usual = [], [], []
     for drives in by_their_own():
-        lead = np.concatenate([d.q_values.max(1) - np.take_along_axis(d.q_values, d.actions[:, None], 1)[:, 0]
-                               for d in drives])  # fmt: skip
+        q, actions = np.concatenate([d.q_values for d in drives]), np.concatenate([d.actions for d in drives])
+        second, first = np.sort(q, axis=1)[:, -2:].T
+        lead = first - q[np.arange(len(q)), actions]
         shares.append(np.mean(lead > 0))
-        leads.append(lead[lead > 0].mean())
-    return np.array(shares), np.array(leads)
+        leads.append(np.median(lead[lead > 0]))
+        usual.append(np.median(first - second))
+    return np.array(shares), np.array(leads), np.array(usual)
+
+
+def between(numbers: np.ndarray) -> str:
+    """The lowest and the highest: "0.04 to 0.22"."""
+    return f"{numbers.min():.2f} to {numbers.max():.2f}"
 
 
 def percent(shares: np.ndarray) -> str:
