@@ -78,13 +78,14 @@ def against_sight(sights: Sequence[float], driven: Sequence[Episodes], title: st
     ax.plot(sights, returns, "o-", color=style("rule").colour, linewidth=2, markersize=5)
     ax.set_ylim(0, 1.2 * returns.max())
     words = {"textcoords": "offset points", "fontsize": TEXT}
-    for x, y, share in zip(sights, returns, crashed, strict=True):
-        if not share:
+    for x, y, each in zip(sights, returns, driven, strict=True):
+        crashes = np.sum(each.accident > 0)
+        if not crashes:
             ax.annotate(f"{y:.0f}", (x, y), (0, 8), ha="center", color=INK, **words)
         else:
             ax.plot(x, y, "X", color=ALARM, markersize=9, zorder=3)
-            crashes = f"{y:.0f}: accidents on\n{100 * share:.0f} % of the roads"
-            ax.annotate(crashes, (x, y), (10, -18), color=ALARM, **words)
+            ends = f"{y:.0f}: of {len(each.success)} drives\n{each.success.sum()} get out, {crashes} crash"
+            ax.annotate(ends, (x, y), (10, -18), color=ALARM, **words)
     listed = (f"{x} m: {y:.0f}, {share:.0%}" for x, y, share in zip(sights, returns, crashed, strict=True))
     return finish(figure, title, f"Sight, return and share of roads with an accident: {'; '.join(listed)}.")
 
