@@ -568,8 +568,9 @@ bc.show(figure)
 # | fades from 2 | {{ row_of(of('soft')) }} |
 #
 # At ξ = 2 the two that do not escape end ahead on {{
-# both_percent(sorted(stays(2).scores('success'))[:2]) }} of the roads: they know the way. The two whose ξ faded end ahead on {{
-# both_percent(sorted(of('soft').scores('success'))[:2]) }}: they have lost it.
+# both_percent(sorted(stays(2).scores('success'))[:2]) }} of the roads: they know the
+# way. The two whose ξ faded end ahead on {{ both_percent(sorted(of('soft').scores('success'))[:2])
+# }}: they have lost it.
 
 # %% [markdown]
 # **Finding and keeping are two things.** Ten more agents of each kind, other seeds, trained twice
