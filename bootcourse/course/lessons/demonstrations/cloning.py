@@ -6,37 +6,84 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
+from bootcourse.learn.bc import cloning_loss
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.learner import learner_for
+from bootcourse.learn.networks import mlp
 from bootcourse.learn.replay_buffer import ReplayBuffer, decode_transitions
+from bootcourse.learn.sac import log_policy
 from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.scenario import DEFAULT
 
 SIZE = DEFAULT.observation_size
 ACTION, RULE_ACTION = 2 * SIZE, 2 * SIZE + 3  # columns of a transition
 
 
-def clone(rows: Tensor, updates: int = 1500, seeds: int = 4, first: int = 0) -> list[Agent]:
-    """Clones of what is in the rows (transitions, row), one for each seed."""
+def clone(rows: Tensor, loss=cloning_loss, seeds: int = 12, updates: int = 1500, first: int = 0) -> list[Agent]:
+    """Clones of what is in the rows (transitions, row), one for each seed, trained with this loss."""
     settings = with_seeds(settings_for("bc"), seeds, first)
     cloner, replay = learner_for(settings, SIZE), ReplayBuffer(seeds, 64, SIZE, rows)
     generators = [np.random.default_rng(each.seed) for each in settings]
     for _ in range(updates):
-        cloner.update(replay.sample(64, np.ones(seeds), generators))  # 64 rows, all of them demonstrations
+        batch = replay.sample(64, np.ones(seeds), generators)  # for each clone 64 rows, all of them demonstrations
+        log_pi = log_policy(mlp(cloner.actor, batch.states))  # (clones, 64, 9)
+        cloner.optimiser.zero_grad()
+        (seeds * loss(log_pi.flatten(0, 1), batch.actions.flatten())).backward()  # the clones' losses, added up
+        cloner.optimiser.step()
     weights = [[layer.detach()[i : i + 1] for layer in cloner.actor] for i in range(seeds)]
     return [Agent(s, actor, [], alpha=0.0) for s, actor in zip(settings, weights, strict=True)]
 
 
-def measure(agents: Sequence[Agent], rows: Tensor, roads: int = 200) -> np.ndarray:
-    """Of each clone: agreement with its data, success and accidents on held-out roads, (clones, 3) shares."""
+def tested(agents: Sequence[Agent], roads: int = 200) -> list[Episodes]:
+    """Each clone's drives on held-out roads."""
+    return [drive_episodes(agent.as_policy(), held_out_seeds(6, roads)) for agent in agents]
+
+
+def measure(agents: Sequence[Agent], rows: Tensor, drives: Sequence[Episodes] | None = None) -> np.ndarray:
+    """Of each clone: agreement with its data, success, accidents (shares) and return on held-out roads, (clones, 4)."""
     scores, batch = [], decode_transitions(rows, SIZE, torch.zeros(len(rows)))
-    for agent in agents:
+    for agent, driven in zip(agents, drives or tested(agents), strict=True):
         agrees = agent.probabilities(batch.states.numpy()).argmax(1) == batch.actions.numpy()
-        driven = drive_episodes(agent.as_policy(), held_out_seeds(6, roads))
-        scores.append((agrees.mean(), driven.success.mean(), (driven.accident > 0).mean()))
+        scores.append((agrees.mean(), driven.success.mean(), (driven.accident > 0).mean(), driven.returns.mean()))
     return np.array(scores)
+
+
+def danger(drives: Sequence[Episodes], start: float, end: float) -> tuple[float, float]:
+    """Of all accidents the share in these seconds, and the risk of one in a second that is driven there."""
+    lasted, crashed = np.hstack([_lasted(each) for each in drives]), np.hstack([each.accident > 0 for each in drives])
+    there = np.sum(crashed & (lasted > start) & (lasted <= end))
+    return there / crashed.sum(), there / np.clip(lasted - start, 0, end - start).sum()
+
+
+def typical_accidents(drives: Sequence[Episodes]) -> list[float]:
+    """When (s) the median accident of each clone happens, in order; without the clones that have none."""
+    return sorted(float(np.median(_lasted(each)[each.accident > 0])) for each in drives if (each.accident > 0).any())
+
+
+def _lasted(drives: Episodes) -> np.ndarray:
+    """How long each drive was (s): the way over the mean speed."""
+    return np.round(drives.distance / drives.speed, 1)
+
+
+def slow(drives: Sequence[Rollout]) -> np.ndarray:
+    """In which seconds the car is in the free lane at 9 m/s or less: (drives, decisions) bool, drives of one length."""
+    cars = np.array([each.states[: -1 : each.scenario.clock.steps, EGO] for each in drives])
+    return (cars[:, :, LANE] == 0) & (cars[:, :, SPEED] < 9.5)
+
+
+def unlike(agent: Agent, drives: Sequence[Rollout]) -> np.ndarray:
+    """Where the clone would decide unlike the driver in these drives of equal length: (drives, decisions) bool."""
+    return np.array([agent.probabilities(each.observations[:-1]).argmax(1) != each.actions for each in drives])
+
+
+def own_agreement(agent: Agent, roads: int = 60) -> float:
+    """The share of the clone's decisions, in its own drives on roads that no data have, that the rule would take."""
+    rows = collect(roads, policy=agent.as_policy(), first_seed=0)
+    return float((rows[:, ACTION] == rows[:, RULE_ACTION]).float().mean())
 
 
 def own_drives(episodes: int) -> Callable[[Agent], Tensor]:

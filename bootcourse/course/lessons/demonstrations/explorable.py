@@ -21,5 +21,5 @@ def compounding() -> Explorable:
         says = f"After 30 s {kept[30]:.0f} % are where the teacher would be, at the end {kept[-1]:.0f} %."
         return curves(says, AXES, times, named, mark=30)
 
-    errors = Number("errors", 2, 0, 20, 0.1, "Of a hundred decisions, so many differ from the teacher's.")
-    return Explorable("The copy agrees with its teacher on 98 of 100 decisions. Is that much?", draw, errors=errors)
+    errors = Number("errors", 20, 0, 25, 0.1, "Of a hundred decisions, so many differ from the teacher's.")
+    return Explorable("The copy agrees with its teacher on 80 of 100 decisions. Is that much?", draw, errors=errors)

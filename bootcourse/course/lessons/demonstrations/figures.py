@@ -44,27 +44,32 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
     )
 
 
-def clones(measured: dict[str, np.ndarray], title: str, agree: str = "agree with their data (%)") -> Figure:
-    """How clones drive: name -> (seeds, 3) shares of agreement, success and accidents; a dot for each seed.
+def clones(measured: dict[str, np.ndarray], title: str, of_rule: float) -> Figure:
+    """How clones drive: name -> (seeds, 4), shares of agreement, success and accidents, and the return.
 
-    agree: what the first share is.
+    A dot for each seed; of_rule: the rule's return, a line.
     """
-    figure = new_figure(1.1 + 0.55 * len(measured))
+    figure = new_figure(1.3 + 0.55 * len(measured))
     alt_parts = {name: [] for name in measured}
     height = figure.get_figheight()
-    for k, label in enumerate((agree, "success (%)", "have an accident (%)")):
-        ax = figure.add_axes((0.27 + 0.245 * k, 0.4 / height, 0.21, 1 - 1.2 / height))
+    for k, label in enumerate(("agree with\ntheir data (%)", "success (%)", "have an\naccident (%)", "return")):
+        ax = figure.add_axes((0.25 + 0.19 * k, 0.4 / height, 0.165, 1 - 1.4 / height))
+        unit = "" if label == "return" else " %"
         for row, (name, values) in enumerate(measured.items()):
-            shares = 100 * values[:, k]
-            ax.plot(shares, np.full(len(shares), row), "o", color=style("bc").colour, markersize=5, alpha=0.55)
-            ax.plot(shares.mean(), row, "|", color=INK, markersize=15, markeredgewidth=2)
-            ax.text(shares.mean(), row - 0.32, f"{shares.mean():.0f}", fontsize=TEXT, color=INK, ha="center")
-            alt_parts[name].append(f"{shares.mean():.0f} % {label.split('(')[0].strip()}")
+            shown = (100 if unit else 1) * values[:, k]
+            ax.plot(shown, np.full(len(shown), row), "o", color=style("bc").colour, markersize=5, alpha=0.55)
+            ax.plot(shown.mean(), row, "|", color=INK, markersize=15, markeredgewidth=2)
+            ax.text(shown.mean(), row - 0.32, f"{shown.mean():.0f}", fontsize=TEXT, color=INK, ha="center")
+            alt_parts[name].append(f"{' '.join(label.replace(' (%)', '').split())} {shown.mean():.0f}{unit}")
         plain_axes(ax, label, grid="x")
         names = [name.replace(", ", ",\n").replace("stochastic ", "stochastic\n") for name in measured]
         ax.set_yticks(range(len(measured)), names if k == 0 else [""] * len(measured))
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
         ax.set_ylim(len(measured) - 0.5, -0.6)
-        ax.set_xlim(-4, 104)
+        if unit:
+            ax.set_xlim(-6, 106)
+    ax.axvline(of_rule, color=style("rule").colour, linewidth=1.5)
+    ax.text(of_rule, len(measured) - 0.55, "the rule ", fontsize=TEXT, color=style("rule").colour, ha="right")
     words = "; ".join(f"clones of {name}: on average {', '.join(parts)}" for name, parts in alt_parts.items())
-    return finish(figure, title, f"A dot for each clone, a bar for their mean. {words}.")
+    ending = f"A dot for each clone, a bar for their mean. {words}. The rule's return is {of_rule:.0f}."
+    return finish(figure, title, ending)

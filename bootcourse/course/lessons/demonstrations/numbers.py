@@ -7,7 +7,7 @@ import numpy as np
 from bootcourse.episodes.record import record
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, LANE, TRAP_1, X, Y
-from tools.course.known import rule_drives, shipped_results, shipped_runs, shipped_teachers
+from tools.course.known import of, rule_drives, shipped_results, shipped_runs, shipped_teachers
 
 
 def way_out() -> tuple[float, float]:
@@ -62,3 +62,20 @@ def clones_of_the_stochastic_rule() -> Results:
 def taught_by_dagger() -> Results:
     """The ten DAgger agents that the rule taught, of the experiment on teachers."""
     return shipped_teachers()["rule", "dagger"]
+
+
+def updates_of(results: Results) -> float:
+    """About how many updates each of these agents had: so many follow each decision on all of its roads."""
+    agent, curves = results.agents[0], results.curves
+    decisions = (curves["distance"] / curves["speed"]).sum(axis=1)  # one a second
+    return float(((decisions - agent["learning_starts"]) * agent["updates"] / agent["envs_per_agent"]).mean())
+
+
+def longer_training() -> str:
+    """A table of the study's clones: whose drives, about how many updates, accidents, return."""
+    rows = ["| ten clones of | updates, about | have an accident | return |", "|---|---|---|---|"]
+    for whose, results in (("the rule", of("bc")), ("the stochastic rule", clones_of_the_stochastic_rule())):
+        assert len(results) == 10
+        accidents, back = 100 * results.scores("accident").mean(), results.scores("returns").mean()
+        rows.append(f"| {whose} | {round(updates_of(results), -3):,.0f} | {accidents:.1f} % | {back:.0f} |")
+    return "\n".join(rows)
