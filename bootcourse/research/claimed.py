@@ -381,7 +381,7 @@ def copies(study: StudyResults) -> Claim:
                 holds(study.results["calibrated"], faster),
                 f"{told(study.results['calibrated'], 'bc')}; the rule {faster:.0f}",
             ),
-            "drives by the stochastic rule, five times the updates": (
+            "drives by the stochastic rule, twice the updates": (
                 holds(study.results["paper"], rule), told(study.results["paper"], "bc")
             ),
         },

@@ -248,14 +248,14 @@ fates = counts.fates(study, changed, others)
 table(counts.HEADINGS, fates, "The others were trained and followed twice as long.")
 
 # %% [markdown]
-# **See: demonstrations that stay, with their bonus, keep the way.** If β ends, {{
+# **See.** *Demonstrations that stay, with their bonus, keep the way.* If β ends, {{
 # losing(KINDS_WITH[0]) }} agents lose it at least once; if it never ends, {{ losing(KINDS_WITH[1])
 # }}. With 10 of 50 as the bar for *lost* it is {{ losing(KINDS_WITH[0], 10) }} against {{
 # losing(KINDS_WITH[1], 10) }}.
 # <!-- claim: losing(KINDS_WITH[0]) == '20 of 20' and losing(KINDS_WITH[1]) ==
 #   losing(KINDS_WITH[1], 10) == '2 of 20' -->
 #
-# **They have a price.** The study's agents whose β never ends return {{ mean_of(ablations()['β for
+# *They have a price.* The study's agents whose β never ends return {{ mean_of(ablations()['β for
 # ever'], 'bootstrapped', 'returns') | .0f }} instead of {{ mean_of(of_all(), 'bootstrapped',
 # 'returns') | .0f }}, at {{ mean_of(ablations()['β for ever'], 'bootstrapped', 'speed') | .1f }}
 # m/s. Agents that keep the way after β has ended drive at {{ keepers(of_all(), 'bootstrapped',
@@ -271,7 +271,7 @@ table(counts.HEADINGS, fates, "The others were trained and followed twice as lon
 #   keepers(of_all(), 'bootstrapped', 'speed')) < 0.05 -->
 
 # %% [markdown]
-# **What does the bonus do?** Without it {{ early(*KINDS_WITHOUT) }} agents lose the way out before
+# **Explain.** *What does the bonus do?* Without it {{ early(*KINDS_WITHOUT) }} agents lose the way out before
 # episode {{ LATE }}, while β is still large; with it {{ early(*KINDS_WITH) }} do. But most of these
 # losses are dips: at 10 of 50 it is {{ early(*KINDS_WITHOUT, bar=10) }}. If β ends, {{
 # keeping(KINDS_WITHOUT[0]) }} agents keep the way without the bonus, and {{ keeping(KINDS_WITH[0])
@@ -280,7 +280,7 @@ table(counts.HEADINGS, fates, "The others were trained and followed twice as lon
 #   40' -->
 
 # %% [markdown]
-# **A strong pull finds, a weak pull that stays keeps.** Compare the last three rows. A ξ that starts
+# **Explain.** *A strong pull finds, a weak pull that stays keeps.* Compare the last three rows. A ξ that starts
 # at 2 and fades leads {{ finding(FADES) }} agents to the way out, and {{ losing(FADES) }} lose it
 # at least once. With ξ held at 0.1 only {{ finding(HELD) }} find it, and none of these loses it. A ξ
 # that falls from 2 to 0.1 and stays there (lesson [[soft_constraint]]) does both: {{ finding(FALLS)

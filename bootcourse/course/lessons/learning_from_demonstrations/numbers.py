@@ -4,9 +4,10 @@ from functools import cache
 
 import numpy as np
 
+from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.research.results import Results
 from bootcourse.statistics import found_after
-from tools.course.known import of, rule_drives, shipped_experiment, shipped_runs
+from tools.course.known import rule_drives, shipped_experiment, shipped_results, shipped_runs
 
 
 @cache
@@ -27,17 +28,33 @@ def _way_out(method: str) -> tuple[list[np.ndarray], np.ndarray]:
     return [run.agent.q_values(seen) for run in shipped_runs(method)], did
 
 
-def without_bonus(method: str = "") -> Results:
-    """The agents whose demonstrations pay no bonus, c = 0: ten of each of two methods."""
-    agents = shipped_experiment("ablations")["c = 0"]
-    return agents.of(method) if method else agents
+@cache
+def kinds() -> measures.Kinds:
+    """With the soft constraint and without it, by demonstrations: the study's ten agents first, then the ten others."""
+    return measures.kinds(shipped_results(), shipped_experiment("ablations"), shipped_experiment("stress"))
 
 
-def found_by(method: str) -> np.ndarray:
-    """The training episodes after which the study's agents of a method have found the way out, (agents,)."""
-    return found_after(of(method).curves["success"])
+def _with(name: str) -> tuple[list[Results], list[Results]]:
+    """One of `kinds`, by its last word: "c = 2", "c = 0", "margin" or "none"."""
+    return kinds()["no demonstrations" if name == "none" else f"demonstrations, {name}"]
 
 
-def in_50(method: str, first: int) -> np.ndarray:
-    """The share of successes in 50 training episodes of each of the study's agents of a method, (agents,)."""
-    return of(method).curves["success"][:, first : first + 50].mean(axis=1)
+def in_all(name: str) -> str:
+    """ "16 of 20": how many agents with the soft constraint and these demonstrations escape."""
+    agents = _with(name)[0]
+    return f"{sum(measures.escape(agents))} of {sum(map(len, agents))}"
+
+
+def escape_freely(name: str) -> int:
+    """How many agents without the soft constraint escape."""
+    return sum(measures.escape(_with(name)[1]))
+
+
+def found(name: str) -> np.ndarray:
+    """The training episodes after which the agents with the soft constraint have found the way out, (agents,)."""
+    return np.concatenate([found_after(each.curves["success"]) for each in _with(name)[0]])
+
+
+def training(name: str, curve: str, first: int, last: int) -> np.ndarray:
+    """The mean of the study's ten agents with the soft constraint in some training episodes, (agents,)."""
+    return _with(name)[0][0].curves[curve][:, first:last].mean(axis=1)

@@ -573,7 +573,7 @@ bc.show(figure)
 # }}: they have lost it.
 
 # %% [markdown]
-# **Finding and keeping are two things.** Ten more agents of each kind, other seeds, trained twice
+# **Explain.** *Finding and keeping are two things.* Ten more agents of each kind, other seeds, trained twice
 # as long, make twenty. With ξ = 0.1 throughout {{ in_all(found, 0.1) }} find the way, and all of
 # them keep it. With a fading ξ all {{ in_all(found) }} find it, and {{ in_all(kept) }} keep it: ξ =
 # {{ SETTINGS.xi_multiplier }} α ends near 10⁻⁷, so the pull is off, not weak. Should it be strong
@@ -581,7 +581,7 @@ bc.show(figure)
 # which ξ = {{ SETTINGS.xi_multiplier }} α stops falling at 0.1.
 
 # %% [markdown]
-# **A pull that is strong first and weak later finds the way and keeps it:**
+# **See.** *A pull that is strong first and weak later finds the way and keeps it:*
 #
 # | | find the way | escape | return | accidents, % |
 # |---|---|---|---|---|
