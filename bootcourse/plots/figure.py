@@ -113,7 +113,7 @@ def label_ends(
         return np.zeros(0)
     figure = ax.get_figure(root=True)
     pixels = ax.get_window_extent().height
-    rows = [textwrap.fill(text, wrap) for _, text, _ in ends]
+    rows = [textwrap.fill(text.replace(" = ", "\u00a0=\u00a0"), wrap) for _, text, _ in ends]  # "c = 2" stays
     heights = np.array([(text.count("\n") + 1) * size * 1.25 * figure.dpi / 72 / pixels for text in rows])
     low, high = ax.get_ylim()
     wanted = np.clip([(y - low) / (high - low) for y, _, _ in ends], 0, 1)
