@@ -52,7 +52,7 @@ def clocks() -> Explorable:
         xi = 100 * fading.left(updates)
         beta = 100 * np.array([demonstration_share(e, 1.0, settings.beta_episodes) for e in EPISODES])
         first = [EPISODES[np.argmax(left < 1)] if (left < 1).any() else None for left in (xi, beta)]
-        when = f"ξ has lost 99 % by episode {first[0]:,}" if first[0] is not None else "ξ keeps more than 1 %"
+        when = f"ξ has fallen to 1 % by episode {first[0]:,}" if first[0] is not None else "ξ keeps more than 1 %"
         named = {
             "ξ, which fades by updates": Curve(xi, style("soft").colour),
             "β, which fades by episodes": Curve(beta, style("demos").colour, "--"),

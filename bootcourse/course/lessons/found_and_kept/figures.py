@@ -38,7 +38,7 @@ def one_agent(success: np.ndarray, method: str, title: str) -> Figure:
     words, look = f"success in the last {IN_A_ROW} episodes (%)", style(method)._replace(line="-")
     figure = lines(at, {method: share}, title, "training episode", words, looks=[look])
     good = np.flatnonzero(share > 50)
-    for place, words in ((good[0], "found"), (good[-1], "lost")):
+    for place, words in ((good[0], "found"), (good[-1], "last had it")):
         figure.axes[0].plot(at[place], share[place], "o", color=INK, ms=6, zorder=5)
         figure.axes[0].annotate(
             f"{words}: {at[place]:,.0f}", (at[place], share[place]), (8, 0), ha="left", va="center",

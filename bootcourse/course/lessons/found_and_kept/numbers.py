@@ -97,6 +97,12 @@ def early_by_noise() -> int:
     return int(lost(clocks()["1/4", "π̃"].of("bootstrapped").curves["success"][:, :LATE]).sum())
 
 
+def both_early(updates: str) -> int:
+    """How many agents with both aids and so many updates lose the way out before episode 900, of both drivers."""
+    each = [clocks()[updates, driver].of("bootstrapped").curves["success"][:, :LATE] for driver in ("μ", "π̃")]
+    return sum(int(lost(success).sum()) for success in each)
+
+
 def finding(name: str) -> str:
     """How many agents of a kind find the way out."""
     return _of([each.found_and_kept(counts.KINDS[name][0])[0] for each in kind(name)])

@@ -17,7 +17,7 @@
 #
 # **What you will be able to do**
 # - tell an agent that never found the way out from one that found it and lost it;
-# - explain why the number of updates may decide which aid lasts;
+# - test whether two clocks explain which aid lasts;
 # - say how likely a table of single agents is.
 #
 # **Time** 60 minutes; running it takes under one minute. **It builds on** the seeds (lesson
@@ -245,24 +245,26 @@ predict(
 predicted("found_and_kept.3")
 changed, others = (shipped.shipped_experiment(name) for name in ("ablations", "stress"))
 fates = counts.fates(study, changed, others)
-table(counts.HEADINGS, fates, "The others were trained and followed twice as long.")
+table(counts.HEADINGS, fates[:4], "The others were trained and followed twice as long.")
 
 # %% [markdown]
-# **See.** *Demonstrations that stay, with their bonus, keep the way.* If β ends, {{
+# **See.** *With demonstrations that stay, and their bonus, the way is lost less often.* If β ends, {{
 # losing(KINDS_WITH[0]) }} agents lose it at least once; if it never ends, {{ losing(KINDS_WITH[1])
 # }}. With 10 of 50 as the bar for *lost* it is {{ losing(KINDS_WITH[0], 10) }} against {{
-# losing(KINDS_WITH[1], 10) }}.
+# losing(KINDS_WITH[1], 10) }}. At the end {{ keeping(KINDS_WITH[0]) }} and {{ keeping(KINDS_WITH[1])
+# }} have it: here no difference is shown.
 # <!-- claim: losing(KINDS_WITH[0]) == '20 of 20' and losing(KINDS_WITH[1]) ==
-#   losing(KINDS_WITH[1], 10) == '2 of 20' -->
+#   losing(KINDS_WITH[1], 10) == '2 of 20' and keeping(KINDS_WITH[0]) == '16 of 20' and
+#   keeping(KINDS_WITH[1]) == '19 of 20' -->
 #
-# *They have a price.* The study's agents whose β never ends return {{ mean_of(ablations()['β for
-# ever'], 'bootstrapped', 'returns') | .0f }} instead of {{ mean_of(of_all(), 'bootstrapped',
-# 'returns') | .0f }}, at {{ mean_of(ablations()['β for ever'], 'bootstrapped', 'speed') | .1f }}
-# m/s. Agents that keep the way after β has ended drive at {{ keepers(of_all(), 'bootstrapped',
-# 'speed') | .1f }}, and so do the {{ way(ablations()['β for ever, c = 0'], 'bootstrapped').kept }}
-# that keep it with a β that never ends and no bonus: the bonus slows. But with it they crash less:
-# on {{ 100 * mean_of(ablations()['β for ever'], 'bootstrapped', 'accident') | .0f }} % of the
-# roads, those whose β ends on {{ 100 * mean_of(of_all(), 'bootstrapped', 'accident') | .0f }} %.
+# *They have a price.* Of the agents that keep the way, those whose β never ends return {{
+# keepers(ablations()['β for ever'], 'bootstrapped', 'returns') | .0f }} instead of {{
+# keepers(of_all(), 'bootstrapped', 'returns') | .0f }} (of the others {{ keepers(others('bootstrapped,
+# β for ever'), 'bootstrapped', 'returns') | .0f }} instead of {{ keepers(others('bootstrapped'),
+# 'bootstrapped', 'returns') | .0f }}), at {{ keepers(ablations()['β for ever'], 'bootstrapped',
+# 'speed') | .1f }} instead of {{ keepers(of_all(), 'bootstrapped', 'speed') | .1f }} m/s. The {{
+# way(ablations()['β for ever, c = 0'], 'bootstrapped').kept }} that keep it without the bonus, with
+# a β that never ends, are as fast: the bonus slows.
 # <!-- claim: all(mean_of(ends, 'bootstrapped', 'returns') > mean_of(stays, 'bootstrapped',
 #   'returns') and mean_of(ends, 'bootstrapped', 'accident') > mean_of(stays, 'bootstrapped',
 #   'accident') for ends, stays in ((of_all(), ablations()['β for ever']), (others('bootstrapped'),
@@ -271,8 +273,8 @@ table(counts.HEADINGS, fates, "The others were trained and followed twice as lon
 #   keepers(of_all(), 'bootstrapped', 'speed')) < 0.05 -->
 
 # %% [markdown]
-# **Explain.** *What does the bonus do?* Without it {{ early(*KINDS_WITHOUT) }} agents lose the way out before
-# episode {{ LATE }}, while β is still large; with it {{ early(*KINDS_WITH) }} do. But most of these
+# **Explain.** *What does the bonus do?* Without it {{ early(*KINDS_WITHOUT) }} agents lose the way
+# out before episode {{ LATE }}, while β is still large; with it {{ early(*KINDS_WITH) }} do. But most of these
 # losses are dips: at 10 of 50 it is {{ early(*KINDS_WITHOUT, bar=10) }}. If β ends, {{
 # keeping(KINDS_WITHOUT[0]) }} agents keep the way without the bonus, and {{ keeping(KINDS_WITH[0])
 # }} with it: here no difference is shown (lesson [[learning_from_demonstrations]]).
@@ -280,8 +282,15 @@ table(counts.HEADINGS, fates, "The others were trained and followed twice as lon
 #   40' -->
 
 # %% [markdown]
-# **Explain.** *A strong pull finds, a weak pull that stays keeps.* Compare the last three rows. A ξ that starts
-# at 2 and fades leads {{ finding(FADES) }} agents to the way out, and {{ losing(FADES) }} lose it
+# And the other aid, the soft constraint alone? Its ξ fades from 2, falls to 0.1 and stays there, or
+# is 0.1 throughout. **Say first**: which finds the way out most often, and which keeps it?
+
+# %%
+table(counts.HEADINGS, fates[4:])
+
+# %% [markdown]
+# **See.** *A strong pull finds, a pull that stays keeps, and a weak one earns.* A ξ that starts at 2
+# and fades leads {{ finding(FADES) }} agents to the way out, and {{ losing(FADES) }} lose it
 # at least once. With ξ held at 0.1 only {{ finding(HELD) }} find it, and none of these loses it. A ξ
 # that falls from 2 to 0.1 and stays there (lesson [[soft_constraint]]) does both: {{ finding(FALLS)
 # }} find it, {{ losing(FALLS) }} lose it. Held at 0.5 the pull keeps the way, too, but at the rule's
@@ -301,15 +310,15 @@ table(counts.HEADINGS, fates, "The others were trained and followed twice as lon
 # %% [markdown]
 # ## Round 4: two clocks
 #
-# ξ counts updates, β counts episodes. **Drag** the updates for each decision. At which number have
-# both lost 99 % by the same episode? (ξ as measured with ¼, 1, 2 and 4 updates, reckoned for the
-# rest.)
+# ξ counts updates, β counts episodes. In the study an agent drives four roads at once, with one
+# update after each step of all four: ¼ update for a decision. **Drag** the number. At which have
+# both fallen to 1 % by the same episode? (ξ as measured with ¼, 1, 2 and 4, reckoned for the rest.)
 
 # %%
 explorable.clocks()
 
 # %% [markdown]
-# At about 0.1. The paper does not say how many updates belong to a decision; in the study it is ¼.
+# At about 0.1. The paper does not say how many updates belong to a decision.
 # We trained new agents with ¼ (four roads at a time, as in the study), 1, 2 and 4 (one road), for
 # {{ SHORTER | , }} episodes: *kept* now means {{ SHORTER - SETTINGS.beta_episodes }} episodes after
 # β has reached 0, the easier test.
@@ -356,17 +365,17 @@ panels = {
     words: {figures.SHORT.get(u, u): (cells[u, driver], method) for u in clocks.UPDATES}
     for words, (method, driver) in kinds.items()
 }
-title = "Two updates and demonstrations by π̃: ten of ten keep the way out"
+title = "With two updates half keep the way out by ξ alone, all ten by demonstrations of π̃"
 bc.show(figures.found_and_kept(panels, title, "updates for\na decision"))
 
 # %% [markdown]
 # **See.** With *demonstrations alone* and π̃ all ten agents keep the way out with two updates. With
 # *the soft constraint alone* about half of the agents keep it with up to two updates, and none of
-# three with four. What is left when half have found it does not explain that: with {{ 100 *
-# xi_left('1/4') | .0f }}, {{ 100 * xi_left('1') | .0f }} and {{ 100 * xi_left('2') | .1f }} % of ξ
-# left {{ soft_kept_of('1/4') }}, {{ soft_kept_of('1') }} and {{ soft_kept_of('2') }} of ten keep
-# it, and β is 0 when the ten of ten are tested. More than the clocks changes: the roads at a time,
-# too.
+# three with four. If you reasoned with what is left of each aid: a good guess, and these counts
+# speak against it. With {{ 100 * xi_left('1/4') | .0f }}, {{ 100 * xi_left('1') | .0f }} and {{ 100 *
+# xi_left('2') | .1f }} % of ξ left {{ soft_kept_of('1/4') }}, {{ soft_kept_of('1') }} and {{
+# soft_kept_of('2') }} of ten keep it, and β is 0 when the ten of ten are tested. More than the
+# clocks changes: the roads at a time, too.
 # <!-- claim: all(5 <= way(clocks()[of], 'soft').kept <= 6 for of in (('1/4', 'π̃'), ('1', 'μ'),
 #   ('2', 'π̃'))) and way(clocks()['4', 'μ'], 'soft') == (2, 0, 3) -->
 #
@@ -377,8 +386,10 @@ bc.show(figures.found_and_kept(panels, title, "updates for\na decision"))
 # | lose it at least once by {{ SHORTER | , }} | {{ both('lost') }} |
 # | keep it | {{ both('kept') }} |
 #
-# So what Round 3 shows about β's end is shown for ¼ update and μ. With ¼ and π̃ {{ early_by_noise()
-# }} of ten lose it before episode {{ LATE }}, in spite of the bonus. We do not know why.
+# With two updates the {{ both_early('2') }} losses come before episode {{ LATE }}: none as β ends.
+# With ¼ and π̃ {{ early_by_noise() }} of ten lose it before then, in spite of the bonus. So there
+# are losses that β's end does not explain, and why the way is lost is open.
+# <!-- claim: both('lost').split(' | ')[2] == f"{both_early('2')} of 14" -->
 # <!-- claim: p_values()['both, updates'] < 0.001 -->
 
 # %% [markdown] tags=["instructor"] minutes=6
@@ -449,10 +460,10 @@ table(headings, rows, below)
 # %% [markdown]
 # ## So why is our table not the paper's?
 #
-# After Holm's correction (lesson [[how_many_seeds]], round 2) four of this lesson's eight
-# comparisons have a p below 0.05: the first three of the fold, and *two updates and π̃* with
-# demonstrations alone. For either choice by itself there is at most a hint. Most groups were chosen
-# after seeing the counts.
+# Most groups were chosen after seeing the counts, so even corrected p values are too small. After
+# Holm's correction (lesson [[how_many_seeds]], round 2) four of this lesson's eight comparisons are
+# below 0.05: who loses the way (the first three below), and *two updates and π̃* with demonstrations
+# alone. For either choice by itself there is at most a hint.
 #
 # <details><summary>The eight comparisons</summary>
 #
@@ -515,7 +526,7 @@ compare_predictions(
 # ## What you now know
 #
 # 1. To find the way out and to keep it are two things: count both. In these agents a strong pull
-#    finds, and a weak pull that stays keeps.
+#    finds, a pull that stays keeps, and a weak one earns.
 # 2. ξ fades with updates, β with episodes. With ¼ update for a decision all twenty agents with both
 #    aids lose the way out at least once if β ends. If it stays with its bonus two do, and they earn
 #    less. With two or four updates fewer lose it.
