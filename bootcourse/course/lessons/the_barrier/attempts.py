@@ -79,14 +79,14 @@ def drive(policy: Policy, seeds: Sequence[int], make_env: Callable[..., VectorEn
 def stays_and_accelerates(
     accelerations: int, share: float, seeds: Sequence[int], make_env: Callable[..., VectorEnv], seed: int = 0
 ) -> list[Outcome]:
-    """Two drives on each road, of which one does nothing and one accelerates so often at first, then does nothing.
+    """Two drives on each road: one does nothing, the other first accelerates so often, then does nothing.
 
-    share: the probability that an action after the first is random instead, the same in both drives; drawn with `seed`.
+    share: the probability that a later action is random instead, the same in both drives; drawn with `seed`.
     """
     rng = np.random.default_rng(seed)
     shape = DEFAULT.clock.decisions, len(seeds)
     errs, wrong = rng.random(shape) < share, rng.integers(N_ACTIONS, size=shape)
-    errs[0] = False
+    errs[:accelerations] = False
     outcomes = []
     for times in (0, accelerations):
         actions = np.full(shape, IDLE)

@@ -4,6 +4,7 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+from scipy import stats
 
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
@@ -12,7 +13,7 @@ from bootcourse.research.cells import HELD_OUT
 from bootcourse.research.planner import Search, plan_episodes
 from bootcourse.research.results import Results
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import DEFAULT
+from bootcourse.scenario import ACTION_NAMES, DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, idle, of, shipped_experiment
 
@@ -146,9 +147,9 @@ def costs(times: int, share: float, gamma: float) -> bool:
     return added(times, share, gamma)[0] < -2 * added(times, share, gamma)[1]
 
 
-def crashes(times: int, share: float) -> float:
-    """The share of these drives that end in an accident."""
-    return float(_random_later(times, share)[1].accident.mean())
+def adds(times: int) -> str:
+    """A row of the table: what they add at γ = 0.8 with 5, 50 and 100 % of random actions."""
+    return " | ".join(f"{added(times, share, 0.8)[0]:+.2f}".replace("-", "−") for share in (0.05, 0.5, 1))
 
 
 def sooner() -> float:
@@ -240,6 +241,24 @@ def openings() -> list[attempts.Outcome]:
     return sorted(map(blind, set(first_sixes())), key=lambda each: -each.values(0.8).mean())
 
 
+def in_words(road: int) -> str:
+    """The six actions of one road."""
+    return ", ".join(ACTION_NAMES[action] for action in first_sixes()[road])
+
+
+@cache
+def all_free() -> dict[str, float]:
+    """What each kind of attempt is worth at γ = 0.8 if an accident ends the drive and costs nothing."""
+    policies, free_of_charge = attempts.kinds(len(ROADS)), easier.costing(0.0)
+    outcomes = {kind: attempts.drive(policy, ROADS, free_of_charge) for kind, policy in policies.items()}
+    return {kind: float(outcome.values(0.8).mean()) for kind, outcome in outcomes.items()}
+
+
+def free(kind: str) -> float:
+    """One kind of them."""
+    return all_free()[kind]
+
+
 def above_staying(outcome: attempts.Outcome) -> int:
     """Whether it is worth clearly more (1) than staying at γ = 0.8, clearly less (-1), or neither (0)."""
     more = outcome.values(0.8) - tested("stays").values(0.8)
@@ -282,6 +301,17 @@ def larger_entropy() -> np.ndarray:
     """What the study's plain agents with another target entropy than the paper's return, (agents,)."""
     varied = shipped_experiment("sensitivity").items()
     return np.concatenate([each.of("sac").scores("returns") for what, each in varied if "entropy" in what])
+
+
+def crash_mostly(kind: str) -> int:
+    """How many of the twenty have an accident on most of their held-out roads."""
+    return int((easy(kind).scores("accident") > 0.5).sum())
+
+
+def hint() -> float:
+    """Fisher's p: do more agents with η = 1 than with −1 end ahead on 10 % or more, from a later start?"""
+    ahead = [often_ahead(kind) for kind in ("a later start", "a later start, η = 1")]
+    return float(stats.fisher_exact([[each, 20 - each] for each in ahead]).pvalue)
 
 
 def crashing(kind: str) -> int:
