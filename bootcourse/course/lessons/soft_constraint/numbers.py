@@ -5,12 +5,15 @@ from collections.abc import Callable, Sequence
 from functools import cache
 
 import numpy as np
+import torch
 
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.bootstrap import kl_to_rule
 from bootcourse.panels.compromise import CHOSEN, Ways, compromise
+from bootcourse.policies import rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES, found_after
@@ -145,6 +148,27 @@ def as_the_rule(xi: float) -> np.ndarray:
 def by_their_own() -> list[list[Rollout]]:
     """Each shipped agent's drives by its own π, with its Q, on 100 held-out roads."""
     return [record(helped.as_policy(with_q=True), held_out_seeds(1, 100)) for helped in shipped_agents("soft")]
+
+
+@cache
+def break_even() -> np.ndarray:
+    """At which ξ each shipped agent's unhurt drives are charged, after 20 s, what they earn more than the rule's."""
+    late, mine = slice(20, None), record(rule_policy(DEFAULT), held_out_seeds(1, 100))
+    earned, levels = np.mean([drive.rewards[late] for drive in mine]), []
+    for drives in by_their_own():
+        parts = [each for each in drives if not each.accident]
+        more = np.mean([each.rewards[late] for each in parts]) - earned
+        policy = torch.tensor(np.stack([each.policy[late] for each in parts])).clamp_min(1e-12)
+        taken = torch.tensor(np.stack([each.rule_actions[late] for each in parts]))
+        charged = float(kl_to_rule(policy.log(), taken.long(), torch.tensor(RULE_P)).mean())
+        levels.append(more / (charged + math.log(RULE_P)))
+    return np.array(levels)
+
+
+def late_as_the_rule() -> np.ndarray:
+    """The share of their seconds, after 20 s, in which the shipped agents do what the rule would, (agents,)."""
+    each = [[drive for drive in drives if not drive.accident] for drives in by_their_own()]
+    return np.array([np.mean([d.actions[20:] == d.rule_actions[20:] for d in drives]) for drives in each])
 
 
 def unlike_the_rule() -> np.ndarray:

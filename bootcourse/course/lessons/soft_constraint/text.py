@@ -290,8 +290,8 @@ bc.show(charts.lines(strengths, probability, title, x_label, y_label, "x", looks
 # %% [markdown]
 # **Explain.** With ξ = 2 the head start is {{ 2 * math.log(72) | .2f }}. The best drive for ever is
 # worth {{ second_pays(15) | .2f }} · 5, about {{ second_pays(15) / (1 - 0.8) | .1f }}. So while Q
-# counts rewards alone (Round 4 adds the KL), speed makes no other action the most probable one; an
-# accident, {{ DEFAULT.reward.accident }}, can.
+# counts rewards alone (Round 4 adds the KL), no gain in speed outweighs the head start. Only an
+# accident behind the rule's action, {{ DEFAULT.reward.accident }}, can.
 # <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident -->
 #
 # **Drag** ξ. You see a trained agent's π and Q, the rule's π̃, and the best compromise, *optimum*.
@@ -305,7 +305,7 @@ its_drive = bc.record(helped.as_policy(with_q=True), [ROAD], label="soft")[0]
 bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 
 # %% [markdown]
-# **See.** Near ξ = 0.1 this drive ends in an accident. Five agents on 100 roads each:
+# **See.** Near ξ = 0.1 this drive ends in an accident. Five agents that escape, on 100 roads each:
 #
 # | driven by | accidents, % |
 # |---|---|
@@ -435,7 +435,9 @@ bc.show(figure)
 # <!-- claim: math.isclose(0.8 / (1 - 0.8), 4) -->
 #
 # Does this help to find the way (to end ahead in more than half of 50 episodes)? Not in these
-# agents: all ten without it are sooner than any with it. We do not know why.
+# agents: all ten without it are sooner than any with it. We do not know why. A guess: an even policy
+# is charged {{ -8 * (math.log(9) + (math.log(0.9) + 8 * math.log(0.0125)) / 9) | .1f }} over four
+# seconds at ξ = 2, more than a crash costs, and a crash ends the charges. How would you test it?
 #
 # | the KL in | found after episode | escape | these return |
 # |---|---|---|---|
@@ -535,7 +537,7 @@ for name, agents_of in kinds.items():
         if chosen.any():
             scores = agents_of.scores("returns")[chosen], 100 * agents_of.scores("accident")[chosen]
             rows.append([name, f"{chosen.sum()} {who}", spread(scores[0]), spread(scores[1])])
-below = "The median agent (lowest to highest), of two both; 1,000 roads, most probable actions."
+below = "The median agent (lowest to highest), where there are two, both; 1,000 roads, most probable actions."
 table(["ten agents each", "escape", "return", "accidents, %"], rows, below=below)
 
 # %% tags=["hide-input"]
@@ -545,7 +547,7 @@ for name, agents_of in kinds.items():
     earned = agents_of.curves["return"].astype(float)
     drawn[name] = earned.reshape(len(earned), -1, window).mean(2)
 middle = np.arange(drawn["ξ fades"].shape[1]) * window + window / 2
-title = "In training, too, agents with a small ξ rise far above those with a large one"
+title = "Most agents with a ξ of 0.1, or that fades, rise far above all with 0.5 or 2"
 x_label, y_label = "training episode", "return (thin: agents; thick: mean of the middle half)"
 thick = {name: bc.statistics.iqm(each, 0) for name, each in drawn.items()}
 looks = [charts.Style("#56B4E9", "--"), GREY, charts.Style("#661100", ":"), charts.Style("#6F4FA0")]
@@ -556,9 +558,11 @@ bc.show(figure)
 
 # %% [markdown]
 # **Explain.** With ξ at 2 and at 0.5 all agents stay near the rule's return: leaving the rule costs
-# more than speed pays. At {{ (second_pays(15) - second_pays(10)) / math.log(80) | .2f }} the two
-# are equal. With 0.1, {{ stays(0.1).escapers('soft') }} of ten return more than twice as much as the
-# rule, but two do not find the way:
+# more than speed pays. The two are equal near {{ (second_pays(15) - second_pays(10)) / math.log(80)
+# | .1f }} by the coarse estimate above, and at {{ break_even().min() | .2f }} to {{
+# break_even().max() | .2f }} on the drives of five fast agents, which do what the rule would in {{
+# percent(late_as_the_rule()) }} % of their seconds. With 0.1, {{ stays(0.1).escapers('soft') }} of
+# ten return more than twice as much as the rule, but two do not find the way:
 #
 # | ξ | find the way | after episode | escape after training | their median return |
 # |---|---|---|---|---|
@@ -588,16 +592,19 @@ bc.show(figure)
 # | the study's seeds | {{ stopped_row(falls()) }} |
 # | ten more | {{ stopped_row(others('soft, ξ falls to 0.1')) }} |
 #
-# Lesson [[found_and_kept]] asks what else keeps the way.
+# By these counts it is not shown that more keep it than with ξ = {{ SETTINGS.xi_multiplier }} α to
+# the end (p = {{ stats.fisher_exact([[20, 0], [in_all(kept), 20 - in_all(kept)]]).pvalue | .2f }}).
+# Lesson [[found_and_kept]] counts who loses the way in between.
 # <!-- claim: in_all(kept, 0.1) == in_all(found, 0.1) == 13 and in_all(len, 0.1) == 20 -->
 # <!-- claim: in_all(len) == in_all(found) == 20 and in_all(kept) == 16 -->
 # <!-- claim: 4e-8 < 200 * alpha_at_the_end().min() and 200 * alpha_at_the_end().max() < 2e-7 -->
 #
-# **What if η is above the entropy of π̃, {{ entropy_of_the_rule() | .2f }} nats?** α fades because the
-# target entropy, η = −1, is out of reach. With η = 1 α and ξ run away: a larger ξ holds the policy
-# closer to π̃, so its entropy stays below η and α rises on. The study trained three: one broke off
-# with a non-finite loss. All three, that one as it was just before, escape and return {{
-# with_target(1).min() | .0f }} to {{ with_target(1).max() | .0f }}.
+# %% [markdown]
+# **What if α need not fall?** It falls because η = −1 cannot be reached. Set η = 1, above the {{
+# entropy_of_the_rule() | .2f }} nats of π̃: when the policy is too sure, α rises, and ξ = 200 α with
+# it, which makes the policy surer. Of the study's three such agents all escape and return {{
+# with_target(1).min() | .0f }} to {{ with_target(1).max() | .0f }}; the training of one broke off with
+# a non-finite loss (it is tested as it was just before).
 # <!-- claim: (varied()['target entropy 1'].of('soft').stopped >= 0).sum() == 1 and
 #   escaped_with('target entropy 1', 'soft') == 3 -->
 # <!-- claim: found(stays(2)) == found(stays(0.5)) == found(of('soft')) == 10 and
@@ -630,7 +637,8 @@ bc.panels.train_panel("soft", seeds=2, episodes=600)
 
 # %% [markdown]
 # **See.** In our run both kept it, their return fell and rose again, and their entropy fell below the
-# {{ entropy_of_the_rule() | .2f }} nats of π̃. ξ, a multiple of α, fell, too.
+# {{ entropy_of_the_rule() | .2f }} nats of π̃. After the jump ξ fell again, since α went
+# on falling. (Two agents: yours may differ.)
 
 # %%
 kl_alone = "less than a crash, but only with the KL"
@@ -650,12 +658,15 @@ compare_predictions(
 # 3. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)): the rule has a head start of ξ log
 #    (8p / (1 − p)) in Q. This is SAC with the reward r + ξ log π̃ and the temperature α + ξ.
 # 4. The KL stands in the actor's loss and in the critics' target, where it lowers the value of
-#    staying in the trap. The study's agents find the way sooner without it.
+#    each future in which the policy differs from the rule. It is not needed to find the way: the
+#    study's agents without it are sooner.
 # 5. With ξ fixed at 2 or 0.5 the study's agents end near the rule's return. Of twenty agents with
 #    0.1 {{ in_all(found, 0.1) }} find the way, and keep it. Of twenty with ξ = {{
 #    SETTINGS.xi_multiplier }} α all find it, and {{ in_all(kept) }} keep it. Of twenty whose ξ stops
 #    falling at 0.1 all find it and keep it. Those that keep it return more than twice as much as the
-#    rule.
+#    rule. All this with one update for four decisions: with four for each, none of three escapes.
+# <!-- claim: shipped_experiment('clocks')['4 updates, no demonstrations'].escapers('soft') == 0 and
+#   len(shipped_experiment('clocks')['4 updates, no demonstrations'].of('soft')) == 3 -->
 # <!-- claim: found(falls()) == kept(falls()) == 10 == kept(others('soft, ξ falls to 0.1')) -->
 # <!-- claim: in_all(fast_keepers) == in_all(kept) and in_all(fast_keepers, 0.1) == in_all(kept, 0.1)
 #   == in_all(found, 0.1) -->
