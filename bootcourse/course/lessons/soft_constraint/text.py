@@ -537,7 +537,7 @@ for name, agents_of in kinds.items():
         if chosen.any():
             scores = agents_of.scores("returns")[chosen], 100 * agents_of.scores("accident")[chosen]
             rows.append([name, f"{chosen.sum()} {who}", spread(scores[0]), spread(scores[1])])
-below = "The median agent (lowest to highest), where there are two, both; 1,000 roads, most probable actions."
+below = "The median agent (lowest to highest); where there are two, both. 1,000 roads."
 table(["ten agents each", "escape", "return", "accidents, %"], rows, below=below)
 
 # %% tags=["hide-input"]

@@ -92,7 +92,7 @@ watchful_rule = exercise(
             "Your rule hits a car on nearly every road: it changes lane without a look. Ask which cars are beside you "
             "and behind you in the lane on the left.",
         careful:
-            "Your rule escapes on some roads and hits a car on the others: there is room *ahead* in the left lane, and "
+            "Your rule escapes on some roads and hits a car on others: there is room *ahead* in the left lane, and "
             "a faster car comes from behind. Look at the gap behind you, and at how fast it closes.",
         "return toward(cars, 9.0, 2, scenario)":
             "Your rule is safe and stays in its lane on every road: the queue has gaps, and an end.",

@@ -1,5 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from collections import Counter
 from functools import cache
 
 import numpy as np
@@ -7,14 +8,19 @@ from scipy import stats
 
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
-from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out
+from bootcourse.course.lessons.your_teacher.driven_out import BEHIND, OUT, drive_out  # noqa: F401 (the text names them)
+from bootcourse.course.lessons.your_teacher.exercises import without_a_look
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.learn.teachers import ahead, teacher_policy, toward
+from bootcourse.episodes.record import record
+from bootcourse.learn.demonstrations import FIRST_SEED
+from bootcourse.learn.teachers import teacher_policy, toward
 from bootcourse.research import teachers
 from bootcourse.research.beyond import lengths
-from bootcourse.road.state import EGO, LANE, TRAFFIC, X
+from bootcourse.road.state import EGO, LANE, TRAFFIC, Accident, X
 from bootcourse.statistics import ESCAPES
 from tools.course.known import SETTINGS, shipped_teachers
+
+COLLIDES = Accident.COLLISION
 
 
 @cache
@@ -24,11 +30,10 @@ def teacher_exam(name: str):
 
 
 @cache
-def dense_escapes(name: str) -> float:
-    """The share of the roads with a dense left lane on which an example teacher gets out unharmed."""
-    rule = getattr(example_teachers, name)
-    roads = registry()["watchful_rule"].all_arguments
-    return float(np.mean([drive_out(rule, cars, scenario) == OUT for cars, scenario in roads]))
+def dense(name: str) -> Counter:
+    """How often a rule's drives on the roads with a dense left lane end how: {a number of `drive_out`: roads}."""
+    rule = without_a_look if name == "without_a_look" else getattr(example_teachers, name)
+    return Counter(drive_out(rule, cars, scenario) for cars, scenario in registry()["watchful_rule"].all_arguments)
 
 
 def dense_queues() -> list:
@@ -81,17 +86,6 @@ def one_situation(speed: float):
     return example_teachers.examine(rule).episodes
 
 
-@cache
-def looking_left():
-    """How a rule drives there that aims left, 1 m/s slower than the car ahead in that lane."""
-
-    def rule(cars, scenario):
-        left = max(0, int(cars[EGO, LANE]) - 1)
-        return toward(cars, min(ahead(cars, left)[1] - 1.0, 14.0), left, scenario)
-
-    return example_teachers.examine(rule).episodes
-
-
 def crashed_before(teacher: str) -> float:
     """The smallest share of these students' drives that end in an accident and not ahead of trap 1."""
     return float(np.maximum(0, students(teacher)["accident"] - students(teacher)["success"]).mean())
@@ -103,9 +97,40 @@ def near_rule():
     return example_teachers.examine(taught_agents.near_sighted).episodes
 
 
-def demonstrated_ahead(teacher: str) -> float:
-    """How many of its demonstrations end ahead, if they do as often as its other drives."""
-    return teachers_success(teacher) * SETTINGS.demonstration_episodes
+def first_seeds(teacher: str) -> str:
+    """The success of the first three of these students, in %: "95, 100 and 97"."""
+    first, second, third = (f"{100 * share:.0f}" for share in students(teacher)["success"][:3])
+    return f"{first}, {second} and {third}"
+
+
+def best_point() -> tuple[int, int, int]:
+    """After how many updates the racer's ten students together succeeded most: updates, successes, of how many."""
+    escapes, drives = long()["escapes"], 30
+    best = escapes.mean(axis=0).argmax()
+    return int(long()["updates"][best]), round(drives * escapes[:, best].sum()), drives * len(escapes)
+
+
+def returns_correlate() -> float:
+    """Spearman's rank correlation, over the six teachers, of what each earns and what its students earn on average."""
+    own = [example_teachers.examine(rule).episodes.returns.mean() for rule in taught_agents.TEACHERS.values()]
+    return float(stats.spearmanr(own, [students(name)["returns"].mean() for name in taught_agents.TEACHERS]).statistic)
+
+
+@cache
+def demonstrated(teacher: str) -> list:
+    """The drives that it demonstrates."""
+    roads = [FIRST_SEED + number for number in range(SETTINGS.demonstration_episodes)]
+    return record(teacher_policy(teachers.TEACHERS[teacher].rule), roads)
+
+
+def gets_ahead(teacher: str) -> int:
+    """How many of them end ahead of trap 1."""
+    return sum(bool(drive.success) for drive in demonstrated(teacher))
+
+
+def reach_free_lane(teacher: str) -> int:
+    """How many of them come to the free lane."""
+    return sum(bool((drive.states[:, EGO, LANE] == 0).any()) for drive in demonstrated(teacher))
 
 
 def worth() -> dict:
@@ -131,16 +156,24 @@ def budget(method: str) -> str:
     return f"{min(each):.{digits}f} to {max(each):.{digits}f}"
 
 
-def teachers_success(teacher: str) -> float:
-    """The share of such a teacher's own drives, on 200 of the study's held-out roads, that end ahead."""
-    return float(own_drives(teacher).success.mean())
+def earned(teacher: str, method: str) -> float:
+    """What the ten agents of a teacher and a method earn, the mean."""
+    return float(worth()[teacher, method].scores("returns").mean())
 
 
-def teachers_accidents(teacher: str) -> float:
-    """The share of these drives that end in an accident."""
-    return float((own_drives(teacher).accident > 0).mean())
+def half_against_rule(method: str) -> float:
+    """The rank test's p-value by return, of the half-random teacher's ten students and the rule's."""
+    return taught_agents.p_value(*(worth()[teacher, method].scores("returns") for teacher in ("random-50", "rule")))
+
+
+def of_ten(method: str) -> str:
+    """Two cells of a table: how many escape with two teachers, and the second's share of accidents, in %."""
+    half, quarter = (worth()[teacher, method] for teacher in ("random-50", "random-25"))
+    accidents = 100 * quarter.episodes("accident").mean()
+    return f"{half.escapers(method)} and {quarter.escapers(method)} of ten | {accidents:.0f} %"
 
 
 @cache
 def own_drives(teacher: str):
+    """How such a teacher drives itself, on 200 of the study's held-out roads."""
     return drive_episodes(teacher_policy(teachers.TEACHERS[teacher].rule), held_out_seeds(1, 200))
