@@ -30,7 +30,7 @@ TAKES = {  # learner: (what it takes, from, until, whether it fades)
     "bootstrapped": ("a KL, and demonstrations with a bonus", START, TRAINED - 110, True),
     "jsrl": ("the first seconds of each episode", START, TRAINED - 60, True),
     "rlpd": ("half of each batch", START, TRAINED, False),
-    "ibrl": ("a second action to choose from", START, END, False),
+    "ibrl": ("demonstrations at first, and a second action", START, END, False),
 }
 
 

@@ -58,11 +58,6 @@ def pairs(budget: int) -> dict[tuple[str, str], float]:
     return {pair: float(each) for pair, each in zip(of, holm(p), strict=True)}
 
 
-def with_buffer(budget: int) -> np.ndarray:
-    """The returns of all agents that have a teacher and a replay buffer."""
-    return np.concatenate([at(method, "returns", budget) for method in TAUGHT if method != "ppo_cloned"])
-
-
 def at_edge() -> set[str]:
     """The methods with a teacher whose best setting of the search is its first or its last."""
     places = {method: np.argmax(list(search(method).values())) for method in TAUGHT}
@@ -114,11 +109,9 @@ def ahead_next() -> float:
     return float(rlpd().curves["success"][(following > 0) & (following <= 50)].mean())
 
 
-def escapers_accidents() -> str:
-    """In how many of 100 test drives each of those that escape has an accident, in order."""
-    shares = np.sort(rlpd().scores("accident")[rlpd().scores("success") >= ESCAPES])
-    words = [f"{100 * share:.0f}" for share in shares]
-    return f"{', '.join(words[:-1])} and {words[-1]}"
+def worst_escaper() -> float:
+    """In how many percent of its test drives the one of those that escape with most accidents has one."""
+    return 100 * float(rlpd().scores("accident")[rlpd().scores("success") >= ESCAPES].max())
 
 
 def drives_before(method: str) -> int:
@@ -133,3 +126,15 @@ def decisions_per_update(method: str) -> float:
     if "epochs" in agent:
         return agent["batch"] / agent["epochs"]
     return agent["envs_per_agent"] / agent["updates"]
+
+
+def decisions_in_seconds(*methods: str) -> int:
+    """How many decisions an agent makes in equal seconds of a core, in training: the median, to a thousand."""
+    seconds = np.concatenate([at(method, "seconds") for method in methods])
+    return int(round(np.median(equal_decisions.SECONDS * FIRST / seconds), -3))
+
+
+def decisions_per_round() -> int:
+    """How many decisions PPO makes before it learns from them and throws them away."""
+    agent = later("ppo_cloned").agents[0]
+    return agent["envs_per_agent"] * agent["horizon"]
