@@ -32,39 +32,44 @@ def overlap(policy: Policy, data: Batch) -> float:
 
 
 def fitted_q(
-    policies: Sequence[Policy], data: Batch, gamma: float, updates: int = 2000, batch: int = 64, seed: int = 0
+    policies: Sequence[Policy], data: Batch, gamma: float, seeds: Sequence[int], updates: int = 1000, batch: int = 64
 ):
     """Q of given policies by fitted Q evaluation (Le et al., arXiv 1903.08738): Q(s, a) = r + γ Q(s', π(s')).
 
-    The parameters of one network for each policy, side by side: see `networks.mlp`. Each begins with the same weights
-    and gets the same batches. Nothing is driven.
+    The parameters of one network for each policy, side by side: see `networks.mlp`. Networks with the same seed begin
+    with the same weights and get the same batches. Nothing is driven.
     """
-    sizes, rng = (data.states.shape[1], 64, 64, N_ACTIONS), np.random.default_rng(seed)
-    q = init_mlp(sizes, [torch.Generator().manual_seed(seed) for _ in policies])
+    sizes = (data.states.shape[1], 64, 64, N_ACTIONS)
+    q = init_mlp(sizes, [torch.Generator().manual_seed(int(seed)) for seed in seeds])
     slow, optimiser = [parameter.clone() for parameter in q], adam((q, 1e-3))
-    next_actions = torch.stack([actions_of(policy, data.next_states) for policy in policies])  # (policies, transitions)
-    for _ in range(updates):
-        i = torch.from_numpy(rng.integers(len(data.actions), size=batch))
+    chosen = {policy: actions_of(policy, data.next_states) for policy in dict.fromkeys(policies)}
+    next_actions = torch.stack([chosen[policy] for policy in policies])  # (networks, transitions)
+    draws = [np.random.default_rng(seed).integers(len(data.actions), size=(updates, batch)) for seed in seeds]
+    for i in torch.from_numpy(np.stack(draws, axis=1)):  # (networks, batch)
         with torch.no_grad():
-            next_q = q_of(slow, data.next_states[i], next_actions[:, i])  # (policies, batch)
+            next_q = q_of(slow, data.next_states[i], next_actions.gather(1, i))
             target = data.rewards[i] + gamma * (1 - data.terminated[i]) * next_q
-        losses = (q_of(q, data.states[i], data.actions[i].expand(len(policies), -1)) - target).square().mean(-1)
-        minimise(optimiser, losses.sum())
+        minimise(optimiser, (q_of(q, data.states[i], data.actions[i]) - target).square().mean(-1).sum())
         with torch.no_grad():
-            torch._foreach_lerp_(slow, q, 0.01)
+            torch._foreach_lerp_(slow, q, 0.02)
     return q
 
 
 def q_of(parameters: Sequence[torch.Tensor], states: torch.Tensor, actions: torch.Tensor) -> torch.Tensor:
-    """Q(s, a) of each policy's network: states (n, observation), actions (policies, n) -> (policies, n)."""
-    q = mlp(parameters, states.expand(len(actions), *states.shape))
-    return q.gather(-1, actions.unsqueeze(-1)).squeeze(-1)
+    """Q(s, a) of each network: its states (networks, n, observation) and actions (networks, n) -> (networks, n)."""
+    return mlp(parameters, states).gather(-1, actions.unsqueeze(-1)).squeeze(-1)
 
 
-def estimates(policies: Sequence[Policy], data: Batch, starts: torch.Tensor, gamma: float) -> list[float]:
-    """What each driver is worth from these first states, (n, observation), on average, by the recorded drives alone."""
+def estimates(
+    policies: Sequence[Policy], data: Batch, starts: torch.Tensor, gamma: float, seeds: Sequence[int] | None = None
+) -> list[float]:
+    """What each driver is worth from these first states, (n, observation), on average, by the recorded drives alone.
+
+    A driver that is named twice, with two seeds, is estimated by two fits. Without seeds, each has seed 0.
+    """
     chosen = torch.stack([actions_of(policy, starts) for policy in policies])
-    return q_of(fitted_q(policies, data, gamma), starts, chosen).mean(-1).tolist()
+    q = fitted_q(policies, data, gamma, [0] * len(policies) if seeds is None else seeds)
+    return q_of(q, starts.expand(len(policies), *starts.shape), chosen).mean(-1).tolist()
 
 
 def worth(policy: Policy, roads, gamma: float) -> tuple[float, float]:

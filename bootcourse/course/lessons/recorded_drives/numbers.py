@@ -3,11 +3,15 @@
 from functools import cache
 
 import numpy as np
+import torch
+from scipy import stats
 
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
 from bootcourse.course.shipped import shipped_agents
+from bootcourse.episodes.record import record
+from bootcourse.policies import idle_policy
 from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
 from tools.course.known import idle, of, shipped_experiment, shipped_results
@@ -49,6 +53,12 @@ def staying(results: Results) -> int:
     return int(np.isclose(results.scores("returns"), idle().rewards.sum(), atol=1).sum())
 
 
+def p_of_entropy() -> float:
+    """Fisher's p of the agents that stay behind trap 1: of five with the lower η, and of five with the one in reach."""
+    stay = [staying(with_entropy(place)) for place in (0, 1)]
+    return float(stats.fisher_exact([[each, 5 - each] for each in stay]).pvalue)
+
+
 def of_paper(method: str) -> Results:
     """The agents of a method in the study whose demonstrations are the stochastic rule's."""
     return shipped_results("paper").of(method)
@@ -64,3 +74,25 @@ def worth_of(method: str, which: int = 0) -> float:
 def overlap_of(method: str, which: int = 0) -> float:
     """In which share of the recorded seconds it would do what was done."""
     return choosing.overlap(shipped_agents(method)[which].as_policy(), choosing.recorded())
+
+
+DRIVERS = (("bc", 0), ("cql", 0), ("cql_sac", 0), ("gail", 0), ("sac", 0), ("bootstrapped", 0), ("bootstrapped", 1))
+
+
+@cache
+def estimated() -> np.ndarray:
+    """What each of the lesson's seven drivers is worth by each of three fits, (fits, drivers), as in its notebook."""
+    drivers = [shipped_agents(method)[which].as_policy() for method, which in DRIVERS]
+    starts = torch.from_numpy(np.stack([each.observations[0] for each in record(idle_policy, range(100))])).float()
+    seeds = np.repeat(range(3), len(drivers))
+    return np.reshape(choosing.estimates(drivers * 3, choosing.recorded(), starts, 0.8, seeds), (3, -1))
+
+
+def misses() -> np.ndarray:
+    """By how much the worst fit misses what each of the seven is worth."""
+    return np.abs(estimated() - [worth_of(*each) for each in DRIVERS]).max(axis=0)
+
+
+def largest() -> list[int]:
+    """Which of the seven has the largest estimate in each fit."""
+    return estimated().argmax(axis=1).tolist()

@@ -48,8 +48,8 @@ progress("recorded_drives")
 #
 # Three agents drive on the same road. All learned from the same {{ SETTINGS.demonstration_episodes
 # }} drives of the rule: a clone (BC, behaviour cloning), GAIL (*generative adversarial imitation
-# learning*) and CQL (*conservative Q-learning*). All get ahead of trap 1. Watch GAIL afterwards; we
-# chose its drive among 100 because it leaves the road.
+# learning*) and CQL (*conservative Q-learning*). All get ahead of trap 1. GAIL's drive is chosen
+# from 100 because it leaves the road.
 
 # %% tags=["nbval-ignore-output"]
 by_gail = [
@@ -92,9 +92,9 @@ predict(
 # <!-- claim: [of(m).agents[0]['beta_start'] for m in ('bc', 'cql')] == [1, 1] and 0 <
 #   of('gail').agents[0]['beta_start'] < 1 -->
 #
-# BC and CQL are **offline**: recorded drives are all they have. Here is the paper's table beside
-# ours, ten agents of each on {{ roads() | , }} held-out roads. The paper prints mean ± standard
-# deviation, we the agents' mean with its 95 % interval.
+# BC and CQL are **offline**: recorded drives are all they have. Ten agents of each drive on
+# {{ roads() | , }} held-out roads. The paper prints mean ± standard deviation, we the agents' mean
+# with its 95 % interval.
 # <!-- claim: 'bc' not in PRINTED and len(of('bc')) == 10 -->
 
 # %%
@@ -112,29 +112,26 @@ for method in ("bc", "cql", "gail", "rule"):
 table(["", "success, %: paper", "ours", "return: paper", "ours"], rows)
 
 # %% [markdown]
-# **See.** All ten clones escape, and end a little under the rule's return; all ten CQL agents do,
-# too, and end above it. If all ten GAIL agents escaped, their mean would be {{ 100 * ESCAPES | .0f
-# }} % or more; with ten at {{ share('success') | .0f }} % none would. In truth {{ escaped('gail')
-# }} do, and the others succeed on {{ 100 * failing().min() | .0f }} to {{ 100 * failing().max() | .0f
-# }} %. In its last 500 training drives each succeeds in {{ 100 * last_drives('gail').min() | .1f }}
-# % or more: who escapes may depend on when we stop. The paper's CQL and GAIL stand at 0 %.
-# <!-- claim: 80 < share('success') < 100 * ESCAPES and of('gail').curves['success'].shape[1] > 1000
-#   and last_drives('gail').min() > failing().max() -->
+# **See.** All ten clones and all ten CQL agents escape. CQL ends above the rule's return, and the
+# clones a little under it. The paper's CQL and GAIL stand at 0 %.
 # <!-- claim: escaped('cql') == len(of('cql')) and of('cql').scores('returns').min() >
 #   of('rule').scores('returns').max() -->
 # <!-- claim: escaped('bc') == len(of('bc')) and 0.8 < of('bc').scores('returns').max() /
 #   of('rule').scores('returns').max() < 1 -->
-# <!-- claim: len(of('gail')) / 2 < escaped('gail') < len(of('gail')) -->
 # <!-- claim: PRINTED['cql']['success'].mean == PRINTED['gail']['success'].mean == 0 -->
 #
-# Data and settings count: in our study `paper` the drives are the *stochastic* rule's, with more
-# updates for a decision: there CQL's agents earn {{ of_paper('cql').scores('returns').min() | .0f
-# }} to {{ of_paper('cql').scores('returns').max() | .0f }} and leave the road in {{ 100 *
-# of_paper('cql').episodes('road_departure').mean() | .0f }} % of their drives (the clones in {{ 100
-# * of_paper('bc').episodes('road_departure').mean() | .0f }} %, too), and one of ten GAIL agents
-# succeeds on no road.
+# **GAIL.** If all ten escaped, their mean would be {{ 100 * ESCAPES | .0f }} % or more: so at most
+# nine do. If each succeeded on {{ share('success') | .0f }} %, none would: so no lower number
+# follows. In truth {{ escaped('gail') }} do.
+# <!-- claim: 80 < share('success') < 100 * ESCAPES and len(of('gail')) == 10 -->
+#
+# **Data and settings count.** In a second study, nearer to the paper's settings (`paper`), the
+# *stochastic* rule drives. There CQL's agents earn {{ of_paper('cql').scores('returns').min() | .0f
+# }} to {{ of_paper('cql').scores('returns').max() | .0f }}, and leave the road in {{ 100 *
+# of_paper('cql').episodes('road_departure').mean() | .0f }} % of their drives, as the clones do.
 # <!-- claim: of_paper('cql').scores('returns').max() < of('rule').scores('returns').max() and
-#   (of_paper('gail').scores('success') == 0).sum() == 1 and len(of_paper('gail')) == 10 -->
+#   len(of_paper('cql')) == 10 and abs(np.diff([of_paper(m).episodes('road_departure').mean() for m
+#   in ('bc', 'cql')])[0]) < 0.01 -->
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Collect the votes before the table. The class will be tempted to conclude that the paper is wrong.
@@ -145,21 +142,23 @@ table(["", "success, %: paper", "ours", "return: paper", "ours"], rows)
 # %% [markdown]
 # ## Round 2: a judge instead of a reward
 #
-# A clone copies actions, one state at a time. GAIL asks for more: the agent should *visit* the same
-# states as the rule, and do there what the rule does. The share of a driver's decisions in each
-# state and action is its **occupancy measure**. GAIL trains two networks against each other. A
-# **discriminator** gives each state and action a probability D that they come from the rule and not
-# from the agent. Its loss is a mean over the rule's pairs (s, a) and one over the agent's own:
+# A clone copies actions, one state at a time. GAIL also copies which states the rule visits: the
+# shares of its decisions in each state and action, the **occupancy measure**. A second network, the
+# **discriminator**, gives each state and action a probability D that they come from the rule and
+# not from the agent. Its loss is a mean over the rule's pairs (s, a) and one over the agent's own:
 #
 # $$ -\mathbb{E}_\text{rule}[\log D(s,a)] - \mathbb{E}_\text{own}[\log (1 - D(s,a))] $$
 #
 
-# The discriminator gives a **logit** x for each pair, with D = σ(x) = 1 / (1 + e⁻ˣ). In 32-bit
-# numbers σ(60) is exactly 1, and e¹⁰⁰ is too large.
+# The discriminator gives a **logit** x for each pair, with D = σ(x) = 1 / (1 + e⁻ˣ). It is one
+# number, as in a softmax of two whose other logit is 0. In 32-bit numbers σ(60) is exactly 1, and
+# e¹⁰⁰ is too large.
 # <!-- claim: math.isclose(torch.tensor(0.7).double().sigmoid(), 1 / (1 + math.exp(-0.7)),
 #   rel_tol=1e-6) -->
 # <!-- claim: float(torch.tensor(60.0).sigmoid()) == 1 and
 #   bool(torch.tensor(100.0).exp().isinf()) -->
+# <!-- claim: math.isclose(torch.tensor([0.7, 0]).softmax(0)[0], torch.tensor(0.7).sigmoid(),
+#   rel_tol=1e-6) -->
 #
 # **Exercise (15 min, ●●●).** Write this loss from the logits, so that it is right for
 # logits from −100 to 100. First work out, on paper, log D and log (1 − D) as functions of x.
@@ -181,9 +180,8 @@ check.discriminator_loss(discriminator_loss)
 #
 # $$ r(s,a) = -\log (1 - D(s,a)) $$
 #
-# > **Predict.** Other programs pay log D, which also grows with D. Suppose the discriminator
-# > cannot tell: D = ½ at every second. With which of the two rewards does a drive of 150 s earn
-# > more than a crash after 5 s?
+# > **Predict.** Other programs pay log D, which also grows with D. Suppose that D = ½ at every
+# > second. With which of the two rewards does a drive of 150 s earn more than a crash after 5 s?
 
 # %%
 predict(
@@ -193,8 +191,7 @@ predict(
 )
 
 # %% [markdown]
-# **Exercise (6 min, ●●○).** Write the reward, from the logit x of each decision. It, too, must
-# be right from −100 to 100.
+# **Exercise (6 min, ●●○).** Write the reward from the logits x, again right from −100 to 100.
 
 
 # %%
@@ -218,14 +215,14 @@ headings = ["D", "−log (1 − D): for 5 s", "for 150 s", "log D: for 5 s", "fo
 table(headings, rows, below="γ = 0.8. A crash ends a drive: 0 from then on.")
 
 # %% [markdown]
-# **Explain.** The reward's sign decides whether it pays to go on. With our reward each second is
-# worth something, however bad the imitation is. With log D each second costs something: where the
-# judge says the same D everywhere, an early crash is the cheapest drive.
+# **Explain.** The reward's sign decides whether it pays to go on. Ours pays for each second, even
+# for mere survival. With log D each second costs something: where the judge says the same D
+# everywhere, an early crash is the cheapest drive.
 #
-# > **Predict.** GAIL leaves the road in {{ share('road_departure') | .1f }} % of its test drives,
-# > and {{ share('success') | .1f }} % of all are a success. If each failed drive had left the road,
-# > {{ least_share() | .0f }} % of the drives that leave it would be successes. But some failed
-# > drives hit a car. What is the share?
+# > **Predict.** GAIL fails in {{ 100 - share('success') | .1f }} % of its test drives, and leaves
+# > the road in {{ share('road_departure') | .1f }} %. So at least {{ least_share() | .0f }} % of
+# > those that leave it are successes. But some failures hit a car instead. Your guess, from
+# > {{ least_share() | .0f }} to 100 %?
 # <!-- claim: ((of('gail').episodes('collision') > 0) & (of('gail').episodes('success') == 0)).any()
 #   and (of('gail').episodes('success')[of('gail').episodes('road_departure') > 0]).mean() >
 #   least_share() / 100 -->
@@ -253,7 +250,7 @@ table(headings, rows)
 # **See.** The success rate hides these accidents: a car that leaves the road *after* overtaking
 # counts as a success.
 #
-# Now two agents learn by GAIL. The loss and the reward are yours if they have passed their checks.
+# Now two agents learn by GAIL, with your loss and reward if these have passed their checks.
 
 # %%
 torch.set_num_threads(1)  # small matrices are faster on one thread
@@ -271,8 +268,8 @@ result = training.run(progress=False, callback=note, updates=UPDATES)
 loss = torch.stack([each["discriminator_loss"] for each in noted]).T.numpy()
 smooth = loss[:, : len(noted) // 50 * 50].reshape(len(agents), -1, 50).mean(-1)
 updates, marks = np.arange(smooth.shape[1]) * 50, {"guessing: D = ½": 2 * np.log(2)}
-later = ", then less and less" if (smooth[:, -1] > smooth.min(1)).all() else " to the end"
-title, words = f"The discriminator soon recognises its agent{later}", "discriminator's loss"
+later = "; then it becomes harder to tell" if (smooth[:, -1] > smooth.min(1)).all() else ""
+title, words = f"The agent is soon told from the rule{later}", "discriminator's loss"
 named = {f"gail, seed {a.seed}": each for a, each in zip(agents, smooth, strict=True)}
 bc.show(charts.lines(updates, named, title, "update", words, marks=marks))
 
@@ -287,9 +284,15 @@ headings = ["200 roads", "success, %", "collisions, %", "road departures, %", "s
 table(headings, rows)
 
 # %% [markdown]
-# **See.** Yours will differ. A discriminator that says D = ½ to everything has a loss of 2 log 2,
-# the dotted line. The loss measures how well the discriminator tells agent and rule apart, not what
-# the agent earns. Is the weaker of the two lost, or not finished? Double `UPDATES`.
+# **See.** Yours will differ. Where D = ½ everywhere the loss is 2 log 2, the dotted line. The loss
+# says how well agent and rule are told apart, not what the agent earns.
+#
+# Is the weaker of the two lost, or not finished? In the study each of the ten succeeds in {{ 100 *
+# last_drives('gail').min() | .1f }} % or more of its last 500 training drives, yet {{
+# len(failing()) }} of them in only {{ 100 * failing().min() | .0f }} to {{ 100 * failing().max() |
+# .0f }} % of the test drives. So GAIL may get there, and need not stay.
+# <!-- claim: of('gail').curves['success'].shape[1] > 1000 and last_drives('gail').min() >
+#   failing().max() and len(of('gail')) == 10 -->
 
 # %% [markdown] tags=["instructor"] minutes=9
 # Let them say in one sentence what a clone is told in a state that no demonstration holds, and what
@@ -301,13 +304,12 @@ table(headings, rows)
 #
 # Q-learning asks of each next state: what is the best action worth? The action with the highest Q
 # may be missing from the data, so its value is a guess. An agent that drives would try it; an
-# offline agent keeps its guess. CQL adds a term to the critic's loss, the mean over the batch of
+# offline agent never finds out. CQL adds to the critic's loss the mean over the batch of
 #
 # $$ \log \sum_a e^{Q(s,a)} - Q(s, a_\text{data}) $$
 #
-# The first part is a soft maximum of the nine Q. Its gradient in each Q(s, a) is softmax(Q): it
-# pushes all nine down, the highest most. The second part pulls up the Q of the action that the data
-# hold.
+# The first part, a soft maximum of the nine Q, pushes all nine down, the highest most: its gradient
+# in each Q(s, a) is softmax(Q). The second part pulls up the Q of the data's action.
 #
 # **Exercise (6 min, ●●○).** Write it, in torch.
 
@@ -325,8 +327,9 @@ check.conservative_loss(conservative_loss)
 
 # %% [markdown]
 # **Exercise (20 min, ●●●).** Write the whole loss of CQL's critic. The target y is that of *double*
-# Q-learning: the critic itself chooses the next action, and a slower copy of it, the target critic,
-# says what that action is worth. Which part must have no gradient? What comes after an accident?
+# Q-learning: the critic chooses the next action, and a slower copy of it, the target critic, says
+# what that is worth. (One network for both would choose what it overvalues, and believe itself.)
+# Which part must have no gradient? What comes after an accident?
 
 
 # %%
@@ -342,33 +345,35 @@ def offline_loss(q, next_q, next_target, actions, rewards, terminated, gamma, we
 check.offline_loss(offline_loss)
 
 # %% [markdown]
-# Why *conservative*? Suppose that the data held each action, and let π = softmax(Q). Where this
-# loss is smallest, an action that π takes more often than the data do has a Q *below* its target,
-# and the value of the policy, Σ π Q, is at most what the targets say. But our agent takes the
-# action with the highest Q, and the rule's drives hold one action in a state. The table of *own
-# drives* below tests it.
+# Why *conservative*?
+#
+# - **Proved:** let the data hold each action, and let π = softmax(Q). Where this loss is smallest,
+#   an action that π takes more often than the data do has a Q *below* its target, and the policy's
+#   value, Σ π Q, is at most what the targets say.
+# - **Our case lies outside:** our agent takes the action with the highest Q, and the rule's drives
+#   hold one action in a state.
+# - **So we look** in the table of *own drives* below whether the agents overvalue their own
+#   choices, which is what matters to the car.
 #
 # <details><summary>The derivation</summary>
 #
-# Let π̂ be the data's policy, y the target and w the term's weight. The derivative of the loss with
-# respect to Q(a) is 0 where
+# Let π̂ be the data's policy, y the target and w the term's weight. Where the loss is smallest, its
+# derivative with respect to Q(a) is 0:
 #
 # $$ 2 \hat\pi(a) \big(Q(a) - y(a)\big) + w \big(\pi(a) - \hat\pi(a)\big) = 0,
 # \qquad\text{so}\qquad Q(a) = y(a) - \frac{w}{2} \Big(\frac{\pi(a)}{\hat\pi(a)} - 1\Big). $$
 #
-# Weigh the bracket by π: its mean is $\sum_a (\pi - \hat\pi)^2 / \hat\pi$, which is 0 or more. So
-# Σ π Q is at most Σ π y.
+# Weighed by π, the mean of the bracket is $\sum_a (\pi - \hat\pi)^2 / \hat\pi$, 0 or more. So Σ π Q
+# is at most Σ π y.
 #
 # </details>
 
 # %% [markdown]
-# Now train six learners: two with the term, two without, and two with the term whose
-# rewards are set to 0. We ask the critics about the first 20 seconds of the rule's drives, the way
-# out. What is the rule's action worth, and what the best of the other eight, the *best untried
-# action*?
+# Now train six learners: two with the term, two without, and two with the term whose rewards are
+# set to 0. In the first 20 seconds of the rule's drives, the way out: what is the rule's action
+# worth, and what the best of the other eight, the *best untried action*?
 #
-# > **Predict.** Take the two learners *without* the term. How will they value the best untried
-# > action?
+# > **Predict.** How will the two learners *without* the term value the best untried action?
 
 # %%
 choices = ["lower than the rule's action", "about as high", "higher than the rule's action"]
@@ -403,12 +408,12 @@ plain = slice(SEEDS, 2 * SEEDS)
 named = {"with: the rule's": mine[:SEEDS], "with: best other": rival[:SEEDS]}
 named |= {"without: the rule's": mine[plain], "without: best other": rival[plain]}
 looks = [charts.Style(c, line) for c in ("#999933", OTHER.colour) for line in ("-", "--")]
-more = [(rival - mine)[agents, -1].mean() for agents in (plain, slice(SEEDS))]  # of both seeds
-likes = ["an untried action" if each > 0 else "the rule's" for each in more]
-title = f"Without CQL's term the critic prefers {likes[0]}; with it, {likes[1]}"
 gamma = learner.settings[0].gamma
 most, weights = paper.earned_at(15, 1) / (1 - gamma), gamma ** np.arange(150)
 earned = np.mean([d.rewards[t:] @ weights[: 150 - t] for d in by_rule for t in range(20)])
+highest = rival[plain, -1]  # at the end, of both seeds
+how = "above what any drive can earn" if highest.min() > most else f"at {highest.mean():.1f}"
+title = f"Without CQL's term the critic values an untried action {how}"
 words = {f"no drive is worth more than {most:.1f}": most, f"the rule earns {earned:.1f}": earned}
 label = "mean Q(s,a) on the way out, of the rule's action and of the best other"
 bc.show(charts.lines(asked, named, title, "update", label, marks=words, looks=looks))
@@ -426,7 +431,7 @@ table(headings, rows)
 
 # %%
 rows = []
-for words, agent in zip(kinds_of[: 2 * SEEDS], agents, strict=False):
+for words, agent in zip(kinds_of, agents, strict=True):
     promised, paid = [], []
     for drive in bc.record(agent.as_policy(with_q=True), range(20)):
         seconds = np.arange(min(20, len(drive.actions)))
@@ -440,19 +445,25 @@ headings = ["own drives, first 20 s", "Q of the action taken", "what it then ear
 table(headings, rows)
 
 # %% [markdown]
-# **See.** Yours will differ. Without the term Q-learning values the best untried action highest, at
-# last above what any drive is worth, and promises far more than it then earns: no row corrects a
-# guess about an untried action, and the highest of nine in each target raises them all. With the
-# term both agents promise less than they earn.
+# **See.** Yours will differ. A best of eight looks high even before training. Telling is that,
+# without the term, it ends above what any drive can earn: no row corrects a guess about an untried
+# action, and the highest of nine in each target raises them all. These agents promise far more than
+# they earn. Those with the term promise less than they earn, but so do those without rewards: this
+# is no evidence for the bound.
 #
 # **Explain.** The term *is* the cloning loss of softmax(Q) (lesson [[demonstrations]]). So **CQL is
-# Q-learning and cloning in one.** The agents without rewards are told what to do by the term alone:
-# in our run they, too, are ahead on nine of ten roads or more (with other seeds not all are).
+# Q-learning and cloning in one.** In our run cloning seems to do the work so far: after 6,000
+# updates the agents without rewards earn about as much as those with them. In the study, trained
+# longer, CQL earns {{ of('cql').scores('returns').mean() | .1f }}, the clones {{
+# of('bc').scores('returns').mean() | .1f }}: there the rewards seem to count. (The control would be
+# a CQL without rewards, trained as long.)
+# <!-- claim: (of('cql').curves['distance'] / of('cql').curves['speed']).sum(axis=1).min() / 4 >
+#   6000 and of('cql').agents[0]['envs_per_agent'] == 4 and of('cql').agents[0]['updates'] == 1 -->
 # <!-- claim: bool(torch.isclose(conservative_loss(torch.eye(9)[2:3], torch.tensor([4])),
 #   torch.nn.functional.cross_entropy(torch.eye(9)[2:3], torch.tensor([4])))) -->
 #
-# This CQL is a critic alone: the agent takes the action with the highest Q. The same term on the
-# critics of SAC, which has an actor, is called CQL, too:
+# Our CQL has no actor: it takes the action with the highest Q. The same term on the critics of SAC
+# is called CQL, too:
 
 # %%
 rows = []
@@ -464,22 +475,17 @@ for method in ("cql", "cql_sac"):
 table(["", "agents that escape", "mean speed", "returns of the agents, sorted"], rows)
 
 # %% [markdown]
-# **See.** No agent of the second kind escapes. Six of ten stay behind trap 1, as the paper's CQL
-# does; the other four have an accident in all of their drives. In our study with faster traps
-# (`calibrated`) all ten stay. So the paper's CQL may have had an actor: a guess, for in our study
-# `paper` {{ staying(of_paper('cql_sac')) }} of ten stay, and {{
-# crashing_always(of_paper('cql_sac')) }} crash in each drive. The target entropy η counts, too:
-# with η = −1 {{ staying(with_entropy(0)) }} of five agents stay; with an η that nine actions can
-# reach none does, {{ escapers(with_entropy(1), 'cql_sac') }} escapes and the others fail in other
-# ways (12,000 updates).
+# **See.** With an actor none escapes. Six of ten stay behind trap 1, as the paper's CQL does.
+# Perhaps the paper's had an actor: a guess, for in our second study only {{
+# staying(of_paper('cql_sac')) }} of ten stay. The target entropy η may count, too: {{
+# staying(with_entropy(0)) }} of five stay with η = −1, none of five with η = 0.3 log 9: too few to
+# be sure (p = {{ p_of_entropy() | .2f }}).
 # <!-- claim: escapers(with_entropy(1), 'cql_sac') == 1 and staying(with_entropy(1)) == 0 and
 #   len(with_entropy(0)) == len(with_entropy(1)) == 5 and
-#   with_entropy(0).agents[0]['target_entropy'] == -1 and 0 <
-#   with_entropy(1).agents[0]['target_entropy'] < math.log(9) -->
-# <!-- claim: (lambda r: len(r) == 10 and np.ptp(r) < 0.1 and r.mean() >
-#   23)(shipped_results('calibrated').of('cql_sac').scores('returns')) -->
+#   with_entropy(0).agents[0]['target_entropy'] == -1 and
+#   math.isclose(with_entropy(1).agents[0]['target_entropy'], 0.3 * math.log(9)) -->
 # <!-- claim: escaped('cql_sac') == 0 and np.allclose(np.sort(of('cql_sac').scores('returns'))[4:],
-#   idle().rewards.sum(), atol=1) and (of('cql_sac').scores('accident') == 1).sum() == 4 -->
+#   idle().rewards.sum(), atol=1) and len(of_paper('cql_sac')) == 10 -->
 
 
 # %% [markdown] tags=["instructor"] minutes=8
@@ -493,14 +499,14 @@ table(["", "agents that escape", "mean speed", "returns of the agents, sorted"],
 #
 # You have seven trained drivers, the recorded drives, and no road on which to try them. Which one
 # do you let out? **Fitted Q evaluation** (FQE) estimates what a *given* policy π is worth. It fits
-# Q(s, a) to r + γ Q(s', π(s')) over the recorded seconds. Where the drives begin, Q(s, π(s)) is the
-# estimate.
+# Q(s, a) to r + γ Q(s', π(s')) over the recorded seconds. The estimate is Q(s, π(s)) where the
+# drives begin. We fit three times, with other first weights and other batches.
 #
-# > **Predict.** For which of the seven will the estimate be nearest to the truth?
+# > **Predict.** Which estimates are near the truth in each of the three fits?
 
 # %%
-choices = ["those that act as the data do", "those that earn most", "all alike"]
-predict("recorded_drives.5", "For which drivers is the estimate nearest to the truth?", choices)
+choices = ["of drivers that act as the data do", "of those that earn most", "all alike"]
+predict("recorded_drives.5", "Which estimates are reliably near the truth?", choices)
 
 # %%
 predicted("recorded_drives.5")
@@ -511,26 +517,32 @@ starts = torch.stack(
 kinds = [("bc", 0), ("cql", 0), ("cql_sac", 0), ("gail", 0), ("sac", 0)]
 kinds += [("bootstrapped", 0), ("bootstrapped", 1)]
 drivers = [bc.shipped_agents(method)[which].as_policy() for method, which in kinds]
-guesses, rows, misses = choosing.estimates(drivers, data, starts, gamma=0.8), [], []
-for (method, which), driver, guess in zip(kinds, drivers, guesses, strict=True):
+FITS, rows, misses = 3, [], []
+seeds = np.repeat(range(FITS), len(drivers))
+fits = choosing.estimates(drivers * FITS, data, starts, gamma=0.8, seeds=seeds)
+fits = np.reshape(fits, (FITS, -1)).T
+for (method, which), driver, guesses in zip(kinds, drivers, fits, strict=True):
     alike = choosing.overlap(driver, data)
     true, earned = choosing.worth(driver, roads, gamma=0.8)
-    misses.append((alike, abs(guess - true)))
-    cells = [f"{alike:.0%}", f"{guess:.2f}", f"{true:.2f}", f"{earned:.0f}"]
+    misses.append((alike, abs(guesses - true).max()))  # of the worst fit
+    cells = [f"{alike:.0%}", *(f"{each:.2f}" for each in guesses), f"{true:.2f}", f"{earned:.0f}"]
     rows.append([f"{bc.display_name(method)}, agent {which + 1}", *cells])
-headings = ["acts as the data do", "estimate, γ = 0.8", "on the road, γ = 0.8", "return"]
-table(["", *headings], rows)
+estimates = [f"estimate, fit {i + 1}" for i in range(FITS)]
+headings = ["", "acts as the data do", *estimates, "on the road", "return"]
+table(headings, rows, below="γ = 0.8, in the last column γ = 1.")
 
 # %% [markdown]
-# **See.** Where a driver does what the data hold, the estimate has something to stand on. Where it
-# does something else, Q is a guess. So print the overlap beside the estimate.
+# **See.** Look at the spread first. Where a driver does what the data hold, its estimates are near
+# the truth in all three fits. Others may be near, too, but the estimate does not say which. A wide
+# spread warns; a narrow one proves nothing.
 #
-# Whom would you choose by the largest estimate, and is this driver the best on the road? Little
+# Whom would you choose by the largest estimate? In our run that changes with the fit. Little
 # overlap means *unknown*, not bad: the second bootstrapped agent acts as the data do in {{ 100 *
-# overlap_of('bootstrapped', 1) | .0f }} % of the seconds, and is worth most on the road, at γ = 0.8
-# too. And compare the last two columns: at γ = 0.8 CQL with an actor, which stays behind trap 1, is
-# worth more than the clone and CQL. A choice is no better than the number that it is made by. (And
-# these estimates come from one fit.)
+# overlap_of('bootstrapped', 1) | .0f }} % of the seconds, and is worth most on the road. And at
+# γ = 0.8 CQL with an actor, which stays behind trap 1, is worth more than the clone and CQL: a
+# choice is no better than the number that it is made by.
+# <!-- claim: max(misses()[:2]) < 0.15 and max(misses()[2:]) > 0.3 -->
+# <!-- claim: len(set(largest())) > 1 -->
 # <!-- claim: worth_of('bootstrapped', 1) > max(worth_of(m) for m in ('bc', 'cql', 'cql_sac',
 #   'gail', 'sac', 'bootstrapped')) and overlap_of('bootstrapped', 1) < 0.5 -->
 # <!-- claim: worth_of('cql_sac') > worth_of('bc') and worth_of('cql_sac') > worth_of('cql') -->
@@ -539,7 +551,7 @@ table(["", *headings], rows)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask who would let the driver with the highest estimate out. Then ask for a second look that needs
-# no road, either: overlap, the spread over five seeds of FQE, γ nearer to 1.
+# no road, either: overlap, more fits, γ nearer to 1.
 
 # %%
 left = study.of("gail").episodes("road_departure") > 0
@@ -547,7 +559,7 @@ ahead = study.of("gail").episodes("success")[left].mean()
 escaping = (study.of("gail").scores("success") >= bc.statistics.ESCAPES).sum()
 more = "higher" if rival[plain, -1].mean() > mine[plain, -1].mean() else "lower"
 near, far = (
-    np.mean([miss for alike, miss in misses if (alike > 0.8) == inside]) for inside in (True, False)
+    max(miss for alike, miss in misses if (alike > 0.8) == inside) for inside in (True, False)
 )
 compare_predictions(
     "recorded_drives",
@@ -565,15 +577,15 @@ compare_predictions(
 #
 # 1. BC and CQL learn without driving; GAIL has to drive. BC and GAIL do not use the road's reward.
 # 2. GAIL is paid by its discriminator; the sign of that reward decides whether going on pays.
-# 3. A success rate that counts who is ahead hides later accidents. One agent can look like a
-#    failure of its method.
+# 3. A success rate that counts who is ahead hides later accidents.
 # <!-- claim: accidents('gail') > 10 * max(accidents('bc'), accidents('cql')) -->
-# 4. Without CQL's term offline Q-learning trusts guesses about actions that the data do not hold.
-#    The term is the cloning loss of softmax(Q). All ten CQL agents without an actor escape, and
-#    none of the ten with one.
-# <!-- claim: escaped('cql') == len(of('cql')) == 10 and escaped('cql_sac') == 0 -->
+# 4. Without CQL's term offline Q-learning overvalues actions that the data do not hold. The term is
+#    the cloning loss of softmax(Q). All ten CQL agents without an actor escape, and of ten with an
+#    actor and η = −1 none.
+# <!-- claim: escaped('cql') == len(of('cql')) == 10 and escaped('cql_sac') == 0 and
+#   len(of('cql_sac')) == 10 and of('cql_sac').agents[0]['target_entropy'] == -1 -->
 # 5. An estimate without a simulator has support where driver and data overlap; elsewhere it is a
-#    guess.
+#    guess, and fits may differ.
 #
 # **Three questions to think about**
 # - The discriminator sees states and actions. What would GAIL imitate if it saw states only?
