@@ -17,25 +17,20 @@ from bootcourse.rule import Reason, rule, track
 from bootcourse.scenario import DEFAULT, RULE_P, Scenario
 
 
-def set_to(sight: float, n: int = DEFAULT.rule.n, t_safe: float = DEFAULT.rule.t_safe) -> Scenario:
-    """The scenario in which the rule has another sight (m), n speeds and another t_safe (s)."""
-    numbers = dataclasses.replace(DEFAULT.rule, n=n, t_safe=t_safe)
+def set_to(sight: float, **settings) -> Scenario:
+    """The scenario in which the rule has another sight (m), and other n, t_safe (s) or floor (m)."""
+    numbers = dataclasses.replace(DEFAULT.rule, **settings)
     return dataclasses.replace(DEFAULT, rule=numbers, sight=dataclasses.replace(DEFAULT.sight, distance=sight))
 
 
 @cache
-def sighted(
-    sight: float,
-    n: int = DEFAULT.rule.n,
-    t_safe: float = DEFAULT.rule.t_safe,
-    politeness: float = DEFAULT.traffic.politeness,
-) -> Episodes:
-    """The rule with other numbers, on the lesson's 200 roads.
+def sighted(sight: float, politeness: float = DEFAULT.traffic.politeness, **settings) -> Episodes:
+    """The rule with other numbers, see `set_to`, on the lesson's 200 roads.
 
     politeness: of the other drivers, which make way for a faster car behind them.
     """
     world = dataclasses.replace(DEFAULT, traffic=dataclasses.replace(DEFAULT.traffic, politeness=politeness))
-    return drive_episodes(rule_policy(set_to(sight, n, t_safe)), held_out_seeds(1, 200), world)
+    return drive_episodes(rule_policy(set_to(sight, **settings)), held_out_seeds(1, 200), world)
 
 
 class Changes(NamedTuple):
@@ -111,12 +106,15 @@ def apart() -> tuple[float, float]:
 
 @cache
 def erring_in(part: str, roads: int = 1000) -> float:
-    """The share of unhurt drives if the rule, with probability 1 - p, steers or accelerates in another way."""
+    """The share of unhurt drives if the rule steers or accelerates in another way as often as the stochastic rule.
+
+    Of the eight other actions six steer in another way, and six accelerate in another.
+    """
     rng = np.random.default_rng(0)
 
     def decide(cars: np.ndarray) -> np.ndarray:
         acceleration, steering = np.divmod(rule(cars, DEFAULT).actions, 3)
-        errs, by = rng.random(len(cars)) >= RULE_P, rng.integers(1, 3, len(cars))
+        errs, by = rng.random(len(cars)) < 6 / 8 * (1 - RULE_P), rng.integers(1, 3, len(cars))
         if part == "steering":
             steering = np.where(errs, (steering + by) % 3, steering)
         else:
@@ -144,7 +142,7 @@ def median_distance(roads: int = MEDIAN_ROADS) -> float:
 @cache
 def _drives(n: int) -> list:
     """The drives of the rule with n speeds on the lesson's roads."""
-    return record(rule_policy(set_to(DEFAULT.sight.distance, n)), held_out_seeds(1, 200))
+    return record(rule_policy(set_to(DEFAULT.sight.distance, n=n)), held_out_seeds(1, 200))
 
 
 @cache
