@@ -49,7 +49,7 @@ def escape(agents: Sequence[Results]) -> list[int]:
     return [each.escapers(each.methods[0]) for each in agents]
 
 
-HEADINGS = ["", "found after so many episodes", "escape", "escape without the soft constraint"]
+HEADINGS = ["", "found after so many episodes of its own", "escape", "escape without the soft constraint"]
 
 
 def found_and_escaped(agents: Kinds) -> list[list[str]]:

@@ -6,6 +6,7 @@ import numpy as np
 
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.research.results import Results
+from bootcourse.scenario import ACTION_NAMES
 from bootcourse.statistics import found_after
 from tools.course.known import rule_drives, shipped_experiment, shipped_results, shipped_runs
 
@@ -58,3 +59,14 @@ def found(name: str) -> np.ndarray:
 def training(name: str, curve: str, first: int, last: int) -> np.ndarray:
     """The mean of the study's ten agents with the soft constraint in some training episodes, (agents,)."""
     return _with(name)[0][0].curves[curve][:, first:last].mean(axis=1)
+
+
+def actor_only() -> np.ndarray:
+    """When the agents with the KL in the actor's loss alone and no demonstrations have found the way out, (agents,)."""
+    return found_after(shipped_experiment("ablations")["KL in the actor only"].of("soft").curves["success"])
+
+
+def straight() -> float:
+    """The share of the first 20 s of 20 of the rule's drives in which it keeps straight."""
+    did = np.concatenate([drive.rule_actions[:20] for drive in rule_drives()])
+    return float(np.mean(did == ACTION_NAMES.index("keep straight")))
