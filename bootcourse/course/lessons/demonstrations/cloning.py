@@ -16,6 +16,7 @@ from bootcourse.learn.networks import mlp
 from bootcourse.learn.replay_buffer import ReplayBuffer, decode_transitions
 from bootcourse.learn.sac import log_policy
 from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.policies import PolicyOutput, rule_policy
 from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.scenario import DEFAULT
 
@@ -67,6 +68,22 @@ def typical_accidents(drives: Sequence[Episodes]) -> list[float]:
 def _lasted(drives: Episodes) -> np.ndarray:
     """How long each drive was (s): the way over the mean speed."""
     return np.round(drives.distance / drives.speed, 1)
+
+
+class RuleFirst:
+    """A policy: the rule decides in so many first seconds, then the clone."""
+
+    def __init__(self, agent: Agent, seconds: int):
+        self.rule, self.clone, self.seconds, self.decided = rule_policy(DEFAULT), agent.as_policy(), seconds, 0
+
+    def reset(self, roads: int) -> None:
+        """Begin anew."""
+        self.decided = 0
+
+    def __call__(self, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        driver = self.rule if self.decided < self.seconds else self.clone
+        self.decided += 1
+        return PolicyOutput(driver(observations, cars).actions)
 
 
 def slow(drives: Sequence[Rollout]) -> np.ndarray:

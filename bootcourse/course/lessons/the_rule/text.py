@@ -515,8 +515,8 @@ table(["1,000 roads, p = 0.9", ""], rows, below=ahead)
 # DEFAULT.road.lane_width / 2 | g }} m from the middle of an outer lane. If only the acceleration
 # errs, as often as here, {{ 100 * erring_in('acceleration') | .0f }} % of the drives have no
 # accident; if only the steering, {{ 100 * erring_in('steering') | .0f }} %: it explains them all.
-# Staying behind would earn {{ idle().rewards.sum() | .0f }}. So the rule itself drives this course's demonstrations, and
-# $\tilde\pi$ is what the learner is compared with.
+# Staying behind would earn {{ idle().rewards.sum() | .0f }}. So the rule itself drives this course's
+# demonstrations, and $\tilde\pi$ is what the learner is compared with.
 #
 # Other values of p, on the same roads:
 
