@@ -434,12 +434,13 @@ bc.show(figures.learned(learning, study, title))
 # **Explain.** Alone these agents have {{ per_thousand('bootstrapped', 'alone') | .0f }} accidents
 # in 1,000 drives. With rollouts in the first model, and with the control's, all ten crash in nearly
 # all drives: more drives of the agent alone do not help. It takes one action in each state, so they
-# say little about the other eight. Drives of the look-ahead help the rollouts. (Would drives with
-# random actions help as much? We trained no such model.) But after four rounds {{ still_worse() }} of the ten still crash more often than alone;
-# the curve still falls, and we stopped there. The shield helps the four agents that crash in most of
-# their drives, from the first round on, and hardly the other six; more rounds do not improve it. The
-# few equations in which the others keep speed and lane are
-# far better than these networks, but the equations got the true state of all cars.
+# say little about the other eight. (Would drives with random actions help? We trained no such
+# model.) Drives of the look-ahead help the rollouts. But after four rounds {{ still_worse() }}
+# of the ten still crash more often than alone; the curve still falls, and we stopped there. The
+# shield helps the four agents that crash in most of their drives, from the first round on, and
+# hardly the other six; more rounds do not improve it. The few equations in which the others keep
+# speed and lane are far better than these networks, but the equations got the true state of all
+# cars.
 # <!-- claim: learned('mean of five')[0] > 990 and learned_without('mean of five') > 990 and
 #   learned('mean of five')[-1] < 0.5 * learned_without('mean of five') and
 #   (np.diff(learned('mean of five')) < 0).all() -->
