@@ -19,6 +19,7 @@ RESAMPLES = 99_999  # with a tenth of them, an end moved by up to 7 with the res
 EXACT = 10  # seeds; up to these, all resamples of one sample are enumerated: 92,378 of ten
 ESCAPES = 0.95  # an agent escapes if it succeeds in at least this share of its episodes
 IN_A_ROW = 50  # training episodes, of which an agent that has found the way out ends more than half ahead
+HAD, LOST = 40, 25  # of these: ahead in so many, later in so few, an agent has lost the way out
 
 
 class Estimate(NamedTuple):
@@ -164,14 +165,29 @@ def found_after(success: np.ndarray, window: int = IN_A_ROW, least: float | None
     if success.shape[1] < window:
         return np.zeros(len(success), dtype=int)
     least = window // 2 + 1 if least is None else least - 1e-9
-    windows = np.lib.stride_tricks.sliding_window_view(np.asarray(success, dtype=float), window, axis=1)
-    reached = windows.sum(axis=-1) >= least  # (agents, windows)
+    reached = _successes(success, window) >= least
     return np.where(reached.any(axis=1), reached.argmax(axis=1) + window, 0)
 
 
 def found(success: np.ndarray, window: int = IN_A_ROW) -> np.ndarray:
     """Which agents found the way out in their training, (agents,) bool: see `found_after`."""
     return found_after(success, window) > 0
+
+
+def lost(success: np.ndarray, bar: int = LOST) -> np.ndarray:
+    """Which agents lose the way out at least once in their training: success (agents, episodes) -> (agents,) bool.
+
+    After `HAD` of `IN_A_ROW` episodes ahead, `bar` of as many or fewer.
+    """
+    if success.shape[1] < IN_A_ROW:
+        return np.zeros(len(success), dtype=bool)
+    ahead = _successes(success, IN_A_ROW)
+    return (np.maximum.accumulate(ahead >= HAD, axis=1) & (ahead <= bar)).any(axis=1)
+
+
+def _successes(success: np.ndarray, window: int) -> np.ndarray:
+    """How many episodes of each window succeeded: (agents, episodes) -> (agents, windows)."""
+    return np.lib.stride_tricks.sliding_window_view(np.asarray(success, dtype=float), window, axis=1).sum(axis=-1)
 
 
 def holm(p: Sequence[float]) -> np.ndarray:

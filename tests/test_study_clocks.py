@@ -7,7 +7,7 @@ from bootcourse.course.lessons.found_and_kept.figures import half_found
 from bootcourse.research.experiments.clocks import choices, pattern, pattern_rows
 from bootcourse.research.results import Results
 from bootcourse.research.tables import found_and_kept
-from bootcourse.statistics import found_after
+from bootcourse.statistics import found_after, lost
 
 
 def agents(**success):
@@ -62,3 +62,9 @@ def test_a_window_with_an_episode_that_was_not_driven_does_not_count():
     assert found_after(success, 3).tolist() == [0, 3, 3]
     assert found_after(success, 3, least=3).tolist() == [0, 0, 3]
     assert found_after(success, 2).tolist() == [2, 3, 2] and found_after(success, 5).tolist() == [0, 0, 0]
+
+
+def test_an_agent_has_lost_the_way_out_once_it_is_ahead_in_half_of_fifty_after_forty_of_fifty():
+    ahead = np.array([[1] * 40 + [0] * 25 + [1] * 35, [1] * 39 + [0] * 61, [1] * 100, [0] * 60 + [1] * 40])
+    assert lost(ahead).tolist() == [True, False, False, False]
+    assert lost(ahead, bar=15).tolist() == [False] * 4 and lost(ahead[:, :49]).tolist() == [False] * 4

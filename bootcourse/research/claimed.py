@@ -21,7 +21,7 @@ from bootcourse.research.computed import StudyResults
 from bootcourse.research.experiments.stress import FINER
 from bootcourse.research.results import Results
 from bootcourse.scenario import CALIBRATED, DEFAULT, N_ACTIONS, Scenario
-from bootcourse.statistics import ESCAPES, IN_A_ROW
+from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, lost
 
 TWICE = "other seeds, another implementation of the learner, twice the episodes"
 OTHER_ROADS, HALF = "200 other roads", "half the time step"
@@ -195,13 +195,10 @@ def ends(study: StudyResults) -> Claim:
     ours, changed = study.results["default"], study.experiments["ablations"]
     lasting, sooner = changed["β for ever"], changed["β over 300 episodes"]
 
-    def losing(results: Results, bar: int = 25) -> np.ndarray:
-        """After 40 of 50 training episodes in a row ahead, `bar` of 50 or fewer."""
-        success = results.of("bootstrapped").curves["success"]
-        ahead = np.lib.stride_tricks.sliding_window_view(success, IN_A_ROW, axis=1).sum(axis=-1)
-        return (np.maximum.accumulate(ahead >= 40, axis=1) & (ahead <= bar)).any(axis=1)
+    def losing(results: Results, bar: int = LOST) -> np.ndarray:
+        return lost(results.of("bootstrapped").curves["success"], bar)
 
-    def against(fading: Results, staying: Results, bar: int = 25) -> tuple[bool, str]:
+    def against(fading: Results, staying: Results, bar: int = LOST) -> tuple[bool, str]:
         many, few = losing(fading, bar), losing(staying, bar)
         return many.mean() > few.mean(), f"{many.sum()} of {len(many)}, against {few.sum()} of {len(few)}"
 
@@ -214,7 +211,7 @@ def ends(study: StudyResults) -> Claim:
 
     def with_updates(updates: int) -> str:
         each = [losing(study.experiments["clocks"][f"{updates} updates, demonstrations by {by}"]) for by in ("μ", "π̃")]
-        return f"{sum(lost.sum() for lost in each)} of {sum(map(len, each))}"
+        return f"{sum(agents.sum() for agents in each)} of {sum(map(len, each))}"
 
     at_the_end = {m: (missing(ours, lasting, m), missing(*others(m), m)) for m in ("bootstrapped", "demos")}
     return Claim(
@@ -229,7 +226,7 @@ def ends(study: StudyResults) -> Claim:
         },
         different(ours, lasting, losing),
         [
-            "Lost: after 40 of 50 training episodes in a row ahead, 25 of 50 or fewer.",
+            f"Lost: after {HAD} of {IN_A_ROW} training episodes in a row ahead, {LOST} of {IN_A_ROW} or fewer.",
             "It takes the bonus: without it {}.".format(against(changed["c = 0"], changed["β for ever, c = 0"])[1]),
             f"With two updates for each decision and demonstrations that run out {with_updates(2)} lose it by episode "
             f"1,200, with four {with_updates(4)}.",

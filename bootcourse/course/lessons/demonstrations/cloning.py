@@ -9,13 +9,12 @@ from torch import Tensor
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.bc import cloning_loss
+from bootcourse.learn.bc import BCLearner, cloning_loss
 from bootcourse.learn.demonstrations import collect
-from bootcourse.learn.learner import learner_for
 from bootcourse.learn.networks import mlp
-from bootcourse.learn.replay_buffer import ReplayBuffer, decode_transitions
+from bootcourse.learn.replay_buffer import Batch, ReplayBuffer, decode_transitions
 from bootcourse.learn.sac import log_policy
-from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.policies import PolicyOutput, rule_policy
 from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.scenario import DEFAULT
@@ -24,17 +23,26 @@ SIZE = DEFAULT.observation_size
 ACTION, RULE_ACTION = 2 * SIZE, 2 * SIZE + 3  # columns of a transition
 
 
+class Cloner(BCLearner):
+    """Clones, trained with the loss that is given: (batch, actions) and (batch,) -> a mean."""
+
+    def __init__(self, settings: Sequence[Settings], loss: Callable[[Tensor, Tensor], Tensor]):
+        super().__init__(settings, SIZE)
+        self.loss = loss
+
+    def losses(self, batch: Batch) -> dict[str, Tensor]:
+        """The sum of all clones' losses, in one call: each has as many rows."""
+        log_pi = log_policy(mlp(self.actor, batch.states))  # (clones, batch, 9)
+        return {"actor_loss": self.agents * self.loss(log_pi.flatten(0, 1), self.labels(batch).flatten())}
+
+
 def clone(rows: Tensor, loss=cloning_loss, seeds: int = 12, updates: int = 1500, first: int = 0) -> list[Agent]:
     """Clones of what is in the rows (transitions, row), one for each seed, trained with this loss."""
     settings = with_seeds(settings_for("bc"), seeds, first)
-    cloner, replay = learner_for(settings, SIZE), ReplayBuffer(seeds, 64, SIZE, rows)
+    cloner, replay = Cloner(settings, loss), ReplayBuffer(seeds, 64, SIZE, rows)
     generators = [np.random.default_rng(each.seed) for each in settings]
     for _ in range(updates):
-        batch = replay.sample(64, np.ones(seeds), generators)  # for each clone 64 rows, all of them demonstrations
-        log_pi = log_policy(mlp(cloner.actor, batch.states))  # (clones, 64, 9)
-        cloner.optimiser.zero_grad()
-        (seeds * loss(log_pi.flatten(0, 1), batch.actions.flatten())).backward()  # the clones' losses, added up
-        cloner.optimiser.step()
+        cloner.update(replay.sample(64, np.ones(seeds), generators))  # for each clone 64 demonstrations
     weights = [[layer.detach()[i : i + 1] for layer in cloner.actor] for i in range(seeds)]
     return [Agent(s, actor, [], alpha=0.0) for s, actor in zip(settings, weights, strict=True)]
 

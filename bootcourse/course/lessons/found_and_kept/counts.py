@@ -1,12 +1,9 @@
 """Counted for the lesson's table: who finds the way out, who loses it at least once, and who has it at the end."""
 
-import numpy as np
-
 from bootcourse.research.experiment import Computed
 from bootcourse.research.results import Results
-from bootcourse.statistics import IN_A_ROW
+from bootcourse.statistics import lost
 
-HAD, BAR = 40, 25  # of 50 episodes in a row: what an agent had ahead before it can lose it; ahead in so few it has lost
 KINDS = {  # of agents: the method, the change among the ablations ("": none), the same in experiments/stress.py
     "both aids, β ends at 1,000": ("bootstrapped", "", "bootstrapped"),
     "both aids, β never ends": ("bootstrapped", "β for ever", "bootstrapped, β for ever"),
@@ -17,16 +14,6 @@ KINDS = {  # of agents: the method, the change among the ablations ("": none), t
     "soft constraint alone, ξ held at 0.1": ("soft", "ξ stays at 0.1", "soft, ξ stays at 0.1"),
 }
 HEADINGS = ["ten of the study · ten others", "found it", "lost it at least once", "have it at the end", "mean return"]
-
-
-def lost(success: np.ndarray, bar: int = BAR) -> np.ndarray:
-    """Which agents lose the way out at least once: success (agents, episodes), 0 or 1 -> (agents,) bool.
-
-    bar: of 50 training episodes, after 40 of 50 ahead.
-    """
-    ahead = np.lib.stride_tricks.sliding_window_view(np.asarray(success), IN_A_ROW, axis=1).sum(axis=-1)
-    had = np.maximum.accumulate(ahead >= HAD, axis=1)
-    return (had & (ahead <= bar)).any(axis=1)
 
 
 def groups(kind: str, study: Results, changed: Computed, others: Computed) -> list[Results]:

@@ -7,7 +7,6 @@ import numpy as np
 from scipy import stats
 
 from bootcourse.course.lessons.found_and_kept import counts
-from bootcourse.course.lessons.found_and_kept.counts import BAR, lost
 from bootcourse.course.lessons.found_and_kept.exercises import forgetting as forgetting
 from bootcourse.course.lessons.found_and_kept.explorable import EPISODES, Fading
 from bootcourse.course.lessons.found_and_kept.figures import half_found
@@ -17,7 +16,9 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results, join
 from bootcourse.rule import stochastic_rule
+from bootcourse.statistics import HAD as HAD
 from bootcourse.statistics import IN_A_ROW as WINDOW
+from bootcourse.statistics import LOST, lost
 from tools.course.known import clocks, fisher, in_training, of, others, shipped_experiment, shipped_results
 
 LATE = 900  # an episode: a tenth of β is left
@@ -82,25 +83,14 @@ def kind(name: str) -> list[Results]:
     return counts.groups(name, of_all(), ablations(), shipped_experiment("stress"))
 
 
-def losing(name: str, bar: int = BAR) -> str:
+def losing(name: str, bar: int = LOST) -> str:
     """ "2 of 20": how many agents of a kind lose the way out at least once."""
     return _of([lost(each.curves["success"], bar) for each in kind(name)])
 
 
-def early(*names: str, bar: int = BAR) -> str:
+def early(*names: str, bar: int = LOST) -> str:
     """The same before episode 900, of several kinds together."""
     return _of([lost(each.curves["success"][:, :LATE], bar) for name in names for each in kind(name)])
-
-
-def early_by_noise() -> int:
-    """The same of the agents with both aids, ¼ update and demonstrations by the stochastic rule."""
-    return int(lost(clocks()["1/4", "π̃"].of("bootstrapped").curves["success"][:, :LATE]).sum())
-
-
-def both_early(updates: str) -> int:
-    """How many agents with both aids and so many updates lose the way out before episode 900, of both drivers."""
-    each = [clocks()[updates, driver].of("bootstrapped").curves["success"][:, :LATE] for driver in ("μ", "π̃")]
-    return sum(int(lost(success).sum()) for success in each)
 
 
 def finding(name: str) -> str:
@@ -122,16 +112,22 @@ def mean_of(results: Results, method: str, measure: str) -> float:
     return float(results.of(method).scores(measure).mean())
 
 
-def of_both(updates: str) -> list[tuple[np.ndarray, np.ndarray]]:
-    """The agents with both aids and so many updates, of each driver: who loses the way out, and who keeps it."""
+def of_both(updates: str, last: int | None = None) -> list[tuple[np.ndarray, np.ndarray]]:
+    """The agents with both aids and so many updates, of each driver: who loses the way out, by an episode or by the
+    end, and who keeps it."""
     each = [clocks()[updates, driver].of("bootstrapped") for driver in ("μ", "π̃")]
-    return [(lost(r.curves["success"]), r.found_and_kept("bootstrapped")[1]) for r in each]
+    return [(lost(r.curves["success"][:, :last]), r.found_and_kept("bootstrapped")[1]) for r in each]
 
 
 def both(what: str) -> str:
     """ "19 of 20 | 8 of 15 | ...": how many agents with both aids have "lost" or "kept" it, by the updates."""
     place = ("lost", "kept").index(what)
     return " | ".join(_of([pair[place] for pair in of_both(updates)]) for updates in study_clocks.UPDATES)
+
+
+def both_early(updates: str) -> list[int]:
+    """How many of them lose it before episode 900: with the driver μ, and with π̃."""
+    return [int(each.sum()) for each, _ in of_both(updates, LATE)]
 
 
 def soft_kept_of(updates: str) -> int:

@@ -96,7 +96,7 @@ table(["", "the paper's success", "our agents that escape"], rows)
 #
 # - **Found**: in some window of {{ WINDOW }} training episodes more than half ended ahead of
 #   trap 1.
-# - **Lost**: after {{ counts.HAD }} of 50 ahead, {{ counts.BAR }} of 50 or fewer in a later window.
+# - **Lost**: after {{ HAD }} of 50 ahead, {{ LOST }} of 50 or fewer in a later window.
 # - **Kept**: the agent escapes after training, so it is ahead on at least {{ 100 * ESCAPES | .0f
 #   }} % of the held-out roads. *Kept* looks at the end only: an agent may have lost the way out in
 #   between and found it again.
@@ -213,7 +213,7 @@ bc.show(charts.lines(at, effective, title, *words, logarithmic="x"))
 
 # %%
 gone = study.of("bootstrapped").agents[0]["beta_episodes"]
-lost = counts.lost(study.of("bootstrapped").curves["success"])
+lost = bc.statistics.lost(study.of("bootstrapped").curves["success"])
 title = f"{lost.sum()} of {len(lost)} agents with both aids lose the way out at least once"
 bc.show(figures.agent_by_agent(study, "bootstrapped", title, gone, "β is 0 from here on"))
 
@@ -386,10 +386,10 @@ bc.show(figures.found_and_kept(panels, title, "updates for\na decision"))
 # | lose it at least once by {{ SHORTER | , }} | {{ both('lost') }} |
 # | keep it | {{ both('kept') }} |
 #
-# With two updates the {{ both_early('2') }} losses come before episode {{ LATE }}: none as β ends.
-# With ¼ and π̃ {{ early_by_noise() }} of ten lose it before then, in spite of the bonus. So there
+# With two updates the {{ sum(both_early('2')) }} losses come before episode {{ LATE }}: none as β ends.
+# With ¼ and π̃ {{ both_early('1/4')[1] }} of ten lose it before then, in spite of the bonus. So there
 # are losses that β's end does not explain, and why the way is lost is open.
-# <!-- claim: both('lost').split(' | ')[2] == f"{both_early('2')} of 14" -->
+# <!-- claim: both('lost').split(' | ')[2] == f"{sum(both_early('2'))} of 14" -->
 # <!-- claim: p_values()['both, updates'] < 0.001 -->
 
 # %% [markdown] tags=["instructor"] minutes=6

@@ -67,6 +67,6 @@ def actor_only() -> np.ndarray:
 
 
 def straight() -> float:
-    """The share of the first 20 s of 20 of the rule's drives in which it keeps straight."""
-    did = np.concatenate([drive.rule_actions[:20] for drive in rule_drives()])
+    """The share of the lesson's states, the first 20 s of 20 of the rule's drives, in which it keeps straight."""
+    did = np.concatenate([drive.rule_actions[:20] for drive in rule_drives()[:20]])
     return float(np.mean(did == ACTION_NAMES.index("keep straight")))

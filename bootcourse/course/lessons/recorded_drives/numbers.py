@@ -43,11 +43,6 @@ def with_entropy(place: int) -> Results:
     return list(by_entropy(shipped_experiment("reachable-entropy")["cql_sac"]).values())[place]
 
 
-def crashing_always(results: Results) -> int:
-    """How many agents have an accident in nearly each drive."""
-    return int((results.scores("accident") > 0.99).sum())
-
-
 def staying(results: Results) -> int:
     """How many agents stay behind trap 1 on each road: they earn what one does that never acts."""
     return int(np.isclose(results.scores("returns"), idle().rewards.sum(), atol=1).sum())
