@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from bootcourse.course.lessons.found_and_kept.figures import half_found
 from bootcourse.research.experiments.clocks import choices, pattern, pattern_rows
 from bootcourse.research.results import Results
 from bootcourse.research.tables import found_and_kept
@@ -36,12 +35,6 @@ def test_a_row_stands_for_a_choice_whose_four_methods_were_computed():
         "50 ["
     )
     assert len(headings) == len(rows[0])
-
-
-def test_half_of_the_agents_have_found_the_way_out_with_the_middle_one():
-    success = np.zeros((3, 200))
-    success[0, 10:], success[1, 100:] = 1, 1  # a window of fifty has 26 successes at episodes 36 and 126
-    assert half_found(Results([], np.zeros(0), curves={"success": success})) == 126
 
 
 def test_an_agent_has_found_the_way_out_if_most_of_fifty_episodes_in_a_row_end_ahead_and_kept_it_if_it_escapes():

@@ -19,7 +19,6 @@ LIBRARY = {  # exercise -> the library's functions; the exercise's own solution 
     "target_speed": ("bootcourse.rule.target_speed",),
     "safety_distance": ("bootcourse.rule.safety_distance",),
     "cloning_loss": (f"{LEARN}.sac.conservative_loss",),  # the same, because Σ π is 1
-    "log_stochastic_rule": (f"{LEARN}.bootstrap.log_stochastic_rule", "bootcourse.rule.stochastic_rule"),
     "soft_constraint": (f"{LEARN}.bootstrap.kl_to_rule",),
     "constrained_loss": (f"{LEARN}.sac.actor_loss",),
     "large_margin_loss": (f"{LEARN}.bootstrap.large_margin_loss",),

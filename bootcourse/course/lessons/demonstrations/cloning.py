@@ -1,12 +1,14 @@
 """Clones of a driver, and DAgger: what the lesson trains and tests."""
 
 from collections.abc import Callable, Sequence
+from functools import cache
 
 import numpy as np
 import torch
 from torch import Tensor
 
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.bc import BCLearner, cloning_loss
@@ -20,7 +22,7 @@ from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.scenario import DEFAULT
 
 SIZE = DEFAULT.observation_size
-ACTION, RULE_ACTION = 2 * SIZE, 2 * SIZE + 3  # columns of a transition
+ACTION, TERMINATED, RULE_ACTION = 2 * SIZE, 2 * SIZE + 2, 2 * SIZE + 3  # columns of a transition
 
 
 class Cloner(BCLearner):
@@ -47,35 +49,26 @@ def clone(rows: Tensor, loss=cloning_loss, seeds: int = 12, updates: int = 1500,
     return [Agent(s, actor, [], alpha=0.0) for s, actor in zip(settings, weights, strict=True)]
 
 
-def tested(agents: Sequence[Agent], roads: int = 200) -> list[Episodes]:
-    """Each clone's drives on held-out roads."""
-    return [drive_episodes(agent.as_policy(), held_out_seeds(6, roads)) for agent in agents]
+@cache
+def rule_s_drives() -> Episodes:
+    """The rule, where the clones are measured."""
+    return drive_episodes(rule_policy(DEFAULT), held_out_seeds(6, 200))
 
 
-def measure(agents: Sequence[Agent], rows: Tensor, drives: Sequence[Episodes] | None = None) -> np.ndarray:
+def measure(agents: Sequence[Agent], rows: Tensor) -> np.ndarray:
     """Of each clone: agreement with its data, success, accidents (shares) and return on held-out roads, (clones, 4)."""
     scores, batch = [], decode_transitions(rows, SIZE, torch.zeros(len(rows)))
-    for agent, driven in zip(agents, drives or tested(agents), strict=True):
+    for agent in agents:
+        driven = drive_episodes(agent.as_policy(), held_out_seeds(6, 200))
         agrees = agent.probabilities(batch.states.numpy()).argmax(1) == batch.actions.numpy()
         scores.append((agrees.mean(), driven.success.mean(), (driven.accident > 0).mean(), driven.returns.mean()))
     return np.array(scores)
 
 
-def danger(drives: Sequence[Episodes], start: float, end: float) -> tuple[float, float]:
-    """Of all accidents the share in these seconds, and the risk of one in a second that is driven there."""
-    lasted, crashed = np.hstack([_lasted(each) for each in drives]), np.hstack([each.accident > 0 for each in drives])
-    there = np.sum(crashed & (lasted > start) & (lasted <= end))
-    return there / crashed.sum(), there / np.clip(lasted - start, 0, end - start).sum()
-
-
-def typical_accidents(drives: Sequence[Episodes]) -> list[float]:
-    """When (s) the median accident of each clone happens, in order; without the clones that have none."""
-    return sorted(float(np.median(_lasted(each)[each.accident > 0])) for each in drives if (each.accident > 0).any())
-
-
-def _lasted(drives: Episodes) -> np.ndarray:
-    """How long each drive was (s): the way over the mean speed."""
-    return np.round(drives.distance / drives.speed, 1)
+def compared(agents: Sequence[Agent], rows: Tensor) -> np.ndarray:
+    """Of each clone: agreement with the rule in these rows and in its own states, accidents and return, (clones, 4)."""
+    agreement, _, accidents, returns = measure(agents, rows).T
+    return np.column_stack([agreement, [own_agreement(agent) for agent in agents], accidents, returns])
 
 
 class RuleFirst:
@@ -94,10 +87,36 @@ class RuleFirst:
         return PolicyOutput(driver(observations, cars).actions)
 
 
-def slow(drives: Sequence[Rollout]) -> np.ndarray:
-    """In which seconds the car is in the free lane at 9 m/s or less: (drives, decisions) bool, drives of one length."""
+def after_the_rule(agents: Sequence[Agent], seconds: int) -> tuple[float, float, float]:
+    """The clones drive 20 roads each, the rule the first seconds: how often they differ from it from 20 to 40 s, the
+    share of accidents, and the return.
+    """
+    drives = [drive for agent in agents for drive in record(RuleFirst(agent, seconds), range(20))]
+    differ = np.concatenate([each.actions[20:40] != each.rule_actions[20:40] for each in drives])
+    returns = [each.rewards.sum() for each in drives]
+    return float(differ.mean()), float(np.mean([each.accident > 0 for each in drives])), float(np.mean(returns))
+
+
+def unhurt(agents: Sequence[Agent]) -> list[Rollout]:
+    """All the clones' own drives on 60 roads, without those that end in an accident."""
+    return [each for agent in agents for each in record(agent.as_policy(), range(60)) if not each.accident]
+
+
+def slow_seconds(drives: Sequence[Rollout]) -> float:
+    """How many seconds of a drive the car is in the free lane at 9 m/s or less, on average; drives of one length."""
     cars = np.array([each.states[: -1 : each.scenario.clock.steps, EGO] for each in drives])
-    return (cars[:, :, LANE] == 0) & (cars[:, :, SPEED] < 9.5)
+    return float(((cars[:, :, LANE] == 0) & (cars[:, :, SPEED] < 9.5)).sum(1).mean())
+
+
+def slowness(of_rule: Sequence[Rollout], of_clones: Sequence[Rollout]) -> str:
+    """How long both are slow in the free lane, and how often the clones keep a speed that the rule would raise."""
+    did, wanted = (np.array([getattr(each, name) for each in of_clones]) for name in ("actions", "rule_actions"))
+    kept = ((wanted // 3 == 2) & (did // 3 == 1))[:, 10:40].mean()
+    seconds = f"the rule {slow_seconds(of_rule):.0f} s of a drive, the clones {slow_seconds(of_clones):.0f} s"
+    return (
+        f"In the free lane at 9 m/s or less: {seconds}.\n"
+        f"From 10 to 40 s: in {100 * kept:.0f} % the rule would accelerate, and the clone keeps its speed."
+    )
 
 
 def unlike(agent: Agent, drives: Sequence[Rollout]) -> np.ndarray:
@@ -109,6 +128,11 @@ def own_agreement(agent: Agent, roads: int = 60) -> float:
     """The share of the clone's decisions, in its own drives on roads that no data have, that the rule would take."""
     rows = collect(roads, policy=agent.as_policy(), first_seed=0)
     return float((rows[:, ACTION] == rows[:, RULE_ACTION]).float().mean())
+
+
+def trainer(loss: Callable[[Tensor, Tensor], Tensor], seed: int) -> Callable[[Tensor], Agent]:
+    """train(rows): a clone with this seed, trained from the beginning."""
+    return lambda rows: clone(rows, loss, seeds=1, first=seed)[0]
 
 
 def own_drives(episodes: int) -> Callable[[Agent], Tensor]:

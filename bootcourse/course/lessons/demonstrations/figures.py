@@ -5,7 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
+from bootcourse.course import charts
+from bootcourse.course.lessons.demonstrations import cloning
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.agent import Agent
 from bootcourse.methods import style
 from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.figure import INK, TEXT, finish, new_figure, plain_axes
@@ -44,11 +47,16 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
     )
 
 
-def clones(measured: dict[str, np.ndarray], title: str, of_rule: float) -> Figure:
+def clones(measured: dict[str, np.ndarray]) -> Figure:
     """How clones drive: name -> (seeds, 4), shares of agreement, success and accidents, and the return.
 
-    A dot for each seed; of_rule: the rule's return, a line.
+    A dot for each seed, and a line for the rule's return. Those of the rule's own drives come first.
     """
+    of_rule = cloning.rule_s_drives().returns.mean()
+    (agrees, _, crash, _), *others = (values.mean(0) for values in measured.values())
+    title = "The data sets, and how their clones drive"
+    if all(agrees > other[0] and crash > other[2] for other in others):
+        title = "Clones of the rule's own drives agree most with their data, and crash most"
     figure = new_figure(1.3 + 0.55 * len(measured))
     alt_parts = {name: [] for name in measured}
     height = figure.get_figheight()
@@ -73,3 +81,33 @@ def clones(measured: dict[str, np.ndarray], title: str, of_rule: float) -> Figur
     words = "; ".join(f"clones of {name}: on average {', '.join(parts)}" for name, parts in alt_parts.items())
     ending = f"A dot for each clone, a bar for their mean. {words}. The rule's return is {of_rule:.0f}."
     return finish(figure, title, ending)
+
+
+def differing(agents: Sequence[Agent], of_rule: Sequence[Rollout], own: Sequence[Rollout]) -> Figure:
+    """In which seconds the clones differ from the rule: in their own drives, and in the states of the rule's."""
+    theirs = np.mean([cloning.unlike(agent, of_rule) for agent in agents], axis=(0, 1))
+    mine = np.mean([each.actions != each.rule_actions for each in own], axis=0)
+    there, here = (f"{100 * each[10:40].mean():.0f} %" for each in (theirs, mine))
+    title = f"From 10 to 40 s the clones differ in {here} of their own states, in {there} of the rule's"
+    named = {"in their own states": 100 * mine, "in the rule's states": 100 * theirs}
+    looks = [charts.Style(style(method).colour) for method in ("bc", "rule")]
+    return charts.lines(np.arange(len(mine)), named, title, "time (s)", "differ (%)", looks=looks)
+
+
+def of_trainings(trainings: Sequence[np.ndarray], of_rule: np.ndarray) -> tuple[list[str], list[list[str]], str]:
+    """A table's columns, rows and last line: each driver of each training (rounds + 1, 4) as `cloning.compared` has it,
+    clones of the rule as `cloning.measure` has them, and the rule.
+    """
+    columns = ["", "agrees in the rule's states", "in its own", "has an accident, each training", "return"]
+    rows = []
+    for number, drivers in enumerate(np.swapaxes(trainings, 0, 1)):
+        there, own, _, back = drivers.mean(0)
+        accidents = ", ".join(f"{100 * each:.0f}" for each in drivers[:, 2])
+        texts = f"{100 * there:.0f} %", f"{100 * own:.0f} %", f"{accidents} %", f"{back:.0f}"
+        rows.append([f"{20 * number} own drives", *texts])
+    agrees, _, crash, back = of_rule.mean(0)
+    rows.append(["clones of 200 drives", f"{100 * agrees:.0f} %", "", f"{100 * crash:.0f} %", f"{back:.0f}"])
+    drives = cloning.rule_s_drives()
+    crash, back = (drives.accident > 0).mean(), drives.returns.mean()
+    rows.append(["the rule", "100 %", "100 %", f"{100 * crash:.0f} %", f"{back:.0f}"])
+    return columns, rows, "Agreement and return: the mean of the trainings."

@@ -1,35 +1,50 @@
-"""Counted for the lesson's table: who finds the way out, who loses it at least once, and who has it at the end."""
+"""Counted for the lesson's tables: the paper's rows and ours, who finds, loses and keeps the way out, what it earns."""
 
+import numpy as np
+
+from bootcourse.methods import display_name
+from bootcourse.research.cells import VARIED
 from bootcourse.research.experiment import Computed
+from bootcourse.research.paper import PRINTED
 from bootcourse.research.results import Results
-from bootcourse.statistics import lost
+from bootcourse.research.tables import escaped
+from bootcourse.statistics import Estimate, lost
 
 KINDS = {  # of agents: the method, the change among the ablations ("": none), the same in experiments/stress.py
-    "both aids, β ends at 1,000": ("bootstrapped", "", "bootstrapped"),
+    "both aids, β ends": ("bootstrapped", "", "bootstrapped"),
     "both aids, β never ends": ("bootstrapped", "β for ever", "bootstrapped, β for ever"),
-    "the same without the bonus, β ends": ("bootstrapped", "c = 0", "bootstrapped, c = 0"),
-    "the same without the bonus, β never ends": ("bootstrapped", "β for ever, c = 0", ""),
-    "soft constraint alone, ξ fades from 2": ("soft", "", "soft"),
-    "soft constraint alone, ξ falls to 0.1": ("soft", "ξ falls to 0.1", "soft, ξ falls to 0.1"),
-    "soft constraint alone, ξ held at 0.1": ("soft", "ξ stays at 0.1", "soft, ξ stays at 0.1"),
+    "soft constraint alone, ξ fades": ("soft", "", "soft"),
+    "soft constraint alone, ξ stops at 0.1": ("soft", "ξ falls to 0.1", "soft, ξ falls to 0.1"),
 }
-HEADINGS = ["ten of the study · ten others", "found it", "lost it at least once", "have it at the end", "mean return"]
+HEADINGS = ["twenty agents of each kind", "found it", "lost it at least once", "kept it", "return of those that kept"]
+BOTH_TABLES = ["", "the paper's success", "the paper's return", "our agents that escape"]
+
+
+def both_tables(study: Results) -> list[list[str]]:
+    """A row for each method of the paper's Table 4, below `BOTH_TABLES`: what the paper prints, and our agents."""
+    rows = [(m, PRINTED[m]["success"].mean, PRINTED[m]["returns"].mean) for m in VARIED]
+    return [[display_name(m), f"{rate:.0f} %", f"{earned:.0f}", escaped(study, m)] for m, rate, earned in rows]
+
+
+def percent(chance: Estimate) -> str:
+    """ "33 % [10, 54]"."""
+    value, low, high = (100 * part for part in chance)
+    return f"{value:.0f} % [{low:.0f}, {high:.0f}]"
 
 
 def groups(kind: str, study: Results, changed: Computed, others: Computed) -> list[Results]:
-    """The agents of one of `KINDS`: the study's, and the ten others where they were trained."""
+    """The agents of one of `KINDS`: the study's ten, and the ten others."""
     method, change, other = KINDS[kind]
-    return [(changed[change] if change else study).of(method), *([others[other]] if other else [])]
+    return [(changed[change] if change else study).of(method), others[other]]
 
 
 def fates(study: Results, changed: Computed, others: Computed) -> list[list[str]]:
-    """A row for each of `KINDS`, below `HEADINGS`: "10 · 9" is the study's ten agents and the ten others."""
+    """A row for each of `KINDS`, below `HEADINGS`."""
     rows = []
     for kind, (method, *_) in KINDS.items():
-        columns = []
-        for agents in groups(kind, study, changed, others):
-            found, kept = agents.found_and_kept(method)
-            each = found.sum(), lost(agents.curves["success"]).sum(), kept.sum()
-            columns.append([*map(str, each), f"{agents.scores('returns').mean():.0f}"])
-        rows.append([kind, *(" · ".join(each) for each in zip(*columns, strict=True))])
+        agents = groups(kind, study, changed, others)
+        found, kept = np.concatenate([each.found_and_kept(method) for each in agents], axis=1)
+        losers = sum(int(lost(each.curves["success"]).sum()) for each in agents)
+        earned = np.concatenate([each.scores("returns") for each in agents])[kept].mean()
+        rows.append([kind, f"{found.sum()}", f"{losers}", f"{kept.sum()}", f"{earned:.0f}"])
     return rows

@@ -1,30 +1,81 @@
-"""Measured for the lesson: what a critic thinks of demonstrated actions, who finds the way out, and who escapes."""
+"""Measured for the lesson: what a bonus pays, what critics think of demonstrated actions, who finds the way out."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.episodes.evaluate import evaluate
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.settings import settings_for
+from bootcourse.panels.bonus import bonus_numbers
+from bootcourse.policies import rule_policy
 from bootcourse.research.experiment import Computed
 from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import found_after
+
+PAID = ["c", "the rule's drive", "staying behind"]
+
+
+def paid(by_rule: Rollout, stays: Rollout, bonuses: Sequence[float]) -> list[list[str]]:
+    """The discounted returns of both drives with each bonus, rows below `PAID`."""
+    seen = {c: bonus_numbers(by_rule, stays, settings_for("bootstrapped", bonus=c)) for c in bonuses}
+    return [[f"{c:g}", f"{each.augmented[0]:.2f}", f"{each.trapped[0]:.2f}"] for c, each in seen.items()]
+
+
+def smallest_bonus(by_rule: Sequence[Rollout], stays: Sequence[Rollout]) -> float:
+    """The c above which each of the rule's drives is worth more than the other on its road, in each second."""
+    pairs = zip(by_rule, stays, strict=True)
+    return max(float(bonus_numbers(*pair, settings_for("bootstrapped")).crossing.max()) for pair in pairs)
 
 
 class Opinion(NamedTuple):
-    """What a critic thinks of the demonstrated action, a mean over some states."""
+    """What a critic thinks of the actions, a mean over some states."""
 
-    q: float
-    lead: float  # over the mean of the other actions' Q
-    over_best: float  # over the largest of the other actions' Q; negative where another comes first
-    first: float  # % of the states in which it has the largest Q
+    shown: float  # the Q of the demonstrated action
+    best: float  # the largest Q of the others
+    mean: float  # the others' mean
 
 
-def opinion(q: np.ndarray, did: np.ndarray) -> Opinion:
+def opinions(agents: Sequence[Agent], drives: Sequence[Rollout], seconds: int) -> dict[str, Opinion]:
+    """{"c = 2, seed 0": what the agent's critic thinks in the first seconds of these drives}."""
+    states = np.concatenate([drive.observations[:seconds] for drive in drives])
+    did = np.concatenate([drive.rule_actions[:seconds] for drive in drives])
+    named = {f"c = {each.settings.bonus:g}, seed {each.settings.seed}": each.q_values(states) for each in agents}
+    return {name: _opinion(q, did) for name, q in named.items()}
+
+
+def _opinion(q: np.ndarray, did: np.ndarray) -> Opinion:
     """Of the Q of each action, (states, actions), and the number of the demonstrated one, (states,)."""
-    shown = np.arange(q.shape[1]) == np.asarray(did)[:, None]
-    own, others = q[shown], q[~shown].reshape(len(q), -1)
-    each = own, own - others.mean(axis=1), own - others.max(axis=1), 100 * (q.argmax(axis=1) == did)
-    return Opinion(*(float(np.mean(values)) for values in each))
+    shown = np.arange(q.shape[1]) == did[:, None]
+    others = q[~shown].reshape(len(q), -1)
+    return Opinion(*(float(each.mean()) for each in (q[shown], others.max(axis=1), others)))
+
+
+def raised(critics: Mapping[str, Opinion]) -> list[float]:
+    """By how much the bonus raises the lead over the best other action: of two critics with it and two without."""
+    leads = [each.shown - each.best for each in critics.values()]
+    return [leads[0] - leads[2], leads[1] - leads[3]]
+
+
+NAMES = {  # of the methods with the soft constraint
+    "bootstrapped": "demonstrations, c = 2",
+    "margin_soft": "demonstrations, margin",
+    "soft": "no demonstrations",
+}
+DRIVEN = ["on 200 roads", "success, %", "return"]
+
+
+def driven(agents: Sequence[Agent]) -> list[list[str]]:
+    """How these agents and the rule drive on 200 roads, rows below `DRIVEN`."""
+    drivers = [(NAMES[agent.settings.method], agent.as_policy()) for agent in agents]
+    rows = []
+    for name, driver in [*drivers, ("the rule", rule_policy(DEFAULT))]:
+        seen = evaluate(driver, 200, seed=8)
+        rows.append([name, f"{100 * seen.success.value:.0f}", f"{seen.returns.value:.0f}"])
+    return rows
 
 
 Kinds = dict[str, tuple[list[Results], list[Results]]]
@@ -44,19 +95,24 @@ def kinds(study: Results, changed: Computed, others: Computed) -> Kinds:
     }
 
 
-def escape(agents: Sequence[Results]) -> list[int]:
-    """How many of each ten agents escape."""
-    return [each.escapers(each.methods[0]) for each in agents]
+def escape(agents: Sequence[Results]) -> str:
+    """How many of these agents escape, "16 of 20"."""
+    return f"{sum(each.escapers(each.methods[0]) for each in agents)} of {sum(map(len, agents))}"
 
 
-HEADINGS = ["", "found after so many episodes of its own", "escape", "escape without the soft constraint"]
+def found(agents: Sequence[Results]) -> np.ndarray:
+    """The training episodes after which these agents have found the way out, (agents,)."""
+    return np.concatenate([found_after(each.curves["success"]) for each in agents])
+
+
+FOUND = ["", "found after (median; all)", "escape", "escape without the soft constraint"]
 
 
 def found_and_escaped(agents: Kinds) -> list[list[str]]:
-    """A row for each kind of demonstrations, below `HEADINGS`: "7 · 9" is the study's ten agents and the ten others."""
+    """A row for each kind of demonstrations, below `FOUND`."""
     rows = []
     for name, (soft, free) in agents.items():
-        after = [found_after(each.curves["success"]) for each in soft]
-        cells = [f"{episodes.min()} to {episodes.max()}" for episodes in after], escape(soft), escape(free)
-        rows.append([name, *(" · ".join(map(str, cell)) for cell in cells)])
+        after = found(soft)
+        words = f"{np.median(after):.0f}; {after.min()} to {after.max()}"
+        rows.append([name, words, escape(soft), escape(free)])
     return rows

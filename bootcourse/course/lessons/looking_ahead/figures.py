@@ -1,6 +1,6 @@
-"""The figures of this lesson: what looking ahead changes, what it gains by horizon, what a model costs.
+"""The figures of this lesson: what looking ahead changes, and what a model costs that is wrong, or learned.
 
-All but the first take the results of the experiments `look-ahead` and `learned-model`, {cell: agents}; their files, in
+The last three take the results of the experiments `look-ahead` and `learned-model`, {cell: agents}; their files, in
 bootcourse.research.experiments, say what was measured.
 """
 
@@ -11,14 +11,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, NullLocator
 
-from bootcourse.episodes.lookahead import HORIZON
+from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.models import MODELS
 from bootcourse.errors import BootcourseError
-from bootcourse.learn.road_model import FORMS as LEARNED_FORMS
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.experiments import learned_model
-from bootcourse.research.experiments.lookahead import CLOSELY, FORM_NAMES, FORMS, HORIZONS, Cell, Score, score
+from bootcourse.research.experiments.lookahead import CLOSELY, FORM_NAMES, Cell, Score, score
 from bootcourse.research.results import Results
 
 MEANINGS = {  # of the wrong models, for readers
@@ -32,6 +31,8 @@ MEANINGS = {  # of the wrong models, for readers
     "everything a second late": "the whole road as it was a second ago, the ego included",
     "worst case of three wrong models": "the first three; of each action the worst outcome counts",
 }
+LEARNED_FORMS = {"rollouts": "mean of five", "the shield": "shield"}  # as the lesson calls two of the learned model's
+BASE = "bootstrapped"  # whose agents the lesson follows
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
 
 
@@ -43,41 +44,47 @@ def _accident_axis(axis_of: Axes, axis: str) -> None:
     getattr(axis_of, f"{axis}axis").set_minor_locator(NullLocator())
 
 
-def double_line(ax: Axes, x: Sequence[float], y: Sequence[float], colour: str) -> None:
-    """The line of a look-ahead: the base policy's colour, with a white line along its middle."""
-    ax.plot(x, y, color=colour, linewidth=4.5, solid_capstyle="butt", zorder=2.5)
-    ax.plot(x, y, color="white", linewidth=1.6, solid_capstyle="butt", zorder=2.6)
+def accidents(drives: Episodes) -> int:
+    """How many of the drives end in an accident."""
+    return int((drives.accident > 0).sum())
 
 
-def arrows(rows: Mapping[str, Mapping[str, tuple[float, float]]], colours: Sequence[str], title: str) -> Figure:
-    """From alone (a ring) to with rollouts (a dot): a row for each base policy, a panel for each measure.
+def compared(drives_of: Mapping[str, Episodes]) -> tuple[list[str], list[list]]:
+    """A table of the same agent's drives, in each of some forms: its headings and rows."""
+    roads = len(next(iter(drives_of.values())).returns)
+    rows = [[name, accidents(drives), f"{drives.returns.mean():.1f}"] for name, drives in drives_of.items()]
+    return ["the same agent", f"accidents in {roads}", "return"], rows
 
-    rows: {base policy: {measure, with its unit: (alone, with rollouts)}}; colours: of the rows.
-    """
-    measures, names, alt_parts = list(next(iter(rows.values()))), list(rows), []
-    left, row = 1.45, 0.42
+
+def arrows(names: Sequence[str], before: Sequence[Episodes], after: Sequence[Episodes], title: str) -> Figure:
+    """From alone (a ring) to with rollouts (a dot): a row for each agent, a panel for accidents and for the return."""
+    measures = {
+        f"accidents in {len(before[0].returns)} drives": [
+            [accidents(drives) for drives in each] for each in (before, after)
+        ],
+        "return": [[drives.returns.mean() for drives in each] for each in (before, after)],
+    }
+    left, row, colour, alt_parts = 0.85, 0.42, style(BASE).colour, []
     width = (WIDTH - left - 0.2) / len(measures)
     figure = new_figure(0.8 + row * len(names) + 0.45)
-    for column, measure in enumerate(measures):
+    for column, (measure, pair) in enumerate(measures.items()):
         ax = axes_at(figure, left + column * width, 0.8, width - 0.25, row * len(names))
-        farthest = max(max(rows[name][measure]) for name in names)
-        for place, (name, colour) in enumerate(zip(names, colours, strict=True)):
-            alone, ahead = rows[name][measure]
+        farthest = max(map(max, pair))
+        for place, (name, alone, ahead) in enumerate(zip(names, *pair, strict=True)):
             side = 1 if ahead >= alone else -1
-            if round(alone) != round(ahead):
-                if abs(ahead - alone) > 0.16 * farthest:  # otherwise the two marks leave no room for an arrow
-                    how = {"arrowstyle": "-|>", "color": colour, "lw": 1.8, "shrinkA": 4, "shrinkB": 3}
-                    ax.annotate("", (ahead, place), (alone, place), arrowprops=how, zorder=2)
-                ax.plot(alone, place, "o", color=colour, mfc="white", ms=5.5, zorder=3, clip_on=False)
-                _beside(ax, alone, place, -side)
+            if abs(ahead - alone) > 0.2 * farthest:  # otherwise the two marks leave no room for an arrow
+                how = {"arrowstyle": "-|>", "color": colour, "lw": 1.8, "shrinkA": 4, "shrinkB": 3}
+                ax.annotate("", (ahead, place), (alone, place), arrowprops=how, zorder=2)
+            ax.plot(alone, place, "o", color=colour, mfc="white", ms=5.5, zorder=3, clip_on=False)
             ax.plot(ahead, place, "o", color=colour, ms=5.5, zorder=3, clip_on=False)
+            _beside(ax, alone, place, -side)
             _beside(ax, ahead, place, side)
             alt_parts.append(f"{name}, {measure}: {alone:.0f} to {ahead:.0f}")
         plain_axes(ax, measure, grid="x")
         ax.set(xlim=(-0.22 * farthest, 1.25 * farthest), ylim=(len(names) - 0.5, -0.6))
         ax.set_yticks(range(len(names)), names if column == 0 else [])
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-        ax.xaxis.set_major_locator(MaxNLocator(3))
+        ax.xaxis.set_major_locator(MaxNLocator(4))
         ax.set_xticks([tick for tick in ax.get_xticks() if 0 <= tick <= 1.05 * farthest])
     words = "○ alone   ● with rollouts of ten decisions"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
@@ -90,36 +97,11 @@ def _beside(ax: Axes, x: float, place: int, side: int) -> None:
     ax.annotate(f"{x:,.0f}", (x, place), (6 * side, 0), textcoords="offset points", **look)
 
 
-def by_horizon(cells: dict[str, Results], base: str, title: str) -> Figure:
-    """Two panels over the number of decisions that a base policy's agents look ahead; 0: the agents alone."""
-    figure, colour = new_figure(3.6), style(base).colour
-    of = {h: score(cells, Cell(base, "rollouts" if h else "alone", horizon=h or HORIZON))
-          for h in (0, *sorted((*HORIZONS, HORIZON)))}  # fmt: skip
-    measures = {
-        "return": [one.returns for one in of.values()],
-        "accidents in 1,000 drives": [[1000 * value for value in one.accident_rate] for one in of.values()],
-    }
-    alt_parts = []
-    for left, (words, estimates) in zip((0.45, 3.95), measures.items(), strict=True):
-        ax = axes_at(figure, left, 0.95, 2.85, 2.05)
-        plain_axes(ax, words)
-        middle, low, high = np.array(estimates).T
-        double_line(ax, list(of), middle, colour)
-        ax.errorbar(list(of), middle, [middle - low, high - middle], fmt="o", color=colour, ms=5, lw=1.3, zorder=3)
-        ax.set_xticks(list(of), ["alone", *map(str, list(of)[1:])])
-        ax.xaxis.set_minor_locator(NullLocator())
-        ax.set_xlabel("decisions ahead", fontsize=TEXT, color=INK)
-        most = high.max()
-        ax.set_ylim((-0.04 * most, 1.1 * most) if words.startswith("accidents") else (low.min() - 2, most + 2))
-        alt_parts.append(f"{words}: {', '.join(f'{m:.1f} at {h}' for h, m in zip(of, middle, strict=True))}")
-    return finish(figure, title, f"{'; '.join(alt_parts)}.")
-
-
 def each_agent(cells: dict[str, Results], bases: Sequence[str], title: str) -> Figure:
     """Each agent's success and accidents, from alone to with rollouts: a panel for each measure and base policy."""
     figure, alt_parts, left, high = new_figure(2 * 2.1 + 0.7), [], 0.55, 2.1
     width = (WIDTH - left - 0.1) / len(bases)
-    measures = {"ahead of trap 1 (%)": "success", "accidents in 1,000 drives": "accidents"}
+    measures = {"ahead of trap 1 (%)": "success", "accidents in 1,000 drives (logarithmic above 1)": "accidents"}
     for row, (words, measure) in enumerate(measures.items()):
         place = 1 - (0.78 + row * high) / figure.get_figheight()
         figure.text(0.012, place, words, fontsize=SMALL, color=QUIET)
@@ -130,24 +112,26 @@ def each_agent(cells: dict[str, Results], bases: Sequence[str], title: str) -> F
             values = np.array(share) * (1000 if measure == "accidents" else 100)  # (2, agents)
             ax.plot([0, 1], values, color=style(base).colour, linewidth=1.1, marker="o", ms=3.5, clip_on=False)
             plain_axes(ax, display_name(base))
-            ax.set(xlim=(-0.15, 1.15), ylim=(0, 1000 if measure == "accidents" else 100))
+            ax.set(xlim=(-0.15, 1.15), ylim=(0, 100))
+            if measure == "accidents":
+                _accident_axis(ax, "y")
             ax.set_xticks([0, 1], ["alone", "rollouts"])
             each = ", ".join(f"{alone:.0f} to {ahead:.0f}" for alone, ahead in values.T)
             alt_parts.append(f"{display_name(base)}, {words}: {each}")
     return finish(figure, title, f"A line for each agent, from alone to with rollouts. {'; '.join(alt_parts)}.")
 
 
-def learned(agents: Results, cells: dict[str, Results], title: str) -> Figure:
+def learned(computed: dict[str, Results], cells: dict[str, Results], title: str) -> Figure:
     """Accidents of each agent with a model that it learned: a panel for each form, over the rounds; 0 is alone.
 
-    agents: see `learned_model.together`; cells: those of the look-ahead, which drove the same agents alone.
+    computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
     figure, rounds, alt_parts = new_figure(3.7), learned_model.ROUNDS, []
-    colour, left = style(learned_model.BASE).colour, 0.6
+    agents, colour, left = learned_model.together(computed), style(learned_model.BASE).colour, 0.6
     width = (WIDTH - left) / len(LEARNED_FORMS)
     of_alone = cells[Cell(learned_model.BASE, "alone").name].measured
     alone = 1000 * (of_alone["accidents"] / of_alone["roads"])[: len(agents)]
-    for column, form in enumerate(LEARNED_FORMS):
+    for column, (name, form) in enumerate(LEARNED_FORMS.items()):
         ax = axes_at(figure, left + column * width, 1.2, width - 0.3, 1.7)
         values = np.column_stack([alone, learned_model.per_thousand(agents, form)])
         control = learned_model.per_thousand(agents, form, control=True)[:, 0]
@@ -155,12 +139,12 @@ def learned(agents: Results, cells: dict[str, Results], title: str) -> Figure:
         ax.plot(range(rounds + 1), values.mean(0), color=colour, linewidth=2.4, marker="o", ms=4)
         ax.plot([rounds + 0.8] * len(control), control, "s", color=QUIET, ms=3, alpha=0.6, clip_on=False)
         ax.plot(rounds + 0.8, control.mean(), "s", color=INK, ms=6, clip_on=False)
-        plain_axes(ax, form)
+        plain_axes(ax, name)
         ax.set(xlim=(-0.2, rounds + 1.1), ylim=(0, 1000))
         ax.set_xticks([*range(rounds + 1), rounds + 0.8], ["alone", *map(str, range(1, rounds + 1)), "c"])
         ax.set_xlabel("rounds", fontsize=TEXT, color=INK)
         means = ", ".join(f"{mean:.0f}" for mean in values.mean(0))
-        alt_parts.append(f"{form}: {means}; the control {control.mean():.0f}")
+        alt_parts.append(f"{name}: {means}; the control {control.mean():.0f}")
     figure.text(0.012, 1 - 0.83 / figure.get_figheight(), "accidents in 1,000 drives", fontsize=SMALL, color=QUIET)
     words = "thin: each agent; thick: their mean; c, squares: the control, as many drives without a look-ahead"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
@@ -174,24 +158,32 @@ def _check_computed(there: Container, wanted: Sequence, base: str) -> None:
         )
 
 
+def safer_with_shield(cells: dict[str, Results], base: str = CLOSELY[0]) -> int:
+    """With how many of the wrong models the shield has fewer accidents than the rollouts."""
+    rates = {
+        form: [score(cells, Cell(base, form, model=name)).accident_rate.value for name in MODELS if name != "exact"]
+        for form in ("shield", "rollouts")
+    }
+    return sum(shield < rollouts for shield, rollouts in zip(*rates.values(), strict=True))
+
+
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     """Accidents with each wrong model, as full rollouts and as a shield, and of the base policy alone.
 
-    Raises BootcourseError if the base policy alone, or any of the two with the exact model, was not computed.
+    Raises BootcourseError if the base policy alone, or any of the two with a model, was not computed.
     """
     alone, names = score(cells, Cell(base, "alone")), list(MODELS)
-    _check_computed(cells, [Cell(base, form).name for form in FORMS], base)
+    models = [Cell(base, form, model=name).name for form in ("rollouts", "shield") for name in names]
+    _check_computed(cells, [Cell(base, "alone").name, *models], base)
     row, colour = 0.4, style(base).colour
     figure = new_figure(1.0 + row * len(names) + 0.8)
     ax = axes_at(figure, 2.25, 1.0, 4.5, row * len(names))
-    words, better, scores_of = [], {}, {}
+    words, scores_of = [], {}
     for form, shift, fill in (("rollouts", -0.14, colour), ("shield", 0.14, "white")):
-        scores = {name: one for name in names if (one := score(cells, Cell(base, form, model=name)))}
+        scores = {name: score(cells, Cell(base, form, model=name)) for name in names}
         scores_of[form] = scores
-        wrong = [one for name, one in scores.items() if name != "exact"]
-        better[form] = f"{sum(one.accident_rate.value < alone.accident_rate.value for one in wrong)} of {len(wrong)}"
         middle, low, high = 1000 * np.array([one.accident_rate for one in scores.values()]).T
-        at = [names.index(name) + shift for name in scores]
+        at = [place + shift for place in range(len(names))]
         ax.errorbar(middle, at, xerr=[middle - low, high - middle], fmt="o" if form == "rollouts" else "s",
                     color=colour, mfc=fill, mec=colour, mew=1.5, ms=6, lw=1.3, zorder=3)  # fmt: skip
         numbers = (
@@ -210,10 +202,9 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     ax.text(value, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
     legend = f"● rollouts{_drives(scores_of['rollouts'])}    □ shield{_drives(scores_of['shield'])}"
     figure.text(0.012, 0.1 / figure.get_figheight(), legend, fontsize=SMALL, color=INK)
-    title = (
-        f"With a wrong model the shield still helps {display_name(base)} in {better['shield']} cases, "
-        f"rollouts in {better['rollouts']}"
-    )
+    safer, wrong = safer_with_shield(cells, base), len(names) - 1
+    often = "each" if safer == wrong else f"{safer}"
+    title = f"With {often} of {wrong} wrong models the shield has fewer accidents than the rollouts"
     alt = (
         f"For each model, accidents in 1,000 drives and the return. Alone: {1000 * alone.accident_rate.value:.1f} and "
         f"{alone.returns.value:.1f}. {' '.join(words)}"

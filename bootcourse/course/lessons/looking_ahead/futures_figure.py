@@ -6,8 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bootcourse.colours import ALARM, OTHER, QUIET
+from bootcourse.colours import ALARM, QUIET
 from bootcourse.episodes.lookahead import NINE, imagine
+from bootcourse.methods import style
 from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.figure import INK, SMALL, WIDTH, axes_at, finish, new_figure
 from bootcourse.plots.futures import LEGEND, trails
@@ -35,11 +36,10 @@ def nine_futures(
     title: str,
     horizon: int = 10,
     scenario: Scenario = DEFAULT,
-    colour: str = OTHER.colour,
 ) -> Figure:
     """The road at a decision with the nine imagined drives on it; x is in metres from the ego.
 
-    cars (vehicles, 10): the road at the decision; policy: drives on after each of the nine actions. colour: the ego's.
+    cars (vehicles, 10): the road at the decision; policy: drives on after each of the nine actions.
     """
     imagined = imagine(cars[None], NINE[None], policy, horizon=horizon, scenario=scenario)
     values, hurt, paths = imagined.values[0], imagined.accidents[0] > 0, imagined.paths[0]
@@ -53,7 +53,7 @@ def nine_futures(
     level = cars.copy()
     level[:, HEADING] = 0
     draw_road(MplAxes(ax), scenario, left, right, cars[EGO, X])
-    draw_cars(MplAxes(ax), level, replace(scenario, car=car), colour, left, right, cars[EGO, X])
+    draw_cars(MplAxes(ax), level, replace(scenario, car=car), style("bootstrapped").colour, left, right, cars[EGO, X])
     for one in trails(imagined, int(values.argmax())):
         x = one.x - cars[EGO, X]
         ax.plot(x, one.y, color=one.colour, linewidth=BOLD if one.chosen else THIN, zorder=7 if one.chosen else 6)

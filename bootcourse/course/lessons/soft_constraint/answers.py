@@ -51,22 +51,6 @@ wrong_lines("""soft_constraint
         (log_pi - pi_tilde(rule_action, p).log()).gather(1, drawn)[:, 0]
 """)
 
-right_lines("""log_stochastic_rule
-    with where: is_rule = torch.arange(9) == rule_action[:, None]
-        torch.where(is_rule, math.log(p), math.log((1 - p) / 8))
-    row by row: rows = []
-        for action in rule_action.tolist():
-            rows.append([math.log(p) if a == action else math.log((1 - p) / 8) for a in range(9)])
-        torch.tensor(rows)
-""")
-
-wrong_lines("""log_stochastic_rule
-    p at most 0.99: solution(rule_action, min(p, 0.99))
-    at most nine nats: solution(rule_action, p).clamp(min=-9)
-    a number in the logarithm: torch.log(solution(rule_action, p).exp() + 1e-6)
-    transposed: solution(rule_action, p).T  # shape
-""")
-
 right_lines("""regularised_policy
     as powers:
         weights = torch.exp((q - q.amax(-1, keepdim=True)) / (alpha + xi)) * log_rule.exp() ** (xi / (alpha + xi))

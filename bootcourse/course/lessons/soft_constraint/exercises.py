@@ -16,46 +16,9 @@ NOT_WEIGHTED = "Your KL has no weight: multiply it by ξ."
 MINUS_ENTROPY = "You penalise entropy: H is *minus* the sum of π log π, so α log π is subtracted from Q."
 
 
-def rule_cases(rng):
-    """The first and the last action, one state, nine states, p = 1/2; p near 1/9 and near 1; then 40 at random."""
-    yield from ((torch.tensor([0, 8]), 0.9), (torch.tensor([4]), 0.5), (torch.arange(9), 0.99))
-    yield from ((torch.tensor([7, 2]), p) for p in (0.112, 0.999, 0.9999))
-    for _ in range(40):
-        yield torch.tensor(rng.integers(0, 9, rng.integers(1, 6))), rng.uniform(0.15, 0.99)
-    yield torch.tensor(rng.integers(0, 9, MANY_ROWS)), 0.9
-
-
-@exercise(
-    "log π̃(a|s), Section IV-A, Equation of the stochastic rule", minutes=3, difficulty=1, cases=rule_cases,
-    worked=[
-        ((torch.tensor([3]), 0.9), torch.tensor([[math.log(0.0125)] * 3 + [math.log(0.9)] + [math.log(0.0125)] * 5])),
-    ],
-    hints=(
-        "Begin with a tensor of shape (batch, 9) that holds log((1 - p) / 8) everywhere.",
-        "Then write log(p) into one column of each row: the one whose number stands in `rule_action`.",
-    ),
-    mistakes={
-        "math.log(p)) -> math.log(p)).exp()":
-            "These are the probabilities themselves. Return their natural logarithms.",
-        "(1 - p) / 8 -> 1 - p":
-            "Your nine probabilities add up to more than 1: the other eight actions *share* 1 - p.",
-        "/ 8 -> / 9":
-            "Your nine probabilities add up to less than 1: the rule's own action has its p, so eight are left.",
-        "math.log -> math.log10 [2 times]":
-            "You took the logarithm to base 10. Use the natural one, `math.log` or `torch.log`.",
-        "return log_rule -> return -log_rule":
-            "Your sign is wrong: these are the prices, -log π̃. The logarithm of a probability is at most 0.",
-        "rule_action.unsqueeze(-1) -> rule_action[:1].expand(len(rule_action)).unsqueeze(-1)":
-            "All your rows are the same. The rule has its own action in each state.",
-        "log_rule[:, rule_action] = math.log(p); return log_rule":
-            WRONG_COLUMNS,
-        "p -> 0.9 [2 times]":
-            "Your p is always 0.9: use the argument.",
-    },
-)  # fmt: skip
 def log_stochastic_rule(rule_action, p):
-    log_rule = torch.full((len(rule_action), 9), math.log((1 - p) / 8))
-    return log_rule.scatter(-1, rule_action.unsqueeze(-1), math.log(p))
+    """log π̃(a|s), (batch, 9)."""
+    return bootstrap.log_stochastic_rule(rule_action, torch.tensor(float(p)))
 
 
 def sure(action, others=-40.0):
@@ -80,7 +43,7 @@ def constraint_cases(rng):
 
 
 @exercise(
-    "D_KL(π(·|s) ‖ π̃(·|s)), Section IV-A", minutes=5, difficulty=2, cases=constraint_cases, slopes=[logits("log_pi")],
+    "D_KL(π(·|s) ‖ π̃(·|s)), Section IV-A", minutes=7, difficulty=2, cases=constraint_cases, slopes=[logits("log_pi")],
     worked=[
         ((sure(5), torch.tensor([3]), 0.9), torch.tensor([math.log(80)])),  # log 1 / (0.1 / 8): 4.4 nats
         ((sure(3), torch.tensor([3]), 0.9), torch.tensor([-math.log(0.9)])),  # in agreement: log 1 / 0.9

@@ -13,10 +13,12 @@ first round do.
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons.the_barrier.attempts import ACCELERATE, PLAN, ThenAccelerate, keep_lane
+from bootcourse.course.lessons.the_barrier.attempts import ACCELERATE, PLAN, ThenAccelerate, drive, keep_lane
+from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.policies import PlanPolicy, Policy, idle_policy, random_policy
@@ -93,6 +95,8 @@ KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the set
     CHEAP: (costing(1.0), {}),
 }
 
+SHOWN = ("as it is", MIDDLE, CHEAP)  # the kinds whose agents the lesson shows
+
 LATER_DRIVES = {
     "accelerates once, then nothing": PlanPolicy([ACCELERATE]),
     "to 15 m/s, in its lane": ThenAccelerate([]),
@@ -111,6 +115,12 @@ def drivers(kind: str, seed: int = 0) -> Mapping[str, Policy]:
         CHEAP: ram,
     }
     return {"stays": idle_policy, "at random": random_policy(np.random.default_rng(seed))} | skilled[kind]
+
+
+@cache
+def staying(kind: str) -> float:
+    """The return of a car that stays behind trap 1, mean of 100 roads of a kind."""
+    return float(drive(idle_policy, held_out_seeds(7, 100), KINDS[kind][0]).values(1.0).mean())
 
 
 def train_kind(kind: str) -> Results:

@@ -1,4 +1,4 @@
-"""Figures of the barrier: what attempts to leave are worth, and how each learner of a kind ends."""
+"""Figures of the barrier, and a table: what attempts to leave are worth, and how each learner drives in the end."""
 
 from collections.abc import Mapping, Sequence
 
@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import TRAP
+from bootcourse.course import table
 from bootcourse.course.lessons.the_barrier.attempts import Outcome
 from bootcourse.course.lessons.values import chain
 from bootcourse.methods import style
@@ -72,6 +73,28 @@ def ends(results: Results, gamma: float, staying: float) -> list[tuple[int, bool
     success, accident = (results.scores(name)[chosen] for name in ("success", "accident"))
     far = np.where(paying(results, staying)[chosen], FAR, np.where(success >= 0.1, SOME, NOT))
     return list(zip(far.tolist(), (accident > 0.5).tolist(), strict=True))
+
+
+def escapes(trained: Mapping[str, Results], staying: Mapping[str, float], title: str) -> Figure:
+    """How the agents of each kind of road end, at each discount. staying: what a car that stays returns there."""
+    panels = {}
+    for kind, returned in staying.items():
+        for gamma in sorted({agent["gamma"] for agent in trained[kind].agents}):
+            panel = panels.setdefault(f"γ = {gamma}", {})
+            panel[kind.split(", ")[-1]] = ends(trained[kind], gamma, returned)
+    return squares(panels, title, AGENTS, "has an accident on most roads")
+
+
+def how_they_drive(agents: Sequence, tests: Sequence):
+    """A table of how the lesson's agents drive, tests[i] of agents[i], and how many of them escape."""
+    rows = []
+    for settings, test in zip((agent.settings for agent in agents), tests, strict=True):
+        accidents = test.collision.value + test.road_departure.value + test.stoppage.value
+        shares = [f"{100 * share:.0f}" for share in (test.success.value, accidents)]
+        rows.append([settings.gamma, settings.seed, *shares, f"{test.returns.value:.1f}"])
+    won = sum(test.success.value >= ESCAPES for test in tests)
+    below = f"{won} of {len(agents)} agents escape. They take their most probable actions."
+    return table(["γ", "seed", "ends ahead, %", "accidents, %", "return"], rows, below=below)
 
 
 def learners(all_q: Sequence[np.ndarray]) -> list[tuple[int, bool]]:

@@ -86,7 +86,7 @@ def against_sight(sights: Sequence[float], driven: Sequence[Episodes], title: st
             ax.plot(x, y, "X", color=ALARM, markersize=9, zorder=3)
             ends = f"{y:.0f}: of {len(each.success)} drives\n{each.success.sum()} get out, {crashes} crash"
             ax.annotate(ends, (x, y), (10, -18), color=ALARM, **words)
-    listed = (f"{x} m: {y:.0f}, {share:.0%}" for x, y, share in zip(sights, returns, crashed, strict=True))
+    listed = (f"{x:g} m: {y:.0f}, {share:.0%}" for x, y, share in zip(sights, returns, crashed, strict=True))
     return finish(figure, title, f"Sight, return and share of roads with an accident: {'; '.join(listed)}.")
 
 
