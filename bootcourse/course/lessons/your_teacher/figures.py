@@ -1,11 +1,14 @@
 """What teachers are worth: each of their students as a dot, and whether they help."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 
 import numpy as np
+from IPython.display import Markdown
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from bootcourse.course import table
+from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.methods import display_name, style
@@ -13,67 +16,62 @@ from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, ne
 from bootcourse.research.experiments.teacher_worth import TAUGHT, Cells
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.teachers import TEACHERS
+from bootcourse.road.state import LANE, SPEED, X, Y
 from bootcourse.statistics import ESCAPES
 
 HEAD, FOOT = 0.75, 0.55  # inches, above and below the rows of a figure
-WORDS = {"rule": "the rule", "random-50": "half random", "mirrored": "mirrored"}
+MARKS = {"helps": "▲", "hurts": "▼"}
+WORDS = {"rule": "the rule", "random-25": "a quarter random", "random-50": "half random", "mirrored": "mirrored"}
 
 
-def students(groups: Mapping[str, Mapping[str, np.ndarray]], title: str, apart: int = 0) -> Figure:
+def exam_of_all() -> Markdown:
+    """A table of how the teachers drive themselves."""
+    rows = []
+    for name, teacher in taught_agents.TEACHERS.items():
+        driven = example_teachers.examine(teacher).episodes
+        shares = (100 * driven.success.mean(), 100 * np.mean(driven.accident > 0))
+        rows.append([name, *(f"{share:.0f}" for share in shares), f"{driven.returns.mean():.0f}"])
+    below = "A drive that ends ahead of trap 1 got out, even if it ends by a crash."
+    return table([f"{len(driven.success)} roads", "gets out, %", "accidents, %", "return"], rows, below)
+
+
+def cars_in_rows(cars: np.ndarray, shown: int = 5) -> Markdown:
+    """A table of the first cars of a road, (vehicles, 10), in the four columns that a rule of the lesson reads."""
+    names = ["ego", "trap 1", "trap 2", *["traffic"] * len(cars)]
+    rows = [
+        [name, *(f"{car[column]:.1f}" for column in (X, Y, SPEED)), f"{car[LANE]:.0f}"]
+        for name, car in zip(names, cars[:shown], strict=False)
+    ]
+    return table(["car", "`X` (m)", "`Y` (m)", "`SPEED` (m/s)", "`LANE`"], rows)
+
+
+def students(
+    groups: Mapping[str, Mapping[str, np.ndarray]], verdicts: Mapping[str, Mapping[str, str]], title: str
+) -> Figure:
     """Each student's success as a dot, a row for each group; beside it how many escape, return and accidents.
 
-    groups: {teacher, or "alone": what `taught_agents.tested` says of its students, each (agents,)}; apart: how many
-    of the last rows stand below a thin line.
+    groups: {teacher, or "alone": what `taught_agents.tested` says of its students, each (agents,)}; verdicts: as
+    `taught_agents.verdicts` returns them.
     """
     row = 0.42
     figure = new_figure(HEAD + row * len(groups) + FOOT)
-    ax = axes_at(figure, 1.6, HEAD, 3.1, row * len(groups))
+    ax = axes_at(figure, 1.25, HEAD, 2.8, row * len(groups))
     ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
     alt_parts = []
     for place, (name, group) in enumerate(groups.items()):
-        colour = style("sac" if name == "alone" else "bootstrapped").colour
+        colour = style("sac" if name == taught_agents.ALONE else "bootstrapped").colour
         success = np.sort(100 * group["success"])
         _dots(ax, success, place, colour, success >= 100 * ESCAPES)
-        escape = f"{(success >= 100 * ESCAPES).sum()} of {len(success)}"
-        numbers = (escape, f"{round(group['returns'].mean())}", f"{100 * group['accident'].mean():.0f}")
-        _beside(ax, numbers, place)
-        alt_parts.append(f"{name}: {escape} escape, return {numbers[1]}, accidents in {numbers[2]} %")
+        escape, mean = f"{(success >= 100 * ESCAPES).sum()} of {len(success)}", round(group["returns"].mean())
+        accidents, found = f"{100 * group['accident'].mean():.0f}", verdicts.get(name, {})
+        marks = [MARKS.get(found.get(score), "") for score in ("success", "returns")]
+        _beside(ax, (f"{escape} {marks[0]}", f"{mean} {marks[1]}", accidents), place)
+        words = "".join(f", {score}: {word}" for score, word in found.items())
+        alt_parts.append(f"{name}: {escape} escape, return {mean}, accidents in {accidents} %{words}")
     _beside(ax, ("escape", "return", "accidents, %"), -0.75, QUIET)
     _finish_axes(ax, list(groups), f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes")
     ax.set_xlim(-2, 102)
-    if apart:
-        ax.axhline(len(groups) - apart - 0.5, color=QUIET, linewidth=0.8, zorder=1)
     return finish(figure, title, f"A dot for each student. {'; '.join(alt_parts)}.")
-
-
-def verdicts(shares: Mapping[str, Sequence[float]], p: Mapping[str, Sequence[float]], title: str) -> Figure:
-    """How often a taught agent beats one that learned alone: a row for each teacher, a panel for each of two scores.
-
-    shares: {teacher: (by success, by return)}, of the pairs of agents, 0 to 1; p: the same for Holm's p values.
-    """
-    row, names, alt_parts = 0.34, list(shares), []
-    figure = new_figure(0.95 + row * len(names) + FOOT)
-    for column, score in enumerate(("success", "return")):
-        ax = axes_at(figure, 1.3 + 2.9 * column, 0.95, 2.6, row * len(names))
-        ax.axvline(50, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
-        for place, name in enumerate(names):
-            share, found = 100 * shares[name][column], p[name][column] < 0.05
-            word = ("hurts", "helps")[int(share > 50)] if found else "not shown"
-            colour = style("bootstrapped").colour
-            ax.plot([50, share], [place, place], color=colour, linewidth=1.2, zorder=2)
-            fill = colour if found else "white"
-            ax.plot(share, place, "o", color=colour, mfc=fill, ms=6, zorder=3, clip_on=False)
-            alt_parts.append(f"{name}, {score}: {word}, {share:.0f} %, p = {p[name][column]:.1g}")
-        plain_axes(ax, "", grid="x")
-        ax.set(xlim=(0, 100), ylim=(len(names) - 0.5, -0.5), xticks=(0, 25, 50, 75, 100))
-        ax.set_yticks(range(len(names)), names if column == 0 else [])
-        ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-        ax.text(50, -1.3, f"by {score}", ha="center", fontsize=TEXT, fontweight="bold", color=INK)
-        ax.text(46, -0.75, "◂ hurts", ha="right", fontsize=SMALL, color=QUIET)
-        ax.text(54, -0.75, "helps ▸", ha="left", fontsize=SMALL, color=QUIET)
-    words = "pairs in which the taught agent is better than the one that learned alone (%); filled: Holm's p below 0.05"
-    figure.text(0.5, 0.1 / figure.get_figheight(), words, ha="center", fontsize=SMALL, color=INK)
-    return finish(figure, title, f"A dot for each teacher. {'; '.join(alt_parts)}.")
 
 
 def learners(computed: Cells, title: str) -> Figure:
@@ -122,7 +120,7 @@ def _dots(ax: Axes, values: np.ndarray, place: float, colour: str, filled: np.nd
 def _beside(ax: Axes, cells: tuple[str, ...], place: float, colour: str = INK) -> None:
     """Write cells to the right of a row, at fixed places."""
     for column, words in enumerate(cells):
-        at = (1.04 + 0.2 * column, place)
+        at = (1.04 + 0.25 * column, place)
         ax.annotate(words, at, xycoords=("axes fraction", "data"), va="center", fontsize=SMALL, color=colour)
 
 

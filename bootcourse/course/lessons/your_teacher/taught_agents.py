@@ -12,6 +12,7 @@ import numpy as np
 import scipy
 
 from bootcourse.course.lessons.your_teacher.example_teachers import careful, racer, reckless, timid
+from bootcourse.course.shipped import shipped_teachers
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
@@ -22,10 +23,11 @@ from bootcourse.learn.training import Training
 from bootcourse.research.cells import results_of
 from bootcourse.research.computed import experiment
 from bootcourse.research.experiment import Experiment
+from bootcourse.research.experiments.teacher_worth import Cells
 from bootcourse.research.results import Results, agent_entries
 from bootcourse.research.teachers import RULE
 from bootcourse.scenario import Scenario
-from bootcourse.statistics import holm as holm
+from bootcourse.statistics import holm, improvement
 
 SEEDS, UPDATES, EVERY = 10, 3500, 250  # students of each teacher; updates of each; updates between two notes
 ROADS = held_out_seeds(13, 200)  # that every student is tested on
@@ -118,17 +120,36 @@ def reference() -> dict[str, dict[str, np.ndarray]]:
     return {name: _shipped(name) for name in (ALONE, *TEACHERS)}
 
 
-def longer() -> dict[str, np.ndarray]:
-    """The same of ten students of the racer after `LONG` updates."""
-    return _shipped(RACER_LONG)
-
-
 def _shipped(name: str) -> dict[str, np.ndarray]:
     groups = experiment("students")
     if name not in groups:
         raise BootcourseError(f"No students of {name} ship: run `bootcourse study students --out DIR`.")
     group = groups[name]
     return group.measured | {"updates": group.notes["updates"][0], "escapes": group.notes["escapes"]}
+
+
+def verdicts(groups: dict[str, dict[str, np.ndarray]]) -> dict[str, dict[str, str]]:
+    """{teacher: {"success" or "returns": "helps", "hurts" or "not shown"}} against the agents that learned alone.
+
+    A rank test for each, at 5 % after Holm's correction for them all. groups: as `reference` returns them.
+    """
+    pairs = [(name, score) for name in groups if name != ALONE for score in ("success", "returns")]
+    both = [(groups[name][score], groups[ALONE][score]) for name, score in pairs]
+    found = {name: {} for name in groups if name != ALONE}
+    for (name, score), each, p in zip(pairs, both, holm([p_value(*each) for each in both]), strict=True):
+        direction = "helps" if improvement(*each).value > 0.5 else "hurts"
+        found[name][score] = direction if p < 0.05 else "not shown"
+    return found
+
+
+def of_two_learners() -> Cells:
+    """Ten agents each after the whole training: {(teacher, learner): agents} of the experiment `teachers`."""
+    teachers, learners = ("rule", "random-25", "random-50", "mirrored"), ("bootstrapped", "soft")
+    return {
+        (teacher, learner): agents
+        for (teacher, learner), agents in shipped_teachers().items()
+        if teacher in teachers and learner in learners
+    }
 
 
 def p_value(taught: np.ndarray, alone: np.ndarray) -> float:
