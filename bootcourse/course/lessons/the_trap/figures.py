@@ -1,23 +1,37 @@
-"""Figures of the trap: the speed term of the reward, where each of the nine actions leads; where a plan gets out."""
-
-from collections.abc import Sequence
+"""Figures and tables of the trap: where each action leads, what pays, what an agent sees, how drives end."""
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import OTHER
-from bootcourse.episodes.evaluate import held_out_seeds
-from bootcourse.episodes.record import record
-from bootcourse.methods import style
+from bootcourse.course import table
+from bootcourse.episodes.evaluate import Episodes
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.words import overtaken
+from bootcourse.methods import METHODS, style
 from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure, one_axes
 from bootcourse.plots.road import draw_car, draw_road, edges_of
-from bootcourse.policies import plan_policy
+from bootcourse.plots.top_view import top_view_over_time
+from bootcourse.research import report, tables
+from bootcourse.research.results import Results
+from bootcourse.road import observation
 from bootcourse.road.formulas import bicycle_step, speed_reward
-from bootcourse.road.state import EGO, TRAP_2, X
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
 
 RIGHT_FIRST = ("keep right", ("keep left", 4), ("keep right", 3))  # the quick way out on road 10, then accelerate
+MEANS = {  # an observation's numbers, of the ego and of another car
+    "presence": "1 for a car that is there",
+    "x": "place along the road",
+    "y": "place across the road, to the right; 0 is the middle of the left lane",
+    "v_lon": "speed along the road",
+    "v_lat": "speed to the right",
+    "d_e": "how far it is off the middle of its lane",
+    "dx": "how far it is ahead of the ego",
+    "dy": "how far it is to the right of the ego",
+    "dv_lon": "how much faster it is than the ego",
+    "dv_lat": "the same to the right",
+}
 SHADES = ("#8A939B", INK, "#5F6B77")  # brake, keep, accelerate
 
 
@@ -40,8 +54,11 @@ def reward_curve(traps: float = 10.0, best: float = 15.0) -> Figure:
     return finish(figure, title, alt)
 
 
-def nine_actions(seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
-    """Where each action, held for some seconds, brings the ego from its start in the right lane."""
+def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
+    """Where each action, held for some seconds, brings the ego from its start in the right lane.
+
+    decoded: the acceleration (m/s²) and the steering (rad) of each action, (9, 2).
+    """
     left, right = -5.0, scenario.ego.speed * seconds + 14.0
     lanes, width = scenario.road.lanes, scenario.road.lane_width
     road = (lanes * width + 4.4) * (WIDTH - 0.7) / (right - left)
@@ -52,7 +69,7 @@ def nine_actions(seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
     draw_car(MplAxes(ax), 0.0, start, 0.0, OTHER.colour, scenario.car)
     ends = []
     for action, words in enumerate(ACTION_NAMES):
-        path = path_of(action, seconds, scenario)
+        path = path_of(decoded[action], seconds, scenario)
         colour = SHADES[action // 3]
         ax.plot(path[:, 0], path[:, 1] + start, color=colour, linewidth=1.3, zorder=5, clip_on=False)
         x, y = path[-1] + [0, start]
@@ -60,7 +77,7 @@ def nine_actions(seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
         ends.append(f"{words} {x:.1f} m on and {abs(y - start):.1f} m to the side")
     labels = (("brake", (-4, 4), "right"), ("keep", (0, 9), "center"), ("accelerate", (7, -1), "left"))
     for i, (words, offset, align) in enumerate(labels):
-        x, y = path_of(3 * i, seconds, scenario)[-1] + [0, start]
+        x, y = path_of(decoded[3 * i], seconds, scenario)[-1] + [0, start]
         ax.annotate(words, (x, y), xytext=offset, textcoords="offset points", ha=align,
                     fontsize=TEXT, color=SHADES[i], zorder=7)  # fmt: skip
     for lane, words in enumerate(("left lane: 0", "middle lane: 1", "right lane: 2")):
@@ -74,7 +91,7 @@ def nine_actions(seconds: int = 2, scenario: Scenario = DEFAULT) -> Figure:
     ax.set_xlabel("distance along the road from the start (m)", fontsize=TEXT, color=INK)
     ax.set_ylabel("y, to the right (m)", fontsize=TEXT, color=INK)
     alt = f"Nine paths fan out from the ego in the right lane. After {seconds} s: {'; '.join(ends)}."
-    sideways = abs(path_of(3, seconds, scenario)[-1, 1])
+    sideways = abs(path_of(decoded[3], seconds, scenario)[-1, 1])
     return finish(figure, f"Nine actions, held for {seconds} s: steering moves the car {sideways:.1f} m sideways", alt)
 
 
@@ -105,10 +122,9 @@ def running_lead(lead: np.ndarray, behind: int) -> Figure:
     return finish(figure, title, alt)
 
 
-def path_of(action: int, seconds: int, scenario: Scenario = DEFAULT) -> np.ndarray:
-    """(x, y) of the ego from (0, 0) while it holds an action: (steps + 1, 2)."""
-    acceleration = (action // 3 - 1) * scenario.ego.acceleration
-    steering = (action % 3 - 1) * scenario.ego.steering
+def path_of(decoded: np.ndarray, seconds: int, scenario: Scenario = DEFAULT) -> np.ndarray:
+    """(x, y) of the ego from (0, 0) while it holds an acceleration (m/s²) and a steering (rad): (steps + 1, 2)."""
+    acceleration, steering = map(float, decoded)
     state, places = (0.0, 0.0, 0.0, scenario.ego.speed), [(0.0, 0.0)]
     for _ in range(seconds * scenario.clock.simulation_rate):
         state = bicycle_step(*state, acceleration, steering, scenario.car.length, scenario.clock.dt)
@@ -116,11 +132,40 @@ def path_of(action: int, seconds: int, scenario: Scenario = DEFAULT) -> np.ndarr
     return np.array(places)
 
 
-def d2_and_unhurt(plan: Sequence, roads: int = 400) -> tuple[np.ndarray, np.ndarray]:
-    """Where trap 2 starts (m ahead, centre to centre), and whether a plan gets out without an accident: each (roads,).
+def ending(drive: Rollout, who: str) -> Figure:
+    """A drive from above, at its start, after 3 s and where it passes trap 1 or ends; its title says how it ends."""
+    passed, crash = overtaken(drive), f"crashes after {drive.times[-1]:.0f} s"
+    end = f"is ahead of trap 1 after {passed:.0f} s" if passed else "stays behind"
+    end = (f"{end} and {crash}" if passed else crash) if drive.accident else end
+    return top_view_over_time(drive, times=[0, 3, passed or drive.times[-1]], title=f"{who}, it {end}")
 
-    On held-out roads.
-    """
-    drives = record(plan_policy(plan), held_out_seeds(1, roads))
-    d2 = np.array([drive.states[0, TRAP_2, X] - drive.states[0, EGO, X] for drive in drives])
-    return d2, np.array([drive.success and not drive.accident for drive in drives])
+
+def observed(seen: np.ndarray, first: int):
+    """A table of the first numbers of an observation, and what they are."""
+    each = zip(observation.names(DEFAULT)[:first], seen, observation.scales(DEFAULT), strict=False)
+    rows = [
+        [f"`{name}`", f"{number:.3f}", f"{number * scale:.2f}", MEANS[name.removeprefix("car 1 ")]]
+        for name, number, scale in each
+    ]
+    return table(["number", "observed", "in m, m/s", "what it is"], rows, f"(the first {first} of {len(seen)})")
+
+
+def who_escapes(study: Results, plan: Episodes):
+    """A table of the study's agents without and with help, of the rule, and of a plan, on the same roads."""
+    rows = []
+    for method in ("sac", "bootstrapped"):
+        of = study.of(method)
+        each = " ".join(f"{earned:.0f}" for earned in sorted(of.scores("returns")))
+        rows.append([METHODS[method].name, f"{tables.escaped(study, method)} escape", each, share(of, "accident")])
+    rule = report.rule_results(DEFAULT, study.sizes[0])
+    ahead = f"success on {share(rule, 'success')}"
+    rows.append(["the rule", ahead, f"{rule.episodes('returns').mean():.0f}", share(rule, "accident")])
+    crashes = f"{100 * (plan.accident > 0).mean():.0f} %"
+    ahead = f"success on {100 * plan.success.mean():.0f} %"
+    rows.append(["the plan of Round 1", ahead, f"{plan.returns.mean():.0f}", crashes])
+    return table(["", "who gets out", "return, of each agent", "drives with an accident"], rows)
+
+
+def share(of: Results, measure: str) -> str:
+    """In per cent, of all drives."""
+    return f"{100 * (of.episodes(measure) > 0).mean():.0f} %"

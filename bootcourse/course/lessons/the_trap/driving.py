@@ -1,0 +1,39 @@
+"""What the lesson's cells do with drives: try plans on a road, and pay each second of a drive."""
+
+import itertools
+from collections.abc import Callable
+
+import numpy as np
+
+from bootcourse.episodes.evaluate import drive_episodes
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.policies import PlanPolicy
+from bootcourse.road.state import EGO, HEADING, LANE, SPEED, STEERING, Y
+
+ACCELERATE = 7  # "accelerate straight"
+
+
+def all_plans() -> np.ndarray:
+    """The plans that steer left (3), straight (4) or right (5) in each of eight seconds: (6561, 8)."""
+    return np.array(list(itertools.product((3, 4, 5), repeat=8)))
+
+
+def on_road(road: int) -> Callable[[np.ndarray], np.ndarray]:
+    """gets_out(plans) for one road: which plans (n, 8), and then five seconds of acceleration, get out unhurt."""
+
+    def gets_out(plans):
+        actions = np.vstack([np.asarray(plans).T, np.full((5, len(plans)), ACCELERATE)])
+        drives = drive_episodes(PlanPolicy(actions), [road] * len(plans), together=10_000)
+        return drives.success & (drives.accident == 0)
+
+    return gets_out
+
+
+def paid(reward: Callable, drive: Rollout) -> np.ndarray:
+    """What a reward function (v_lon, offset, theta, accident) pays for each second of a drive, (seconds,)."""
+    seconds, steps, width = len(drive.actions), drive.scenario.clock.steps, drive.scenario.road.lane_width
+    after = drive.states[np.minimum(steps * np.arange(1, seconds + 1), len(drive.states) - 1), EGO]
+    speeds, offsets = after[:, SPEED] * np.cos(after[:, HEADING]), after[:, Y] - after[:, LANE] * width
+    accidents = [0] * (seconds - 1) + [drive.accident]
+    each = zip(speeds.tolist(), offsets.tolist(), after[:, STEERING].tolist(), accidents, strict=True)
+    return np.array([float(reward(*second)) for second in each])
