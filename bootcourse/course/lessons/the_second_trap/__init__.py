@@ -1,3 +1,3 @@
-"""You will watch another learner, find out what pays for what it does, put PPO together and read its health, change
-the reward, clone the rule first.
+"""You will watch another learner, find out what pays for what it does, put PPO together, change the reward, clone the
+rule first.
 """

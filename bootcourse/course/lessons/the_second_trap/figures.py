@@ -1,14 +1,19 @@
-"""What two speeds in turn earn, and PPO's clipped loss of one decision against its ratio."""
+"""What two speeds in turn earn, PPO's clipped loss of one decision against its ratio, and the speeds of two drives."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 import torch
 from matplotlib.figure import Figure
 from torch import Tensor
 
+from bootcourse.colours import Style
+from bootcourse.course.charts import lines
+from bootcourse.course.lessons.the_second_trap.second_trap import speeds
+from bootcourse.episodes.record import Rollout
 from bootcourse.methods import style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
+from bootcourse.scenario import DEFAULT
 
 RATIOS = np.linspace(0.3, 1.7, 141)
 POINTS = (0.5, 1.5)  # where a dot says what the gradient does
@@ -61,3 +66,11 @@ def hinges(clipped_loss: Callable[[Tensor, Tensor, float], Tensor], clip: float,
     words = "The ratio is above 1 where the action is likelier now than when it was taken."
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     return finish(figure, title, f"The loss against the ratio. {'; '.join(alt_parts)}.")
+
+
+def two_speeds(drives: Mapping[str, Rollout], title: str) -> Figure:
+    """The speeds of a drive of PPO alone and of another one over time, and that of the traps."""
+    named = {words: speeds(drive) for words, drive in drives.items()}
+    seconds, looks = np.arange(1, 1 + max(map(len, named.values()))), (Style(style("ppo").colour), Style(QUIET))
+    marks = {"the traps": DEFAULT.traps.speed}
+    return lines(seconds, named, title, "time (s)", "speed (m/s)", marks=marks, looks=looks)

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from bootcourse.episodes.record import Rollout
 from bootcourse.road.formulas import speed_reward
 from bootcourse.road.state import EGO, HEADING, SPEED, Y
 from bootcourse.road.vector_env import TrapVectorEnv
@@ -29,6 +30,12 @@ class Repaid(TrapVectorEnv):
         ended = (terminated | truncated)[:, None, None]
         after = np.where(ended, self.final_cars, self.cars)  # where a road has begun anew, the old episode's last state
         return observations, self.pay(rewards, before, after, terminated), terminated, truncated, infos
+
+
+def speeds(drive: Rollout) -> np.ndarray:
+    """The ego's speed (m/s) after each decision, (decisions,)."""
+    steps = drive.scenario.clock.steps
+    return drive.states[steps::steps, EGO, SPEED]
 
 
 def jensen_gap(speeds: np.ndarray) -> float:
