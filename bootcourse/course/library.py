@@ -25,7 +25,6 @@ LIBRARY = {  # exercise -> the library's functions; the exercise's own solution 
     "paper_q_filter": (f"{LEARN}.bootstrap.paper_q_filter",),
     "exact_interval": ("bootcourse.statistics.rate",),
     "power": ("bootcourse.statistics.power",),
-    "interquartile_mean": ("bootcourse.statistics.iqm",),
     "discriminator_loss": (f"{LEARN}.gail.discriminator_loss",),
     "my_rule": (f"{COURSE}.lessons.your_teacher.example_teachers.watchful", f"{COURSE}.gap_rule.gap_rule"),
     "rollout_values": ("bootcourse.episodes.lookahead.rollout_values", "bootcourse.episodes.lookahead.nine_drives"),

@@ -29,22 +29,6 @@ wrong_lines("""power
     in one direction: solution(first, second, np.tril(shown))
 """)
 
-right_lines("""interquartile_mean
-    trimmed: stats.trim_mean(scores, 0.25)
-    one by one: left = sorted(scores)
-        for _ in range(len(scores) // 4):
-            left = left[1:-1]
-        sum(left) / len(left)
-""")
-
-wrong_lines("""interquartile_mean
-    each score once: ordered = np.unique(scores); cut = len(ordered) // 4; ordered[cut : len(ordered) - cut].mean()
-    ties removed: ordered = np.sort(scores); cut = len(ordered) // 4
-        outer = set(ordered[:cut]) | set(ordered[len(ordered) - cut :])
-        np.mean([score for score in ordered if score not in outer] or ordered)
-    rounded up: cut = min(-(-len(scores) // 4), (len(scores) - 1) // 2); np.sort(scores)[cut : len(scores) - cut].mean()
-""")
-
 right_lines("""bootstrap_interval
     draw by draw: means = [np.mean([scores[i] for i in draw]) for draw in draws]; np.quantile(means, [0.025, 0.975])
     by counting: counts = np.stack([np.bincount(draw, minlength=len(scores)) for draw in draws])

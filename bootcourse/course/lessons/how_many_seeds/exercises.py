@@ -5,7 +5,7 @@ import functools
 import numpy as np
 import scipy
 
-from bootcourse.course.exercise import MANY_ROWS, exercise
+from bootcourse.course.exercise import exercise
 from bootcourse.course.values import NUMERIC, plain
 from bootcourse.statistics import significant
 
@@ -94,47 +94,6 @@ def power(first, second, shown):
     k = scipy.stats.binom.pmf(np.arange(n + 1), n, first)
     j = scipy.stats.binom.pmf(np.arange(n + 1), n, second)
     return np.sum(np.outer(k, j)[shown])
-
-
-def score_cases(rng):
-    """Two extremes, all equal, many ties, three seeds; then 40 at random, half of them with ties."""
-    yield (np.array([128.0, -10.0, 120.0, 125.0, 126.0, 127.0, -6.0, 129.0]),)
-    yield (np.array([1.0, 9.0, 9.0, 1.0, 9.0, 1.0, 5.0, 9.0, 1.0, 9.0]),)
-    yield (np.full(10, 23.4375),)
-    yield (np.array([3.0, 1.0, 8.0]),)
-    for number in range(40):
-        scores = rng.exponential(20, rng.integers(2, 21)) - 10
-        yield (scores if number % 2 else 15 * np.rint(scores / 15),)
-    yield (rng.exponential(100, MANY_ROWS) - 10,)
-
-
-@exercise(
-    "the interquartile mean, Agarwal et al. (arXiv 2108.13264)", minutes=5, difficulty=1, cases=score_cases,
-    worked=[((np.array([9.0, 1.0, 2.0, 100.0]),), 5.5), ((np.array([4.0, 0.0, 2.0]),), 2.0)],
-    hints=(
-        "Sort. Then leave out a quarter of the scores at each end; `len(scores) // 4` rounds down.",
-        "`np.sort(scores)[cut : len(scores) - cut]` is what is left (with cut = 0, `[:-cut]` would be empty).",
-    ),
-    mistakes={
-        "return np.mean(scores)":
-            "This is the mean of all scores. One agent that crashes at once changes it a lot: leave out the outer "
-            "quarters.",
-        "return np.median(scores)":
-            "This is the median, the score of one or two agents. Average the middle *half*.",
-        "np.sort(scores) -> scores":
-            "You cut by position, not by size: sort the scores first.",
-        "return np.percentile(scores, [25, 75]).mean()":
-            "This is the mean of the two quartiles. Average all scores that lie between them.",
-        "cut : len(scores) - cut -> cut:":
-            "You leave out the lowest quarter only. Leave out the highest quarter, too.",
-        "len(scores) - cut -> -cut":
-            "With fewer than four scores your slice `[cut:-cut]` is `[0:0]`, which is empty, and its mean is not a "
-            "number (NaN). Let it end at `len(scores) - cut`.",
-    },
-)  # fmt: skip
-def interquartile_mean(scores):
-    cut = len(scores) // 4
-    return np.sort(scores)[cut : len(scores) - cut].mean()
 
 
 ENDS = np.array([0.025, 0.975])
