@@ -82,9 +82,9 @@ def explain_hunt(cases, answers):
         "Begin with the two that drive badly, then look for a promise that is too high, then at where episodes end. "
         "The last two drive like the healthy agent.",
         "What each bug shows: without an end, Q is wrong by many points where episodes end; with a drawn value Q does "
-        "not reach the actor, so the entropy stays near the stochastic rule's; without the stop-gradient the promise "
-        "grows far beyond any return; a bonus for all adds about c / (1 - γ) to it. With shifted labels `alike` and "
-        "`late` differ at the first updates; a flipped KL keeps every action a little likely (`rarest`).",
+        "not reach the actor, so it stays undecided and fails when it draws; without the stop-gradient the promise "
+        "grows far beyond any return; a bonus for all adds about c / (1 - γ) to it. With shifted labels an agent early "
+        "agrees with the rule one second later nearly as often as now; a flipped KL keeps its rarest action likelier.",
     ),
     mistakes={
         "return {**bugs, 'A': bugs['C'], 'C': bugs['A']}[agent]":
@@ -95,7 +95,7 @@ def explain_hunt(cases, answers):
             "same amount, the other only where episodes end.",
         "return {**bugs, 'B': bugs['F'], 'F': bugs['B']}[agent]":
             "You swapped the two that drive worst: one promises more than any possible return; the other "
-            "has a modest promise and a high entropy.",
+            "has a modest promise, and fails when its actions are drawn.",
     },
 )  # fmt: skip
 def diagnose(agent):

@@ -5,6 +5,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
+from bootcourse.colours import OTHER, Style
+from bootcourse.course import charts
 from bootcourse.methods import display_name, style
 from bootcourse.plots.diagrams import Diagram, label
 from bootcourse.plots.figure import (
@@ -23,6 +25,7 @@ from bootcourse.research.beyond import at_budget
 from bootcourse.research.results import Results
 from bootcourse.statistics import Estimate, interval
 
+SHOWN = equal_decisions.BUDGETS[:2]
 START, TRAINED, END = 210, 560, 690  # pixels: the training begins and ends, and the trained agent drives
 ROW, TOP, THICK = 52, 62, 18
 TAKES = {  # learner: (what it takes, from, until, whether it fades)
@@ -57,42 +60,23 @@ def what_is_taken() -> Diagram:
     return Diagram(END + 10, height, parts, " ".join(alt_parts))
 
 
-def one_above_the_other(
-    x: Sequence[float],
-    named: Mapping[str, np.ndarray],
-    title: str,
-    x_label: str,
-    method: str,
-    begins: Mapping[str, float],
-) -> Figure:
-    """A panel for each quantity over the same x, in the colour of a method: {quantity with its unit: values}.
-
-    begins: {words: x}, vertical lines with their words in the uppermost panel.
-    """
-    figure = new_figure(4.0)
-    for row, (words, values) in enumerate(named.items()):
-        ax = axes_at(figure, 0.6, 0.72 + 1.55 * row, 6.2, 1.15)
-        ax.plot(x, values, color=style(method).colour, linewidth=2)
-        plain_axes(ax, words)
-        ax.set(xlim=(min(x), max(x)), ylim=(0, 1.08 * np.max(values)))
-        for event, place in begins.items():
-            ax.axvline(place, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
-            if row == 0:
-                ax.text(place, 0.8 * np.max(values), f" {event}", color=QUIET, fontsize=SMALL)
-        if row + 1 < len(named):
-            ax.tick_params(labelbottom=False)
-    ax.set_xlabel(x_label, fontsize=TEXT, color=INK)
-    alt = (f"{words}: {values[0]:.3g} at {x[0]}, {values[-1]:.3g} at {x[-1]}" for words, values in named.items())
-    events = "".join(f" The {words} is at {place:.0f}." for words, place in begins.items())
-    return finish(figure, title, f"Against the {x_label}. {'; '.join(alt)}.{events}")
+def believed(updates: Sequence[int], values: Mapping[str, np.ndarray], bound: float) -> Figure:
+    """The mean Q of the rule's actions over the updates: {which critics: (points,)}; bound: no drive is worth more."""
+    over = [words for words, each in values.items() if each[-1] > bound]
+    passes = f"passes what any drive can earn if the layers are {' or '.join(over)}"
+    title = f"Q {passes if over else 'stays below what a drive can earn'}"
+    looks = [Style(style("rlpd").colour, width=2.0), OTHER]
+    marks = {f"no drive is worth more than {bound:.0f}": bound}
+    return charts.lines(updates, values, title, "update", "mean Q of the rule's actions", looks=looks, marks=marks)
 
 
-def handing_over(episodes: Sequence[float], h: np.ndarray, mean: np.ndarray, needed: np.ndarray, title: str) -> Figure:
+def handing_over(episodes: Sequence[float], h: np.ndarray, mean: np.ndarray, needed: np.ndarray) -> Figure:
     """How a teacher hands over: h above, and below it the mean return with the one that it has to reach.
 
     All are of the same episodes; `needed` is NaN while there is no best mean yet.
     """
     figure, look = new_figure(4.0), style("jsrl")
+    title = f"In {episodes[-1]} episodes h falls {len(set(h)) - 1} times, from {h.max():g} s to {h.min():g} s"
     upper, lower = (axes_at(figure, 0.6, 0.72 + 1.55 * row, 5.0, 1.15) for row in range(2))
     upper.plot(episodes, h, color=look.colour, linewidth=2, drawstyle="steps-post")
     plain_axes(upper, "h: the rule drives first (s)")
@@ -108,9 +92,9 @@ def handing_over(episodes: Sequence[float], h: np.ndarray, mean: np.ndarray, nee
         ax.set_xlim(min(episodes), max(episodes))
     lower.set_xlabel("training episode", fontsize=TEXT, color=INK)
     label_ends(lower, [(mean[-1], "the mean", look.colour), (needed[-1], "what it has to reach", QUIET)])
-    falls = ", ".join(f"{h[step]:g} s at {episodes[step]}" for step in steps)
+    each = ", ".join(f"{h[step]:g} s at {episodes[step]}" for step in steps)
     ends = f"at the end the mean return is {mean[-1]:.0f} and has to reach {needed[-1]:.0f}"
-    return finish(figure, title, f"Against the training episode. h: {h[0]:g} s at first, {falls}; {ends}.")
+    return finish(figure, title, f"Against the training episode. h: {h[0]:g} s at first, {each}; {ends}.")
 
 
 def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -> Figure:
@@ -118,14 +102,14 @@ def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -
 
     computed: see `equal_decisions.by_method`; rule: what the rule earns, the green line.
     """
-    panels = {f"{budget:,} decisions": _after(computed, budget) for budget in equal_decisions.BUDGETS}
+    panels = {f"{budget:,} decisions": _after(computed, budget) for budget in SHOWN}
     timed = {method: results for method, results in computed.items() if method not in equal_decisions.UNTIMED}
     seconds = {method: after_seconds(results) for method, results in timed.items()}
     panels[f"{equal_decisions.SECONDS} s of a core\n(in training)"] = seconds
     names, alt_parts, height = [display_name(method) for method in computed], [], 0.35 * len(computed)
     figure = new_figure(1.6 + height)
     for place, (words, estimates) in enumerate(panels.items()):
-        ax = axes_at(figure, 1.4 + 1.4 * place, 1.05, 1.25, height)
+        ax = axes_at(figure, 1.4 + 1.9 * place, 1.05, 1.7, height)
         plain_axes(ax, words, grid="x")
         ax.axvline(rule, color=style("rule").colour, linewidth=2, zorder=1.5)
         for row, method in enumerate(computed):
@@ -135,8 +119,7 @@ def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -
                 ax.plot([low, high], [row, row], color=colour, linewidth=1.8, zorder=2)
                 ax.plot(value, row, style(method).marker or "o", color=colour, ms=5.5, zorder=3)
             else:
-                lacks = "not trained" if place < len(equal_decisions.BUDGETS) else "not timed"
-                ax.text(95, row, lacks, color=QUIET, fontsize=SMALL, ha="center", va="center")
+                ax.text(95, row, "not timed", color=QUIET, fontsize=SMALL, ha="center", va="center")
         ax.set(xlim=(0, 140), ylim=(len(names) - 0.5, -0.5), xticks=(0, 50, 100), yticks=range(len(names)))
         ax.set_yticklabels(names if place == 0 else [], fontsize=TEXT, color=INK)
         numbers = (f"{display_name(method)} {_words(one)}" for method, one in estimates.items())

@@ -6,21 +6,17 @@ from itertools import combinations
 import numpy as np
 
 from bootcourse.course.lessons.other_ways import figures
+from bootcourse.course.lessons.other_ways.figures import after_seconds  # noqa: F401 (for the expressions)
+from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
-from bootcourse.episodes.evaluate import held_out_seeds
-from bootcourse.episodes.record import record
-from bootcourse.episodes.words import overtaken
 from bootcourse.learn.settings import settings_for
-from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
-from bootcourse.research.beyond import at_budget
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
-from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES, Estimate, holm, interval
-from tools.course.known import shipped_experiment, shipped_teachers
+from bootcourse.statistics import Estimate, holm, interval
+from tools.course.known import shipped_experiment
 
-FIRST, SECOND, LAST = BUDGETS
+FIRST, SECOND, _ = BUDGETS
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
 
 
@@ -69,49 +65,9 @@ def lowest() -> str:
     return min(TAUGHT, key=lambda method: at(method, "returns").mean())
 
 
-def in_seconds(method: str) -> Estimate:
-    """The return in training after equal seconds of a core."""
-    seconds = later(method).measured[f"seconds_{FIRST}"] / FIRST
-    return interval(at_budget(later(method).curves, equal_decisions.SECONDS / seconds))
-
-
-def escaping(method: str, budget: int = FIRST) -> int:
-    """How many of these agents escape."""
-    return int((at(method, "success", budget) >= ESCAPES).sum())
-
-
 def search(method: str) -> dict[str, float]:
     """{what was tried: mean return} of the search."""
     return tried(shipped_experiment("beyond-search")[method])
-
-
-@cache
-def rules_overtaking() -> np.ndarray:
-    """When the rule is ahead of trap 1, in seconds on each of 100 held-out roads; inf where it is not."""
-    drives = record(rule_policy(DEFAULT), held_out_seeds(1, 100))
-    return np.array([overtaken(drive) or np.inf for drive in drives])
-
-
-def rlpd() -> Results:
-    """Ten RLPD agents that the rule taught, of the experiment on teachers."""
-    return shipped_teachers()["rule", "rlpd"]
-
-
-@cache
-def untrained() -> np.ndarray:
-    """The episodes that such an agent ends before its first update, (agents, episodes) of True and False."""
-    return np.cumsum(rlpd().curves["decisions"], axis=1) < settings_for("rlpd").learning_starts
-
-
-def ahead_next() -> float:
-    """The share of the next 50 episodes that end ahead of trap 1."""
-    following = (~untrained()).cumsum(axis=1)  # 1 in the episode of the first update
-    return float(rlpd().curves["success"][(following > 0) & (following <= 50)].mean())
-
-
-def worst_escaper() -> float:
-    """In how many percent of its test drives the one of those that escape with most accidents has one."""
-    return 100 * float(rlpd().scores("accident")[rlpd().scores("success") >= ESCAPES].max())
 
 
 def drives_before(method: str) -> int:
@@ -132,9 +88,3 @@ def decisions_in_seconds(*methods: str) -> int:
     """How many decisions an agent makes in equal seconds of a core, in training: the median, to a thousand."""
     seconds = np.concatenate([at(method, "seconds") for method in methods])
     return int(round(np.median(equal_decisions.SECONDS * FIRST / seconds), -3))
-
-
-def decisions_per_round() -> int:
-    """How many decisions PPO makes before it learns from them and throws them away."""
-    agent = later("ppo_cloned").agents[0]
-    return agent["envs_per_agent"] * agent["horizon"]

@@ -1,0 +1,33 @@
+"""The tables of the bug hunt: how the agents drive after training, and how they agree with the rule early in it."""
+
+import numpy as np
+
+from bootcourse.course.lessons.bug_hunt.bugs import Hunt
+from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
+
+DRIVEN = ["200 roads", "success, most probable, %", "success, drawn, %", "return", "accidents, %"]
+AGREEMENT = ["early in training", "as the rule now, %", "as one second later, %"]
+EARLY = slice(2, 6)  # of the probes: after 500 to 1,250 updates
+
+
+def drives(hunt: Hunt, name: str, drawn: bool = False) -> Episodes:
+    """200 drives of an agent's first seed, by its most probable actions or by drawn ones."""
+    policy = hunt.agent(name).as_policy(np.random.default_rng(0) if drawn else None)
+    return drive_episodes(policy, held_out_seeds(12, 200))
+
+
+def driven(hunt: Hunt) -> list[list[str]]:
+    """A row for each agent; return and accidents are those of its most probable actions."""
+    rows = []
+    for name in hunt.names:
+        likeliest, drawn = drives(hunt, name), drives(hunt, name, drawn=True)
+        shares = (likeliest.success, drawn.success, likeliest.accident > 0)
+        greedy, sampled, crashed = (f"{100 * share.mean():.0f}" for share in shares)
+        rows.append([name, greedy, sampled, f"{likeliest.returns.mean():.0f}", crashed])
+    return rows
+
+
+def agreement(hunt: Hunt) -> list[list[str]]:
+    """How often each agent's most probable action is the rule's, now and one second later: means over two seeds."""
+    probes = ("alike", "late")
+    return [[name, *(f"{100 * hunt.probe(name, what)[:, EARLY].mean():.0f}" for what in probes)] for name in hunt.names]
