@@ -1,18 +1,27 @@
 """Choosing a driver without a simulator: what a policy is worth, estimated from recorded drives alone."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 import torch
 
+from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.protocol import adam
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.textbook import minimise
-from bootcourse.policies import Policy
+from bootcourse.methods import display_name
+from bootcourse.policies import Policy, idle_policy
 from bootcourse.scenario import DEFAULT, N_ACTIONS
+
+DRIVERS = (("bc", 0), ("cql", 0), ("cql_sac", 0), ("gail", 0), ("sac", 0), ("bootstrapped", 0), ("bootstrapped", 1))
+
+
+def drivers() -> dict[str, Policy]:
+    """Seven trained agents by their names: "CQL, agent 1", ..."""
+    return {f"{display_name(m)}, agent {which + 1}": shipped_agents(m)[which].as_policy() for m, which in DRIVERS}
 
 
 def recorded(drives: int = 200) -> Batch:
@@ -72,8 +81,13 @@ def estimates(
     return q_of(q, starts.expand(len(policies), *starts.shape), chosen).mean(-1).tolist()
 
 
-def worth(policy: Policy, roads, gamma: float) -> tuple[float, float]:
-    """What it is worth from the start and what it earns, on roads that it drives: (discounted, return), means."""
-    drives = record(policy, roads)
-    discounted = [gamma ** np.arange(len(drive.rewards)) @ drive.rewards for drive in drives]
-    return float(np.mean(discounted)), float(np.mean([drive.rewards.sum() for drive in drives]))
+def fits(policies: Collection[Policy], data: Batch, times: int, gamma: float = 0.8) -> np.ndarray:
+    """What each driver is worth by so many fits with the seeds 0, 1, ...: the mean of 100 roads, (times, policies)."""
+    starts = torch.from_numpy(np.stack([drive.observations[0] for drive in record(idle_policy, range(100))])).float()
+    seeds = np.repeat(range(times), len(policies))
+    return np.reshape(estimates([*policies] * times, data, starts, gamma, seeds), (times, -1))
+
+
+def worth(policy: Policy, roads, gamma: float) -> float:
+    """What it earns from the start, discounted, on roads that it drives: the mean."""
+    return float(np.mean([gamma ** np.arange(len(drive.rewards)) @ drive.rewards for drive in record(policy, roads)]))
