@@ -1,12 +1,15 @@
-"""Figures of discrete SAC: a pole as it is balanced."""
+"""Figures of discrete SAC: a pole as it is balanced, and soft values against the temperature."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
+import torch
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from bootcourse.course import charts
 from bootcourse.episodes.words import sentence
+from bootcourse.learn import sac
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure
 from bootcourse.research.experiments.checks import CARTPOLE_SCALES
@@ -45,3 +48,13 @@ def _draw_cart(ax, state: np.ndarray, x: float, colour: str) -> None:
     ax.add_patch(Rectangle((cart - 0.6, -0.35), 1.2, 0.5, facecolor=INK))
     tip = (cart + POLE * np.sin(angle), 0.15 + POLE * np.cos(angle))
     ax.plot([cart, tip[0]], [0.15, tip[1]], color=colour, linewidth=3.5, solid_capstyle="round")
+
+
+def against_temperature(q: Sequence[float], title: str) -> Figure:
+    """Soft values of the sure, the even and the best policy over α, of a state whose actions have these Q."""
+    values, temperatures = torch.tensor([q], dtype=torch.float64), np.linspace(0, 3, 31)
+    worth = {name: [] for name in ("the sure policy", "the even policy", "the best policy")}
+    for alpha in torch.tensor(temperatures):
+        for name, logits in zip(worth, (1e9 * values, 0 * values, values / alpha.clamp(min=1e-9)), strict=True):
+            worth[name].append(sac.soft_value(sac.log_policy(logits), values, alpha).item())
+    return charts.lines(temperatures, worth, title, "temperature α", "soft value V")

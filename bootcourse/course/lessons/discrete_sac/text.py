@@ -14,27 +14,19 @@
 # # Discrete soft actor-critic
 #
 # **What you will be able to do**
-# - derive what a critic should have estimated: the soft Bellman equation;
+# - derive the soft Bellman equation from the plain one;
 # - write the soft value and the losses of critics, actor and temperature;
 # - say where a gradient must stop, and which target entropy a thermostat can reach.
 #
-# **Time** 54 minutes. **It builds on** Python, a little torch, and the states, actions and rewards
-# of lesson [[the_trap]]. The next lesson, [](update_and_loop.ipynb), makes an agent of these parts.
+# **Time** 52 minutes. **It builds on** Python, a little torch, and the Bellman equation of lesson
+# [[values]]. The next lesson, [](update_and_loop.ipynb), makes an agent of these parts.
 
 # %%
 import bootcourse as bc
 import numpy as np
 import torch
-from bootcourse.course import (
-    charts,
-    check,
-    compare_predictions,
-    predict,
-    predicted,
-    progress,
-    table,
-)
-from bootcourse.course.lessons.discrete_sac import diagrams, explorable, figures
+from bootcourse.course import check, compare_predictions, predict, predicted, progress, table
+from bootcourse.course.lessons.discrete_sac import diagrams, examples, explorable, figures
 from bootcourse.learn import sac
 from bootcourse.research.experiments import checks
 
@@ -43,10 +35,10 @@ progress("discrete_sac")
 # %% [markdown]
 # ## Look first
 #
-# Before the road, a smaller world. A pole stands on a cart. Fifty times a second you push the cart
-# to the left or to the right: two actions. Each push pays 1 while the pole stands. The episode
-# ends when the pole leans more than 12 degrees, when the cart leaves its track, or after 500
-# pushes. This is **CartPole**.
+# Before the road, a smaller world: a pole stands on a cart. Fifty times a second you push the cart
+# to the left or to the right. Each push pays 1 while the pole stands. The episode ends when the
+# pole leans more than 12 degrees, when the cart leaves its track, or after 500 pushes. This is
+# **CartPole**.
 # <!-- claim: gym.make('CartPole-v1').unwrapped.tau == 1 / 50 -->
 # <!-- claim: (lambda env: (env.reset(seed=0), env.step(0))[1][1])(gym.make('CartPole-v1')) == 1 -->
 # <!-- claim: math.degrees(gym.make('CartPole-v1').unwrapped.theta_threshold_radians) == 12 -->
@@ -54,7 +46,7 @@ progress("discrete_sac")
 
 # %%
 drivers = {
-    "at random": bc.random_policy(np.random.default_rng(0), 2),  # two actions
+    "at random": bc.random_policy(np.random.default_rng(0), 2),  # of two actions
     "rule: one weighted sum": bc.teacher_policy(checks.balance, None, 2),
 }
 drives = {}
@@ -65,11 +57,8 @@ title = "One weighted sum balances the pole; chance does not"
 bc.show(figures.cartpole_strip(drives, title))
 
 # %% [markdown]
-# The rule pushes to the right where 0.1 · place + 0.3 · speed + 0.1 · angle + 0.3 · angular speed
-# is positive. (The angle counts in tenths of a radian.) How does a program that starts at random
-# learn to push as well as that rule, from rewards alone?
-# <!-- claim: checks.CARTPOLE_SCALES == (1.0, 1.0, 0.1, 1.0) -->
-# <!-- claim: pushes((0.1, 0.3, 0.1, 0.3)) == 500 -->
+# The rule pushes to the right where a weighted sum of place, speed, angle and angular speed is
+# positive. How does a program that starts at random learn to push as well, from rewards alone?
 
 # %% [markdown]
 # ## The parts in one picture
@@ -80,17 +69,15 @@ bc.show(diagrams.sac_diagram())
 # %% [markdown]
 # *Soft actor-critic* (SAC) has four parts:
 #
-# - The **actor** gives each action a probability, π(a|s): its **policy**. It is a small network.
-# - Two **critics** estimate what each action is worth from here on, Q(s, a), all later rewards
-#   included. The smaller estimate of the two counts.
+# - The **actor** gives each action a probability, π(a|s): its **policy**.
+# - Two **critics** estimate what each action is worth, Q(s, a), all later rewards included. The
+#   smaller estimate counts.
 # - The **temperature** α says how much the actor gains by staying undecided.
 # - The **replay buffer** keeps what happened, a row for each decision. Each update learns from a
-#   **batch** of rows: critics, actor and temperature alike.
+#   **batch** of rows.
 #
-# SAC was made for *continuous* actions, such as any angle of the wheel: there its actor draws
-# actions, and means over actions are estimated from those. *Discrete* means that the actions can be
-# counted: two here, nine on the road. So a network gives π and Q of every action at once, and a
-# mean over actions is an exact sum.
+# *Discrete* means that the actions can be counted: two here, nine on the road. So a network gives π
+# and Q of every action at once, and a mean over actions is a sum.
 #
 # On the evening route this picture is enough: go on to [the barrier](the_barrier.ipynb).
 
@@ -101,18 +88,16 @@ bc.show(diagrams.sac_diagram())
 # %% [markdown]
 # ## Round 1: what is a state worth when entropy is rewarded?
 #
-# **Drag** the temperature α. (The title counts with the formulas below.) Going straight is worth
-# most here: at which end does the agent nearly always go straight, and what does it do at the other
-# end?
+# **Drag** the temperature α. (Nats are explained below.) Going straight is worth most here: at which
+# end does the agent nearly always go straight, and what does it do at the other end?
 
 # %%
 explorable.undecided()
 
 # %% [markdown]
-# Early estimates of Q are poor, so an agent that takes only what it now thinks best may not find
-# out that something else is better. To go on trying other actions is **exploration**, and SAC adds
-# a small reward for it: an undecided policy earns more. The policy's **entropy** says how undecided
-# it is, in nats (natural logarithm):
+# Early estimates of Q are poor. An agent that takes only what it now thinks best may not find out
+# that something else is better. To try other actions, too, is **exploration**, and SAC pays a
+# little for it. The policy's **entropy** says how undecided it is, in nats (natural logarithm):
 #
 # $$ \mathcal{H}(\pi(\cdot|s)) = -\sum_a \pi(a|s) \log \pi(a|s) $$
 #
@@ -126,14 +111,8 @@ predict("discrete_sac.1", "What is the smallest entropy that a policy can have?"
 # %%
 predicted("discrete_sac.1")
 rows = []
-for words, pi in (
-    ("sure of one of two", [1 - 1e-9, 1e-9]),
-    ("two, 19 to 1", [0.95, 0.05]),
-    ("two, 3 to 1", [0.75, 0.25]),
-    ("two, even", [0.5, 0.5]),
-    ("nine, even", [1 / 9] * 9),
-):
-    h = sac.entropy(torch.tensor([pi]).double().log()).item()
+for words, pi in examples.POLICIES.items():
+    h = sac.entropy(torch.tensor([pi]).log()).item()
     rows.append([words, f"{h:.3f}", f"{np.exp(h):.2f}"])
 table(["policy", "entropy (nats)", "as undecided as this many equally likely actions"], rows)
 
@@ -143,8 +122,11 @@ table(["policy", "entropy (nats)", "as undecided as this many equally likely act
 # <!-- claim: 0 == float(sac.entropy(torch.tensor([1.0]).log())) <
 #   float(sac.entropy(torch.full((9,), 1 / 9).log())) < math.log(9) + 1e-6 -->
 #
-# The **soft value** of a state is what the agent expects from there on: the mean of Q under its own
-# policy, plus α for each nat of entropy.
+# The last column, $e^{\mathcal{H}}$, is the **effective number of actions**: the paper's Equation 22,
+# which takes an episode's mean entropy from Equation 21.
+#
+# What is a state worth? The **soft value** is the mean of Q under the agent's own policy, plus α for
+# each nat of entropy.
 #
 # $$ V(s) = \sum_a \pi(a|s)\, Q(s,a) + \alpha\, \mathcal{H}(\pi(\cdot|s)) $$
 #
@@ -170,28 +152,21 @@ predict("discrete_sac.2", "At which α are both worth the same?", ["0.5", "0.693
 
 # %%
 predicted("discrete_sac.2")
-q, alphas, values = torch.tensor([[1.0, 3.0]]), np.linspace(0, 3, 31), {}
-for words, pi in (("the sure policy", [1e-12, 1.0]), ("the even policy", [0.5, 0.5])):
-    log_pi = torch.tensor([pi]).log()
-    values[words] = [sac.soft_value(log_pi, q, torch.tensor(alpha)).item() for alpha in alphas]
-values["the best policy"] = [(a * torch.logsumexp(q / a, -1)).item() if a else 3.0 for a in alphas]
 title = f"Above α = {1 / np.log(2):.2f} the even policy beats the sure one; the best beats both"
-bc.show(charts.lines(alphas, values, title, "temperature α", "soft value V"))
+bc.show(figures.against_temperature([1.0, 3.0], title))
 
 # %% [markdown]
 # **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy: both have the same V
-# at α = 1 / 0.693 = {{ 1 / math.log(2) | .2f }}. The best policy lies between the two: it is a
-# *softmax*, $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$. With a high α this policy is nearly even, with
-# a low α it is nearly sure of one action. So with α > 0 the best policy of SAC is not the one that
-# earns most: it gives up some Q for entropy.
+# at α = 1 / 0.693 = {{ 1 / math.log(2) | .2f }}. The best policy lies between the two. It is a
+# *softmax*, $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$: with a high α nearly even, with a low α nearly
+# sure of one action. So with α > 0 the best policy of SAC gives up some Q for entropy.
 #
 # <details><summary>Why a softmax?</summary>
 #
 # Move a little probability ε from action b to action a. The value changes by
 # $\varepsilon\,[(Q_a - \alpha\log\pi_a) - (Q_b - \alpha\log\pi_b)]$. At the best policy no such
 # move gains anything, so $Q_a - \alpha\log\pi_a$ is the same number Z for each action, and
-# $\log\pi_a = (Q_a - Z)/\alpha$. Put into V, the mean of Z under π, this gives the best soft value:
-# $V = Z = \alpha \log \sum_a \exp(Q_a / \alpha)$, a *soft maximum* of Q.
+# $\log\pi_a = (Q_a - Z)/\alpha$.
 #
 # </details>
 
@@ -204,46 +179,32 @@ bc.show(charts.lines(alphas, values, title, "temperature α", "soft value V"))
 # ## Round 2: what should the critic's estimate have been?
 #
 # The critic learns from **transitions**: in state s the learner took action a, got the reward r,
-# and came to s'. What should $Q(s,a)$ have been? The **discount** γ, a number between 0 and 1, says
-# how much later rewards count: one t steps later counts $\gamma^t$ times as much. Q(s, a) is the
-# mean of all that follows the action if the agent goes on with its policy π, where each later state
-# also earns α times its entropy:
+# and came to s'. What should Q(s, a) have been? Lesson [[values]] answers with the Bellman equation:
 #
-# $$ Q(s_0, a_0) = \mathbb{E}\big[\, r_0 + \gamma\,(r_1 + \alpha \mathcal{H}_1) +
-# \gamma^2 (r_2 + \alpha \mathcal{H}_2) + \dots \big] $$
+# $$ Q(s, a) = r + \gamma \max_{a'} Q(s', a') $$
 #
-# $\mathbb{E}$ is the mean over what may follow. The sum has no $\mathcal{H}_0$, because $a_0$ is
-# given. Every term after the first has a factor γ; take it out. The bracket then holds $\alpha
-# \mathcal{H}_1$ and a sum of the same form that starts in $s_1$. The mean of that sum is $Q(s_1,
-# a_1)$. Since $a_1$ is drawn from π, average $Q(s_1, a_1)$ over π:
+# An action is worth its reward plus γ times what the next state is worth. The **discount** γ is a
+# number between 0 and 1.
 #
-# $$ Q(s_0, a_0) = \mathbb{E}\big[\, r_0 + \gamma \big( \textstyle\sum_a \pi(a|s_1)\, Q(s_1, a) +
-# \alpha \mathcal{H}_1 \big) \big] = \mathbb{E}\big[\, r_0 + \gamma V(s_1) \big] $$
+# In SAC the next state is worth something else, for two reasons. The actor draws its action from π,
+# so the mean of Q under π takes the place of the largest Q. And s' pays α for each nat of entropy.
+# Together they are its soft value:
 #
-# This is the **soft Bellman equation**. Where lesson [[values]] takes the best action, it takes the
-# mean under π, plus the entropy; one transition gives one sample of its right side. That side,
-# computed with the present estimates, is the **target** y, and the loss is the mean squared
-# distance from it. $y - Q(s,a)$ is the **temporal difference**. Learning an estimate from an
-# estimate is called **bootstrapping**. The paper's title means another thing: to start with a
-# rule's help.
+# $$ Q(s, a) = \mathbb{E}\big[\, r + \gamma \big( \textstyle\sum_{a'} \pi(a'|s')\, Q(s', a') +
+# \alpha \mathcal{H}(\pi(\cdot|s')) \big) \big] = \mathbb{E}\big[\, r + \gamma V(s') \big] $$
 #
-# > **Predict.** r = 1, γ = 0.9, α = 0.5, and in s' an even policy over two actions with Q = 4 and
-# > Q = 6. What is the target y = r + γ V(s')?
-
-# %%
-predict("discrete_sac.3", "What is the target y?", unit="")
-
-# %%
-predicted("discrete_sac.3")
-v = sac.soft_value(torch.tensor([[0.5, 0.5]]).log(), torch.tensor([[4.0, 6.0]]), torch.tensor(0.5))
-y = (1 + 0.9 * v).item()
-print(f"V(s') = 5 + 0.5 · {np.log(2):.3f} = {v.item():.2f}, so y = 1 + 0.9 · V(s') = {y:.2f}")
+# This is the **soft Bellman equation**. $\mathbb{E}$ is the mean over what may follow. The entropy
+# in s is not in it, because a is given.
+#
+# One transition gives one sample of the right side. Computed with the present estimates, it is the
+# **target** y, and $y - Q(s,a)$ is the **temporal difference**. Learning an estimate from an
+# estimate is called **bootstrapping**; the paper's title means a start with a rule's help.
 
 # %% [markdown]
 # ### Where nothing follows
 #
 # One factor is missing. `terminated` is 1 if the *world* ends here, so that nothing could be earned
-# from s' on, whatever the agent did; otherwise it is 0. The whole target and the loss:
+# from s' on; otherwise it is 0. The whole target and the critic's loss:
 #
 # $$ y = r + \gamma\, (1 - \text{terminated})\, V(s'), \qquad
 # L_\text{critic} = \text{mean of } (Q(s,a) - y)^2 $$
@@ -253,7 +214,7 @@ print(f"V(s') = 5 + 0.5 · {np.log(2):.3f} = {v.item():.2f}, so y = 1 + 0.9 · V
 
 # %%
 predict(
-    "discrete_sac.4",
+    "discrete_sac.3",
     "What is y of the pole that fell, and of the one whose time was up?",
     ["1 and 1", "1 and 50.5", "50.5 and 1", "50.5 and 50.5"],
 )
@@ -273,25 +234,23 @@ def critic_target(reward, terminated, next_value, gamma):
 check.critic_target(critic_target)
 
 # %%
-predicted("discrete_sac.4")
+predicted("discrete_sac.3")
 terminated = torch.tensor([1.0, 0.0])  # it fell; the time was up
 print(sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0.99).tolist())
 
 # %% [markdown]
 # **Explain.** A fallen pole earns nothing more. A pole that still stands would go on earning; only
-# our clock stopped it, and the four numbers that the critic sees do not hold the clock. With
-# `terminated` = 1 the same push in the same upright state would have to be worth 50.5 in the middle
-# of an episode and 1 at its end.
+# our clock stopped it, and the four numbers that the critic sees do not hold the clock.
 
 # %% [markdown]
 # Two tricks keep the estimates in check. V uses the smaller value of **two critics**, because the
-# actor prefers actions that a critic overestimates. And V is computed with **target networks**,
-# slow copies of the critics. They take over a small share τ ("tau") of the new weights at each
-# update, so that a step towards the target hardly moves the target.
+# actor prefers actions that a critic overestimates. And it uses **target networks**, slow copies of
+# the critics, which take over a small share τ ("tau") of the new weights at each update. So a step
+# towards the target hardly moves the target.
 #
-# **Exercise (6 min, ●●○).** Write the loss of both critics: for each of them the mean over the
-# batch of $(Q(s,a) - y)^2$, and then the sum of the two. Here a is the action that was taken. The
-# target is held fixed, and the check also looks at where the gradient goes.
+# **Exercise (6 min, ●●○).** Write the loss of both critics: for each the mean over the batch of
+# $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action that was taken. The target is held
+# fixed: the check also looks at where the gradient goes.
 
 
 # %%
@@ -302,23 +261,23 @@ def critic_loss(q_pair, action, target):
 
 check.critic_loss(critic_loss)
 
-# %% [markdown] tags=["instructor"] minutes=9
-# Derive the Bellman equation on the board from the sum of three terms, and let them say which one
-# is V(s'). Then ask what would change if the row came from an older policy (nothing: a is given,
-# and what follows is asked of the present policy). This is why the replay buffer may hold old rows.
+# %% [markdown] tags=["instructor"] minutes=7
+# Write a sum of three terms on the board, r₀ + γ (r₁ + α H₁) + γ² (r₂ + α H₂), take out γ, and let
+# them say which part is V(s'). Then ask what would change if the row came from an older policy
+# (nothing: a is given, and what follows is asked of the present policy). This is why the replay
+# buffer may hold old rows.
 
 # %% [markdown]
 # ## Round 3: what does the actor minimise?
 #
 # The critics say what the present policy is worth (*policy evaluation*). The actor looks for a
-# better policy, given these values (*policy improvement*): it makes the soft value large. At each
-# update SAC makes one small step of both. The actor's loss is minus the soft value:
+# better policy, given these values (*policy improvement*). SAC does not finish one before the
+# other: at each update it makes one small step of both. The actor's loss is minus the soft value:
 #
 # $$ L_\text{actor} = -\,\text{mean over } s \text{ of } \sum_a \pi(a|s)\,
 # \big(Q(s,a) - \alpha \log \pi(a|s)\big) $$
 #
 # Two things make V larger: a better policy, or higher estimates Q. Which may the gradient change?
-# Below, a policy is a softmax of one number for each action, its *logits*.
 #
 # **Exercise (5 min, ●●○).** Write the actor's loss.
 
@@ -334,24 +293,18 @@ def actor_loss(log_pi, q, alpha):
 
 check.actor_loss(actor_loss)
 
+# %% [markdown]
+# Below, a policy of two actions is a softmax of two numbers, its *logits*. It is even at first.
+
 # %%
-rows = []
-for words, keeps_q in (("Q held fixed", True), ("Q may move, too", False)):
-    logits, q = torch.zeros(1, 2, requires_grad=True), torch.tensor([[1.0, 3.0]]).requires_grad_()
-    optimiser = torch.optim.Adam([logits, q], lr=0.05)
-    for _ in range(200):
-        held = q.detach() if keeps_q else q
-        loss = -sac.soft_value(sac.log_policy(logits), held, torch.tensor(1.0)).mean()
-        optimiser.zero_grad()
-        loss.backward()
-        optimiser.step()
-    pi, worth = logits.softmax(-1)[0].tolist(), q[0].tolist()
-    rows.append([words, *(f"{number:.2f}" for number in pi + worth)])
-table(["after 200 steps", "π(a₁)", "π(a₂)", "Q(a₁)", "Q(a₂)"], rows)
+rows = [
+    ["Q held fixed", *examples.trained(lambda q: q.detach())],
+    ["Q may move, too", *examples.trained(lambda q: q)],
+]
+table(["after 200 steps, α = 1", "π(a₁)", "π(a₂)", "Q(a₁)", "Q(a₂)"], rows)
 
 # %% [markdown]
-# **Explain.** With Q held fixed, the actor finds the softmax of Round 1 (of Q = 1 and 3 at α = 1:
-# {{ 1 / (1 + math.exp(2)) | .2f }} and {{ 1 / (1 + math.exp(-2)) | .2f }}). If Q may move, the loss
+# **Explain.** With Q held fixed, the actor finds the softmax of Round 1. If Q may move, the loss
 # also falls when Q rises, although the actions are worth what they were worth before. So Q is
 # **detached** (`q.detach()`): its value counts, and the gradient stops there.
 
@@ -363,13 +316,12 @@ table(["after 200 steps", "π(a₁)", "π(a₂)", "Q(a₁)", "Q(a₂)"], rows)
 # ## Round 4: which temperature is right?
 #
 # That depends on how large Q is, which is not known before training. So SAC adjusts α as a
-# thermostat adjusts the heating: while the entropy is above a **target entropy** η ("eta"), α
-# falls; while it is below, α rises.
+# thermostat adjusts the heating, by a **target entropy** η ("eta"):
 #
 # $$ L_\alpha = \alpha\, (\mathcal{H}(\pi) - \eta) $$
 #
-# A gradient step lowers the loss: where $\mathcal{H} > \eta$ by a smaller α, where $\mathcal{H} <
-# \eta$ by a larger one.
+# A gradient step lowers this loss: while the entropy is above η, α falls; while it is below, α
+# rises.
 #
 # **Exercise (4 min, ●●○).** Write it. $\mathcal{H}(\pi)$ is the mean over the batch. The parameter
 # is log α, so that α stays positive.
@@ -386,40 +338,32 @@ def temperature_loss(log_alpha, state_entropy, target_entropy):
 check.temperature_loss(temperature_loss)
 
 # %% [markdown]
-# The paper sets **η = {{ SETTINGS.target_entropy }}**, in a table, for its nine actions; the agents
-# of our study have it, too.
+# The paper sets **η = {{ SETTINGS.target_entropy }}** for its nine actions, and so does our study.
 #
 # > **Predict.** Remember the range of the entropy. In which direction does this thermostat turn,
 # > and when does it stop?
 
 # %%
 predict(
-    "discrete_sac.5",
+    "discrete_sac.4",
     "What does α do with η = −1?",
     ["falls, and stops at H = η", "rises for ever", "falls for ever", "moves up and down"],
 )
 
 # %%
-predicted("discrete_sac.5")
-most, rows = np.log(9).item(), []  # nats: nine actions, all as likely
-for h in (most, 1.0, 0.1, 0.0):
-    log_alpha = torch.tensor(0.01).log().requires_grad_()
-    gradients = []
-    for eta in (-1.0, 0.3 * most):
-        loss = sac.temperature_loss(log_alpha, torch.tensor([h]), torch.tensor(eta))
-        gradients.append(torch.autograd.grad(loss, log_alpha)[0].item())
-    rows.append([f"{h:.2f}", *("falls" if gradient > 0 else "rises" for gradient in gradients)])
+predicted("discrete_sac.4")
+rows = []
+for h in (2.2, 1.0, 0.1, 0.0):  # nats
+    rows.append([f"{h}", *(examples.turns(h, eta) for eta in (-1.0, 0.66))])
 table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 
 # %% [markdown]
-# **Explain.** With η = −1 the thermostat turns in one direction only: the entropy of a policy over
-# a list of actions is 0 or more, so $\mathcal{H} - \eta$ is at least 1 in every state, and α falls
-# at each update. As α falls, the best policy softmax(Q / α) becomes sure of one action: entropy
-# pays less and less. The second η of the cell, 0.66, is three tenths of the largest entropy: there
-# α turns, as a thermostat should.
+# **Explain.** With η = −1 the thermostat turns in one direction only. The entropy of a policy over
+# a list of actions is 0 or more, so it is at least 1 above η in every state, and α falls at each
+# update. With η = 0.66, which such a policy can reach, α falls and rises, as a thermostat should.
 #
 # Why then −1? The paper gives no reason. Perhaps it comes from a rule of thumb for *continuous*
-# actions, which gives −1 for an action that is a single number. There an entropy can be negative.
+# actions, such as any angle of the wheel, whose entropy can be negative.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=5
@@ -428,9 +372,7 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # anybody answers.
 
 # %%
-compare_predictions(
-    "discrete_sac", {1: 0.0, 2: "1.44", 3: round(y, 2), 4: "1 and 50.5", 5: "falls for ever"}
-)
+compare_predictions("discrete_sac", {1: 0.0, 2: "1.44", 3: "1 and 50.5", 4: "falls for ever"})
 
 # %% [markdown]
 # ## What you now know
@@ -439,11 +381,10 @@ compare_predictions(
 #    softmax(Q / α).
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed; an episode that ran out of
 #    time is not terminated.
-# 3. V(s') comes from the smaller of two critics, because an actor picks what is overestimated, and
-#    from their slow copies, so that the target hardly moves with each step.
+# 3. V(s') comes from the smaller of two critics, and from their slow copies.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
-# 5. The temperature is a thermostat for the entropy, which over a list of actions is 0 or more:
-#    with η = {{ SETTINGS.target_entropy }} α falls at each update.
+# 5. The temperature is a thermostat for the entropy. With η = {{ SETTINGS.target_entropy }}, below
+#    every entropy over a list of actions, α falls at each update.
 
 # %% [markdown]
 # **Three questions to think about**
@@ -452,11 +393,10 @@ compare_predictions(
 #   first. Does the error stay?
 # - V takes the smaller of two critics. What would happen with the larger?
 #
-# **Read on**: Haarnoja et al., *Soft Actor-Critic* (arXiv 1801.01290), and its second version with
-# the thermostat (arXiv 1812.05905); Fujimoto et al., *Addressing Function Approximation Error in
-# Actor-Critic Methods* (TD3, arXiv 1802.09477), on two critics and slow copies; Christodoulou,
-# *Soft Actor-Critic for Discrete Action Settings* (arXiv 1910.07207); Xu et al., *Target Entropy
-# Annealing for Discrete Soft Actor-Critic* (arXiv 2112.02852).
+# **Read on**: Haarnoja et al., *Soft Actor-Critic* (arXiv 1801.01290), and with the thermostat
+# (arXiv 1812.05905); Fujimoto et al. on two critics and slow copies (TD3, arXiv 1802.09477);
+# Christodoulou, *Soft Actor-Critic for Discrete Action Settings* (arXiv 1910.07207); Xu et al. on
+# the target entropy of discrete SAC (arXiv 2112.02852).
 
 # %% [markdown] tags=["instructor"] minutes=5
 # *Answers to the three questions.* **η = log 9** is the largest entropy of nine actions. While the
