@@ -98,7 +98,7 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
 def running_lead(lead: np.ndarray, behind: int) -> Figure:
     """What the escape has earned so far, less what doing nothing has: (seconds,). behind: its last second below 0."""
     seconds, best = np.arange(1, len(lead) + 1), lead[-1]
-    title = f"The escape is behind for {behind} s, and {best:.0f} ahead in the end"
+    title = f"The rule's way out is behind for {behind} s, and {best:.0f} ahead in the end"
     figure, ax = one_axes(3.4, title, "time (s)", "lead of the escape (reward so far)")
     look = style("rule")
     ax.axhline(0, color=QUIET, linewidth=1)
@@ -116,8 +116,8 @@ def running_lead(lead: np.ndarray, behind: int) -> Figure:
     near.set(xlim=(0, 50))
     near.tick_params(labelsize=SMALL, labelcolor=QUIET, length=3)
     alt = (
-        f"The escape's reward so far, less that of doing nothing, over 150 s: below zero until second {behind}, at "
-        f"least {lead.min():.1f}, then rising in steps to {best:.1f}."
+        "The reward so far of the rule's way out, less that of doing nothing, over 150 s: below zero until second "
+        f"{behind}, at least {lead.min():.1f}, then rising in steps to {best:.1f}."
     )
     return finish(figure, title, alt)
 
