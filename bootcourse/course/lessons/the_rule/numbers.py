@@ -42,6 +42,22 @@ def by_the_formula(sight: float) -> Changes:
 
 
 @cache
+def begun_in_sight(floor: float, sight: float = 20.0) -> int:
+    """On how many of the lesson's roads trap 1 is in sight when the rule first begins to change lane."""
+    scenario, decided = with_numbers(sight, floor=floor), []
+
+    def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        decisions = rule(cars, scenario)
+        sees = cars[:, TRAP_1, X] - cars[:, EGO, X] <= sight
+        decided.append((decisions.reasons == Reason.CHANGE, sees))
+        return PolicyOutput(decisions.actions)
+
+    drive_episodes(drive, ROADS, together=len(ROADS))
+    changes, sees = map(np.array, zip(*decided, strict=True))
+    return int((sees[changes.argmax(0), np.arange(len(ROADS))] & changes.any(0)).sum())
+
+
+@cache
 def apart() -> tuple[float, float]:
     """The smallest and the largest distance (m) from trap 2 to trap 1 at the start, over the lesson's roads."""
     starts = [drive.states[0] for drive in record(rule_policy(DEFAULT), ROADS)]

@@ -1,47 +1,24 @@
-"""How five agents of each method did, and a drive of DoorKey."""
+"""Two drives of MountainCar, and one of DoorKey."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Rectangle
 
-from bootcourse.colours import ALARM, Style
+from bootcourse.colours import ALARM
+from bootcourse.course import charts
+from bootcourse.course.lessons.your_own_problem import loops
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, TEXT, axes_at, finish, new_figure, plain_axes
-
-NAMES = {
-    "cloning": "cloning",
-    "soft": "the soft constraint",
-    "demonstrations": "demonstrations",
-    "both": "both aids",
-}
-MARKS = {"cloning": "s", "soft": "o", "demonstrations": "^", "both": "D"}
-METHODS = {"cloning": "bc", "soft": "soft", "demonstrations": "demos", "both": "bootstrapped"}
-ROW, HEAD, FOOT = 0.4, 0.95, 0.55  # inches
+from bootcourse.plots.figure import INK, TEXT, axes_at, finish, new_figure
 
 
-def look(name: str) -> Style:
-    """The style of one of `NAMES`."""
-    return style(METHODS[name])
-
-
-def agents(success: Mapping[str, np.ndarray], title: str) -> Figure:
-    """Each agent's success in its test episodes as a dot, a row for each of `NAMES`: {name: (agents,)}."""
-    figure = new_figure(0.75 + 0.45 * len(success) + FOOT)
-    ax = axes_at(figure, 1.55, 0.75, 5.1, 0.45 * len(success))
-    for row, (name, values) in enumerate(success.items()):
-        shown, places = np.sort(100 * values), row + np.linspace(-0.25, 0.25, len(values))
-        ax.scatter(shown, places, s=30, color=look(name).colour, marker=MARKS[name], zorder=3, clip_on=False)
-    plain_axes(ax, "", grid="x")
-    ax.set_yticks(range(len(success)), [NAMES[name] for name in success])
-    ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-    ax.set(xlim=(-2, 102), ylim=(len(success) - 0.5, -0.5))
-    ax.set_xlabel("success of an agent in its test episodes (%)", fontsize=TEXT, color=INK)
-    alt_parts = (
-        f"{NAMES[name]}: {', '.join(f'{100 * v:.0f}' for v in np.sort(each))}" for name, each in success.items()
-    )
-    return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
+def climbs(title: str) -> Figure:
+    """Two drives of MountainCar: always pushed to the right, and by the course's teacher."""
+    drives = loops.first_drives()
+    longest = max(map(len, drives.values()))
+    shown = {name: np.r_[x, np.full(longest - len(x), np.nan)] for name, x in drives.items()}
+    return charts.lines(np.arange(longest), shown, title, "decision", "position", marks={"flag": 0.5})
 
 
 def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:

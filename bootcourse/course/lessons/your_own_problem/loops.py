@@ -72,6 +72,11 @@ def climbed(rule: Rule, seed: int = 0) -> np.ndarray:
     return np.array([*positions, float(seen[0])])
 
 
+def teacher(rule: Rule) -> Rule:
+    """A rule of (position, speed) as a teacher of agents, which see the speed in parts of 0.07."""
+    return lambda seen: rule(float(seen[0]), 0.07 * float(seen[1]))
+
+
 def first_drives() -> dict[str, np.ndarray]:
     """The positions of two drives of MountainCar: always pushed to the right, and by the course's teacher."""
     ours = PROBLEMS["mountain-car"].teachers()["good"]  # it sees the speed in parts of 0.07
@@ -93,7 +98,8 @@ def rooms(teacher: Rule, seed: int) -> tuple[list[tuple[int, ...]], bool]:
     return states, reached
 
 
-def circle(states: list[tuple[int, ...]]) -> int:
-    """In how many decisions a drive's last state came back for the last time; 0 if it was new."""
-    before = [len(states) - 1 - i for i, state in enumerate(states[:-1]) if state == states[-1]]
-    return min(before, default=0)
+def longest_loop() -> list[tuple[int, ...]]:
+    """The states of the drive of the random teacher, of 30, that misses the goal and sees the most cells before."""
+    teacher = PROBLEMS["doorkey"].teachers()["random"]
+    lost = [states for states, reached in (rooms(teacher, seed) for seed in range(30)) if not reached]
+    return max(lost, key=lambda states: len({state[:2] for state in states}))
