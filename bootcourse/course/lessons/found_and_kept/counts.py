@@ -5,6 +5,7 @@ import numpy as np
 from bootcourse.methods import display_name
 from bootcourse.research.cells import VARIED
 from bootcourse.research.experiment import Computed
+from bootcourse.research.experiments.clocks import DRIVERS, UPDATES
 from bootcourse.research.paper import PRINTED
 from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
@@ -15,8 +16,11 @@ KINDS = {  # of agents: the method, the change among the ablations ("": none), t
     "both aids, β never ends": ("bootstrapped", "β for ever", "bootstrapped, β for ever"),
     "soft constraint alone, ξ fades": ("soft", "", "soft"),
     "soft constraint alone, ξ stops at 0.1": ("soft", "ξ falls to 0.1", "soft, ξ falls to 0.1"),
+    "demonstrations alone, β ends": ("demos", "", "demos"),
+    "demonstrations alone, β never ends": ("demos", "β for ever", "demos, β for ever"),
 }
 HEADINGS = ["twenty agents of each kind", "found it", "lost it at least once", "kept it", "return of those that kept"]
+SETTINGS = ["updates", "soft constraint alone", *(f"demonstrations alone, driver {driver}" for driver in DRIVERS)]
 BOTH_TABLES = ["", "the paper's success", "the paper's return", "our agents that escape"]
 
 
@@ -48,3 +52,20 @@ def fates(study: Results, changed: Computed, others: Computed) -> list[list[str]
         earned = np.concatenate([each.scores("returns") for each in agents])[kept].mean()
         rows.append([kind, f"{found.sum()}", f"{losers}", f"{kept.sum()}", f"{earned:.0f}"])
     return rows
+
+
+def kept_in_each(cells: dict[tuple[str, str], Results]) -> list[list[str]]:
+    """A row for each number of updates for a decision, below `SETTINGS`: of how many agents how many kept the way out.
+
+    The agents with the soft constraint alone are the same with each driver: they see no demonstrations.
+    """
+    rows = []
+    for updates in UPDATES:
+        alone, *others = (cells[updates, driver] for driver in DRIVERS)
+        rows.append([updates.replace("1/4", "¼"), _kept(alone, "soft"), *(_kept(c, "demos") for c in (alone, *others))])
+    return rows
+
+
+def _kept(results: Results, method: str) -> str:
+    """ "6 of 10"."""
+    return f"{results.found_and_kept(method)[1].sum()} of {len(results.of(method))}"

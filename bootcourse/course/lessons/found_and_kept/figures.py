@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 
+from bootcourse.colours import Style
 from bootcourse.course.charts import lines
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, TEXT, WIDTH, axes_at, finish, new_figure, one_axes
@@ -13,18 +14,25 @@ from bootcourse.research.results import Results
 from bootcourse.statistics import IN_A_ROW, rolling_means
 
 
-def one_agent(success: np.ndarray, method: str, title: str) -> Figure:
-    """Success in training of one agent, (episodes,), its first and last good window marked."""
-    means = rolling_means(100 * success[None], IN_A_ROW, len(success))
-    at, share = means[0], means[1][0]
-    words, look = f"success in the last {IN_A_ROW} episodes (%)", style(method)._replace(line="-")
-    figure = lines(at, {method: share}, title, "training episode", words, looks=[look])
+def one_agent(results: Results, which: int, title: str) -> Figure:
+    """Training of one agent of one method: how often it is ahead, its first and last good window, how often it crashes.
+
+    The second line counts the accidents of the episodes that do not end ahead.
+    """
+    success, accident = (results.curves[measure][which] for measure in ("success", "accident"))
+    crashed = (success == 0) & (accident > 0)
+    at, (share, crashes) = rolling_means(100 * np.stack([success, crashed]), IN_A_ROW, len(success))
+    look = style(results.methods[0])._replace(line="-")
+    named, looks = {"ahead of trap 1": share, "crashed behind trap\u00a01": crashes}, [look, Style(QUIET, ":")]
+    words = f"% of the last {IN_A_ROW} episodes"
+    figure = lines(at, named, title, "training episode", words, looks=looks)
     good = np.flatnonzero(share > 50)
     for place, words in ((good[0], "found"), (good[-1], "last had it")):
         figure.axes[0].plot(at[place], share[place], "o", color=INK, ms=6, zorder=5)
         figure.axes[0].annotate(
             f"{words}: {at[place]:,.0f}", (at[place], share[place]), (8, 0), ha="left", va="center",
-            textcoords="offset points", fontsize=TEXT, color=INK,
+            textcoords="offset points", fontsize=TEXT, color=INK, zorder=4,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1},
         )  # fmt: skip
     figure.alt += (
         f" More than half of a window for the first time at {at[good[0]]:.0f}, the last at {at[good[-1]]:.0f}."

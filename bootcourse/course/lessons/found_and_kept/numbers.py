@@ -22,7 +22,7 @@ from bootcourse.statistics import lost
 from tools.course.known import clocks, in_training, of, shipped_experiment, shipped_results
 
 LATE = 900  # an episode: a tenth of β is left
-ENDS, STAYS, FADES, STOPS = counts.KINDS
+ENDS, STAYS, FADES, STOPS, ALONE_ENDS, ALONE_STAYS = counts.KINDS
 SHORTER = study_clocks.TRAINED  # training episodes of the agents of rounds 3 and 4
 
 
@@ -70,14 +70,35 @@ def fate(kind: str) -> list[str]:
     return next(row[1:] for row in counts.fates(*experiments()) if row[0] == kind)
 
 
-def losing(kind: str, group: int) -> int:
-    """How many agents of a kind lose the way out at least once: of the study's ten, group 0, or of the ten others."""
-    return int(lost(counts.groups(kind, *experiments())[group].curves["success"]).sum())
+def first_losses() -> list[tuple[int, int]]:
+    """Of each of the study's agents with both aids: the failures in the window in which it first loses the way out, and
+    how many of these are accidents.
+    """
+    counted, curves = [], of("bootstrapped").curves
+    for success, accident in zip(curves["success"], curves["accident"], strict=True):
+        ahead, failed, crashed = (
+            np.lib.stride_tricks.sliding_window_view(each, WINDOW).sum(axis=-1)
+            for each in (success == 1, success == 0, (success == 0) & (accident > 0))
+        )
+        first = int((np.maximum.accumulate(ahead >= HAD) & (ahead <= LOST)).argmax())
+        counted.append((int(failed[first]), int(crashed[first])))
+    return counted
 
 
-def early(updates: str, driver: str) -> int:
-    """How many agents with both aids, so many updates and this driver lose the way out before episode 900."""
-    return int(lost(clocks()[updates, driver].of("bootstrapped").curves["success"][:, :LATE]).sum())
+def crashing_and_waiting(first: int, last: int) -> tuple[float, float]:
+    """Of the agent of the lesson's first curve: which share of these training episodes is a crash behind trap 1, and
+    which is neither that nor ahead.
+    """
+    curves, best = of("demos").curves, int(in_training("demos", 700, 900).argmax())
+    ahead, crashed = (curves[name][best, first:last] > 0 for name in ("success", "accident"))
+    return float((~ahead & crashed).mean()), float((~ahead & ~crashed).mean())
+
+
+def kept_of_sac() -> tuple[float, float]:
+    """Of the agent of plain SAC that keeps the way out with ¼ update: (accidents for a test drive, return)."""
+    agents = clocks()["1/4", "μ"].of("sac")
+    (which,) = np.flatnonzero(agents.found_and_kept("sac")[1])
+    return float((agents.episodes("accident")[which] > 0).mean()), float(agents.scores("returns")[which])
 
 
 def chances() -> dict[str, float]:

@@ -72,8 +72,9 @@ bc.recording([shipped.beginning(drive, seconds) for drive in drives], height=480
 # <!-- claim: getting_out('sac') == [1, 5] and getting_out('bootstrapped') == [5, 5] -->
 #
 # A driver is paid for each second: most at {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
-# little at the traps' {{ DEFAULT.traps.speed }} m/s. An accident is fined what about a minute
-# behind the traps earns, and ends the drive. The sum over a drive is its **return**, {{ idle().rewards.sum() | .0f }} for
+# little at the traps' {{ DEFAULT.traps.speed }} m/s. An accident is fined what about a minute behind
+# the traps earns, and ends the drive. The sum over a drive is its **return**,
+# {{ idle().rewards.sum() | .0f }} for
 # staying behind. Staying pays a little at once, and to get out you first fall back or risk a crash:
 # that is the **trap**. This course asks two questions. Why does a program that learns stay behind
 # slow cars, although the left lane is free? And how can an imperfect teacher, such as the rule, help
