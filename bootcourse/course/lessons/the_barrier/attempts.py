@@ -14,8 +14,13 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS
 
 FAST = 15.0  # m/s; the speed that pays most
-ACCELERATE = 7  # straight on
+ACCELERATE, BRAKE = 7, 1  # straight on
 PLAN = [5, *[3] * 4, *[5] * 3, *[7] * 5]  # right 1 s, left 4 s, right 3 s, accelerate 5 s
+BEGINNINGS = {  # of drives from mid-lane
+    "1 acceleration": [ACCELERATE],
+    **{f"{times} accelerations": [ACCELERATE] * times for times in range(2, 6)},
+    "4 brakes": [BRAKE] * 4,
+}
 
 
 @dataclass(frozen=True)
@@ -76,21 +81,21 @@ def drive(policy: Policy, seeds: Sequence[int], make_env: Callable[..., VectorEn
     return Outcome(np.stack(rewards, axis=1), step.infos["is_success"], accident)
 
 
-def stays_and_accelerates(
-    accelerations: int, share: float, seeds: Sequence[int], make_env: Callable[..., VectorEnv], seed: int = 0
+def stays_or_begins(
+    beginning: Sequence[int], share: float, seeds: Sequence[int], make_env: Callable[..., VectorEnv], seed: int = 0
 ) -> list[Outcome]:
-    """Two drives on each road: one does nothing, the other first accelerates so often, then does nothing.
+    """Two drives on each road: one does nothing, the other first takes the actions of `beginning`, then does nothing.
 
     share: the probability that a later action is random instead, the same in both drives; drawn with `seed`.
     """
     rng = np.random.default_rng(seed)
     shape = DEFAULT.clock.decisions, len(seeds)
     errs, wrong = rng.random(shape) < share, rng.integers(N_ACTIONS, size=shape)
-    errs[:accelerations] = False
+    errs[: len(beginning)] = False
     outcomes = []
-    for times in (0, accelerations):
+    for first in ([], beginning):
         actions = np.full(shape, IDLE)
-        actions[:times] = ACCELERATE
+        actions[: len(first)] = np.reshape(first, (-1, 1))
         outcomes.append(drive(PlanPolicy(np.where(errs, wrong, actions)), seeds, make_env))
     return outcomes
 

@@ -51,7 +51,7 @@ def worth(outcomes: Mapping[str, Outcome], title: str) -> Figure:
 
 FAR, SOME, NOT = 2, 1, 0  # how far a learner got: its square is dark, light or empty
 AGENTS = (
-    "ends ahead on 95 % of the roads or more, and its return is above staying's",
+    "it gains (ends ahead on 95 % of the roads or more, and returns more than staying)",
     "ends ahead on 10 % or more, but misses the 95 %, staying's return, or both",
     "ends ahead on fewer than 10 %",
 )
@@ -81,7 +81,8 @@ def escapes(trained: Mapping[str, Results], staying: Mapping[str, float], title:
     for kind, returned in staying.items():
         for gamma in sorted({agent["gamma"] for agent in trained[kind].agents}):
             panel = panels.setdefault(f"γ = {gamma}", {})
-            panel[kind.split(", ")[-1]] = ends(trained[kind], gamma, returned)
+            name = "the road as it is" if kind == "as it is" else kind.split(", ")[-1]
+            panel[name] = ends(trained[kind], gamma, returned)
     return squares(panels, title, AGENTS, "has an accident on most roads")
 
 
@@ -95,6 +96,25 @@ def how_they_drive(agents: Sequence, tests: Sequence):
     won = sum(test.success.value >= ESCAPES for test in tests)
     below = f"{won} of {len(agents)} agents escape. They take their most probable actions."
     return table(["γ", "seed", "ends ahead, %", "accidents, %", "return"], rows, below=below)
+
+
+def once_ahead(results: Results) -> np.ndarray:
+    """Which agents ended a drive ahead while they learned, (agents,)."""
+    return (results.curves["success"] > 0).any(axis=1)
+
+
+def once_unhurt(results: Results) -> np.ndarray:
+    """Which of them ended one ahead and without an accident, (agents,)."""
+    return ((results.curves["success"] > 0) & (results.curves["accident"] == 0)).any(axis=1)
+
+
+def while_they_learned(short: Results, long: Results):
+    """A table: how many agents, trained for as long as the lesson's or longer, ended ahead while they learned."""
+    rows = []
+    for name, agents in (("as long as in Round 1", short), ("longer, in the study", long)):
+        unhurt = once_unhurt(agents).sum() if "accident" in agents.curves else "not recorded"
+        rows.append([name, len(agents), once_ahead(agents).sum(), unhurt, agents.escapers("sac")])
+    return table(["trained", "agents", "ended ahead once or more", "unhurt", "escape in the end"], rows)
 
 
 def learners(all_q: Sequence[np.ndarray]) -> list[tuple[int, bool]]:

@@ -8,21 +8,16 @@ from scipy import stats
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.policies import idle_policy, random_policy
-from bootcourse.research.planner import Search, plan_episodes
+from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD, idle, of, shipped_experiment
+from tools.course.known import ROAD, of, shipped_experiment
 
 
 @cache
 def planned(beam: int, gamma: float, keep_lane: bool = False) -> float:
     """What the planner's best drive on the lesson's road is worth."""
     return plan_episodes([ROAD], search=Search(beam, gamma, keep_lane))[0].value
-
-
-def stayed() -> int:
-    """How many of the study's plain agents return what doing nothing does, to within 3."""
-    return int((np.abs(of("sac").scores("returns") - idle().rewards.sum()) < 3).sum())
 
 
 @cache
@@ -96,13 +91,17 @@ MANY = held_out_seeds(7, 2000)  # of the lesson's random actions
 
 
 @cache
-def _random_later(times: int, share: float) -> tuple[attempts.Outcome, attempts.Outcome]:
-    return attempts.stays_and_accelerates(times, share, MANY, easier.MidLaneStart)
+def _random_later(beginning: int | str, share: float) -> tuple[attempts.Outcome, attempts.Outcome]:
+    first = attempts.BEGINNINGS[beginning] if isinstance(beginning, str) else [attempts.ACCELERATE] * beginning
+    return attempts.stays_or_begins(first, share, MANY, easier.MidLaneStart)
 
 
-def added(times: int, share: float, gamma: float) -> tuple[float, float]:
-    """Mid-lane: what so many accelerations add to staying if later actions are random so often; its standard error."""
-    stays, goes = _random_later(times, share)
+def added(beginning: int | str, share: float, gamma: float) -> tuple[float, float]:
+    """Mid-lane: what a beginning adds to staying if later actions are random so often; its standard error.
+
+    beginning: so many accelerations, or a name of `attempts.BEGINNINGS`.
+    """
+    stays, goes = _random_later(beginning, share)
     more = goes.values(gamma) - stays.values(gamma)
     return float(more.mean()), float(more.std() / np.sqrt(len(more)))
 
@@ -117,16 +116,22 @@ def costs(times: int, share: float, gamma: float) -> bool:
     return added(times, share, gamma)[0] < -2 * added(times, share, gamma)[1]
 
 
-def sooner() -> float:
-    """By how many seconds the accident comes sooner after an acceleration, if each later action is random."""
-    assert all(each.accident.all() for each in _random_later(1, 1))
-    stays, goes = ((each.rewards != 0).cumsum(axis=1).argmax(axis=1).mean() for each in _random_later(1, 1))
+def sooner(beginning: int | str) -> float:
+    """By how many seconds the accident comes sooner after a beginning, if each later action is random."""
+    both = _random_later(beginning, 1)
+    assert all(each.accident.all() for each in both)
+    stays, goes = ((each.rewards != 0).cumsum(axis=1).argmax(axis=1).mean() for each in both)
     return float(stays - goes)
 
 
 def _straight() -> np.ndarray:
     """Which agents from mid-lane drive faster than 20 m/s, on average."""
     return easy(MIDDLE).scores("speed") > 20
+
+
+def slow() -> int:
+    """How many agents from mid-lane drive slower than 8 m/s, on average; they begin at the traps' 10 m/s."""
+    return int((easy(MIDDLE).scores("speed") < 8).sum())
 
 
 def straight_on() -> int:
@@ -177,12 +182,38 @@ def may_crash(gamma: float) -> int:
 
 def farther() -> np.ndarray:
     """Which agents of plain SAC with a larger γ than the paper's escape on the road as it is."""
-    here = easy("as it is")
-    ours = here.scores("success")[[agent["gamma"] > 0.8 for agent in here.agents]]
-    varied = [
-        each.of("sac").scores("success") for what, each in shipped_experiment("sensitivity").items() if "γ" in what
-    ]
-    return np.concatenate([ours, *varied]) >= ESCAPES
+    found = [easy("as it is")]
+    for name in ("sensitivity", "beyond", "beyond-search", "others"):
+        found += [each.of("sac") for each in shipped_experiment(name).values() if "sac" in each.methods]
+    escaping = [agents.scores("success") >= ESCAPES for agents in found]
+    return np.concatenate([e[[one["gamma"] > 0.8 for one in a.agents]] for a, e in zip(found, escaping, strict=True)])
+
+
+@cache
+def times_the_lane(gamma: float) -> float:
+    """How many times the best drive in the lane the best drive is worth, as the lesson finds them."""
+    searched = is_staying_optimal(range(4), gamma=gamma, beam=50)
+    return searched.best.value / searched.keep_lane.value
+
+
+def crashed(kind: str) -> int:
+    """How many of the twenty that do not escape have an accident on most roads."""
+    return int(((easy(kind).scores("accident") > 0.5) & (easy(kind).scores("success") < ESCAPES)).sum())
+
+
+def driven() -> np.ndarray:
+    """How many drives each of the twenty agents ended while it learned."""
+    return np.isfinite(easy("as it is").curves["success"]).sum(axis=1)
+
+
+def once_ahead(kind: str) -> int:
+    """How many of the twenty ended a drive ahead while they learned."""
+    return int(figures.once_ahead(easy(kind)).sum())
+
+
+def once_unhurt() -> int:
+    """How many of the study's plain agents ended a drive ahead and without an accident while they learned."""
+    return int(figures.once_unhurt(of("sac")).sum())
 
 
 def larger_entropy() -> np.ndarray:

@@ -92,13 +92,12 @@ figures.how_they_drive(alone.agents, tests)
 # %% [markdown]
 # **See.** An agent **escapes** if it ends ahead on {{ 100 * ESCAPES | .0f }} % of the roads or
 # more, crashed or not. Of twenty agents trained like these {{ easy('as it is').escapers('sac') }}
-# escapes, and it returns about what doing nothing does. Most others return less: they have not
-# even learned to stay. Of lesson [[the_trap]]'s ten, trained for longer, {{ escaped('sac')
-# }} escapes and {{ stayed() }} stay.
-# <!-- claim: escaped('sac') == easy('as it is').escapers('sac') == 1 and len(of('sac')) == 10 and
-#   len(easy('as it is')) == 20 -->
+# escapes; {{ 100 * the_escaper('accident') | .0f }} % of its drives crash, so it earns no more than
+# doing nothing. Some of the others crash, and some stay but earn less.
+# <!-- claim: easy('as it is').escapers('sac') == 1 and len(easy('as it is')) == 20 -->
 # <!-- claim: abs(the_escaper('returns') - idle().rewards.sum()) < 0.5 -->
-# <!-- claim: below_staying('as it is') > 10 -->
+# <!-- claim: 2 < crashed('as it is') < 10 and
+#   below_staying('as it is') - crashed('as it is') > 2 -->
 #
 # **What keeps most agents in?** We test four explanations.
 #
@@ -119,11 +118,12 @@ figures.how_they_drive(alone.agents, tests)
 # A learner maximises a discounted sum: the reward after t seconds counts $\gamma^t$. Let the
 # planner search for the largest such sum, once with all actions and once in its lane.
 #
-# > **Predict.** At γ = 0.8, does a drive that ends ahead beat the best drive in the lane?
+# > **Predict.** At γ = 0.8, how many times the best drive in its lane is the best drive of all
+# > worth?
 
 # %%
-choices = ["on none of four roads", "on some of them", "on all four"]
-predict("the_barrier.1", "On which roads does the best drive end ahead at γ = 0.8?", choices)
+choices = ["as much: it stays in the lane", "1.1 times", "2 to 3 times", "about 10 times"]
+predict("the_barrier.1", "How many times the best drive in its lane is the best worth?", choices)
 
 # %%
 predicted("the_barrier.1")
@@ -131,14 +131,16 @@ rows = []
 for gamma in (0.8, 0.95):
     s = planner.is_staying_optimal(range(4), gamma=gamma, beam=50)
     values = [f"{each.value:.2f}" for each in (s.idle, s.keep_lane, s.best)]
-    rows.append([gamma, *values, f"{100 * s.leaves.value:.0f} % of roads"])
-headings = ["γ", "doing nothing", "best in lane", "best found", "the best ends ahead on"]
+    times = f"{s.best.value / s.keep_lane.value:.1f} times"
+    rows.append([gamma, *values, times, f"{100 * s.leaves.value:.0f} % of roads"])
+headings = ["γ", "doing nothing", "best in lane", "best found", "that is", "it ends ahead on"]
 table(headings, rows, below="Discounted sums from the start, means of four roads.")
 
 # %% [markdown]
-# **Explain.** To end ahead *quickly* pays at γ = 0.8, too. And a larger γ is not enough: none of {{
-# len(farther()) }} agents that we have trained with one escapes.
-# <!-- claim: len(farther()) > 20 and not farther().any() -->
+# **Explain.** To end ahead *quickly* pays at γ = 0.8, too. And a larger γ is not enough: {{
+# farther().sum() }} of {{ len(farther()) }} agents that we have trained with one escapes.
+# <!-- claim: 2 < times_the_lane(0.8) < 3 -->
+# <!-- claim: len(farther()) > 50 and farther().sum() == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=8
 # The planner's number is a lower bound on the best (a beam of 50 can miss the best drive). So "best
@@ -178,25 +180,39 @@ predict("the_barrier.2", "How many of 5,000 random drives end ahead of trap 1?",
 predicted("the_barrier.2")
 tried = bc.drive_episodes(bc.random_policy(np.random.default_rng(0)), bc.held_out_seeds(6, 5000))
 chance_of = own_code.yours_or_ours("luck", doing="Computing")
-rows = [[good, f"{100 * chance_of(good, easier.LATER, 5000):.2f} %"] for good in range(1, 6)]
+rows = []
+for good in range(1, 6):
+    chances = [chance_of(good, 8, tries) for tries in (400, 5000)]
+    rows.append([good, *(f"{100 * chance:.1f} %" for chance in chances)])
 on_the_road = f"On the road {tried.success.sum()} of 5,000 random drives end ahead of trap 1, "
 on_the_road += f"and {100 * np.mean(tried.accident > 0):.0f} % of all end in an accident."
-headings = ["right actions of 9, at each of 8 decisions", "chance to end ahead in 5,000 drives"]
+headings = ["right actions of 9, at each of 8 decisions", "chance in 400 drives", "in 5,000"]
 table(headings, rows, below=on_the_road)
 
 # %% [markdown]
-# **See.** To end ahead does not take one rare sequence: {{ by_chance().success.sum() }} drives do.
-# But all of them crash, so this test cannot show how rare it is to end ahead *unhurt*.
-# <!-- claim: easier.LATER == 8 and 1 - (1 - (1 / 9) ** 8) ** 5000 < 0.001 -->
+# **See.** {{ by_chance().success.sum() }} of 5,000 is as if 4 to 5 of nine actions were right. An
+# agent of Round 1 drives about {{ round(np.median(driven()), -2) | .0f }} times. Did any end ahead?
+# <!-- claim: easier.LATER == 8 and 4 < 9 * by_chance().success.mean() ** (1 / 8) < 5 -->
+
+# %%
+trained, study = shipped.shipped_experiment("easier"), bc.shipped_results()
+figures.while_they_learned(trained["as it is"], study.of("sac"))
+
+# %% [markdown]
+# **See.** *{{ once_ahead('as it is') }} of twenty ended ahead at least once while they learned*,
+# and {{ easy('as it is').escapers('sac') }} escapes. So most do not lack the luck to end ahead. To
+# end ahead *unhurt* is rarer: {{ once_unhurt() }} of the study's ten did.
+# <!-- claim: len(easy('as it is')) == 20 and len(of('sac')) == 10 and
+#   once_ahead('as it is') > 15 -->
 # <!-- claim: (by_chance().accident > 0).all() and len(by_chance().accident) == 5000 -->
 
 # %% [markdown]
 # ## Round 3: is it the price of attempts?
 #
-# That plan crashes on some roads. **Drag** the number of accidents. How many in a hundred attempts
-# can it afford before staying is worth more? And how many at γ = 0.95?
-# <!-- claim: tested(THE_PLAN).accident.any() and attempts.PLAN[:9] == [5] + 4 * [3] + 3 * [5] + [7]
-#   -->
+# That plan crashes on about every fourth road. **Drag** the number of accidents. How many in a
+# hundred attempts can it afford before staying is worth more? And how many at γ = 0.95?
+# <!-- claim: 0.2 < tested(THE_PLAN).accident.mean() < 0.3 and attempts.PLAN[:9] == [5] + 4 * [3] +
+#   3 * [5] + [7] -->
 
 # %%
 explorable.price()
@@ -235,7 +251,7 @@ bc.show(figures.worth(outcomes, title))
 
 # %% [markdown]
 # **Explain.** A **barrier** is what has to be crossed before anything is gained. In lesson
-# [[values]] it was a rare sequence. Here it is a loss:
+# [[values]] it was a rare sequence. Here a loss is part of it:
 #
 # - *A crash costs 10 and ends the drive.* At γ = 0.8 the plan's unhurt drives are worth {{
 #   unhurt_plan().mean() | .2f }}, more than staying. With those that crash it is {{
@@ -250,7 +266,7 @@ bc.show(figures.worth(outcomes, title))
 # <!-- claim: all(tested(kind).values(0.95).mean() > tested('stays').values(0.95).mean() for kind in
 #   (THE_PLAN, "the rule's way")) -->
 #
-# Better attempts exist, as the planner's drives show. An agent has to find them.
+# Better attempts exist, as the planner's drives show.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Let them write the worth of each attempt by guesses before the figure is drawn; the guess to
@@ -260,8 +276,8 @@ bc.show(figures.worth(outcomes, title))
 # %% [markdown]
 # ## Round 4: do agents escape from an easier trap?
 #
-# Twenty agents learn on each of two easier roads, for as long as in Round 1. That is short: it
-# tests who escapes early.
+# Twenty agents learn on each of two easier roads, for as long as in Round 1. This tests who escapes
+# early.
 #
 # - *Mid-lane*: an episode begins after the plan's {{ easier.LATER }} seconds of steering, in the
 #   middle of the free lane, behind the traps and as fast as they are.
@@ -283,24 +299,24 @@ table(headings, rows, below=f"Mid-lane, {len(few)} roads each.")
 # **See.** One acceleration ends ahead unhurt on each road, and is worth more than staying.
 # <!-- claim: not easier_outcome(MIDDLE, ONCE).accident.any() and
 #   easier_outcome(MIDDLE, ONCE).ahead.all() -->
+# An agent **gains** if it escapes and earns more than staying.
 # <!-- claim: all(worth_of(MIDDLE, ONCE, g) > worth_of(MIDDLE, 'stays', g) for g in (0.8, 0.95)) -->
 #
-# > **Predict.** How many of the twenty agents escape from *mid-lane* and earn more than staying?
+# > **Predict.** How many of the twenty agents gain from *mid-lane*?
 
 # %%
 choices = ["none", "1 to 4", "about 10", "nearly all"]
-predict("the_barrier.4", "How many of the twenty escape from mid-lane and earn more?", choices)
+predict("the_barrier.4", "How many of the twenty agents gain from mid-lane?", choices)
 
 # %%
 predicted("the_barrier.4")
-trained = shipped.shipped_experiment("easier")
 staying = {kind: easier.staying(kind) for kind in easier.SHOWN}
-title = f"After {easier.UPDATES:,} updates few agents escape and earn more than staying"
+title = f"After {easier.UPDATES:,} updates few agents gain"
 bc.show(figures.escapes(trained, staying, title))
 
 # %% [markdown]
 # **Explain.** {{ easy(MIDDLE).escapers('sac') }} of twenty agents escape from mid-lane, but only {{
-# paying(MIDDLE) }} of them earn more than staying. The others accelerate to {{ straight_speed() |
+# paying(MIDDLE) }} of them gain. The others accelerate to {{ straight_speed() |
 # .0f }} m/s, where speed pays next to nothing. Where accidents cost 1, more agents end ahead,
 # but most of these drives crash.
 # <!-- claim: paying(MIDDLE) == 2 and easy(MIDDLE).escapers('sac') == straight_on() + 2 and
@@ -311,32 +327,35 @@ bc.show(figures.escapes(trained, staying, title))
 #   'as it is')]).pvalue < 0.01 and hurt_ahead(CHEAP) > 0.5 -->
 
 # %% [markdown]
-# One acceleration pays if nothing after it goes wrong. But a learner's later actions are partly
-# random. How many accelerations in a row pay in every column?
+# One acceleration pays if nothing goes wrong later. But a share of a learner's later actions is
+# random. How many accelerations in a row are better than doing nothing, whatever the share?
 
 # %%
 GAMMA = 0.8  # yours: 0.95
 many, rows, errors = bc.held_out_seeds(7, 2000), [], []
-for times in range(1, 6):
-    rows.append([times])
+for name, beginning in attempts.BEGINNINGS.items():
+    rows.append([name])
     for share in (0, 0.05, 0.5, 1):
-        both = attempts.stays_and_accelerates(times, share, many, easier.MidLaneStart)
+        both = attempts.stays_or_begins(beginning, share, many, easier.MidLaneStart)
         more = both[1].values(GAMMA) - both[0].values(GAMMA)
         rows[-1].append(f"{more.mean():+.2f}")
         errors.append(more.std() / np.sqrt(len(many)))
-headings = ["accelerations in a row", "0 % of random actions later", "5 %", "50 %", "100 %"]
+headings = ["the drive begins with", "0 % of random actions later", "5 %", "50 %", "100 %"]
 below = f"Mid-lane: what they add to doing nothing at γ = {GAMMA}. Means of 2,000 roads, with "
 table(headings, rows, below=below + f"standard errors of at most {max(errors):.2f}.")
 
 # %% [markdown]
-# **See.** *If each later action is random, four in a row pay, and one to three cost*: the accident
-# comes sooner, and a little speed pays little. An agent begins near the last column. By chance it
-# starts with four in a row once in {{ 9**4 | , }} drives.
+# **See.** Four or more. *If each later action is random, one to three cost*: the accident comes
+# sooner, and a little speed pays little. **Four brakes pay more than four accelerations**: the
+# accident comes later. An agent begins near the last column, and {{ slow() }} of the twenty learned
+# to brake from mid-lane.
 # <!-- claim: second_pays(12.5) - second_pays(10) < 0.1 and
 #   second_pays(15) - second_pays(12.5) > 0.7 -->
 # <!-- claim: all(costs(times, 1, 0.8) for times in (1, 2, 3)) and all(gains(times, share, 0.8) for
 #   times in (4, 5) for share in (0.05, 0.5, 1)) and not gains(3, 0.5, 0.8) -->
-# <!-- claim: sooner() > 1 and of('sac').curves['entropy'][:, 0].min() > 2.18 -->
+# <!-- claim: added('4 brakes', 1, 0.8)[0] - added(4, 1, 0.8)[0] > 0.5 and
+#   sooner('4 brakes') < -3 -->
+# <!-- claim: slow() == 6 and sooner(1) > 1 and of('sac').curves['entropy'][:, 0].min() > 2.18 -->
 
 # %% [markdown]
 # **The verdict**
@@ -344,19 +363,19 @@ table(headings, rows, below=below + f"standard errors of at most {max(errors):.2
 # | what could keep agents in | verdict | evidence |
 # |---|---|---|
 # | at γ = 0.8 staying is best | not on four roads | the best drive found ends ahead on each |
-# | γ is too small | not by itself | none of {{ len(farther()) }} agents with a larger γ escapes |
-# | luck | to end ahead: ruled out; unhurt: open | {{ by_chance().success.sum()
-#   }} of 5,000 random drives end ahead, and crash |
-# | the price of attempts | in part | where accidents cost 1, {{ often_ahead(CHEAP)
-#   }} of twenty agents end ahead on 10 % of the roads or more, in place of {{
-#   often_ahead('as it is') }}; but hardly more escape |
+# | γ is too small | not by itself | {{ farther().sum() }} of {{ len(farther())
+#   }} agents with a larger γ escapes |
+# | luck | to end ahead: no; unhurt: open | {{ once_ahead('as it is')
+#   }} of twenty ended ahead while they learned; unhurt {{ once_unhurt() }} of the study's ten |
+# | the price of attempts | in part | where accidents cost 1, more agents end ahead; {{
+#   easy(CHEAP).escapers('sac') }} escape in place of {{ easy('as it is').escapers('sac') }} |
 # <!-- claim: len(easy(CHEAP)) == len(easy('as it is')) == 20 and DEFAULT.reward.accident == -10 and
 #   easy(CHEAP).escapers('sac') <= easy('as it is').escapers('sac') + 1 -->
 
 # %% [markdown]
 # We have *not* shown what else keeps agents in. Two suspects:
 #
-# - *Luck and price together*: at first four accelerations pay, but each shorter beginning costs.
+# - *Luck and price together*: at first fewer than four accelerations cost, and braking pays.
 # - *The temperature*: SAC lowers it, so that the agent soon acts hardly at random (lesson
 #   [[discrete_sac]]). A larger target entropy helped too few of our agents to tell.
 # <!-- claim: hint() > 0.05 and not often_ahead('a later start') -->
@@ -374,7 +393,6 @@ table(headings, rows, below=below + f"standard errors of at most {max(errors):.2
 # [[soft_constraint]]) and by **demonstrations** (lesson [[demonstrations]]):
 
 # %%
-study = bc.shipped_results()
 curves = {method: study.of(method).curves for method in ("sac", "bootstrapped")}
 of_ten = {m: study.of(m).scores("success") >= bc.statistics.ESCAPES for m in curves}
 won_alone, won_helped = (each.sum() for each in of_ten.values())
@@ -383,8 +401,9 @@ level = {"return": report.rule_results(bc.DEFAULT, 200).scores("returns")[0]}
 bc.show(bc.training_curves(curves, title, constants={"rule": level}))
 
 # %% [markdown]
-# **See.** A thick line is the mean of the middle half, so it hides agents that end low. Lesson
-# [[found_and_kept]] asks why helped agents end ahead less often half-way.
+# **See.** A thick line is the mean of the middle half, so it hides the helped agents that
+# end low, and the one plain agent that escapes. Lesson [[found_and_kept]] asks why helped agents
+# end ahead less often half-way.
 #
 # **Slide.** Train plain SAC for a minute, then *soft constraint only*, and move ξ. After how many
 # episodes do half of the drives end ahead?
@@ -396,7 +415,7 @@ bc.panels.train_panel("sac", seeds=3, episodes=600)
 compare_predictions(
     "the_barrier",
     {
-        1: "on all four",
+        1: "2 to 3 times",
         2: f"{tried.success.sum()}: about 20",
         3: "the plan at γ = 0.95 alone",
         4: f"1 to 4: {figures.paying(trained[easier.MIDDLE], staying[easier.MIDDLE]).sum()}",
@@ -409,14 +428,13 @@ compare_predictions(
 # 1. {{ len(of('sac')) - escaped('sac') }} of the study's {{ len(of('sac')) }} agents of plain SAC
 #    do not escape.
 # 2. It is not the discount alone: at γ = 0.8 the best drive found ends ahead on four roads. With a
-#    larger γ alone none of our agents escapes.
-# 3. Random drives do end ahead, but crash. At γ = 0.8 our four kinds of attempts and the rule's way
-#    are worth less than staying: they crash, or gain late.
+#    larger γ, {{ farther().sum() }} of our {{ len(farther()) }} agents escapes.
+# 3. It is not the luck to end ahead: most agents did while they learned. At γ = 0.8 our four kinds
+#    of attempts and the rule's way are worth less than staying: they crash, or gain late.
 # <!-- claim: all(tested(kind).values(0.8).mean() < tested('stays').values(0.8).mean() for kind in
 #   KINDS_OF_ATTEMPTS) -->
-# 4. On two easier roads, too, few agents escape and earn more than staying in {{ easier.UPDATES | ,
-#    }} updates. The first steps of a way out can cost although all together pay. What else keeps
-#    agents in is open.
+# 4. On two easier roads, too, few agents gain in {{ easier.UPDATES | , }} updates. The first steps
+#    of a way out can cost although all together pay. What else keeps agents in is open.
 # <!-- claim: all(paying(kind) <= 2 and len(easy(kind)) == 20 for kind in ('as it is', MIDDLE,
 #   CHEAP)) -->
 # 5. With the rule as a constraint and as data, most agents of the study escape.
