@@ -75,7 +75,7 @@ def returns(kinds: Kinds, episodes: int = 1000) -> Figure:
     for words in ("demonstrations, c = 2", "demonstrations, c = 0", "no demonstrations"):
         at, each = rolling_means(kinds[words][0][0].curves["return"][:, :episodes], 50)
         named[words] = each.mean(axis=0)
-    title = "With c = 2 the return stays near the rule's for longest, and falls as β runs out"
+    title = "With c = 2 the return passes the rule's late, and falls again near episode 1,000"
     looks = [charts.Style("#D55E00"), charts.Style("#332288", "--"), charts.Style("#56B4E9", ":")]
     rule = {"rule": evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value}
     return charts.lines(at, named, title, "training episode", "mean return of ten agents", marks=rule, looks=looks)

@@ -105,7 +105,7 @@ def found(agents: Sequence[Results]) -> np.ndarray:
     return np.concatenate([found_after(each.curves["success"]) for each in agents])
 
 
-FOUND = ["", "found after (median; all)", "escape", "escape without the soft constraint"]
+FOUND = ["", "found after (median; all)", "escape with KL", "the study's ten without KL", "the others without KL"]
 
 
 def found_and_escaped(agents: Kinds) -> list[list[str]]:
@@ -114,5 +114,6 @@ def found_and_escaped(agents: Kinds) -> list[list[str]]:
     for name, (soft, free) in agents.items():
         after = found(soft)
         words = f"{np.median(after):.0f}; {after.min()} to {after.max()}"
-        rows.append([name, words, escape(soft), escape(free)])
+        alone = [escape([each]) for each in free]
+        rows.append([name, words, escape(soft), *alone, *["–"] * (2 - len(alone))])
     return rows

@@ -6,6 +6,7 @@ import numpy as np
 
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.research.results import Results
+from bootcourse.statistics import ESCAPES, rolling_means
 from tools.course.known import shipped_experiment, shipped_results
 
 
@@ -28,6 +29,33 @@ def in_all(name: str) -> str:
 def found(name: str) -> np.ndarray:
     """The training episodes after which the agents with the soft constraint have found the way out, (agents,)."""
     return measures.found(_with(name)[0])
+
+
+def alone(name: str, which: int) -> str:
+    """How many escape without the soft constraint: of the study's ten agents (0), or of the ten others (1)."""
+    return measures.escape([_with(name)[1][which]])
+
+
+def of_lasting(bonus: int) -> tuple[int, np.ndarray]:
+    """With both aids and a β that never ends: how many agents of the study, and what those that escape earn."""
+    agents = shipped_experiment("ablations")["β for ever" if bonus else "β for ever, c = 0"].of("bootstrapped")
+    return len(agents), _of_escapers(agents)
+
+
+def escapers_earn() -> np.ndarray:
+    """The returns of the study's agents with both aids that escape, (agents that do,)."""
+    return _of_escapers(shipped_results().of("bootstrapped"))
+
+
+def _of_escapers(agents: Results) -> np.ndarray:
+    """The mean return of each of these agents that escapes."""
+    return agents.scores("returns")[agents.scores("success") >= ESCAPES]
+
+
+def passes(earned: float) -> int:
+    """The training episode in which the figure's curve with c = 2 passes this return."""
+    at, each = rolling_means(_with("c = 2")[0][0].curves["return"], 50)
+    return int(at[np.argmax(each.mean(axis=0) > earned)])
 
 
 def training(name: str, curve: str, first: int, last: int) -> np.ndarray:
