@@ -81,6 +81,12 @@ def often_ahead(kind: str) -> int:
     return int((easy(kind).scores("success") >= 0.1).sum())
 
 
+def most_unhurt(kind: str) -> float:
+    """Of each of the twenty agents, the share of roads on which it ends ahead without an accident: the largest."""
+    agents = easy(kind)
+    return float(((agents.episodes("success") > 0) & (agents.episodes("accident") == 0)).mean(axis=1).max())
+
+
 def hurt_ahead(kind: str) -> float:
     """Of the twenty agents' drives that end ahead, the share with an accident."""
     ahead = easy(kind).episodes("success") > 0

@@ -138,7 +138,7 @@ table(headings, rows, below="Discounted sums from the start, means of four roads
 
 # %% [markdown]
 # **Explain.** To end ahead *quickly* pays at γ = 0.8, too. And a larger γ is not enough: {{
-# farther().sum() }} of {{ len(farther()) }} agents that we have trained with one escapes.
+# farther().sum() }} of {{ len(farther()) }} agents with γ from 0.9 to 0.99, of several settings, escapes.
 # <!-- claim: 2 < times_the_lane(0.8) < 3 -->
 # <!-- claim: len(farther()) > 50 and farther().sum() == 1 -->
 
@@ -199,9 +199,11 @@ trained, study = shipped.shipped_experiment("easier"), bc.shipped_results()
 figures.while_they_learned(trained["as it is"], study.of("sac"))
 
 # %% [markdown]
-# **See.** *{{ once_ahead('as it is') }} of twenty ended ahead at least once while they learned*,
-# and {{ easy('as it is').escapers('sac') }} escapes. So most do not lack the luck to end ahead. To
-# end ahead *unhurt* is rarer: {{ once_unhurt() }} of the study's ten did.
+# **See.** *{{ once_ahead('as it is') }} of twenty ended ahead at least once while they learned*, about
+# as many as by chance alone, and {{ easy('as it is').escapers('sac') }} escapes. So most do not lack
+# the luck to end ahead. To end ahead *unhurt* is rarer: {{ once_unhurt() }} of the study's ten did.
+# <!-- claim: abs(20 * (1 - np.exp(-np.median(driven()) * by_chance().success.mean())) -
+#   once_ahead('as it is')) < 3 -->
 # <!-- claim: len(easy('as it is')) == 20 and len(of('sac')) == 10 and
 #   once_ahead('as it is') > 15 -->
 # <!-- claim: (by_chance().accident > 0).all() and len(by_chance().accident) == 5000 -->
@@ -345,17 +347,16 @@ below = f"Mid-lane: what they add to doing nothing at γ = {GAMMA}. Means of 2,0
 table(headings, rows, below=below + f"standard errors of at most {max(errors):.2f}.")
 
 # %% [markdown]
-# **See.** Four or more. *If each later action is random, one to three cost*: the accident comes
-# sooner, and a little speed pays little. **Four brakes pay more than four accelerations**: the
-# accident comes later. An agent begins near the last column, and {{ slow() }} of the twenty learned
-# to brake from mid-lane.
+# **See.** At γ = 0.8, four or five. *If each later action is random, one to three cost*: the accident
+# comes sooner, and a little speed pays little. Four brakes then pay more than four accelerations. An
+# agent begins near the last column.
 # <!-- claim: second_pays(12.5) - second_pays(10) < 0.1 and
 #   second_pays(15) - second_pays(12.5) > 0.7 -->
 # <!-- claim: all(costs(times, 1, 0.8) for times in (1, 2, 3)) and all(gains(times, share, 0.8) for
 #   times in (4, 5) for share in (0.05, 0.5, 1)) and not gains(3, 0.5, 0.8) -->
 # <!-- claim: added('4 brakes', 1, 0.8)[0] - added(4, 1, 0.8)[0] > 0.5 and
 #   sooner('4 brakes') < -3 -->
-# <!-- claim: slow() == 6 and sooner(1) > 1 and of('sac').curves['entropy'][:, 0].min() > 2.18 -->
+# <!-- claim: sooner(1) > 1 and of('sac').curves['entropy'][:, 0].min() > 2.18 -->
 
 # %% [markdown]
 # **The verdict**
@@ -367,8 +368,8 @@ table(headings, rows, below=below + f"standard errors of at most {max(errors):.2
 #   }} agents with a larger γ escapes |
 # | luck | to end ahead: no; unhurt: open | {{ once_ahead('as it is')
 #   }} of twenty ended ahead while they learned; unhurt {{ once_unhurt() }} of the study's ten |
-# | the price of attempts | in part | where accidents cost 1, more agents end ahead; {{
-#   easy(CHEAP).escapers('sac') }} escape in place of {{ easy('as it is').escapers('sac') }} |
+# | the price of attempts | it keeps agents from trying | where accidents cost 1, more agents end
+#   ahead, but none unhurt on more than {{ 100 * most_unhurt(CHEAP) | .0f }} % of the roads |
 # <!-- claim: len(easy(CHEAP)) == len(easy('as it is')) == 20 and DEFAULT.reward.accident == -10 and
 #   easy(CHEAP).escapers('sac') <= easy('as it is').escapers('sac') + 1 -->
 
