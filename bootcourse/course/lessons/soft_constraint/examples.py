@@ -10,7 +10,7 @@ from bootcourse.learn.bootstrap import kl_to_rule
 from bootcourse.research.results import Results
 
 TWO_ACTIONS = ["all Q equal, α = ξ", "the rule's action", "any other"]
-HEADINGS = ["", "find the way", "escape", "return"]
+HEADINGS = ["", "find the way", "escape", "return", "mean of all"]
 BELOW = " agents in each row. The return: the median of those that escape (lowest to highest), on 1,000 roads."
 
 
@@ -35,5 +35,6 @@ def outcomes(kinds: Mapping[str, Sequence[Results]]) -> list[list[str]]:
         found, kept = np.concatenate([each.found_and_kept("soft") for each in studies], axis=1)
         returns = np.concatenate([each.scores("returns") for each in studies])
         low, half, high = np.percentile(returns[kept], [0, 50, 100])
-        rows.append([kind, str(found.sum()), str(kept.sum()), f"{half:.0f} ({low:.0f} to {high:.0f})"])
+        each = f"{half:.0f} ({low:.0f} to {high:.0f})"
+        rows.append([kind, str(found.sum()), str(kept.sum()), each, f"{returns.mean():.0f}"])
     return rows

@@ -3,6 +3,8 @@
 import math
 from collections.abc import Callable
 
+import numpy as np
+
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.panels.compromise import Ways
@@ -25,6 +27,11 @@ def sooner_without() -> bool:
     """Does each agent without the KL in the target find the way before any agent with it?"""
     first, then = (found_after(agents.curves["success"]) for agents in (actor_only(), of("soft")))
     return bool(0 < first.min() and first.max() < then.min())
+
+
+def median_found(agents: Results) -> float:
+    """After how many episodes the median agent has found the way."""
+    return float(np.median(found_after(agents.curves["success"])))
 
 
 def found(agents: Results) -> int:
