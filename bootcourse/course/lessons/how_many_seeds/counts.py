@@ -13,7 +13,7 @@ from bootcourse.statistics import ESCAPES, bracketed, difference, interval, iqm,
 
 BESIDE_THE_PAPER = ["", "agents that escape (95 %)", f"the paper's success, {EPISODES} drives",
                     "if one agent drove them all"]  # fmt: skip
-MEANS = ["mean of the return", "3 seeds", "10 seeds", "ten others"]
+MEANS = ["mean of the return", "3 seeds", "10 seeds", "ten others (not only seeds)"]
 ABLATION = ["success, %", "IQM", "the agents, sorted"]
 
 

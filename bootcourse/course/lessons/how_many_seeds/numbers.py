@@ -1,5 +1,9 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from collections import Counter
+from itertools import combinations_with_replacement
+from math import factorial, prod
+
 import numpy as np
 
 from bootcourse.statistics import interval, power, rate
@@ -30,3 +34,13 @@ def half_interval(method: str) -> float:
 def apart(method: str) -> float:
     """By how much the mean return of the ten others differs from that of the study's ten."""
     return abs(float(others(method).scores("returns").mean() - of(method).scores("returns").mean()))
+
+
+def held(method: str, seeds: int) -> float:
+    """How often the interval of so many agents would hold the mean of ours, if ours were all the agents there are."""
+    returns, share = of(method).scores("returns"), 0.0
+    for drawn in combinations_with_replacement(range(len(returns)), seeds):
+        orders = factorial(seeds) / prod(map(factorial, Counter(drawn).values()))
+        _, low, high = interval(returns[list(drawn)], np.mean)
+        share += orders / len(returns) ** seeds * (low <= returns.mean() <= high)
+    return share

@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course import shipped as course
+from bootcourse.course.lessons.looking_ahead.figures import safer_with_shield as safer_with_shield
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.lookahead import NINE, imagine
 from bootcourse.episodes.models import MODELS
@@ -89,6 +90,11 @@ def five_accidents() -> list[int]:
 def outs(base: str, form: str = "rollouts") -> np.ndarray:
     """The share of drives that end ahead of trap 1, of each agent of a base policy."""
     return shipped()[Cell(base, form).name].measured["success"]
+
+
+def earned(base: str, form: str = "rollouts") -> np.ndarray:
+    """The mean return of each agent of a base policy."""
+    return shipped()[Cell(base, form).name].measured["returns"]
 
 
 @cache
