@@ -447,7 +447,7 @@ def discount(study: StudyResults) -> Claim:
             OTHER_ROADS: (other[0] < other[1] and far[0] > far[1], f"{other[0]:.2f} against {other[1]:.2f}"),
             HALF: (half[0] < half[1], f"{half[0]:.2f} against {half[1]:.2f}"),
         },
-        also=["Quicker ways out are worth more than staying at γ = 0.8, too."],
+        also=["Quicker ways out without an accident are worth more than staying at γ = 0.8, too."],
     )  # fmt: skip
 
 

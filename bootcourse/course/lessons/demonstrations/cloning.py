@@ -71,47 +71,50 @@ def compared(agents: Sequence[Agent], rows: Tensor) -> np.ndarray:
     return np.column_stack([agreement, [own_agreement(agent) for agent in agents], accidents, returns])
 
 
-class RuleFirst:
-    """A policy: the rule decides in so many first seconds, then the clone."""
+class RuleBetween:
+    """A policy: the rule decides from one second to another, the clone before and after."""
 
-    def __init__(self, agent: Agent, seconds: int):
-        self.rule, self.clone, self.seconds, self.decided = rule_policy(DEFAULT), agent.as_policy(), seconds, 0
+    def __init__(self, agent: Agent, first: int, last: int):
+        self.rule, self.clone, self.decided = rule_policy(DEFAULT), agent.as_policy(), 0
+        self.first, self.last = first, last
 
     def reset(self, roads: int) -> None:
         """Begin anew."""
         self.decided = 0
 
     def __call__(self, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-        driver = self.rule if self.decided < self.seconds else self.clone
+        driver = self.rule if self.first <= self.decided < self.last else self.clone
         self.decided += 1
         return PolicyOutput(driver(observations, cars).actions)
 
 
-def after_the_rule(agents: Sequence[Agent], seconds: int) -> tuple[float, float, float]:
-    """The clones drive 20 roads each, the rule the first seconds: how often they differ from it from 20 to 40 s, the
-    share of accidents, and the return.
-    """
-    drives = [drive for agent in agents for drive in record(RuleFirst(agent, seconds), range(20))]
-    differ = np.concatenate([each.actions[20:40] != each.rule_actions[20:40] for each in drives])
-    returns = [each.rewards.sum() for each in drives]
-    return float(differ.mean()), float(np.mean([each.accident > 0 for each in drives])), float(np.mean(returns))
+def with_the_rule(agents: Sequence[Agent], first: int, last: int) -> list[Rollout]:
+    """All the clones' drives on 20 roads, in which the rule decides from one second to another."""
+    return [each for agent in agents for each in record(RuleBetween(agent, first, last), range(20))]
 
 
-def unhurt(agents: Sequence[Agent]) -> list[Rollout]:
-    """All the clones' own drives on 60 roads, without those that end in an accident."""
-    return [each for agent in agents for each in record(agent.as_policy(), range(60)) if not each.accident]
+def alone(agents: Sequence[Agent]) -> list[Rollout]:
+    """All the clones' own drives on 60 roads."""
+    return [each for agent in agents for each in record(agent.as_policy(), range(60))]
+
+
+def unlike_the_rule(drives: Sequence[Rollout]) -> np.ndarray:
+    """Where the driver differed from the rule: (drives, decisions of the longest), 1 or 0, NaN after a drive's end."""
+    longest = max(len(each.actions) for each in drives)
+    wrong = [(each.actions != each.rule_actions).astype(float) for each in drives]
+    return np.array([np.pad(each, (0, longest - len(each)), constant_values=np.nan) for each in wrong])
 
 
 def slow_seconds(drives: Sequence[Rollout]) -> float:
-    """How many seconds of a drive the car is in the free lane at 9 m/s or less, on average; drives of one length."""
-    cars = np.array([each.states[: -1 : each.scenario.clock.steps, EGO] for each in drives])
-    return float(((cars[:, :, LANE] == 0) & (cars[:, :, SPEED] < 9.5)).sum(1).mean())
+    """How many seconds of a drive the car is in the free lane at 9 m/s or less, on average, up to the drive's end."""
+    cars = [each.states[:: each.scenario.clock.steps][: len(each.actions), EGO] for each in drives]
+    return float(np.mean([((car[:, LANE] == 0) & (car[:, SPEED] < 9.5)).sum() for car in cars]))
 
 
 def slowness(of_rule: Sequence[Rollout], of_clones: Sequence[Rollout]) -> str:
     """How long both are slow in the free lane, and how often the clones keep a speed that the rule would raise."""
-    did, wanted = (np.array([getattr(each, name) for each in of_clones]) for name in ("actions", "rule_actions"))
-    kept = ((wanted // 3 == 2) & (did // 3 == 1))[:, 10:40].mean()
+    pairs = [(each.actions[10:40] // 3, each.rule_actions[10:40] // 3) for each in of_clones]
+    kept = np.concatenate([(wanted == 2) & (did == 1) for did, wanted in pairs]).mean()
     seconds = f"the rule {slow_seconds(of_rule):.0f} s of a drive, the clones {slow_seconds(of_clones):.0f} s"
     return (
         f"In the free lane at 9 m/s or less: {seconds}.\n"

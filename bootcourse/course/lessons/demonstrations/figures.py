@@ -13,7 +13,7 @@ from bootcourse.methods import style
 from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.figure import INK, TEXT, finish, new_figure, plain_axes
 from bootcourse.plots.road import draw_road, edges_of
-from bootcourse.road.state import EGO, TRAP_1, X, Y
+from bootcourse.road.state import EGO, TRAP_1, Accident, X, Y
 
 UNSURE = "#6CC3A0"  # the stochastic rule: the rule's green, lighter
 
@@ -86,12 +86,30 @@ def clones(measured: dict[str, np.ndarray]) -> Figure:
 def differing(agents: Sequence[Agent], of_rule: Sequence[Rollout], own: Sequence[Rollout]) -> Figure:
     """In which seconds the clones differ from the rule: in their own drives, and in the states of the rule's."""
     theirs = np.mean([cloning.unlike(agent, of_rule) for agent in agents], axis=(0, 1))
-    mine = np.mean([each.actions != each.rule_actions for each in own], axis=0)
-    there, here = (f"{100 * each[10:40].mean():.0f} %" for each in (theirs, mine))
+    unlike = cloning.unlike_the_rule(own)
+    mine, here = np.nanmean(unlike, axis=0), f"{100 * np.nanmean(unlike[:, 10:40]):.0f} %"
+    there = f"{100 * theirs[10:40].mean():.0f} %"
     title = f"From 10 to 40 s the clones differ in {here} of their own states, in {there} of the rule's"
     named = {"in their own states": 100 * mine, "in the rule's states": 100 * theirs}
     looks = [charts.Style(style(method).colour) for method in ("bc", "rule")]
     return charts.lines(np.arange(len(mine)), named, title, "time (s)", "differ (%)", looks=looks)
+
+
+def of_tests(tests: dict[str, Sequence[Rollout]]) -> tuple[list[str], list[list[str]], str]:
+    """A table's columns, rows and last line: what the rule drives -> the clones' drives."""
+    columns = ["the rule drives", "the clones differ, 40 to 60 s", "slow in the free lane"]
+    columns += ["an accident by 15 s", "later", "return"]
+    rows = []
+    for name, drives in tests.items():
+        differ = np.nanmean(cloning.unlike_the_rule(drives)[:, 40:60])
+        ended = np.array([len(each.actions) if each.accident else np.inf for each in drives])
+        early, later = (ended <= 15).mean(), ((ended > 15) & (ended < np.inf)).mean()
+        shares = [f"{100 * each:.0f} %" for each in (early, later)]
+        back = np.mean([each.rewards.sum() for each in drives])
+        rows.append([name, f"{100 * differ:.0f} %", f"{cloning.slow_seconds(drives):.0f} s", *shares, f"{back:.0f}"])
+    ends = [each.accident for drives in tests.values() for each in drives if each.accident]
+    left = sum(each == Accident.ROAD_DEPARTURE for each in ends)
+    return columns, rows, f"Twelve clones, 20 roads each. In {left} of the {len(ends)} accidents they leave the road."
 
 
 def of_trainings(trainings: Sequence[np.ndarray], of_rule: np.ndarray) -> tuple[list[str], list[list[str]], str]:

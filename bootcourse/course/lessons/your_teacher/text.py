@@ -282,7 +282,8 @@ table(asking.HEADINGS, asking.compared(mine_taught, mine, taught_agents.ROADS))
 # constraint alone takes labels.
 #
 # Four teachers: the rule; **a quarter random** and **half random**, the rule with so many of its
-# decisions drawn at random (the draw depends on the state alone); **mirrored**, the rule with left and right exchanged, which stays in
+# decisions drawn at random (the draw depends on the state alone);
+# **mirrored**, the rule with left and right exchanged, which stays in
 # the right lane, behind trap 1.
 # <!-- claim: all((drive.states[:, EGO, LANE] == DEFAULT.road.lanes - 1).all() and not drive.success
 #   for drive in demonstrated('mirrored')) -->
