@@ -275,8 +275,13 @@ def test_a_training_grows_on_the_page_and_stops(notebook):
     waits_for(notebook, 0, "<circle")
     notebook.page.wait_for_timeout(700)
     assert abs(train.bounding_box()["y"] - height) < 5, "the sliders stay where they are"
-    curves = shown.get_by_role("img", name="Training curves").first.bounding_box()
-    assert road.bounding_box()["x"] >= curves["x"] + curves["width"], "the road stands beside the curves"
+    curves = shown.get_by_role("img", name="Training curves").first  # it is drawn anew all the time
+
+    def is_beside() -> bool:
+        drawn = curves.bounding_box()
+        return drawn is not None and road.bounding_box()["x"] >= drawn["x"] + drawn["width"]
+
+    assert until(is_beside), "the road stands beside the curves"
     notebook.page.wait_for_function("document.activeElement.getAttribute('aria-label') === 'Stop'")
     waits_for(notebook, 0, "episodes in")
     assert until(lambda: shown.locator("#clock").inner_text() not in ("", "0 of 150 s")), "the present agent drives"

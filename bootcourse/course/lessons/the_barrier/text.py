@@ -368,8 +368,8 @@ table(headings, rows, below=below + f"standard errors of at most {max(errors):.2
 #   }} agents with a larger γ escapes |
 # | luck | to end ahead: no; unhurt: open | {{ once_ahead('as it is')
 #   }} of twenty ended ahead while they learned; unhurt {{ once_unhurt() }} of the study's ten |
-# | the price of attempts | it keeps agents from trying | where accidents cost 1, more agents end
-#   ahead, but none unhurt on more than {{ 100 * most_unhurt(CHEAP) | .0f }} % of the roads |
+# | the price of attempts | keeps agents from trying | at a price of 1 more end ahead, unhurt at most on {{
+#   100 * most_unhurt(CHEAP) | .0f }} % of the roads |
 # <!-- claim: len(easy(CHEAP)) == len(easy('as it is')) == 20 and DEFAULT.reward.accident == -10 and
 #   easy(CHEAP).escapers('sac') <= easy('as it is').escapers('sac') + 1 -->
 
