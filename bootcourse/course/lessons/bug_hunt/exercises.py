@@ -83,18 +83,19 @@ def explain_hunt(cases, answers):
         "The last two drive like the healthy agent.",
         "What each bug shows: without an end, Q is wrong by many points where episodes end; with a drawn value Q does "
         "not reach the actor, so it stays undecided and fails when it draws; without the stop-gradient the promise "
-        "grows far beyond any return; a bonus for all adds about c / (1 - γ) to it. With shifted labels an agent early "
-        "agrees with the rule one second later nearly as often as now; a flipped KL keeps its rarest action likelier.",
+        "is for a time far beyond any return; a bonus for all adds about c / (1 - γ) to it. With shifted labels an "
+        "agent early agrees with the rule one second later nearly as often as now; a flipped KL keeps its rarest "
+        "action far likelier.",
     ),
     mistakes={
         "return {**bugs, 'A': bugs['C'], 'C': bugs['A']}[agent]":
             "You swapped the two agents whose bug concerns the rule. One starts slowly, between what the "
-            "rule does now and what it does one second later; the other keeps its rarest action likely.",
+            "rule does now and what it does one second later; the other keeps its rarest action far likelier.",
         "return {**bugs, 'D': bugs['E'], 'E': bugs['D']}[agent]":
             "You swapped two agents whose critics are wrong: one critic is wrong everywhere by about the "
             "same amount, the other only where episodes end.",
         "return {**bugs, 'B': bugs['F'], 'F': bugs['B']}[agent]":
-            "You swapped the two that drive worst: one promises more than any possible return; the other "
+            "You swapped the two that drive worst: for a time one promises more than any possible return; the other "
             "has a modest promise, and fails when its actions are drawn.",
     },
 )  # fmt: skip
