@@ -13,7 +13,7 @@ from bootcourse.learn.protocol import adam
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.textbook import minimise
 from bootcourse.methods import display_name
-from bootcourse.policies import Policy, idle_policy
+from bootcourse.policies import Policy, idle_policy, rule_policy
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 
 DRIVERS = (("bc", 0), ("cql", 0), ("cql_sac", 0), ("gail", 0), ("sac", 0), ("bootstrapped", 0), ("bootstrapped", 1))
@@ -91,3 +91,8 @@ def fits(policies: Collection[Policy], data: Batch, times: int, gamma: float = 0
 def worth(policy: Policy, roads, gamma: float) -> float:
     """What it earns from the start, discounted, on roads that it drives: the mean."""
     return float(np.mean([gamma ** np.arange(len(drive.rewards)) @ drive.rewards for drive in record(policy, roads)]))
+
+
+def rule_worth(roads=range(100), gamma: float = 0.8) -> float:
+    """What the rule itself is worth on these roads: the guess that looks at no driver."""
+    return worth(rule_policy(DEFAULT), roads, gamma)

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from bootcourse.colours import INK, OTHER, QUIET, Style
 from bootcourse.course import charts
+from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.shipped import beginning, shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
@@ -65,10 +66,10 @@ def judged(losses: Sequence[dict[str, torch.Tensor]]) -> Figure:
     known = [each["discriminator_loss"] for each in losses if each]
     loss = torch.stack(known[: len(known) // 50 * 50]).T.numpy()  # (agents, updates)
     smooth = loss.reshape(len(loss), -1, 50).mean(-1)
-    later = "; then it becomes harder to tell" if (smooth[:, -1] > smooth.min(1)).all() else ""
+    later = "; later this is harder" if (smooth[:, -1] > smooth.min(1)).all() else ""
     named = {f"gail, seed {seed}": each for seed, each in enumerate(smooth)}
     updates, marks = np.arange(smooth.shape[1]) * 50, {"guessing: D = ½": GUESSING}
-    title = f"The agent is soon told from the rule{later}"
+    title = f"The judge soon tells agent from rule{later}"
     return charts.lines(updates, named, title, "update", "discriminator's loss", marks=marks)
 
 
@@ -104,17 +105,17 @@ def beliefs(found: Sequence[tuple[np.ndarray, np.ndarray]], every: int) -> Figur
     half, by_rule = len(of_rule) // 2, way_out()[2]
     title = "What critics believe on the way out, with CQL's term and without"
     if rival[half:, -1].min() > 2 * by_rule and rival[:half, -1].max() < by_rule:
-        title = "Without CQL's term an untried action seems worth far more than the rule earns"
+        title = "Without CQL's term an untried action seems worth far more than the rule's drive"
     named = {"with: the rule's": of_rule[:half], "with: best untried": rival[:half]}
     named |= {"without: the rule's": of_rule[half:], "without: best untried": rival[half:]}
     looks = [Style(colour, line) for colour in (style("cql").colour, OTHER.colour) for line in ("-", "--")]
-    updates, marks = np.arange(len(found)) * every, {f"the rule earns {by_rule:.1f}": by_rule}
+    updates, marks = np.arange(len(found)) * every, {f"the rule's drive: {by_rule:.1f}": by_rule}
     label = "mean Q(s,a) of the rule's action and of the best untried one"
     return charts.lines(updates, named, title, "update", label, marks=marks, looks=looks)
 
 
 def promises(learner: SACLearner) -> tuple[list[str], list[list[str]]]:
-    """A table's columns and rows: how the agents drive 100 roads, what Q they promise there and what they earn."""
+    """A table's columns and rows: how the agents drive 100 roads, what Q they promise and what that is worth."""
     rows = []
     for i, settings in enumerate(learner.settings):
         drives = record(learner.agent(i).as_policy(with_q=True), range(100))
@@ -124,12 +125,12 @@ def promises(learner: SACLearner) -> tuple[list[str], list[list[str]]]:
         paid = np.mean([earned(drive, settings.gamma) for drive in drives])
         name = f"{FORMS[2 * i // learner.agents]}, seed {settings.seed}"
         rows.append([name, f"{success:.0f} %", f"{accidents:.0f} %", f"{np.mean(q):.1f}", f"{paid:.1f}"])
-    return ["100 roads", "success", "accidents", "promises: Q, first 20 s", "then earns, discounted"], rows
+    return ["100 roads", "success", "accidents", "promises: Q, first 20 s", "is then worth"], rows
 
 
 def estimates(names: Sequence[str], alike: Sequence[float], fits: np.ndarray, truth: Sequence[float]) -> Figure:
     """What drivers are worth: a digit for each fit, (fits, drivers), with a ring if it is the largest of its fit, and
-    a bar for the truth. alike: how often each acts as the data do.
+    a bar for the truth. alike: how often each acts as the data do. A line: what the rule itself is worth.
     """
     miss, same = np.abs(fits - truth).max(0), np.array(alike) > 0.8
     title = "What seven drivers are worth: three estimates, and the truth"
@@ -139,6 +140,8 @@ def estimates(names: Sequence[str], alike: Sequence[float], fits: np.ndarray, tr
     figure = new_figure(1.45 + 0.48 * len(names))
     height = figure.get_figheight()
     ax = figure.add_axes((0.24, 0.5 / height, 0.73, 1 - 1.45 / height))
+    by_rule = choosing.rule_worth()
+    ax.axvline(by_rule, color=style("rule").colour, linewidth=1.5, zorder=1)
     for row in range(len(names)):
         ax.plot([truth[row]] * 2, [row - 0.36, row + 0.36], color=INK, linewidth=3, zorder=2)
         for fit, values in enumerate(fits):
@@ -152,10 +155,10 @@ def estimates(names: Sequence[str], alike: Sequence[float], fits: np.ndarray, tr
     ax.set_ylim(len(names) - 0.5, -0.5)
     ax.set_xlim(min(fits.min(), *truth) - 0.08, max(fits.max(), *truth) + 0.08)
     ax.set_xlabel("worth from the start (γ = 0.8)", fontsize=TEXT, color=INK)
-    key = "bar: the truth on the road · 1, 2, 3: the fits · ring: the largest of a fit"
+    key = "bar: the truth on the road · 1, 2, 3: the fits · ring: the largest of a fit · green: the rule"
     ax.text(0, 1.03, key, transform=ax.transAxes, fontsize=TEXT, color=QUIET)
     rows = (
         f"{name}, acts as the data do in {share}: {', '.join(f'{each:.2f}' for each in guesses)}; truth {true:.2f}"
         for name, share, guesses, true in zip(names, shares, fits.T, truth, strict=True)
     )
-    return finish(figure, title, f"Estimates of three fits. {'. '.join(rows)}.")
+    return finish(figure, title, f"Estimates of three fits. {'. '.join(rows)}. The rule is worth {by_rule:.2f}.")
