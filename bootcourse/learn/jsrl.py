@@ -26,7 +26,7 @@ from bootcourse.scenario import N_ACTIONS
 class JSRLSettings(Settings):
     """The settings of jump-start RL."""
 
-    guide_decisions: int = shared(60, low=0)  # § h at first: the rule is ahead of trap 1 after a median of 58 s
+    guide_decisions: int = shared(60, low=0)  # § h at first: the rule is ahead of trap 1 after a median of 54 s
     stages: int = shared(10, low=1)  # § in how many equal steps h shrinks to 0
     window: int = shared(20, low=1)  # § episodes in the moving average of returns
     tolerance: float = shared(0.05, low=0)  # § β: how far this average may lie below the best, as a share of it

@@ -30,7 +30,7 @@ START, TRAINED, END = 210, 560, 690  # pixels: the training begins and ends, and
 ROW, TOP, THICK = 52, 62, 18
 TAKES = {  # learner: (what it takes, from, until, whether it fades)
     "ppo_cloned": ("a first policy", START - 34, START, False),
-    "bootstrapped": ("a KL, and demonstrations with a bonus", START, TRAINED - 110, True),
+    "bootstrapped": ("a KL, and demonstrations with a bonus", START, TRAINED, True),
     "jsrl": ("the first seconds of each episode", START, TRAINED - 60, True),
     "rlpd": ("half of each batch", START, TRAINED, False),
     "ibrl": ("demonstrations at first, and a second action", START, END, False),

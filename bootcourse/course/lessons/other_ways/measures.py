@@ -30,6 +30,7 @@ def from_drives_alone(training: Training, network: Callable, updates: Iterable[i
     way = torch.tensor(np.concatenate([drive.observations[:20] for drive in by_rule]), dtype=torch.float32)[None]
     did = torch.tensor(np.concatenate([drive.actions[:20] for drive in by_rule]))[None, :, None]
     learner, asked, found = training.learner, set(updates), []
+    # A classmethod reads the network from the class: a class of its own changes this learner only.
     learner.__class__ = type("WithThisNetwork", (type(learner),), {"critic_network": staticmethod(network)})
     generators = [np.random.default_rng(learner.settings[0].seed)]
     for update in range(max(asked) + 1):
@@ -43,10 +44,11 @@ def from_drives_alone(training: Training, network: Callable, updates: Iterable[i
 
 
 def driven(agents: Mapping[str, Agent]) -> list[list[str]]:
-    """A row for each agent, on the same roads: see `HEADINGS`."""
+    """A row for each agent, and for the rule, on the same roads: see `HEADINGS`."""
+    policies = {words: agent.as_policy() for words, agent in agents.items()} | {"the rule": rule_policy(DEFAULT)}
     rows = []
-    for words, agent in agents.items():
-        drives = record(agent.as_policy(), held_out_seeds(16, 24), label=words)
+    for words, policy in policies.items():
+        drives = record(policy, held_out_seeds(16, 24), label=words)
         same = np.concatenate([drive.actions == drive.rule_actions for drive in drives])
         shares = same.mean(), np.mean([drive.accident > 0 for drive in drives])
         earns = np.mean([drive.rewards.sum() for drive in drives])

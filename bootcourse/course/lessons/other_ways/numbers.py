@@ -9,11 +9,17 @@ from bootcourse.course.lessons.other_ways import figures
 from bootcourse.course.lessons.other_ways.figures import after_seconds  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
+from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.episodes.record import record
+from bootcourse.episodes.words import overtaken
 from bootcourse.learn.settings import settings_for
+from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
+from bootcourse.research.beyond import WINDOW  # noqa: F401 (for the expressions)
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
-from bootcourse.statistics import Estimate, holm, interval
+from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import ESCAPES, Estimate, holm, interval
 from tools.course.known import shipped_experiment
 
 FIRST, SECOND, _ = BUDGETS
@@ -34,6 +40,23 @@ def later(method: str) -> Results:
 def at(method: str, measure: str, budget: int = FIRST) -> np.ndarray:
     """Each agent's mean return, success or accidents after so many decisions, or its seconds until then: (agents,)."""
     return equal_decisions.at(later(method), measure, budget)
+
+
+def accidents_in(method: str) -> float:
+    """How many of the drives of these agents end in an accident after the first budget, in %."""
+    return 100 * float(at(method, "accident").mean())
+
+
+def escape(method: str) -> int:
+    """How many agents escape after the first budget."""
+    return int((at(method, "success") >= ESCAPES).sum())
+
+
+@cache
+def rule_ahead_by(seconds: float) -> float:
+    """On what share of 200 held-out roads the rule is ahead of trap 1 by then, and stays ahead."""
+    times = [overtaken(drive) for drive in record(rule_policy(DEFAULT), held_out_seeds(1, 200), label="rule")]
+    return float(np.mean([time is not None and time <= seconds for time in times]))
 
 
 def score_at(method: str, budget: int = FIRST) -> Estimate:
