@@ -41,9 +41,9 @@ progress("the_second_trap")
 # %% [markdown]
 # ## Look first
 #
-# The road is a fast program, and the paper's learner makes little use of that. PPO, *proximal
-# policy optimisation*, drives hundreds of roads at once. Here is one of ten agents trained with it,
-# without a rule or demonstrations. Press play.
+# The road is a fast program. In this course SAC drives {{ settings_for('sac').envs_per_agent }}
+# roads at once; PPO, *proximal policy optimisation*, drives hundreds. Here is one of ten agents
+# trained with it, without a rule or demonstrations. Press play.
 # <!-- claim: ppo_agents() == 10 and settings_for('ppo').envs_per_agent >= 200 -->
 
 # %% tags=["nbval-ignore-output"]
@@ -59,8 +59,8 @@ bc.recording([drive], height=360)
 table(ppo_kinds.HEADINGS, ppo_kinds.compared({"PPO alone": "alone"}))
 
 # %% [markdown]
-# None of the agents gets out, and the rule does. Yet on average they earn about as much as the rule,
-# and twice what keeping straight earns. We call this the **second trap**.
+# None of the agents gets out, and the rule does. Yet on average they earn about what the rule
+# earns, and twice what keeping straight (the *first trap*) earns. This is the **second trap**.
 # <!-- claim: (ppo('alone')['success'] == 0).all() -->
 # <!-- claim: ppo('alone')['returns'].mean() > 1.8 * idle().rewards.sum() and
 #   abs(ppo('alone')['returns'].mean() / of('rule').scores('returns')[0] - 1) < 0.25 -->
@@ -78,7 +78,7 @@ title = "PPO alone sprints and falls back, again and again, and does not pass tr
 bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
 
 # %% [markdown]
-# The agent brakes and falls back, sprints until it is near trap 1 again, and brakes.
+# The agent brakes and falls back, sprints, and brakes again.
 # <!-- claim: ppo_gap().min() < -40 and ppo_speeds().max() > 13.5 and ppo_speeds()[40:].min() < 7
 #   -->
 #
@@ -87,8 +87,11 @@ bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
 # <!-- claim: ppo_drive().states[-1, EGO, X] < ppo_drive().states[-1, TRAP_1, X] and
 #   ppo_speeds().mean() < DEFAULT.traps.speed + 20 / DEFAULT.clock.decisions -->
 #
-# > **Predict.** Somebody drives 5 m/s half of the time and 15 m/s the other half. How much speed
-# > reward r_v does that earn, compared with a steady 10 m/s?
+# > **Predict.** The speed reward r_v is 0 up to 5 m/s, {{ speed_reward(12.5) | .1f }} at 12.5 and 1
+# > at 15, with straight lines between. Somebody drives 5 m/s half of the time and 15 m/s the other
+# > half. How much r_v does that earn, compared with a steady 10 m/s?
+# <!-- claim: all(abs(speed_reward(v) - np.interp(v, [5, 12.5, 15], [0, 0.2, 1])) < 1e-9 for v in
+#   np.linspace(0, 15, 601)) -->
 
 # %%
 choices = ["about half", "the same", "about twice as much", "almost four times as much"]
@@ -114,10 +117,11 @@ print(f"mean speed {speeds.mean():.1f} m/s; if it were steady, it would pay {ste
 print(f"this drive's speed pays {steady + gap:.2f} a second: Jensen's gap is {gap:.2f}")
 
 # %% [markdown]
-# **Explain.** With the same mean speed, the sprints pay about three times what a steady drive pays.
-# How does PPO learn such a drive? Build it.
+# **Explain.** The sprints pay about three times what a steady {{ ppo_speeds().mean() | .1f }} m/s
+# pays, and over twice what the idle driver's 10 m/s pays. How does PPO learn this?
 # <!-- claim: 2.7 < np.mean([speed_reward(v) for v in ppo_speeds()]) /
 #   speed_reward(ppo_speeds().mean()) < 3.4 -->
+# <!-- claim: np.mean([speed_reward(v) for v in ppo_speeds()]) > 2.2 * speed_reward(10) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask for everyday payments that are convex: bonuses above a threshold, overtime at a higher rate.
@@ -133,9 +137,9 @@ print(f"this drive's speed pays {steady + gap:.2f} a second: Jensen's gap is {ga
 #
 # $$ \nabla_\theta\, \mathrm{E}[R] = \mathrm{E}\big[\nabla_\theta \log \pi(a)\; R\big] $$
 #
-# So a mean over *drawn* actions is enough. PPO replaces R by the **advantage** A of the decision:
-# how much more came than was expected. It expects V(s), which it learns. The surprise of one second
-# is the temporal difference
+# since ∇π = π ∇log π: a mean over *drawn* actions. Subtracting what was expected keeps this mean.
+# PPO takes this **advantage** A: how much more came than was expected. It expects V(s), which it
+# learns. The surprise of one second is the temporal difference
 #
 # $$ \delta_t = r_t + \gamma V(s_{t+1}) - V(s_t) $$
 #
@@ -157,7 +161,7 @@ print(f"this drive's speed pays {steady + gap:.2f} a second: Jensen's gap is {ga
 def advantages(rewards, values, next_values, terminated, ended, gamma, lam):
     """A_t of each decision: all arguments but the last two and the answer are (horizon, roads).
 
-    values: V(s_t); next_values: V(s_{t+1}), of the old episode's last state where it ended.
+    values: V(s_t); next_values: V(s_{t+1}); where an episode ended, of its last state.
     terminated: 1 after an accident; ended: 1 after an accident or when the time is over. For
     example rewards 1, 2, 4 of one road give 1.75, 3, 4 with V = 0 everywhere and γ = λ = ½.
     """
@@ -173,13 +177,15 @@ def advantages(rewards, values, next_values, terminated, ended, gamma, lam):
 check.advantages(advantages)
 
 # %% [markdown]
-# **How far may a step go?** PPO drives its roads for {{ settings_for('ppo').horizon }} seconds and
-# takes several passes over these decisions of the old policy. The **ratio** $\rho = \pi(a|s) /
-# \pi_\text{old}(a|s)$ says how much likelier an action has become since it was taken. A good action
-# (A > 0) counts until it is ε = {{ settings_for('ppo').clip }} likelier, a bad one until it is ε
-# rarer:
+# **When does a decision stop pushing?** PPO drives its roads for {{ settings_for('ppo').horizon }}
+# seconds and takes several passes over these decisions of the old policy. The **ratio** $\rho =
+# \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since it was taken. A
+# good action (A > 0) pushes until it is ε = {{ settings_for('ppo').clip }} likelier, a bad one
+# until it is ε rarer; other decisions may push further:
 #
 # $$ L = -\,\mathrm{mean}\big[\min(\rho A,\ \mathrm{clip}(\rho, 1 - ε, 1 + ε)\, A)\big] $$
+#
+# At ρ = 1, ∇ρ = ∇log π: the policy gradient.
 #
 # > **Predict.** An action turned out badly, A = −2, but has become likelier, ρ = 1.5. Does this
 # > decision still change the policy?
@@ -205,17 +211,17 @@ check.clipped_loss(clipped_loss)
 
 # %%
 predicted("the_second_trap.2")
-title = "A good action counts until it is 20 % likelier, a bad one until it is 20 % rarer"
+title = "A good action pushes until it is 20 % likelier, a bad one until it is 20 % rarer"
 bc.show(figures.hinges(ppo.clipped_loss, 0.2, title))
 
 # %% [markdown]
 # **The whole loss.** V learns by squared error, from $\hat V_t = A_t + V(s_t)$ (`returns` in the
-# code), with the V that the decisions were made with. And a little entropy H is paid for:
+# code), with the old V. A little entropy H is paid for:
 #
 # $$ L + \tfrac12\, \mathrm{mean}\big[(V - \hat V)^2\big] - c_H\, \mathrm{mean}[H] $$
 #
-# Each pass takes the decisions in *minibatches*. Give the advantages of each mean 0 and deviation 1
-# (`advantage.std()`), so that a step does not depend on the size of the rewards.
+# Each pass takes the decisions in *minibatches*. Scale the advantages of each to mean 0 and
+# deviation 1 (`advantage.std()`), so that a step does not depend on the size of the rewards.
 #
 # **Exercise (10 min, ●●○).** (You may skip it: the library's loss trains then.) Put PPO together.
 # `ppo.clipped_loss`, or your own, is L.
@@ -234,8 +240,9 @@ def ppo_loss(log_pi, values, actions, old_log_pi, advantage, returns, clip, entr
 check.ppo_loss(ppo_loss)
 
 # %% [markdown]
-# Now your parts drive. Train one agent with them, for fewer decisions than those that ship.
-# **Yours will differ** from a neighbour's: the result depends on the processor.
+# Train one agent with your parts, for fewer decisions than those that ship ({{
+# ppo_kinds.KINDS['alone'].decisions | , }}). **Yours will differ** from a neighbour's: the result
+# depends on the processor.
 
 # %% tags=["nbval-ignore-output"]
 MOST = 100_000  # episodes; the number of decisions ends each training
@@ -247,7 +254,7 @@ title = f"Your agent ends {'ahead of' if your_drive.success else 'behind'} trap 
 bc.show(bc.traces(your_drive, title=title, what=("speed", "distance")))
 
 # %% [markdown]
-# Does yours sprint, too?
+# Does yours sprint, too? What is its Jensen's gap?
 
 # %% [markdown] tags=["instructor"] minutes=7
 # The two endings are the hard part. Draw two rows, one that ends in an accident and one
@@ -278,7 +285,7 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 # %% [markdown]
 # **See.** The sprints are gone, and none of the ten agents escapes. Counted with the road's own
 # reward they earn {{ ppo('concave')['returns'].mean() | .0f }} on average, about what keeping
-# straight earns: they are back in the first trap.
+# straight earns: this is the first trap.
 # <!-- claim: all(9 <= drive_episodes(ppo_kinds.agent_of('concave', i).as_policy(),
 #   ppo_kinds.ROADS).speed.mean() <= 10.05 for i in range(ppo_agents())) and
 #   np.sort(ppo('concave')['accident'])[-2] < 0.01 -->
@@ -289,8 +296,9 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 #
 # **Explain.** A reward says what is best, and not how it is found. On this road the concave reward
 # pays {{ paid_concavely(by_rule()) | .0f }} for the rule's drive, which gets out, and {{
-# paid_concavely(ppo_drive('concave')) | .0f }} for the agent's. Getting out would pay, but the way
-# out leads through trials that crash (lesson [[the_barrier]]).
+# paid_concavely(ppo_drive('concave')) | .0f }} for the agent's; discounted, too, it pays more for
+# the rule's. So getting out would pay. Perhaps the price of attempts keeps PPO in (lesson
+# [[the_barrier]]).
 # <!-- claim: paid_concavely(by_rule(), settings_for('ppo').gamma) >
 #   paid_concavely(ppo_drive('concave'), settings_for('ppo').gamma) and by_rule().success -->
 
@@ -320,7 +328,9 @@ training = own_code.training([ppo_kinds.settings_of("cloned")], MOST)
 before = bc.evaluate(training.agent(0).as_policy(), 100)
 after = bc.evaluate(ppo_kinds.train(training, 200_000).agent.as_policy(), 100)
 for when, found in {"before PPO": before, "after PPO": after}.items():
-    print(f"{when}: ahead on {100 * found.success.value:.0f} %, return {found.returns.value:.1f}")
+    crashed = found.collision.value + found.road_departure.value + found.stoppage.value
+    rates = f"ahead on {100 * found.success.value:.0f} %, accidents {100 * crashed:.0f} %"
+    print(f"{when}: {rates}, return {found.returns.value:.1f}")
 
 # %%
 kinds = {"PPO alone": "alone", "PPO after cloning": "cloned"}
@@ -333,16 +343,16 @@ bc.show(bc.traces([drive, fast], title=title, what=("speed", "distance")))
 
 # %% [markdown]
 # **See.** All ten cloned agents escape. They earn about twice what the rule earns: the clone is
-# where they start, and not what they have to copy. They are not safe: some of their drives end in
-# an accident, and none of the rule's.
+# only their start. Some of their drives end in an accident, none of the rule's.
 # <!-- claim: ppo_escapes('cloned') == ppo_agents() and 1.8 < ppo('cloned')['returns'].mean() /
 #   of('rule').scores('returns')[0] < 2.4 and ppo('cloned')['accident'].mean() > 0 -->
 # <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_kinds.ROADS).accident.any() -->
 #
-# **Explain.** Getting out pays more than twice as much as sprinting. So the reward does not prefer
-# the second trap; if it did, this would be *reward hacking*. PPO alone did not find the way. The
-# clone gets out on many roads before PPO begins, so PPO can see what that pays, and make it
-# likelier.
+# **Explain.** Getting out *and driving fast* pays over twice what sprinting pays; the rule's slower
+# way pays about as much. So the reward does not prefer the second trap; if it did, this would be
+# *reward hacking*. PPO alone did not find the way. The clone gets out on many roads, at first for
+# less than sprints pay. *Probably* PPO makes its good drives likelier.
+# <!-- claim: abs(ppo('alone')['returns'].mean() / of('rule').scores('returns')[0] - 1) < 0.25 -->
 # <!-- claim: ppo('cloned')['returns'].mean() > 2 * ppo('alone')['returns'].mean() and
 #   discounted(ppo_drive('cloned'), settings_for('ppo').gamma) > 2 * discounted(ppo_drive(),
 #   settings_for('ppo').gamma) -->
@@ -366,14 +376,15 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. PPO alone finds a second trap: it earns what the rule earns, and does not get out. So look at
-#    success, and at a drive.
+# 1. PPO alone ({{ ppo_kinds.KINDS['alone'].decisions | , }} decisions) finds the second trap: it
+#    earns what the rule earns, and does not get out. So look at success, and at a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one.
-# 3. PPO makes likelier what went better than V expected. In its loss a good action counts until it
+# 3. PPO makes likelier what went better than V expected. In its loss a good action pushes until it
 #    is ε likelier, a bad one until it is ε rarer.
 # 4. A reward says what is best, and not how it is found: with the concave one the agents stop
 #    sprinting, and stay.
-# 5. After a short cloning of the rule PPO leaves the trap, and earns more than the rule.
+# 5. After a short cloning of the rule PPO ({{ ppo_kinds.KINDS['cloned'].decisions | , }} decisions)
+#    leaves the trap, and earns more than the rule.
 #
 # **Three questions to think about**
 # - Which number would have shown the second trap to somebody who does not know the goal?
