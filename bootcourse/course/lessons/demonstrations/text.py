@@ -298,8 +298,8 @@ table(*figures.of_tests(tests))
 # %% [markdown]
 # **See.** *Slowness feeds itself, but it does not explain most accidents.* In the second row the
 # clones differ less, so their errors do compound, and they seldom crash. In the third they are
-# hardly slow, and crash as often as in the first. So the first 15 s decide, with the lane change.
-# Why do some leave the road long after it?
+# hardly slow, and crash as often as in the first. So the first 15 s, with the lane change, matter more.
+# How they act so late, the table does not show.
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Stop at the slow car. Ask which rows in the data would show how to leave such a state, and who

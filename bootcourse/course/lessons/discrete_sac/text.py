@@ -14,7 +14,7 @@
 # # Discrete soft actor-critic
 #
 # **What you will be able to do**
-# - derive the soft Bellman equation from the plain one;
+# - say what the soft Bellman equation changes in the plain one;
 # - write the soft value and the losses of critics, actor and temperature;
 # - say where a gradient must stop, and which target entropy a thermostat can reach.
 #
@@ -77,7 +77,7 @@ bc.show(diagrams.sac_diagram())
 #   **batch** of rows.
 #
 # *Discrete* means that the actions can be counted: two here, nine on the road. So a network gives π
-# and Q of every action at once, and a mean over actions is a sum.
+# and Q of every action at once, and a mean over actions needs no draw.
 #
 # On the evening route this picture is enough: go on to [the barrier](the_barrier.ipynb).
 
@@ -186,8 +186,8 @@ bc.show(figures.against_temperature([1.0, 3.0], title))
 # An action is worth its reward plus γ times what the next state is worth. The **discount** γ is a
 # number between 0 and 1.
 #
-# In SAC the next state is worth something else, for two reasons. The actor draws its action from π,
-# so the mean of Q under π takes the place of the largest Q. And s' pays α for each nat of entropy.
+# In SAC the next state is worth something else, for two reasons. The critic judges the policy π, not
+# the best one, so the mean of Q under π takes the place of the largest Q. And s' pays α for each nat of entropy.
 # Together they are its soft value:
 #
 # $$ Q(s, a) = \mathbb{E}\big[\, r + \gamma \big( \textstyle\sum_{a'} \pi(a'|s')\, Q(s', a') +
@@ -294,7 +294,8 @@ def actor_loss(log_pi, q, alpha):
 check.actor_loss(actor_loss)
 
 # %% [markdown]
-# Below, a policy of two actions is a softmax of two numbers, its *logits*. It is even at first.
+# Below, a policy of two actions is a softmax of two numbers, its *logits*. It is even at first, and Q
+# is 1 and 3. An optimiser lowers the loss, once by the logits alone, once by Q, too.
 
 # %%
 rows = [
@@ -315,16 +316,16 @@ table(["after 200 steps, α = 1", "π(a₁)", "π(a₂)", "Q(a₁)", "Q(a₂)"],
 # %% [markdown]
 # ## Round 4: which temperature is right?
 #
-# That depends on how large Q is, which is not known before training. So SAC adjusts α as a
-# thermostat adjusts the heating, by a **target entropy** η ("eta"):
+# That depends on how far apart the actions' Q are, which is not known before training. So SAC adjusts
+# α as a thermostat adjusts the heating, by a **target entropy** η ("eta"):
 #
 # $$ L_\alpha = \alpha\, (\mathcal{H}(\pi) - \eta) $$
 #
 # A gradient step lowers this loss: while the entropy is above η, α falls; while it is below, α
 # rises.
 #
-# **Exercise (4 min, ●●○).** Write it. $\mathcal{H}(\pi)$ is the mean over the batch. The parameter
-# is log α, so that α stays positive.
+# **Exercise (4 min, ●●○).** Write it. $\mathcal{H}(\pi)$ is the mean over the batch, held fixed.
+# The parameter is log α, so that α stays positive.
 
 
 # %%
@@ -340,8 +341,8 @@ check.temperature_loss(temperature_loss)
 # %% [markdown]
 # The paper sets **η = {{ SETTINGS.target_entropy }}** for its nine actions, and so does our study.
 #
-# > **Predict.** Remember the range of the entropy. In which direction does this thermostat turn,
-# > and when does it stop?
+# > **Predict.** At first the entropy is near log 9. What does α do from then on? Remember the range of
+# > the entropy.
 
 # %%
 predict(
@@ -360,7 +361,8 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # %% [markdown]
 # **Explain.** With η = −1 the thermostat turns in one direction only. The entropy of a policy over
 # a list of actions is 0 or more, so it is at least 1 above η in every state, and α falls at each
-# update. With η = 0.66, which such a policy can reach, α falls and rises, as a thermostat should.
+# update: SAC pays less and less for exploration. With η = 0.66, which such a policy can reach, α falls
+# and rises.
 #
 # Why then −1? The paper gives no reason. Perhaps it comes from a rule of thumb for *continuous*
 # actions, such as any angle of the wheel, whose entropy can be negative.
@@ -381,7 +383,7 @@ compare_predictions("discrete_sac", {1: 0.0, 2: "1.44", 3: "1 and 50.5", 4: "fal
 #    softmax(Q / α).
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed; an episode that ran out of
 #    time is not terminated.
-# 3. V(s') comes from the smaller of two critics, and from their slow copies.
+# 3. V(s') takes the smaller value of the two critics' slow copies.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
 # 5. The temperature is a thermostat for the entropy. With η = {{ SETTINGS.target_entropy }}, below
 #    every entropy over a list of actions, α falls at each update.

@@ -17,7 +17,7 @@
 # - say what the trap is, and drive it yourself;
 # - choose your route through the course.
 #
-# **Time** 10 minutes; the machine computes for about half of one. **It builds on** nothing.
+# **Time** 10 minutes; the machine computes for half a minute. **It builds on** nothing.
 
 # %%
 import bootcourse as bc
@@ -26,10 +26,11 @@ from bootcourse.course import compare_predictions, predict, predicted, progress,
 # %% [markdown]
 # ## Drive first
 #
-# Two slow cars, dark red, box you in: **trap 1** ahead of you, **trap 2** in the next lane. Get
-# ahead of trap 1. Click on the road and use the arrow keys, or the nine buttons: you decide once a
-# second. A drive lasts {{ DEFAULT.clock.decisions // DEFAULT.clock.decision_rate }} s, and an
-# accident ends it. Crash as often as you like. Shift+Enter runs a cell.
+# Two slow cars, dark red, box you in: **trap 1** ahead of you, **trap 2** in the middle lane; the left
+# one is free. Get ahead of trap 1. Click on the road and use the arrow keys, or the nine buttons: you
+# decide once a second. A drive lasts {{ DEFAULT.clock.decisions // DEFAULT.clock.decision_rate }} s,
+# and an accident ends it. Crash as often as you like, and read on once you are ahead. Shift+Enter runs
+# a cell.
 # <!-- claim: N_ACTIONS == 9 -->
 #
 # > **Predict.** How many attempts do you need until you are ahead of trap 1?
@@ -48,7 +49,7 @@ predict("start.1", "How many attempts until you are ahead of trap 1?", unit="att
 # ## Your drive, and two others
 #
 # Run this cell when you have driven. You see your last way out, or last attempt, and two **agents**:
-# programs that have learned from their own attempts. *Plain SAC* had no help and stays behind;
+# programs that learned to drive by trying. This *plain SAC* had no help and stays behind; this
 # *bootstrapped SAC* was helped by the rule while it learned, and gets out. Turn the road with the
 # mouse.
 
@@ -67,30 +68,33 @@ seconds = max(30, 5 + int(bc.overtaken(drives[0]) or 0))  # long enough to see y
 bc.recording([shipped.beginning(drive, seconds) for drive in drives], height=480)
 
 # %% [markdown]
-# We chose two drives that differ. One of our five plain agents gets out on this road, and all five
-# bootstrapped ones; lesson [[the_trap]] counts more, and explains the names.
+# We chose two drives that differ. On this road one of our five plain agents gets out, and all five
+# bootstrapped ones. One road says little: lesson [[the_trap]] counts more.
 # <!-- claim: getting_out('sac') == [1, 5] and getting_out('bootstrapped') == [5, 5] -->
 #
 # A driver is paid for each second: most at {{ max(np.arange(0, 25, 0.5), key=speed_reward) }} m/s,
 # little at the traps' {{ DEFAULT.traps.speed }} m/s. An accident is fined what about a minute behind
 # the traps earns, and ends the drive. The sum over a drive is its **return**,
-# {{ idle().rewards.sum() | .0f }} for
-# staying behind. Staying pays a little at once, and to get out you first fall back or risk a crash:
-# that is the **trap**. This course asks two questions. Why does a program that learns stay behind
-# slow cars, although the left lane is free? And how can an imperfect teacher, such as the rule, help
-# it out, without the learner becoming a copy?
+# {{ idle().rewards.sum() | .0f }} for staying behind, {{ by_rule(10).rewards.sum() | .0f }} for the
+# rule's slow way out. But staying pays a little at once, and to get out you first fall back or risk a
+# crash: that is the **trap**. This course asks two questions. Why does a program that learns stay
+# behind slow cars, although the left lane is free? And how can an imperfect teacher, such as the rule,
+# help it out, without the learner becoming a copy?
 #
 # ## An agent of your own
 #
 # This agent learns with the rule's help, by 2,000 **updates**: each changes it a little. It trains
-# on other roads; on yours you watch how it drives *now*, and as the ghost how it drove at least 500
-# updates ago. Watch success and return; later lessons explain the other two curves. Training takes
-# less than a minute: then click on the beginning of the curve to see how it crashed at first.
+# on other roads; on yours you watch it *now*, and the ghost is itself, 500 updates ago or more. Watch
+# success and return; later lessons explain the other two curves. Training takes less than a minute:
+# then click on the beginning of the curve to see how it crashed at first.
 # <!-- claim: crashed_at_first() < 10 -->
 #
-# > **Predict.** In how many of its last 50 drives does it end ahead of trap 1, even if it crashes
-# > afterwards? The rule gets out on all {{ roads() | , }} test roads; your agent has fewer than 250
-# > drives to learn from it.
+# JupyterLab folds what answers a prediction until you commit to one, or click on the three dots. Our
+# results are saved below each cell.
+#
+# > **Predict.** In how many of its last 50 drives does it end ahead of trap 1 (a **success**, even if
+# > it crashes afterwards)? The rule gets out on all {{ roads() | , }} test roads; your agent ends fewer
+# > than 250 drives while it learns.
 # <!-- claim: of('rule').scores('success').min() == 1 -->
 # <!-- claim: 200 < drives().min() < drives().max() < 250 -->
 
@@ -110,9 +114,6 @@ learned = training.run(updates=2000)
 # idle().rewards.sum() | .0f }}.
 # <!-- claim: lately('accident').min() > 0.5 and lately('success').min() > 0.5 and
 #   lately('return').max() < idle().rewards.sum() and len(drives()) == 5 -->
-#
-# Our results are saved below each cell. JupyterLab folds those that answer a prediction, and what
-# explains them, until you commit to one or click on the three dots.
 
 # %% [markdown] tags=["instructor"] minutes=10
 # Open with this page on the wall and let two people drive before you explain anything. Expect
@@ -124,8 +125,8 @@ learned = training.run(updates=2000)
 #
 # A road is drawn from a number, its **seed**, so road 10 is the same everywhere, and shipped results
 # are read from files. A training that *you* run differs: processors round the last digit of a sum in
-# different ways, and the difference grows while a program learns. So what lessons say about the road
-# rests on more agents, which ship with the course.
+# different ways, and the difference grows while a program learns. So what lessons say about learning
+# rests on agents that ship with the course, and not on your run.
 #
 # ## Choose a route
 #

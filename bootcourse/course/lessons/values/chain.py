@@ -3,7 +3,7 @@
 State 0 is the trap, state 4 the free road. Action 0 stays (in states 1 to 3: goes back to the trap), action 1 goes on.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -37,9 +37,15 @@ def chances(explore: float, decisions: int, seed: int) -> np.ndarray:
     return np.where(rng.random(decisions) < explore, rng.integers(0, 2, decisions), -1)
 
 
-def learned(explore: float, gamma: float, taught: Sequence[tuple[int, int]] = (), walks: int = 30) -> list[np.ndarray]:
-    """The Q of each of `walks` learners after 1,000 decisions."""
-    return [learn_chain(chances(explore, 1000, seed), gamma, 0.3, taught) for seed in range(walks)]
+def learned(
+    explore: float,
+    gamma: float,
+    taught: Sequence[tuple[int, int]] = (),
+    walks: int = 30,
+    learn: Callable[..., np.ndarray] = learn_chain,
+) -> list[np.ndarray]:
+    """The Q of each of `walks` learners after 1,000 decisions. learn: `learn_chain`, or a student's."""
+    return [learn(chances(explore, 1000, seed), gamma, 0.3, taught) for seed in range(walks)]
 
 
 def leaves(q: np.ndarray) -> bool:

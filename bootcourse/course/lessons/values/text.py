@@ -52,8 +52,8 @@ bc.show(diagrams.five_states())
 
 # %% [markdown]
 # One walker goes to the trap and stays, the other goes on to the free road. A reward counts less
-# the later it comes: after one decision γ ("gamma") times as much, after two γ² times. **Drag** γ:
-# from which states is going on worth more than going back, whatever γ is?
+# the later it comes: after one decision γ ("gamma") times as much, after two γ² times. **Drag** γ
+# down from 0.8: in which state does going on first become worth less than going back?
 
 # %%
 explorable.worths()
@@ -229,7 +229,7 @@ print(f"{0.3 * difference(q, 0, 1, 0.0, 1, 0.8):.3f}")
 # ## Round 4: what gets a learner across?
 #
 # Which decisions does the learner make while it learns? Here it is **ε-greedy** ("epsilon"): with
-# probability 1 − ε it takes the action that now looks best, else one at random.
+# probability 1 − ε it takes the action that now looks best, else it **explores**: one at random.
 #
 # **Exercise (20 min, ●●●).** Write this learner. The random decisions have been drawn beforehand
 # (`chances`). A demonstrator's decisions (`taught`) are replayed after each of your own. After each
@@ -286,35 +286,37 @@ kinds = {
     "D: A, but ε = 1": (1.0, 0.8),
     "E: A, with replays": (0.1, 0.8, chain.WAY_OUT),
 }
-rows = {kind: figures.learners(chain.learned(*how)) for kind, how in kinds.items()}
-title = "More exploration or a replayed demonstration gets learners out, a longer view does not"
+learn = own_code.yours_or_ours("learn_chain", doing="Walking")
+rows = {kind: figures.learners(chain.learned(*how, learn=learn)) for kind, how in kinds.items()}
+title = "Chance alone or a replayed demonstration gets all thirty out, a longer view none"
 bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
 
 # %% [markdown]
-# **Explain.** In A none of the thirty leaves, although leaving is worth more than twice as much.
-# Once staying has paid, going *back* from states 1 to 3 is worth γ Q(0, 0), and going on still 0,
-# where Q began. So the greedy action leads back, and to get through takes four random decisions in
-# a row, each right with a probability of ε / 2: a **barrier**. A longer view does not help (B):
-# none of the thirty has been on the free road, so its value is not known.
+# **Explain.** In A none learns to leave, although leaving is worth {{ sweeps(200, 0.8)[0, 1] | .2f }} and
+# staying once {{ sweeps(200, 0.8)[0, 0] | .2f }}. Going *back* from states 1 to 3 soon looks worth up to
+# γ Q(0, 0), going on less or still 0, and of two zeros ours takes action 0. So the greedy action leads
+# back, and to get through takes four random decisions in a row, each right with a probability of ε / 2:
+# a **barrier**. A longer view alone does not help (B): none of the thirty has been on the free road, so
+# its value is not known.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
 # More exploration helps here (C, D), but one visit is not enough, since each passage moves the
 # value one state back: {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5,
 # 0.8) }} learn to leave in these 1,000 decisions. (Would more decisions help C? Try it.) On the
-# road, where a failed attempt costs 10, D is no recipe.
+# road, where an accident is fined 10, D is no recipe.
 #
-# Small choices matter, too. If the learner *draws* one of two equal actions, none of A leaves
+# Small choices matter, too. If the learner *draws* one of two equal actions, none of A learns to leave
 # either, but {{ with_ties("random", 0.1)[1] }} have been on the free road, and of C {{
-# with_ties("random", 0.5)[0] }} leave. If it takes action 1, it tries what it has not tried, and {{
-# with_ties("1", 0.1)[0] }} of A leave.
+# with_ties("random", 0.5)[0] }} learn it. If it takes action 1, it tries what it has not tried, and {{
+# with_ties("1", 0.1)[0] }} of A learn it.
 # <!-- claim: with_ties("random", 0.1)[0] == 0 and with_ties("random", 0.5)[0] > leaving(0.5, 0.8) and
 #   with_ties("1", 0.1)[0] > 20 -->
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 #
 # One demonstration, *replayed* after each decision, gets all thirty across (E): each time its
 # values move one state back. Replayed before the first decision only, it gets {{ replayed(1) }} of
-# thirty across; replayed five times, {{ replayed(5) }}. Replayed once but *backwards*, {{
+# thirty across; replayed five times there, {{ replayed(5) }}; once but *backwards*, {{
 # replayed(1, backwards=True) }}: then the free road's value comes all the way in one pass.
 # Q-learning learns from it as from its own decisions: it is **off-policy**, and so is the learner
 # of the next lessons.
