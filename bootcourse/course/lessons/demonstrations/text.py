@@ -363,7 +363,7 @@ table(*figures.of_trainings(trainings, measured[KINDS[0]]))
 # to 6. It still earns less than the rule.
 #
 # The study's clones of 200 drives, trained longer, hardly crash either: DAgger can pay where
-# training, or the teacher's time, is short.
+# training is short.
 #
 # The cloning loss asks a clone to be like its teacher, not better. To drive better than the rule,
 # an agent has to learn from what its actions lead to: lesson [[learning_from_demonstrations]].

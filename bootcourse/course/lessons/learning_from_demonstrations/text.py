@@ -382,8 +382,8 @@ bc.show(figures.returns(kinds))
 # ten with c = 0 earns more than each with c = 2. These drive slower than those without
 # demonstrations.
 #
-# If β never ends, ten of ten escape with c = 2, and five of ten with c = 0. But each of the five
-# earns more (lesson [[found_and_kept]]).
+# If β never ends, of the study's ten all escape with c = 2, and five with c = 0. But each of these five
+# earns more than any of the ten (lesson [[found_and_kept]]).
 # <!-- claim: of_lasting(2)[0] == of_lasting(0)[0] == 10 and len(of_lasting(2)[1]) == 10 and
 #   len(of_lasting(0)[1]) == 5 and min(of_lasting(0)[1]) > max(of_lasting(2)[1]) -->
 # <!-- claim: training('c = 2', 'speed', 550, 600).max() < training('none', 'speed', 550, 600).min()

@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course import shipped as course
+from bootcourse.course.lessons.looking_ahead.figures import BASE
 from bootcourse.course.lessons.looking_ahead.figures import safer_with_shield as safer_with_shield
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.lookahead import NINE, imagine
@@ -38,15 +39,14 @@ def per_thousand(base: str, form: str = "rollouts", model: str = "exact") -> flo
     return 1000 * ahead(base, form, model).accident_rate.value
 
 
-def each(form: str, measure: str) -> np.ndarray:
-    """The accidents, or another measure, of each of the paper's agents, (agents,)."""
-    return shipped()[Cell("bootstrapped", form).name].measured[measure]
+def each(base: str, form: str, measure: str) -> np.ndarray:
+    """The accidents, or another measure, of each agent of a base policy, (agents,)."""
+    return shipped()[Cell(base, form).name].measured[measure]
 
 
 def less_safe(base: str) -> np.ndarray:
     """Which agents of a base policy have more accidents with rollouts than alone, (agents,)."""
-    alone, ahead = (shipped()[Cell(base, form).name].measured["accidents"] for form in ("alone", "rollouts"))
-    return ahead > alone
+    return each(base, "rollouts", "accidents") > each(base, "alone", "accidents")
 
 
 def of_the_nine() -> np.ndarray:
@@ -67,7 +67,7 @@ def learned(form: str) -> np.ndarray:
 
 def still_worse() -> int:
     """How many of the ten crash more often than alone, with rollouts in the model of the last round."""
-    return int((learned_model.per_thousand(learning(), "mean of five")[:, -1] > each("alone", "accidents")).sum())
+    return int((learned_model.per_thousand(learning(), "mean of five")[:, -1] > each(BASE, "alone", "accidents")).sum())
 
 
 def learned_without(form: str) -> float:
@@ -89,12 +89,12 @@ def five_accidents() -> list[int]:
 
 def outs(base: str, form: str = "rollouts") -> np.ndarray:
     """The share of drives that end ahead of trap 1, of each agent of a base policy."""
-    return shipped()[Cell(base, form).name].measured["success"]
+    return each(base, form, "success")
 
 
 def earned(base: str, form: str = "rollouts") -> np.ndarray:
     """The mean return of each agent of a base policy."""
-    return shipped()[Cell(base, form).name].measured["returns"]
+    return each(base, form, "returns")
 
 
 @cache

@@ -358,8 +358,8 @@ bc.show(figures.learned(shipped_experiment("learned-model"), study, title))
 #   learning(), 'mean of five')[:, -1] == 1000).sum() == 1 and (learned('shield') <
 #   per_thousand('bootstrapped', 'alone')).all() -->
 # <!-- claim: (lambda first, alone: ((alone > 500) == (alone - first > 60)).all() and (alone >
-#   500).sum() == 4)(learned_model.per_thousand(learning(), 'shield')[:, 0], each('alone',
-#   'accidents')) -->
+#   500).sum() == 4)(learned_model.per_thousand(learning(), 'shield')[:, 0], each('bootstrapped',
+#   'alone', 'accidents')) -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask what an honest learned model would have to say besides a number: how sure it is. Five networks

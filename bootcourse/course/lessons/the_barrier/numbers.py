@@ -135,11 +135,6 @@ def _straight() -> np.ndarray:
     return easy(MIDDLE).scores("speed") > 20
 
 
-def slow() -> int:
-    """How many agents from mid-lane drive slower than 8 m/s, on average; they begin at the traps' 10 m/s."""
-    return int((easy(MIDDLE).scores("speed") < 8).sum())
-
-
 def straight_on() -> int:
     """How many they are."""
     return int(_straight().sum())

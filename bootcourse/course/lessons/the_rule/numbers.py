@@ -7,7 +7,7 @@ import numpy as np
 
 from bootcourse.course.lessons.the_rule.rules import ROADS, with_numbers
 from bootcourse.course.lessons.the_rule.rules import driven as driven
-from bootcourse.episodes.evaluate import drive_episodes
+from bootcourse.episodes.evaluate import Episodes, drive_episodes
 from bootcourse.episodes.record import record
 from bootcourse.policies import PolicyOutput, rule_policy
 from bootcourse.road.state import EGO, SPEED, TRAP_1, TRAP_2, X
@@ -25,35 +25,35 @@ class Changes(NamedTuple):
 
 
 @cache
-def by_the_formula(sight: float) -> Changes:
-    """Where the formula decides, with another sight (m), on the lesson's roads."""
-    scenario, decided = with_numbers(sight), []
-
-    def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-        decisions, speeds = rule(cars, scenario), cars[:, EGO, SPEED].copy()
-        decided.append((decisions.reasons, decisions.distances, speeds, speeds - cars[:, TRAP_2, SPEED]))
-        return PolicyOutput(decisions.actions)
-
-    episodes = drive_episodes(drive, ROADS, together=len(ROADS))
-    reasons, distances, speeds, faster = map(np.array, zip(*decided, strict=True))
-    found = (reasons == Reason.CHANGE) & (distances > scenario.rule.floor)
-    at = found.argmax(0)[found.any(0)], np.flatnonzero(found.any(0))
-    return Changes(speeds[at], faster[at], int((episodes.accident[at[1]] > 0).sum()))
-
-
-@cache
-def begun_in_sight(floor: float, sight: float = 20.0) -> int:
-    """On how many of the lesson's roads trap 1 is in sight when the rule first begins to change lane."""
-    scenario, decided = with_numbers(sight, floor=floor), []
+def decided(sight: float, **numbers) -> tuple[np.ndarray, np.ndarray, np.ndarray, Episodes]:
+    """Each decision on the lesson's roads with these numbers: reasons and safety distances (decisions, roads), the cars
+    (decisions, roads, vehicles, 10) that the rule saw, and how the drives end.
+    """
+    scenario, seen = with_numbers(sight, **numbers), []
 
     def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
         decisions = rule(cars, scenario)
-        sees = cars[:, TRAP_1, X] - cars[:, EGO, X] <= sight
-        decided.append((decisions.reasons == Reason.CHANGE, sees))
+        seen.append((decisions.reasons, decisions.distances, cars.copy()))
         return PolicyOutput(decisions.actions)
 
-    drive_episodes(drive, ROADS, together=len(ROADS))
-    changes, sees = map(np.array, zip(*decided, strict=True))
+    episodes = drive_episodes(drive, ROADS, together=len(ROADS))
+    return *map(np.array, zip(*seen, strict=True)), episodes
+
+
+def by_the_formula(sight: float) -> Changes:
+    """Where the formula decides, with another sight (m), on the lesson's roads."""
+    reasons, distances, cars, episodes = decided(sight)
+    found = (reasons == Reason.CHANGE) & (distances > DEFAULT.rule.floor)
+    at = found.argmax(0)[found.any(0)], np.flatnonzero(found.any(0))
+    speeds = cars[:, :, EGO, SPEED]
+    faster = speeds - cars[:, :, TRAP_2, SPEED]
+    return Changes(speeds[at], faster[at], int((episodes.accident[at[1]] > 0).sum()))
+
+
+def begun_in_sight(floor: float, sight: float = 20.0) -> int:
+    """On how many of the lesson's roads trap 1 is in sight when the rule first begins to change lane."""
+    reasons, _, cars, _ = decided(sight, floor=floor)
+    changes, sees = reasons == Reason.CHANGE, cars[:, :, TRAP_1, X] - cars[:, :, EGO, X] <= sight
     return int((sees[changes.argmax(0), np.arange(len(ROADS))] & changes.any(0)).sum())
 
 

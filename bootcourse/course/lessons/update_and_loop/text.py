@@ -292,9 +292,9 @@ bc.show(figures.estimates(q, "Rows of fallen states keep the estimates low, othe
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Let groups predict the whole order, not only the first place. A belief to name: "the second critic
-# is the trick that makes it work". On the pole three seeds do not show that. Who asks where the
-# estimates with rows of fallen states end: `left_out.estimates(loop, step, buffer, "fallen",
-# pushes=30_000)` comes near 100.
+# is the trick that makes it work". On the pole three seeds do not show that. If
+# somebody asks where the estimates with rows of fallen states end: `left_out.estimates(loop, step,
+# buffer, "fallen", pushes=30_000)` comes near 100.
 
 # %%
 worst = left_out.KINDS[1 + scores[1:].mean(1).argmin()]
