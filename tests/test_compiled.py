@@ -169,6 +169,16 @@ def test_a_wrong_learner_is_answered_with_a_sentence():
             Training(settings, 5, **given)
 
 
+def test_the_faster_learner_is_the_compiled_one_where_it_has_the_settings_and_no_other_is_given():
+    for name, settings, given in (
+        ("compiled", settings_for("soft"), {}),
+        ("torch", settings_for("cql"), {}),
+        ("torch", settings_for("sac", batch=32), {}),
+        (None, settings_for("sac"), {"make_learner": SACLearner}),
+    ):
+        assert Training([settings], 5, learner="faster", **given).learner_name == name
+
+
 def test_a_change_of_the_learner_compiles_the_learner_again_and_leaves_the_road_s_cache_alone():
     road, learner = set(sources(PACKAGE)), set(learner_sources(PACKAGE))
     names = {f"{name}.py" for name in ("records", "vectorised", "compiled", "compiled_training")}

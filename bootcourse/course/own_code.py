@@ -25,7 +25,6 @@ from bootcourse.course.verdict import Verdict
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import mlp
-from bootcourse.learn.records import refusal
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
@@ -87,8 +86,8 @@ def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Trai
         raise BootcourseError(f"Your own code trains on the CPU: leave out device={more['device']!r}.")
     if own:
         more["make_learner"] = functools.partial(own_learner, own)
-    elif settings and not more and not any(map(refusal, settings)):
-        more["learner"] = "compiled"
+    else:
+        more.setdefault("learner", "faster")
     mine = Training(settings, episodes, **more)
     print(f"Training with {whose(names) or 'no part that an exercise writes'}.".replace("`", ""))
     return mine

@@ -32,6 +32,7 @@ from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.curves import Curves
 from bootcourse.learn.demonstrations import demonstrations_for
 from bootcourse.learn.protocol import Learner, move_to
+from bootcourse.learn.records import refusal
 from bootcourse.learn.replay_buffer import encode_transitions
 from bootcourse.learn.running import device_named, interrupt_after_step, one_torch_thread
 from bootcourse.learn.settings import Settings
@@ -51,6 +52,7 @@ LEARNERS = {
     "torch": "bootcourse.learn.learner:learner_for",
     "compiled": "bootcourse.learn.compiled_learner:CompiledLearner",
 }
+FASTER = "faster"  # the compiled learner where it can train these agents, else torch's
 
 
 @dataclass(frozen=True, repr=False)
@@ -90,7 +92,8 @@ class Training:
     make_env: makes a vector environment of n copies, by default the trap; another has vector observations and discrete
     actions (see `driving.copies_of`). Without a teacher its actions are 0 in the replay buffer. first_seed: of the
     copies. device: where the networks learn, as torch names it, such as "cuda"; the roads stay on the CPU.
-    learner: "torch", or "compiled", the same update as machine code: faster on a CPU, most of all for a single agent.
+    learner: "torch"; "compiled", the same update as machine code: faster on a CPU, most of all for a single agent; or
+    "faster", compiled if that learner has these settings, else torch.
     make_learner: makes a learner of your own instead, from (settings, observation size, actions).
     Raises BootcourseError for settings that cannot train side by side, or that ask for a teacher where there is none,
     for demonstrations or an environment that do not fit, for a learner that does not have the settings or the device,
@@ -127,7 +130,10 @@ class Training:
 
     def _make_learner(self, make_learner: Callable | None, learner: str, device: str, size: int) -> None:
         """The learner of the agents' method, torch's or the compiled one, or one of your own, on its device."""
-        check_known("Learner", learner, LEARNERS)
+        check_known("Learner", learner, (*LEARNERS, FASTER))
+        if learner == FASTER:
+            can = device == "cpu" and not any(refusal(s, size, self.n_actions) for s in self.settings)
+            learner = "compiled" if can and make_learner is None else "torch"
         compiled = learner == "compiled"
         require(not (compiled and make_learner), 'A learner of your own is not compiled: leave out learner="compiled".')
         require(not compiled or device == "cpu", f'The compiled learner has device="cpu" only, not {device!r}.')

@@ -125,7 +125,7 @@ class TrainPanel(Panel):
         torch.get_num_threads()  # takes over the one thread that is set now; several are slower on small matrices
         begun.set()
         try:
-            training = Training(agents, episodes, self.scenario, demonstrations=drives)
+            training = Training(agents, episodes, self.scenario, demonstrations=drives, learner="faster")
             before, self.watch = self.watch, Watch(training, button=False)
             self.stage.children = [self.watch]
             if before is not None:

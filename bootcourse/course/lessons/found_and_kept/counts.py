@@ -15,7 +15,7 @@ KINDS = {  # of agents: the method, the change among the ablations ("": none), t
     "both aids, β ends": ("bootstrapped", "", "bootstrapped"),
     "both aids, β never ends": ("bootstrapped", "β for ever", "bootstrapped, β for ever"),
     "soft constraint alone, ξ fades": ("soft", "", "soft"),
-    "soft constraint alone, ξ stops at 0.1": ("soft", "ξ falls to 0.1", "soft, ξ falls to 0.1"),
+    "soft constraint alone, ξ falls to 0.1 and stays": ("soft", "ξ falls to 0.1", "soft, ξ falls to 0.1"),
     "demonstrations alone, β ends": ("demos", "", "demos"),
     "demonstrations alone, β never ends": ("demos", "β for ever", "demos, β for ever"),
 }

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bootcourse.course.shipped import shipped_experiment, shipped_results
+from bootcourse.course.shipped import shipped_experiment
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
@@ -11,7 +11,7 @@ from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing
 from bootcourse.research.experiments.clocks import choices
 
-EPISODES = np.arange(0, 1501, 10)
+EPISODES = np.arange(0, 1201, 10)
 AXES = Axes("training episode", "% of its start that is left", (0.0, 100.0))
 MEASURED = {"1/4": 0.25, "1": 1.0, "2": 2.0, "4": 4.0}  # updates for each decision
 LEAST = 1e-9  # so small a part of ξ counts as nothing
@@ -24,24 +24,15 @@ class Fading:
         cells = choices(shipped_experiment("clocks"))
         xi = [cells[name, "π̃"].of("soft").curves["xi"] for name in MEASURED]
         self.logs = np.log([np.maximum(np.median(each / each[:, :1], axis=0), LEAST) for each in xi])
-        driven = shipped_results().of("soft").curves
-        self.decisions = np.cumsum((driven["distance"] / driven["speed"]).mean(axis=0))  # one for each second
 
     def left(self, updates: float) -> np.ndarray:
         """The part of ξ that is left after each of `EPISODES`, the median agent.
 
-        Between two measured numbers of updates log ξ lies on a line over log updates. Below a quarter ξ is what it was
-        with a quarter after as many updates, in episodes as long as the study's.
+        Between two measured numbers of updates log ξ lies on a line over log updates.
         """
-        trained, quarter = np.arange(1, self.logs.shape[1] + 1), MEASURED["1/4"]
-        if updates >= quarter:
-            at, numbers = np.log(updates), np.log(list(MEASURED.values()))
-            logs, when = np.array([np.interp(at, numbers, each) for each in self.logs.T]), EPISODES
-        else:
-            logs, episodes = self.logs[0], np.arange(1, len(self.decisions) + 1)
-            done = np.interp(EPISODES, episodes, self.decisions) * updates / quarter
-            when = np.interp(done, self.decisions, episodes)
-        return np.exp(np.interp(when, trained, logs))
+        at, numbers = np.log(updates), np.log(list(MEASURED.values()))
+        logs = np.array([np.interp(at, numbers, each) for each in self.logs.T])
+        return np.exp(np.interp(EPISODES, np.arange(1, len(logs) + 1), logs))
 
 
 def clocks() -> Explorable:
@@ -59,6 +50,6 @@ def clocks() -> Explorable:
         }
         return curves(f"{when}, β by episode {first[1]:,}.", AXES, EPISODES, named)
 
-    help = "Updates of the networks for each second that is driven."
-    updates = Number("updates", 0.25, 0.02, 4, 0.05, help, logarithmic=True)
+    help = "Updates of the networks for each decision. Agents were trained with ¼, 1, 2 and 4."
+    updates = Number("updates", 0.25, 0.25, 4, 0.05, help, logarithmic=True)
     return Explorable("Two aids, two clocks: which one is gone first?", draw, updates=updates)

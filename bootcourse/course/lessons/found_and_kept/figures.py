@@ -42,7 +42,7 @@ def one_agent(results: Results, which: int, title: str) -> Figure:
 
 def agent_by_agent(results: Results, method: str, title: str) -> Figure:
     """When each of a method's agents has the way out in training, a row for each, and where β ends."""
-    figure, ax = one_axes(4.0, title, "training episode", f"bar: over half of the last {IN_A_ROW} ended ahead")
+    figure, ax = one_axes(4.0, title, "training episode", f"bar: the last {IN_A_ROW} episodes are a good window")
     success, seeds = results.of(method).curves["success"], []
     shares = np.lib.stride_tricks.sliding_window_view(success, IN_A_ROW, axis=1).mean(axis=-1)
     for row, share in enumerate(shares):

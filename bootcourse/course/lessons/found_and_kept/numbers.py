@@ -59,6 +59,17 @@ def kept_until_late(method: str) -> bool:
     return all(bool(row[int(row.argmax()) : LATE - WINDOW + 1].all()) for row in windows.mean(axis=-1) > 0.5)
 
 
+def lost_where_the_first_bar_ends(method: str) -> bool:
+    """Does each agent of a method first lose the way out where its first good windows in a row end?"""
+    windows = np.lib.stride_tricks.sliding_window_view(of(method).curves["success"], WINDOW, axis=1).sum(axis=-1)
+    places = []
+    for ahead in windows:
+        good = ahead > WINDOW / 2
+        end = int(good.argmax()) + int((~good[good.argmax() :]).argmax())
+        places.append((end, int((np.maximum.accumulate(ahead >= HAD) & (ahead <= LOST)).argmax())))
+    return all(0 < end == loss for end, loss in places)
+
+
 def experiments() -> tuple:
     """What the table of round 2 is counted from."""
     return of_all(), shipped_experiment("ablations"), shipped_experiment("stress")
@@ -99,12 +110,6 @@ def kept_of_sac() -> tuple[float, float]:
     agents = clocks()["1/4", "μ"].of("sac")
     (which,) = np.flatnonzero(agents.found_and_kept("sac")[1])
     return float((agents.episodes("accident")[which] > 0).mean()), float(agents.scores("returns")[which])
-
-
-def chances() -> dict[str, float]:
-    """How often an agent drawn from each row reads as the paper's, with two updates and π̃."""
-    agents = clocks()["2", "π̃"]
-    return {m: study_clocks.as_printed(agents.of(m).scores("success"), m).mean() for m in study_clocks.VARIED}
 
 
 def fades_by(updates: float) -> int:

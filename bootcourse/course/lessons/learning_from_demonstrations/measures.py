@@ -105,15 +105,17 @@ def found(agents: Sequence[Results]) -> np.ndarray:
     return np.concatenate([found_after(each.curves["success"]) for each in agents])
 
 
-FOUND = ["", "found after (median; all)", "escape with KL", "the study's ten without KL", "the others without KL"]
+FOUND = ["", "KL: found after (median; all)", "KL: escape", "KL: return (study; others)"]
+FOUND += ["no KL: escape, study", "no KL: escape, others"]
 
 
 def found_and_escaped(agents: Kinds) -> list[list[str]]:
-    """A row for each kind of demonstrations, below `FOUND`."""
+    """A row for each kind of demonstrations, below `FOUND`: the returns are means of all agents."""
     rows = []
     for name, (soft, free) in agents.items():
         after = found(soft)
         words = f"{np.median(after):.0f}; {after.min()} to {after.max()}"
         alone = [escape([each]) for each in free]
-        rows.append([name, words, escape(soft), *alone, *["–"] * (2 - len(alone))])
+        earn = "; ".join([f"{each.scores('returns').mean():.0f}" for each in soft] + ["–"] * (2 - len(soft)))
+        rows.append([name, words, escape(soft), earn, *alone, *["–"] * (2 - len(alone))])
     return rows

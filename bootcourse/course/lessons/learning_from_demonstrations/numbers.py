@@ -31,6 +31,11 @@ def found(name: str) -> np.ndarray:
     return measures.found(_with(name)[0])
 
 
+def earned(name: str) -> np.ndarray:
+    """The returns of the agents with the soft constraint and these demonstrations, (agents,)."""
+    return np.concatenate([each.scores("returns") for each in _with(name)[0]])
+
+
 def alone(name: str, which: int) -> str:
     """How many escape without the soft constraint: of the study's ten agents (0), or of the ten others (1)."""
     return measures.escape([_with(name)[1][which]])

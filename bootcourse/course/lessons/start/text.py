@@ -104,7 +104,7 @@ predict("start.2", "In how many of its last 50 drives does it end ahead of trap 
 
 # %% tags=["nbval-ignore-output"]
 predicted("start.2")
-training = bc.Training([bc.settings_for("bootstrapped")], episodes=5000)
+training = bc.Training([bc.settings_for("bootstrapped")], episodes=5000, learner="compiled")
 learned = training.run(updates=2000)
 
 # %% [markdown]

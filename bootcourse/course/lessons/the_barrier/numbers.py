@@ -93,7 +93,7 @@ def hurt_ahead(kind: str) -> float:
     return float(easy(kind).episodes("accident")[ahead].mean())
 
 
-MANY = held_out_seeds(7, 2000)  # of the lesson's random actions
+MANY = held_out_seeds(7, 1000)  # of the lesson's random actions
 
 
 @cache

@@ -307,7 +307,7 @@ figures.observed(seen, first=11)
 # first the nine are about equally probable. Each **update** changes the policy a little, so that
 # actions with better consequences become more probable. This is *reinforcement learning*.
 #
-# Four agents learn for about 20 seconds by a method called SAC, *soft actor-critic*. Two learn
+# Four agents learn for about 10 seconds by a method called SAC, *soft actor-critic*. Two learn
 # alone (*plain SAC*). Two get help from the rule (*bootstrapped SAC*): they see some of its drives,
 # and lose reward for actions that the rule would hardly take, less and less over time. Watch
 # success and return; later lessons explain the other two curves.
@@ -315,7 +315,7 @@ figures.observed(seen, first=11)
 # %% tags=["nbval-ignore-output"]
 agents = bc.with_seeds(bc.settings_for("sac"), 2)
 agents += bc.with_seeds(bc.settings_for("bootstrapped"), 2)
-training = bc.Training(agents, episodes=5000)
+training = bc.Training(agents, episodes=5000, learner="compiled")  # SAC as machine code
 beginner = training.agent(2).as_policy()
 learned = training.run(updates=1500)
 

@@ -246,7 +246,7 @@ predict("update_and_loop.2", "Without which part is the mean lowest?", list(left
 
 # %%
 predicted("update_and_loop.2")
-scores = left_out.scores(seeds=3, pushes=4_000)
+scores = left_out.scores(seeds=3, pushes=3_000)
 table(*left_out.compared(scores), "Pushes, of at most 500.")
 
 # %% [markdown]

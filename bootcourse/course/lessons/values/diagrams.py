@@ -1,5 +1,12 @@
-"""The chain of five states, as a diagram."""
+"""The chain of five states, as a diagram, and what its trap is worth, sweep by sweep."""
 
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bootcourse.colours import OTHER
+from bootcourse.course import charts
 from bootcourse.course.lessons.values import chain
 from bootcourse.plots.diagrams import Diagram, arrow, box, label, line
 
@@ -31,3 +38,11 @@ def five_states() -> Diagram:
         f"and 3 back to the trap and pays 0. On the free road both actions stay and pay {free:g}."
     )
     return Diagram(left[4] + WIDE + 28, low + 12, parts, alt)
+
+
+def in_the_trap(found: Sequence[np.ndarray]) -> Figure:
+    """Q of staying in the trap and of leaving it, from each sweep's Q (5, 2), the zeros before the first included."""
+    stay, leave = np.array(found)[:, 0].T
+    title = "From sweep 6 on, leaving the trap is worth more than staying"
+    named, looks = {"stay in the trap": stay, "leave it": leave}, [OTHER, charts.Style("#56B4E9")]
+    return charts.lines(range(len(found)), named, title, "sweep", "Q in state 0, γ = 0.8", looks=looks)

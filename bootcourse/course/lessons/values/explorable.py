@@ -1,4 +1,4 @@
-"""To drag in this lesson: the discount, and what each state of the chain is worth with it."""
+"""To drag in this lesson: what the trap pays, and what each state of the chain is worth with it."""
 
 import numpy as np
 
@@ -9,24 +9,24 @@ from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing
 
 STATES = ("0 trap", "1", "2", "3", "4 free")
+GAMMA = 0.8  # fixed here: from which γ on leaving pays is the lesson's first prediction
 AXES = Axes("", "what a walker gets from this state on, discounted", (0.0, 5.0))
 
 
 def worths() -> Explorable:
-    """Of each state, what a walker gets who goes to the trap and stays, and one who goes on, while γ moves."""
+    """Of each state, what a walker gets who goes to the trap and stays, and one who goes on, by what the trap pays."""
+    on = chain.REWARD[4, 1] / (1 - GAMMA) * GAMMA ** np.arange(4, -1, -1)
 
-    def draw(gamma: float) -> Drawing:
-        stay, go = chain.REWARD[0, 0] / (1 - gamma), chain.REWARD[4, 1] / (1 - gamma)
-        back = np.array([stay, *[gamma * stay] * 3, np.nan])  # nobody comes back from the free road
-        on = go * gamma ** np.arange(4, -1, -1)
-        better = "it pays to leave the trap" if on[0] > back[0] else "it does not pay to leave the trap"
+    def draw(pay: float) -> Drawing:
+        stay = pay / (1 - GAMMA)
+        back = np.array([stay, *[GAMMA * stay] * 3, 0.0])  # nobody comes back from the free road
         named = {
-            "goes to the trap, and stays": Curve(np.nan_to_num(back), style("idle").colour),
+            "goes to the trap, and stays": Curve(back, style("idle").colour),
             "goes on to the free road": Curve(on, style("soft").colour),
         }
-        says = f"γ = {gamma:.2f}: from the trap {back[0]:.2f} against {on[0]:.2f}, {better}."
+        better = "it pays to leave" if on[0] > back[0] else "it does not pay to leave"
+        says = f"If the trap pays {pay:.2f}: from there {back[0]:.2f} against {on[0]:.2f}, {better}."
         return bars(says, AXES, STATES, named)
 
-    help = "What a reward one decision later is worth, as a share of one now."
-    gamma = Number("γ", 0.5, 0, 0.8, 0.01, help)
-    return Explorable("What is each state worth?", draw, gamma=gamma)
+    pay = Number("pay", float(chain.REWARD[0, 0]), 0, 1, 0.01, "What each decision to stay in the trap pays.")
+    return Explorable("What is each state worth?", draw, pay=pay)

@@ -29,24 +29,21 @@ def optimistic(explore: float, start: float, walks: int = 30) -> int:
 
 
 @cache
-def with_ties(pick: str, explore: float, walks: int = 30) -> tuple[int, int]:
-    """How many of the chain's learners leave at γ = 0.8, and how many have been on the free road, by what they do with
-    two equal actions: "1" takes action 1, "random" draws one of the two."""
-    ended = []
-    for seed in range(walks):
-        ended.append(q := np.zeros((chain.STATES, 2)))
-        _walk(q, explore, seed, (lambda _: 1) if pick == "1" else np.random.default_rng([seed, 1]).integers)
-    return sum(map(chain.leaves, ended)), sum(map(chain.has_been_free, ended))
+def with_ties(pick: str, walks: int = 30) -> int:
+    """How many of the chain's learners with A's ε and γ leave, by what they do with two equal actions: "1" takes
+    action 1, "random" draws one of the two."""
+
+    def of_equal(seed: int) -> Callable[[int], int]:
+        return (lambda _: 1) if pick == "1" else np.random.default_rng([seed, 1]).integers
+
+    return sum(_leaves(np.zeros((chain.STATES, 2)), 0.1, seed, of_equal(seed)) for seed in range(walks))
 
 
-def _leaves(q: np.ndarray, explore: float, seed: int) -> bool:
-    """Does a learner of the chain that begins with this Q, which it changes, leave at γ = 0.8?"""
-    _walk(q, explore, seed, lambda _: 0)
-    return chain.leaves(q)
+def _leaves(q: np.ndarray, explore: float, seed: int, of_equal: Callable[[int], int] = lambda _: 0) -> bool:
+    """Does a learner of the chain that begins with this Q, which it changes in 1,000 decisions, leave at γ = 0.8?
 
-
-def _walk(q: np.ndarray, explore: float, seed: int, of_equal: Callable[[int], int]) -> None:
-    """Let a learner begin with this Q, and change it in 1,000 decisions. of_equal(2): which of two equal actions."""
+    of_equal(2): which of two equal actions it takes.
+    """
     s = 0
     for t, chance in enumerate(chain.chances(explore, 1000, seed)):
         s = 0 if t % chain.EPISODE == 0 else s
@@ -54,6 +51,7 @@ def _walk(q: np.ndarray, explore: float, seed: int, of_equal: Callable[[int], in
         a = greedy if chance < 0 else chance
         q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
         s = chain.NEXT[s, a]
+    return chain.leaves(q)
 
 
 def sweeps(times: int, gamma: float) -> np.ndarray:

@@ -16,7 +16,7 @@
 # **What you will be able to do**
 # - say what a state and an action are worth, and compute it by the Bellman equation;
 # - write a learner that finds these values from its own decisions: Q-learning;
-# - say why such a learner stays in a trap although leaving is worth more.
+# - say why such a learner can stay in a trap although leaving is worth more.
 #
 # **Time** 55 minutes; the machine computes for seconds. **It builds on** lesson [[the_trap]].
 
@@ -24,7 +24,6 @@
 import bootcourse as bc
 import numpy as np
 from bootcourse.course import (
-    charts,
     check,
     compare_predictions,
     own_code,
@@ -42,8 +41,8 @@ progress("values")
 # ## Look first
 #
 # Here is the trap with everything left out but the detour: a **chain** of five states. You start in
-# the trap. Each arrow is an action, 0 or 1. Staying pays a little in the trap and much on the free
-# road, as on the road of lesson [[the_trap]]; the way from one to the other pays nothing.
+# the trap, state 0. Each arrow is an action, 0 or 1. As on the road of lesson [[the_trap]], staying
+# pays a little in the trap and much on the free road. The way from one to the other pays nothing.
 # <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
 #   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
 
@@ -51,9 +50,9 @@ progress("values")
 bc.show(diagrams.five_states())
 
 # %% [markdown]
-# One walker goes to the trap and stays, the other goes on to the free road. A reward counts less
-# the later it comes: after one decision γ ("gamma") times as much, after two γ² times. **Drag** γ
-# down from 0.8: in which state does going on first become worth less than going back?
+# One walker goes to the trap and stays, the other goes on to the free road. A reward that comes t
+# decisions later counts γᵗ as much; here γ ("gamma") is 0.8. **Drag** what the trap pays. How much
+# must it pay to be worth staying in? And to be worth going back to from state 2?
 
 # %%
 explorable.worths()
@@ -65,8 +64,8 @@ explorable.worths()
 # %% [markdown]
 # ## Round 1: the return
 #
-# The **return** is the sum of all rewards from now on, each multiplied by γ to the power of the
-# decisions until it comes:
+# The **return** is the sum of all rewards from now on, each multiplied by γ to the power of its
+# delay, in decisions:
 #
 # $$ G = r_0 + \gamma\, r_1 + \gamma^2\, r_2 + \dots $$
 #
@@ -84,8 +83,8 @@ def discounted_return(rewards, gamma):
 check.discounted_return(discounted_return)
 
 # %% [markdown]
-# To stay is worth $0.16 + 0.16\,\gamma + 0.16\,\gamma^2 + \dots$, a geometric series, which is
-# $0.16 / (1 - \gamma)$. To leave pays nothing for four decisions, and then 1 at each.
+# Staying is worth $0.16 + 0.16\,\gamma + 0.16\,\gamma^2 + \dots$, a geometric series, which is
+# $0.16 / (1 - \gamma)$. Leaving pays nothing for four decisions, and then 1 at each.
 #
 # > **Predict.** Leaving is worth $\gamma^4 / (1 - \gamma)$. From which γ on is that more?
 
@@ -103,8 +102,8 @@ table(["γ", "to stay is worth", "to leave is worth", "better"], rows, "Sums of 
 # %% [markdown]
 # **Explain.** Leaving pays where $\gamma^4 > 0.16$: from γ = {{ 0.16**0.25 | .4f }} on. The paper's
 # γ is {{ SETTINGS.gamma }}; with it leaving is worth {{ 0.8**4 / 0.16 | .1f }} times as much as
-# staying. (On road 10 of lesson [[the_trap]] the quick plan is worth more than staying, too, and
-# the rule's slow way is not.) Remember that factor: the learner of Round 4 stays all the same.
+# staying. Keep this factor in mind for Round 4. (On road 10 of lesson [[the_trap]] the quick plan,
+# too, is worth more than staying; the rule's slow way is not.)
 # <!-- claim: 0.8**4 > 2.5 * 0.16 and 0.63**4 < 0.16 < 0.64**4 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -114,26 +113,26 @@ table(["γ", "to stay is worth", "to leave is worth", "better"], rows, "Sums of 
 # %% [markdown]
 # ## Round 2: a value from the next value
 #
-# Nobody has to add up a sum without end. What an action is worth is its reward, plus γ times what
-# the next state is worth; and a state is worth as much as the better of its actions. That is the
-# **Bellman equation**, here with s' for the state that follows:
+# The **value** of action a in state s, **Q(s, a)**, is the return if you take a once and then act
+# as well as possible. You need no endless sum to find it: Q is the reward, plus γ times what the
+# next state s' is worth. A state is worth as much as the better of its actions. This is the
+# **Bellman equation**:
 #
 # $$ Q(s, a) = r(s, a) + \gamma \max_{a'} Q(s', a') $$
 #
-# It says what Q *is*, not how to find it. Begin with zeros everywhere and compute the right side
-# for all ten pairs (s, a) at once; put the result in on the right, and do it again. One such pass
-# is a **sweep**.
+# It says what Q *is*, not how to find it. So begin with Q = 0 everywhere and compute the right side
+# for all ten pairs (s, a) at once: this is one **sweep**, and gives a new Q. Sweep again with that.
 #
-# > **Predict.** After which sweep does Q(0, 1), the value of leaving the trap, hold a part of the
-# > free road's reward for the first time?
+# > **Predict.** After which sweep does Q(0, 1), the value of leaving the trap, first contain a part
+# > of the free road's reward?
 
 # %%
 choices = ["1", "2", "4", "5"]
 predict("values.2", "After which sweep does Q(0, 1) know of the free road?", choices)
 
 # %% [markdown]
-# **Exercise (8 min, ●●○).** Write one sweep. `chain.REWARD[s, a]` and `chain.NEXT[s, a]` hold the
-# picture above, each an array (5, 2).
+# **Exercise (8 min, ●●○).** Write one sweep. `chain.REWARD[s, a]` and `chain.NEXT[s, a]`, arrays
+# (5, 2), hold the rewards and next states of the picture above.
 
 
 # %%
@@ -152,22 +151,18 @@ sweep, q = own_code.yours_or_ours("bellman_sweep", doing="Sweeping"), np.zeros((
 found = [q]
 for _ in range(30):
     found.append(q := sweep(q, 0.8))
-named = {"stay in the trap": np.array(found)[:, 0, 0], "leave it": np.array(found)[:, 0, 1]}
-looks = [bc.colours.OTHER, charts.Style("#56B4E9")]
-title = "From sweep 6 on, leaving the trap is worth more than staying"
-bc.show(charts.lines(range(31), named, title, "sweep", "Q in state 0, γ = 0.8", looks=looks))
+bc.show(diagrams.in_the_trap(found))
 
 # %% [markdown]
-# **Explain.** The first sweep knows the rewards alone, so only the two ends are worth something.
+# **Explain.** The first sweep finds the rewards alone, so only the two ends are worth something.
 # Each further sweep carries the free road's value one state back, and the fifth reaches the trap.
-# (Before that, Q(0, 1) holds only what the way back pays: leave, come back, stay.) The largest
-# error shrinks to γ times as much or less in each sweep, so the numbers settle: on {{ sweeps(200,
-# 0.8)[0, 0] | .2f }} for staying and {{ sweeps(200, 0.8)[0, 1] | .2f }} for leaving.
+# (Before that, Q(0, 1) contains only the trap's rewards.) Each sweep shrinks the largest error to γ
+# times its size or less, so the numbers settle: on {{ sweeps(200, 0.8)[0, 0] | .2f }} for staying
+# and {{ sweeps(200, 0.8)[0, 1] | .2f }} for leaving.
 # <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
 # <!-- claim: abs(sweeps(200, 0.8)[0, 1] - 0.8**4 / 0.2) < 1e-9 -->
 #
-# Staying in the trap is worth {{ sweeps(200, 0.8)[0, 0] | .2f }} and not 0.80: Q(0, 0) says what it
-# is worth to stay *once* and to act as well as possible afterwards.
+# Why is staying not worth 0.80, as in Round 1? Q(0, 0) means staying *once*, and then leaving.
 # <!-- claim: abs(sweeps(200, 0.8)[0, 0] - (0.16 + 0.8 * 0.8**4 / 0.2)) < 1e-9 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -178,15 +173,16 @@ bc.show(charts.lines(range(31), named, title, "sweep", "Q in state 0, γ = 0.8",
 # ## Round 3: learning from one decision
 #
 # A sweep needs the whole map. A learner on the road has no map: it makes a decision, and sees a
-# reward and a next state. It can still ask whether this went better than expected. The answer is
-# the **temporal difference**:
+# reward and a next state. How much better than expected this went is the **temporal difference**:
 #
 # $$ \delta = r + \gamma \max_{a'} Q(s', a') - Q(s, a) $$
 #
-# The part before the minus is the **target**. It holds an estimate of the learner's own, the
-# largest Q of the next state: the learner **bootstraps**. Then it moves its number by a part of the
-# difference, the *step*: $Q(s, a) \leftarrow Q(s, a) + \text{step} \cdot \delta$. This is
-# **Q-learning**.
+# The part before the minus is the **target**. **Q-learning** moves Q(s, a) a part of the way to its
+# target. That part is the **step**, also called *learning rate*; here it is 0.3:
+# $Q(s, a) \leftarrow Q(s, a) + \text{step} \cdot \delta$.
+#
+# The target contains the learner's own estimate of the next state. Textbooks call this
+# **bootstrapping**; *bootstrapped SAC* has its name from the rule's help.
 #
 # **Exercise (4 min, ●○○).** Write the difference.
 
@@ -202,24 +198,23 @@ def temporal_difference(q, s, a, reward, s_next, gamma):
 check.temporal_difference(temporal_difference)
 
 # %% [markdown]
-# > **Predict.** All numbers are 0, but for Q(1, 1) = 0.1. The learner leaves the trap, from 0 to 1,
-# > and gets no reward. With γ = 0.8 and a step of 0.3, what is Q(0, 1) now?
+# > **Predict.** Q is 0 everywhere, except Q(1, 1) = 0.1. The learner leaves the trap, from state 0
+# > to 1, and gets no reward. With γ = 0.8 and a step of 0.3, what is Q(0, 1) now?
 
 # %%
 predict("values.3", "What is Q(0, 1) after the decision?", unit="")
 
 # %%
 predicted("values.3")
-difference = own_code.yours_or_ours("temporal_difference", doing="Learning")
-q = np.zeros((5, 2))
+difference, q = own_code.yours_or_ours("temporal_difference", doing="Learning"), np.zeros((5, 2))
 q[1, 1] = 0.1
-print(f"Q(0, 1) = 0 + 0.3 · {difference(q, 0, 1, 0.0, 1, 0.8):.2f} = ", end="")
-print(f"{0.3 * difference(q, 0, 1, 0.0, 1, 0.8):.3f}")
+delta = difference(q, 0, 1, 0.0, 1, 0.8)
+print(f"Q(0, 1) = 0 + 0.3 · {delta:.2f} = {0.3 * delta:.3f}")
 
 # %% [markdown]
-# **Explain.** Nothing was paid, and the number still rises, because the next state is known to be
-# worth something. It rises by 0.3 of 0.8 · 0.1 only. So a value comes back one state at a time, and
-# a part of the way at a time: it takes several passages until a trap hears of a free road.
+# **Explain.** Nothing was paid, and Q(0, 1) still rises, because the next state is known to be
+# worth something. It rises by only 0.3 of 0.8 · 0.1. So each passage moves a part of a value one
+# state back: the free road's value needs several passages to reach the trap.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Let them say in one sentence what is different from Round 2: one pair instead of ten, what was
@@ -229,12 +224,14 @@ print(f"{0.3 * difference(q, 0, 1, 0.0, 1, 0.8):.3f}")
 # ## Round 4: what gets a learner across?
 #
 # Which decisions does the learner make while it learns? Here it is **ε-greedy** ("epsilon"): with
-# probability 1 − ε it takes the action that now looks best, else it **explores**: one at random.
+# probability 1 − ε it takes the action with the larger Q, else it **explores**: it draws one at
+# random.
 #
 # **Exercise (20 min, ●●●).** Write this learner. The random decisions have been drawn beforehand
-# (`chances`). A demonstrator's decisions (`taught`) are replayed after each of your own. After each
-# 20 decisions the walk starts again in state 0, since the time is up: does the target of the last
-# decision change?
+# (`chances`). After each decision of its own it replays a demonstrator's (`taught`): it learns from
+# each pair (s, a), with the chain's reward and next state, and stays where it is. Every 20
+# decisions the time is up, and the walk starts again in state 0. Does that change the target of the
+# last decision?
 
 
 # %%
@@ -242,8 +239,8 @@ def learn_chain(chances, gamma, step, taught):
     """Q (5, 2) after len(chances) decisions, from zeros.
 
     chances: at each decision -1 for the greedy action (of two equal ones action 0), or the action
-    that is tried. taught: decisions (s, a) of a demonstrator, replayed in this order after each of
-    your own.
+    that is tried. taught: pairs (s, a) of a demonstrator, replayed in this order after each of your
+    own decisions; they pay chain.REWARD[s, a].
     """
     # solution
     q, s = np.zeros((chain.STATES, 2)), 0
@@ -268,11 +265,11 @@ check.learn_chain(learn_chain)
 # - *A*: ε = 0.1 and γ = 0.8;
 # - *B*: as A, with γ = 0.95;
 # - *C* and *D*: as A, with ε = 0.5 and with ε = 1;
-# - *E*: as A, with a demonstration of the way out, replayed after each of the 1,000 decisions.
+# - *E*: as A, with a demonstration of the way out, replayed after each decision.
 #
 # > **Predict.** In which of the five kinds do more than half of the thirty learn to leave? (Of two
-# > equal actions ours takes 0. To get through takes four random decisions in a row; for a value to
-# > come back, several passages.)
+# > equal actions the learner takes 0. Where the greedy action leads back, getting through takes
+# > four random decisions in a row, each right with probability ε / 2.)
 
 # %%
 predict("values.4", "In which kinds do more than half learn to leave? Letters, as in: A, C")
@@ -292,37 +289,35 @@ title = "Chance alone or a replayed demonstration gets all thirty out, a longer 
 bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
 
 # %% [markdown]
-# **Explain.** In A none learns to leave, although leaving is worth {{ sweeps(200, 0.8)[0, 1] | .2f }} and
-# staying once {{ sweeps(200, 0.8)[0, 0] | .2f }}. Going *back* from states 1 to 3 soon looks worth up to
-# γ Q(0, 0), going on less or still 0, and of two zeros ours takes action 0. So the greedy action leads
-# back, and to get through takes four random decisions in a row, each right with a probability of ε / 2:
-# a **barrier**. A longer view alone does not help (B): none of the thirty has been on the free road, so
-# its value is not known.
+# **Explain.** In A none learns to leave, although leaving is worth more. States 1 to 3 pay nothing,
+# and their way back leads to a state that is known to pay. So in the end the greedy action of all
+# thirty leads back in each of them: a **barrier**. A longer view alone does not help (B): none of
+# the thirty has been on the free road, so its value is not known.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
+# <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps here (C, D), but one visit is not enough, since each passage moves the
-# value one state back: {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5,
-# 0.8) }} learn to leave in these 1,000 decisions. (Would more decisions help C? Try it.) On the
-# road, where an accident is fined 10, D is no recipe.
-#
-# Small choices matter, too. If the learner *draws* one of two equal actions, none of A learns to leave
-# either, but {{ with_ties("random", 0.1)[1] }} have been on the free road, and of C {{
-# with_ties("random", 0.5)[0] }} learn it. If it takes action 1, it tries what it has not tried, and {{
-# with_ties("1", 0.1)[0] }} of A learn it.
-# <!-- claim: with_ties("random", 0.1)[0] == 0 and with_ties("random", 0.5)[0] > leaving(0.5, 0.8) and
-#   with_ties("1", 0.1)[0] > 20 -->
+# More exploration helps here (C, D), but one visit is not enough: {{ free_road_seen(0.5, 0.8) }} of
+# C were on the free road, and {{ leaving(0.5, 0.8) }} learn to leave. On the road a random decision
+# can cost an accident.
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 #
-# One demonstration, *replayed* after each decision, gets all thirty across (E): each time its
-# values move one state back. Replayed before the first decision only, it gets {{ replayed(1) }} of
-# thirty across; replayed five times there, {{ replayed(5) }}; once but *backwards*, {{
-# replayed(1, backwards=True) }}: then the free road's value comes all the way in one pass.
-# Q-learning learns from it as from its own decisions: it is **off-policy**, and so is the learner
-# of the next lessons.
-# <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 and replayed(1) < replayed(5) and replayed(1,
-#   backwards=True) > 20 and sum(chain.leaves(chain.learn_chain(chain.chances(0.5, 4000, seed), 0.8, 0.3,
-#   ())) for seed in range(30)) > leaving(0.5, 0.8) -->
+# One demonstration, *replayed* after each decision, gets all thirty across (E): each replay moves
+# its values one state back. Small choices matter, too:
+# <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
+#
+# | as A, but | learn to leave, of 30 |
+# |---|---|
+# | of two equal actions one is drawn | {{ with_ties("random") }} |
+# | of two equal actions 1 is taken, which tries what is new | {{ with_ties("1") }} |
+# | the demonstration is replayed once, at the start | {{ replayed(1) }} |
+# | replayed five times, at the start | {{ replayed(5) }} |
+# | replayed once *backwards*, at the start | {{ replayed(1, backwards=True) }} |
+# <!-- claim: with_ties("random") == 0 and with_ties("1") > 20 and replayed(1) < replayed(5) and
+#   replayed(1, backwards=True) > 20 -->
+#
+# Backwards, one pass carries the free road's value all the way. Q-learning can learn from decisions
+# that it did not make: it is **off-policy**, and so is the learner of the next lessons.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The question about the last decision separates two ideas that lesson [[demonstrations]] needs: an
@@ -340,12 +335,12 @@ compare_predictions(
 # ## What you now know
 #
 # 1. The return is the sum of the rewards from now on, each × γ to the power of its delay.
-# 2. The Bellman equation makes a value of the reward and the next value; sweeps of it settle.
+# 2. The Bellman equation computes a value from the reward and the next value; sweeps of it settle.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves
-#    its number by a part of it, and needs no map.
+#    Q(s, a) by a part of it, and needs no map.
 # 4. A value comes back one state at a time, from states that were visited.
-# 5. With a small ε, decisions hardly visit what a barrier hides. More chance helps, and so does a
-#    demonstration that is replayed.
+# 5. With a small ε the learner hardly visits what lies behind a barrier. On the chain more random
+#    decisions help, and so does a demonstration that is replayed.
 #
 # **Three questions to think about**
 # - If the chain's Q begins at 5 (*optimistic initial values*), {{ optimistic(0.1, 5) }} of thirty
@@ -364,8 +359,8 @@ compare_predictions(
 #   road each such trial can cost an accident, and networks generalise: a value that falls in one
 #   state falls in others, too.
 # - *On the road.* The rule's drives show a slow way, which on road 10 is worth less than staying at
-#   γ = 0.8 (lesson [[the_trap]]), states are 26 numbers and rarely come twice, and networks carry an error from one
-#   state to the next.
+#   γ = 0.8 (lesson [[the_trap]]), states are 26 numbers and rarely come twice, and networks carry
+#   an error from one state to the next.
 # - *The table.* A function with fewer numbers than states: a network. It answers for states that it
 #   has not seen, which is its use and its danger.
 

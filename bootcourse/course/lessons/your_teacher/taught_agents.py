@@ -56,9 +56,9 @@ class Taught(NamedTuple):
     xi: np.ndarray  # (agents,) weight of the KL
 
 
-def teach(teacher: Rule, settings: list[Settings], updates: int = UPDATES) -> Taught:
+def teach(teacher: Rule, settings: list[Settings], updates: int = UPDATES, learner: str = "torch") -> Taught:
     """Train agents from a teacher for a number of updates, and note their escapes every `EVERY` updates."""
-    training, notes = Training(settings, episodes=10**4, teacher=teacher), []
+    training, notes = Training(settings, episodes=10**4, teacher=teacher, learner=learner), []
 
     def note(training: Training) -> None:
         if training.updates and training.updates % EVERY == 0:

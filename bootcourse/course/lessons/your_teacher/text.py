@@ -193,7 +193,7 @@ bc.recording([beginning(drive, 60) for drive in driven], height=360)
 
 # %% tags=["nbval-ignore-output"]
 settings = bc.with_seeds(bc.settings_for("bootstrapped"), 3)
-mine_taught = taught_agents.teach(mine, settings).agents
+mine_taught = taught_agents.teach(mine, settings, learner="compiled").agents
 learned = taught_agents.tested(mine_taught)
 print("success of your three students, %:", (100 * learned["success"]).round())
 
