@@ -1,11 +1,13 @@
 """Clones of a driver, and DAgger: what the lesson trains and tests."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cache
+from itertools import islice
 
 import numpy as np
 import torch
-from torch import Tensor
+from torch import Tensor, nn
 
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
@@ -14,15 +16,16 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.bc import BCLearner, cloning_loss
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.networks import mlp
-from bootcourse.learn.replay_buffer import Batch, ReplayBuffer, decode_transitions
+from bootcourse.learn.replay_buffer import REWARD, Batch, decode_transitions
 from bootcourse.learn.sac import log_policy
-from bootcourse.learn.settings import Settings, settings_for, with_seeds
-from bootcourse.policies import PolicyOutput, rule_policy
+from bootcourse.learn.settings import Settings, settings_for
+from bootcourse.policies import Policy, PolicyOutput, rule_policy
 from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.scenario import DEFAULT
 
 SIZE = DEFAULT.observation_size
 ACTION, TERMINATED, RULE_ACTION = 2 * SIZE, 2 * SIZE + 2, 2 * SIZE + 3  # columns of a transition
+UPDATES, ROADS = 1500, held_out_seeds(6, 100)  # of a clone's training, and where it is measured
 
 
 class Cloner(BCLearner):
@@ -38,37 +41,74 @@ class Cloner(BCLearner):
         return {"actor_loss": self.agents * self.loss(log_pi.flatten(0, 1), self.labels(batch).flatten())}
 
 
-def clone(rows: Tensor, loss=cloning_loss, seeds: int = 12, updates: int = 1500, first: int = 0) -> list[Agent]:
-    """Clones of what is in the rows (transitions, row), one for each seed, trained with this loss."""
-    settings = with_seeds(settings_for("bc"), seeds, first)
-    cloner, replay = Cloner(settings, loss), ReplayBuffer(seeds, 64, SIZE, rows)
+def side_by_side(tables: Sequence[Tensor], seeds: Sequence[Sequence[int]], loss=cloning_loss) -> list[list[Agent]]:
+    """For each table of transitions its clones, one for each of its seeds; all of them are trained together."""
+    settings = [replace(settings_for("bc"), seed=seed) for of_one in seeds for seed in of_one]
+    cloner, table = Cloner(settings, loss), torch.cat([*tables])
+    clones, sizes = [len(of_one) for of_one in seeds], [len(rows) for rows in tables]
+    first = np.repeat(np.cumsum([0, *sizes[:-1]]), clones)[:, None]  # of each clone's rows
+    size, marks = np.repeat(sizes, clones)[:, None], torch.ones(len(settings), 64)
     generators = [np.random.default_rng(each.seed) for each in settings]
-    for _ in range(updates):
-        cloner.update(replay.sample(64, np.ones(seeds), generators))  # for each clone 64 demonstrations
-    weights = [[layer.detach()[i : i + 1] for layer in cloner.actor] for i in range(seeds)]
-    return [Agent(s, actor, [], alpha=0.0) for s, actor in zip(settings, weights, strict=True)]
+    for _ in range(UPDATES):
+        draws = np.stack([generator.random(64) for generator in generators])  # for each clone 64 demonstrations
+        rows = table[torch.from_numpy(first + (draws * size).astype(np.int64))]
+        cloner.update(decode_transitions(rows, SIZE, marks))
+    agents = (
+        Agent(each, [layer.detach()[i : i + 1] for layer in cloner.actor], [], alpha=0.0)
+        for i, each in enumerate(settings)
+    )
+    return [list(islice(agents, each)) for each in clones]
+
+
+def clone(rows: Tensor, loss=cloning_loss, seed: int = 0) -> Agent:
+    """A clone of what is in the rows (transitions, row), trained with this loss."""
+    return side_by_side([rows], [[seed]], loss)[0][0]
+
+
+def clones(data: dict[str, Tensor], loss=cloning_loss, seeds: Sequence[int] = range(8)) -> dict[str, list[Agent]]:
+    """Clones of each data set, by its name, with these seeds."""
+    return dict(zip(data, side_by_side([*data.values()], [seeds] * len(data), loss), strict=True))
 
 
 @cache
 def rule_s_drives() -> Episodes:
     """The rule, where the clones are measured."""
-    return drive_episodes(rule_policy(DEFAULT), held_out_seeds(6, 200))
+    return drive_episodes(rule_policy(DEFAULT), ROADS)
+
+
+def all_at_once(agents: Sequence[Agent]) -> Policy:
+    """A policy on as many equal parts of the roads as there are clones: each drives on its own part."""
+    actor = [torch.cat(layers) for layers in zip(*(agent.actor for agent in agents), strict=True)]
+
+    @torch.no_grad()
+    def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        states = torch.from_numpy(observations).view(len(agents), -1, SIZE)
+        return PolicyOutput(mlp(actor, states).argmax(-1).flatten().numpy())
+
+    return drive
 
 
 def measure(agents: Sequence[Agent], rows: Tensor) -> np.ndarray:
     """Of each clone: agreement with its data, success, accidents (shares) and return on held-out roads, (clones, 4)."""
-    scores, batch = [], decode_transitions(rows, SIZE, torch.zeros(len(rows)))
-    for agent in agents:
-        driven = drive_episodes(agent.as_policy(), held_out_seeds(6, 200))
-        agrees = agent.probabilities(batch.states.numpy()).argmax(1) == batch.actions.numpy()
-        scores.append((agrees.mean(), driven.success.mean(), (driven.accident > 0).mean(), driven.returns.mean()))
-    return np.array(scores)
+    roads = [*ROADS] * len(agents)
+    driven = drive_episodes(all_at_once(agents), roads, together=len(roads))
+    states, actions = rows[:, :SIZE].numpy(), rows[:, ACTION].numpy()
+    agreement = [(agent.probabilities(states).argmax(1) == actions).mean() for agent in agents]
+    scores = driven.success, driven.accident > 0, driven.returns
+    return np.column_stack([agreement, *(each.reshape(len(agents), -1).mean(1) for each in scores)])
 
 
 def compared(agents: Sequence[Agent], rows: Tensor) -> np.ndarray:
     """Of each clone: agreement with the rule in these rows and in its own states, accidents and return, (clones, 4)."""
-    agreement, _, accidents, returns = measure(agents, rows).T
-    return np.column_stack([agreement, [own_agreement(agent) for agent in agents], accidents, returns])
+    return np.array([_compared(agent, rows) for agent in agents])
+
+
+def _compared(agent: Agent, rows: Tensor) -> tuple[float, ...]:
+    own = collect(len(ROADS), policy=agent.as_policy(), first_seed=ROADS[0])
+    agrees = agent.probabilities(rows[:, :SIZE].numpy()).argmax(1) == rows[:, RULE_ACTION].numpy()
+    in_its_own = (own[:, ACTION] == own[:, RULE_ACTION]).float().mean()
+    accidents, returns = own[:, TERMINATED].sum() / len(ROADS), own[:, REWARD].sum() / len(ROADS)
+    return agrees.mean(), float(in_its_own), float(accidents), float(returns)
 
 
 class RuleBetween:
@@ -127,20 +167,28 @@ def unlike(agent: Agent, drives: Sequence[Rollout]) -> np.ndarray:
     return np.array([agent.probabilities(each.observations[:-1]).argmax(1) != each.actions for each in drives])
 
 
-def own_agreement(agent: Agent, roads: int = 60) -> float:
-    """The share of the clone's decisions, in its own drives on roads that no data have, that the rule would take."""
-    rows = collect(roads, policy=agent.as_policy(), first_seed=0)
-    return float((rows[:, ACTION] == rows[:, RULE_ACTION]).float().mean())
+class Trainings:
+    """Trainings with DAgger side by side, one for each seed: one more column of a row says to which it belongs."""
 
+    def __init__(self, loss: Callable[[Tensor, Tensor], Tensor], seeds: Sequence[int], episodes: int = 20):
+        self.loss, self.seeds, self.episodes = loss, seeds, episodes
 
-def trainer(loss: Callable[[Tensor, Tensor], Tensor], seed: int) -> Callable[[Tensor], Agent]:
-    """train(rows): a clone with this seed, trained from the beginning."""
-    return lambda rows: clone(rows, loss, seeds=1, first=seed)[0]
+    def rows(self, tables: Sequence[Tensor]) -> Tensor:
+        """One table of all trainings' rows."""
+        return torch.cat([nn.functional.pad(table, (0, 1), value=k) for k, table in enumerate(tables)])
 
+    def begin(self, rows: Tensor) -> Tensor:
+        """Each training has the same rows in the beginning."""
+        return self.rows([rows] * len(self.seeds))
 
-def own_drives(episodes: int) -> Callable[[Agent], Tensor]:
-    """drive(agent): transitions of that many episodes of its own, each time on the same roads."""
-    return lambda agent: collect(episodes, policy=agent.as_policy())
+    def train(self, rows: Tensor) -> list[Agent]:
+        """A clone for each training, of its own rows, trained from the beginning."""
+        tables = [rows[rows[:, -1] == k, :-1] for k in range(len(self.seeds))]
+        return [agents[0] for agents in side_by_side(tables, [[seed] for seed in self.seeds], self.loss)]
+
+    def drive(self, agents: Sequence[Agent]) -> Tensor:
+        """Transitions of each clone's own drives, each time on the same roads."""
+        return self.rows([collect(self.episodes, policy=agent.as_policy()) for agent in agents])
 
 
 def dagger(rows, train, drive, rounds):

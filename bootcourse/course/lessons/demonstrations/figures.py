@@ -50,13 +50,13 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
 def clones(measured: dict[str, np.ndarray]) -> Figure:
     """How clones drive: name -> (seeds, 4), shares of agreement, success and accidents, and the return.
 
-    A dot for each seed, and a line for the rule's return. Those of the rule's own drives come first.
+    A dot for each seed, and a line for the rule's return. Those of the rule's drives come first.
     """
     of_rule = cloning.rule_s_drives().returns.mean()
     (agrees, _, crash, _), *others = (values.mean(0) for values in measured.values())
     title = "The data sets, and how their clones drive"
     if all(agrees > other[0] and crash > other[2] for other in others):
-        title = "Clones of the rule's own drives agree most with their data, and crash most"
+        title = "Clones of the rule's drives agree most with their data, and crash most"
     figure = new_figure(1.3 + 0.55 * len(measured))
     alt_parts = {name: [] for name in measured}
     height = figure.get_figheight()
@@ -98,34 +98,36 @@ def differing(agents: Sequence[Agent], of_rule: Sequence[Rollout], own: Sequence
 def of_tests(tests: dict[str, Sequence[Rollout]]) -> tuple[list[str], list[list[str]], str]:
     """A table's columns, rows and last line: what the rule drives -> the clones' drives."""
     columns = ["the rule drives", "the clones differ, 40 to 60 s", "slow in the free lane"]
-    columns += ["an accident by 15 s", "later", "return"]
+    columns += ["an accident by 15 s", "15 to 40 s", "after 40 s", "return"]
     rows = []
     for name, drives in tests.items():
         differ = np.nanmean(cloning.unlike_the_rule(drives)[:, 40:60])
         ended = np.array([len(each.actions) if each.accident else np.inf for each in drives])
-        early, later = (ended <= 15).mean(), ((ended > 15) & (ended < np.inf)).mean()
-        shares = [f"{100 * each:.0f} %" for each in (early, later)]
+        counts, _ = np.histogram(ended, [0, 15.5, 40.5, 1e6])  # drives without an accident are in none
+        shares = [f"{100 * each / len(drives):.0f} %" for each in counts]
         back = np.mean([each.rewards.sum() for each in drives])
         rows.append([name, f"{100 * differ:.0f} %", f"{cloning.slow_seconds(drives):.0f} s", *shares, f"{back:.0f}"])
     ends = [each.accident for drives in tests.values() for each in drives if each.accident]
     left = sum(each == Accident.ROAD_DEPARTURE for each in ends)
-    return columns, rows, f"Twelve clones, 20 roads each. In {left} of the {len(ends)} accidents they leave the road."
+    clones = len(drives) // len({each.seed for each in drives})
+    return columns, rows, f"{clones} clones, 20 roads each. In {left} of the {len(ends)} accidents they leave the road."
 
 
 def of_trainings(trainings: Sequence[np.ndarray], of_rule: np.ndarray) -> tuple[list[str], list[list[str]], str]:
     """A table's columns, rows and last line: each driver of each training (rounds + 1, 4) as `cloning.compared` has it,
     clones of the rule as `cloning.measure` has them, and the rule.
     """
-    columns = ["", "agrees in the rule's states", "in its own", "has an accident, each training", "return"]
+    columns = ["trained on", "agrees in the rule's states", "in its own", "has an accident, each training", "return"]
     rows = []
     for number, drivers in enumerate(np.swapaxes(trainings, 0, 1)):
         there, own, _, back = drivers.mean(0)
         accidents = ", ".join(f"{100 * each:.0f}" for each in drivers[:, 2])
         texts = f"{100 * there:.0f} %", f"{100 * own:.0f} %", f"{accidents} %", f"{back:.0f}"
-        rows.append([f"{20 * number} own drives", *texts])
+        rows.append([f"and {20 * number} own" if number else "20 drives of the rule", *texts])
     agrees, _, crash, back = of_rule.mean(0)
-    rows.append(["clones of 200 drives", f"{100 * agrees:.0f} %", "", f"{100 * crash:.0f} %", f"{back:.0f}"])
+    rows.append(["200 drives of the rule", f"{100 * agrees:.0f} %", "", f"{100 * crash:.0f} %", f"{back:.0f}"])
     drives = cloning.rule_s_drives()
     crash, back = (drives.accident > 0).mean(), drives.returns.mean()
-    rows.append(["the rule", "100 %", "100 %", f"{100 * crash:.0f} %", f"{back:.0f}"])
-    return columns, rows, "Agreement and return: the mean of the trainings."
+    rows.append(["(the rule itself)", "100 %", "100 %", f"{100 * crash:.0f} %", f"{back:.0f}"])
+    clones = f"in the row with 200 drives all are means of {len(of_rule)} clones"
+    return columns, rows, f"Agreement and return are means of the trainings; {clones}."

@@ -1,5 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from bootcourse.course.lessons.demonstrations.cloning import UPDATES as UPDATES
 from bootcourse.research.results import Results
 from tools.course.known import shipped_results
 
