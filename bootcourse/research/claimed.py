@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import fisher_exact
+import scipy
 
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
@@ -67,7 +67,7 @@ def different(first: Results | list[Results], second: Results | list[Results], c
     """Fisher's p for two groups of agents, some of which have what is counted: Results -> (agents,) bool."""
     groups = [each if isinstance(each, list) else [each] for each in (first, second)]
     have = [np.concatenate([counted(agents) for agents in group]) for group in groups]
-    return float(fisher_exact([[int(each.sum()), int((~each).sum())] for each in have]).pvalue)
+    return float(scipy.stats.fisher_exact([[int(each.sum()), int((~each).sum())] for each in have]).pvalue)
 
 
 def escaping(results: Results) -> np.ndarray:
