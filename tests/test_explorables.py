@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.course.lessons import COURSE
+from bootcourse.course.lessons import COURSE, LESSONS
 from bootcourse.learn import sac
 from bootcourse.learn.bootstrap import regularised_policy
 from bootcourse.panels.explorable import Explorable
@@ -18,27 +18,19 @@ from tools.course.numbering import text_file
 from tools.course.source import read
 
 pytestmark = pytest.mark.usefixtures("raise_in_callbacks")
-SHOWN = {
-    "the_trap": "discount",
-    "values": "worths",
-    "discrete_sac": "undecided",
-    "update_and_loop": "the_end",
-    "the_barrier": "price",
-    "the_rule": "gap",
-    "demonstrations": "compounding",
-    "soft_constraint": "pull",
-    "how_many_seeds": "certainty",
-    "found_and_kept": "clocks",
-}
+FIRST = {lesson: re.findall(r"^explorable\.(\w+)\(\)", text_file(lesson).read_text(), re.M) for lesson in LESSONS}
+PANELS = [(lesson, name) for lesson, names in FIRST.items() for name in names]
 
 
-def shown(lesson: str) -> Explorable:
-    return getattr(importlib.import_module(f"bootcourse.course.lessons.{lesson}.explorable"), SHOWN[lesson])()
+def shown(lesson: str, name: str = "") -> Explorable:
+    """A lesson's panel, by default its first."""
+    module = importlib.import_module(f"bootcourse.course.lessons.{lesson}.explorable")
+    return getattr(module, name or FIRST[lesson][0])()
 
 
-@pytest.mark.parametrize("lesson", SHOWN)
-def test_each_slider_changes_the_picture_and_refuses_nonsense(lesson):
-    panel = shown(lesson)
+@pytest.mark.parametrize(("lesson", "name"), PANELS)
+def test_each_slider_changes_the_picture_and_refuses_nonsense(lesson, name):
+    panel = shown(lesson, name)
     for number in panel.numbers.values():
         before = panel.svg
         from_page(number.slider, value=(number.slider.min + number.slider.max) / 2)
@@ -91,13 +83,20 @@ def test_the_numbers_in_the_sentences_are_those_of_the_library():
         assert f"an attempt {words}" in panel.svg.alt
 
 
+def test_alpha_falls_for_ever_only_if_the_target_entropy_is_below_zero_and_rises_if_it_is_above_the_even_policy_s():
+    panel = shown("discrete_sac", "thermostat")
+    for target, course in ((-1, "falls at each update"), (0.7, "falls and rises"), (2.5, "rises at each update")):
+        from_page(panel.numbers["target"].field, value=target)
+        assert course in panel.svg.alt
+
+
 def test_a_move_is_answered_at_once():
     """Wanted is a tenth of a second; the best of some moves, because other programs may have the processor."""
-    for lesson in SHOWN:
-        panel, best = shown(lesson), np.inf
+    for lesson, name in PANELS:
+        panel, best = shown(lesson, name), np.inf
         number = next(iter(panel.numbers.values()))
         for value in np.linspace(number.slider.min, number.slider.max, 6):
             begun = time.process_time()
             from_page(number.slider, value=float(value))
             best = min(best, time.process_time() - begun)
-        assert best < 0.1, lesson
+        assert best < 0.1, (lesson, name)

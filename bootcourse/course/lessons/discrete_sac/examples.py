@@ -1,4 +1,4 @@
-"""What this lesson shows beside its exercises: policies to compare, what an actor learns, how a thermostat turns."""
+"""What this lesson shows beside its exercises: policies to compare, what an actor learns."""
 
 from collections.abc import Callable
 
@@ -17,19 +17,18 @@ POLICIES = {
 
 
 def trained(in_loss: Callable[[Tensor], Tensor]) -> list[str]:
-    """π and Q of two actions after 200 steps of an optimiser that may move both; in_loss: Q -> the Q of the loss."""
-    logits, q = torch.zeros(1, 2, requires_grad=True), torch.tensor([[1.0, 3.0]], requires_grad=True)
-    optimiser = torch.optim.Adam([logits, q], lr=0.05)
+    """π(a₂), Q and V after 200 steps of an optimiser that may move both, from an even policy and Q = 1 and 3.
+
+    in_loss: Q -> the Q of the loss. V is given twice: by Q as it is then, and by Q as it was at first.
+    """
+    logits, q, alpha = torch.zeros(1, 2, requires_grad=True), torch.tensor([[1.0, 3.0]]), torch.tensor([1.0])
+    moved = q.clone().requires_grad_()
+    optimiser = torch.optim.Adam([logits, moved], lr=0.05)
     for _ in range(200):
-        loss = -sac.soft_value(sac.log_policy(logits), in_loss(q), torch.tensor(1.0)).mean()
+        loss = -sac.soft_value(sac.log_policy(logits), in_loss(moved), alpha).mean()
         optimiser.zero_grad()
         loss.backward()
         optimiser.step()
-    return [f"{number:.2f}" for number in (*logits.softmax(-1)[0].tolist(), *q[0].tolist())]
-
-
-def turns(entropy: float, target_entropy: float) -> str:
-    """What a step down the temperature's loss does to α: "falls" or "rises"."""
-    log_alpha = torch.zeros((), requires_grad=True)
-    loss = sac.temperature_loss(log_alpha, torch.tensor([entropy]), torch.tensor(target_entropy))
-    return "falls" if torch.autograd.grad(loss, log_alpha)[0] > 0 else "rises"
+    log_pi = sac.log_policy(logits)
+    worth = [sac.soft_value(log_pi, values, alpha).item() for values in (moved, q)]
+    return [f"{number:.2f}" for number in (log_pi[0, 1].exp().item(), *moved[0].tolist(), *worth)]

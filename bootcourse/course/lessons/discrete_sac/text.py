@@ -36,11 +36,12 @@ progress("discrete_sac")
 # ## Look first
 #
 # Before the road, a smaller world: a pole stands on a cart. Fifty times a second you push the cart
-# to the left or to the right. Each push pays 1 while the pole stands. The episode ends when the
-# pole leans more than 12 degrees, when the cart leaves its track, or after 500 pushes. This is
+# to the left or to the right. Each push pays 1, the last one, too. The episode ends when the pole
+# leans more than 12 degrees, when the cart leaves its track, or after 500 pushes. This is
 # **CartPole**.
 # <!-- claim: gym.make('CartPole-v1').unwrapped.tau == 1 / 50 -->
-# <!-- claim: (lambda env: (env.reset(seed=0), env.step(0))[1][1])(gym.make('CartPole-v1')) == 1 -->
+# <!-- claim: (lambda env: (env.reset(seed=0), [env.step(0)[1:3] for _ in range(11)])[1])(
+#   gym.make('CartPole-v1')) == 10 * [(1, False)] + [(1, True)] -->
 # <!-- claim: math.degrees(gym.make('CartPole-v1').unwrapped.theta_threshold_radians) == 12 -->
 # <!-- claim: gym.spec('CartPole-v1').max_episode_steps == 500 -->
 
@@ -88,8 +89,9 @@ bc.show(diagrams.sac_diagram())
 # %% [markdown]
 # ## Round 1: what is a state worth when entropy is rewarded?
 #
-# **Drag** the temperature α. (Nats are explained below.) Going straight is worth most here: at which
-# end does the agent nearly always go straight, and what does it do at the other end?
+# **Drag** the temperature α. At which end does the agent nearly always take its best action, to go
+# straight, and what does it do at the other end? And how can the state be worth {{ WORTH | .2f }} at first,
+# when its best action is worth {{ max(q) | g }}? (Nats are explained below.)
 
 # %%
 explorable.undecided()
@@ -122,13 +124,15 @@ table(["policy", "entropy (nats)", "as undecided as this many equally likely act
 # <!-- claim: 0 == float(sac.entropy(torch.tensor([1.0]).log())) <
 #   float(sac.entropy(torch.full((9,), 1 / 9).log())) < math.log(9) + 1e-6 -->
 #
-# The last column, $e^{\mathcal{H}}$, is the **effective number of actions**: the paper's Equation 22,
-# which takes an episode's mean entropy from Equation 21.
+# The last column, $e^{\mathcal{H}}$, is the **effective number of actions** (the paper's Equations
+# 21 and 22).
 #
 # What is a state worth? The **soft value** is the mean of Q under the agent's own policy, plus α for
 # each nat of entropy.
 #
 # $$ V(s) = \sum_a \pi(a|s)\, Q(s,a) + \alpha\, \mathcal{H}(\pi(\cdot|s)) $$
+#
+# Of the panel's {{ WORTH | .2f }}, Q alone gives {{ BY_Q | .2f }}; the entropy pays the rest.
 #
 # **Exercise (4 min, ●○○).** Write the soft value.
 
@@ -179,15 +183,12 @@ bc.show(figures.against_temperature([1.0, 3.0], title))
 # ## Round 2: what should the critic's estimate have been?
 #
 # The critic learns from **transitions**: in state s the learner took action a, got the reward r,
-# and came to s'. What should Q(s, a) have been? Lesson [[values]] answers with the Bellman equation:
+# and came to s'. Lesson [[values]] answers with the Bellman equation:
 #
 # $$ Q(s, a) = r + \gamma \max_{a'} Q(s', a') $$
 #
-# An action is worth its reward plus γ times what the next state is worth. The **discount** γ is a
-# number between 0 and 1.
-#
-# In SAC the next state is worth something else, for two reasons. The critic judges the policy π, not
-# the best one, so the mean of Q under π takes the place of the largest Q. And s' pays α for each nat of entropy.
+# In SAC the next state is worth something else. The critic judges the policy π, not the best one, so
+# the mean of Q under π takes the place of the largest Q. And s' pays α for each nat of entropy.
 # Together they are its soft value:
 #
 # $$ Q(s, a) = \mathbb{E}\big[\, r + \gamma \big( \textstyle\sum_{a'} \pi(a'|s')\, Q(s', a') +
@@ -197,8 +198,7 @@ bc.show(figures.against_temperature([1.0, 3.0], title))
 # in s is not in it, because a is given.
 #
 # One transition gives one sample of the right side. Computed with the present estimates, it is the
-# **target** y, and $y - Q(s,a)$ is the **temporal difference**. Learning an estimate from an
-# estimate is called **bootstrapping**; the paper's title means a start with a rule's help.
+# **target** y. To learn an estimate from an estimate is **bootstrapping**.
 
 # %% [markdown]
 # ### Where nothing follows
@@ -243,10 +243,10 @@ print(sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0
 # our clock stopped it, and the four numbers that the critic sees do not hold the clock.
 
 # %% [markdown]
-# Two tricks keep the estimates in check. V uses the smaller value of **two critics**, because the
-# actor prefers actions that a critic overestimates. And it uses **target networks**, slow copies of
-# the critics, which take over a small share τ ("tau") of the new weights at each update. So a step
-# towards the target hardly moves the target.
+# V uses the smaller value of **two critics**, because the actor prefers actions that a critic
+# overestimates. And it uses **target networks**, slow copies of the critics, which take over a small
+# share τ ("tau") of the new weights at each update. So a step towards the target hardly moves the
+# target.
 #
 # **Exercise (6 min, ●●○).** Write the loss of both critics: for each the mean over the batch of
 # $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action that was taken. The target is held
@@ -271,14 +271,23 @@ check.critic_loss(critic_loss)
 # ## Round 3: what does the actor minimise?
 #
 # The critics say what the present policy is worth (*policy evaluation*). The actor looks for a
-# better policy, given these values (*policy improvement*). SAC does not finish one before the
-# other: at each update it makes one small step of both. The actor's loss is minus the soft value:
+# better policy, given these values (*policy improvement*). At each update SAC makes one small step of
+# both. The actor's loss is minus the soft value:
 #
 # $$ L_\text{actor} = -\,\text{mean over } s \text{ of } \sum_a \pi(a|s)\,
 # \big(Q(s,a) - \alpha \log \pi(a|s)\big) $$
 #
 # Two things make V larger: a better policy, or higher estimates Q. Which may the gradient change?
 #
+# > **Predict.** Two actions have Q = 1 and Q = 3; α = 1. Two policies, each a softmax of two numbers
+# > (*logits*), are even at first. An optimiser lowers the loss: for one it moves the logits alone,
+# > for the other Q, too. Which policy is worth more afterwards, by Q = 1 and 3?
+
+# %%
+choices = ["the one with Q held fixed", "the one whose Q moved, too", "both the same"]
+predict("discrete_sac.4", "Which policy is worth more, by Q = 1 and 3?", choices)
+
+# %% [markdown]
 # **Exercise (5 min, ●●○).** Write the actor's loss.
 
 
@@ -293,21 +302,19 @@ def actor_loss(log_pi, q, alpha):
 
 check.actor_loss(actor_loss)
 
-# %% [markdown]
-# Below, a policy of two actions is a softmax of two numbers, its *logits*. It is even at first, and Q
-# is 1 and 3. An optimiser lowers the loss, once by the logits alone, once by Q, too.
-
 # %%
+predicted("discrete_sac.4")
 rows = [
     ["Q held fixed", *examples.trained(lambda q: q.detach())],
     ["Q may move, too", *examples.trained(lambda q: q)],
 ]
-table(["after 200 steps, α = 1", "π(a₁)", "π(a₂)", "Q(a₁)", "Q(a₂)"], rows)
+table(["after 200 steps", "π(a₂)", "Q(a₁)", "Q(a₂)", "V by these Q", "V by Q = 1 and 3"], rows)
 
 # %% [markdown]
-# **Explain.** With Q held fixed, the actor finds the softmax of Round 1. If Q may move, the loss
-# also falls when Q rises, although the actions are worth what they were worth before. So Q is
-# **detached** (`q.detach()`): its value counts, and the gradient stops there.
+# **Explain.** An actor that may move Q marks its own work: by its own Q its policy looks better than
+# the other, and by the Q that the actions have it is worse. With Q held fixed, the actor finds the
+# best policy of Round 1, with π(a₂) = e³ / (e + e³) = {{ SOFTMAX | .2f }}. So Q is **detached**
+# (`q.detach()`): its value counts, and the gradient stops there.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let them say, before the cell is run, what an actor would do that may also raise Q. Then ask which
@@ -346,26 +353,22 @@ check.temperature_loss(temperature_loss)
 
 # %%
 predict(
-    "discrete_sac.4",
+    "discrete_sac.5",
     "What does α do with η = −1?",
     ["falls, and stops at H = η", "rises for ever", "falls for ever", "moves up and down"],
 )
 
 # %%
-predicted("discrete_sac.4")
-rows = []
-for h in (2.2, 1.0, 0.1, 0.0):  # nats
-    rows.append([f"{h}", *(examples.turns(h, eta) for eta in (-1.0, 0.66))])
-table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
+predicted("discrete_sac.5")
+explorable.thermostat()
 
 # %% [markdown]
-# **Explain.** With η = −1 the thermostat turns in one direction only. The entropy of a policy over
-# a list of actions is 0 or more, so it is at least 1 above η in every state, and α falls at each
-# update: SAC pays less and less for exploration. With η = 0.66, which such a policy can reach, α falls
-# and rises.
+# **Explain.** The entropy over a list of actions is 0 or more, so it is at least 1 above η = −1 in
+# every state. The thermostat turns in one direction only: α falls at each update, and SAC pays less
+# and less for exploration. **Drag** η: where does α come to rest, and where does it rise for ever?
 #
 # Why then −1? The paper gives no reason. Perhaps it comes from a rule of thumb for *continuous*
-# actions, such as any angle of the wheel, whose entropy can be negative.
+# actions, whose entropy can be negative.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=5
@@ -374,7 +377,10 @@ table(["entropy H", "α with η = −1", "α with η = 0.66"], rows)
 # anybody answers.
 
 # %%
-compare_predictions("discrete_sac", {1: 0.0, 2: "1.44", 3: "1 and 50.5", 4: "falls for ever"})
+compare_predictions(
+    "discrete_sac",
+    {1: 0.0, 2: "1.44", 3: "1 and 50.5", 4: choices[0], 5: "falls for ever"},
+)
 
 # %% [markdown]
 # ## What you now know
@@ -385,8 +391,8 @@ compare_predictions("discrete_sac", {1: 0.0, 2: "1.44", 3: "1 and 50.5", 4: "fal
 #    time is not terminated.
 # 3. V(s') takes the smaller value of the two critics' slow copies.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
-# 5. The temperature is a thermostat for the entropy. With η = {{ SETTINGS.target_entropy }}, below
-#    every entropy over a list of actions, α falls at each update.
+# 5. The temperature is a thermostat for the entropy, which lies between 0 and log n for n actions.
+#    With η = {{ SETTINGS.target_entropy }} α falls at each update.
 
 # %% [markdown]
 # **Three questions to think about**

@@ -45,5 +45,5 @@ def pull() -> Explorable:
         return bars(says, AXES, ACTION_NAMES, named)
 
     help_text = f"The temperature; it starts at {settings.alpha_init:g}, and falls while the agent learns."
-    alpha = Number("α", 0.002, 1e-5, 0.1, 0.05, help_text, logarithmic=True)
+    alpha = Number("α", settings.alpha_init, 1e-5, 0.1, 0.05, help_text, logarithmic=True)
     return Explorable("Another action is worth more than the rule's. When is it taken?", draw, alpha=alpha)

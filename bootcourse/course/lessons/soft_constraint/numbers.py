@@ -3,8 +3,6 @@
 import math
 from collections.abc import Callable
 
-import numpy as np
-
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.panels.compromise import Ways
@@ -29,11 +27,6 @@ def sooner_without() -> bool:
     return bool(0 < first.min() and first.max() < then.min())
 
 
-def median_found(agents: Results) -> float:
-    """After how many episodes the median agent has found the way."""
-    return float(np.median(found_after(agents.curves["success"])))
-
-
 def found(agents: Results) -> int:
     """How many agents have found the way out in training."""
     return int(agents.found_and_kept("soft")[0].sum())
@@ -56,9 +49,30 @@ def in_all(count: Callable[[Results], int], xi: float | None = None) -> int:
     return count(study) + count(others(more))
 
 
+def fading() -> list[Results]:
+    """The study's ten agents and ten others whose ξ = 200 α fades to nothing."""
+    return [of("soft"), others("soft")]
+
+
+def floored() -> list[Results]:
+    """The twenty agents whose ξ = 200 α falls to 0.1 and stays there, ten of the study's."""
+    return [shipped_experiment("ablations")["ξ falls to 0.1"], others("soft, ξ falls to 0.1")]
+
+
 def twenty(count: Callable[[Results], int]) -> int:
-    """The same count of the twenty agents whose ξ = 200 α falls to 0.1 and stays there."""
-    return count(shipped_experiment("ablations")["ξ falls to 0.1"]) + count(others("soft, ξ falls to 0.1"))
+    """The same count as `in_all` of the agents of `floored`."""
+    return sum(map(count, floored()))
+
+
+def mean_return(agents: list[Results]) -> float:
+    """Of all agents of these studies, in which they are as many."""
+    return sum(each.scores("returns").mean() for each in agents) / len(agents)
+
+
+def returning_more() -> int:
+    """How many agents of `fading` return more than each agent of `floored`."""
+    most = max(each.scores("returns").max() for each in floored())
+    return sum(int((each.scores("returns") > most).sum()) for each in fading())
 
 
 def entropy_of_the_rule() -> float:
