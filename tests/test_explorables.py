@@ -9,9 +9,11 @@ import pytest
 import torch
 
 from bootcourse.course.lessons import COURSE, LESSONS
+from bootcourse.course.lessons.looking_ahead import explorable as futures
 from bootcourse.learn import sac
 from bootcourse.learn.bootstrap import regularised_policy
 from bootcourse.panels.explorable import Explorable
+from bootcourse.policies import idle_policy
 from bootcourse.statistics import rate
 from tests.panels import at_its_ends, from_page, inside, raise_in_callbacks  # noqa: F401
 from tools.course.numbering import text_file
@@ -88,6 +90,15 @@ def test_alpha_falls_for_ever_only_if_the_target_entropy_is_below_zero_and_rises
     for target, course in ((-1, "falls at each update"), (0.7, "falls and rises"), (2.5, "rises at each update")):
         from_page(panel.numbers["target"].field, value=target)
         assert course in panel.svg.alt
+
+
+def test_the_futures_say_until_which_decision_a_drive_can_be_saved(crash):
+    last, panel = futures.last_chance(crash, idle_policy), futures.futures(crash, idle_policy)
+    safe = futures.ways_out(crash, idle_policy)
+    assert 0 < last < len(crash.actions)
+    for decision, words in ((last, f"{safe[last - 1]} of nine futures have no accident"), (last + 1, "it is too late")):
+        from_page(panel.numbers["decision"].field, value=decision)
+        assert words in panel.svg.alt and "nan" not in panel.svg
 
 
 def test_a_move_is_answered_at_once():

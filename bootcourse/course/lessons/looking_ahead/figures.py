@@ -9,7 +9,7 @@ from collections.abc import Container, Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator, NullLocator
+from matplotlib.ticker import NullLocator
 
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.models import MODELS
@@ -54,47 +54,6 @@ def compared(drives_of: Mapping[str, Episodes]) -> tuple[list[str], list[list]]:
     roads = len(next(iter(drives_of.values())).returns)
     rows = [[name, accidents(drives), f"{drives.returns.mean():.1f}"] for name, drives in drives_of.items()]
     return ["the same agent", f"accidents in {roads}", "return"], rows
-
-
-def arrows(names: Sequence[str], before: Sequence[Episodes], after: Sequence[Episodes], title: str) -> Figure:
-    """From alone (a ring) to with rollouts (a dot): a row for each agent, a panel for accidents and for the return."""
-    measures = {
-        f"accidents in {len(before[0].returns)} drives": [
-            [accidents(drives) for drives in each] for each in (before, after)
-        ],
-        "return": [[drives.returns.mean() for drives in each] for each in (before, after)],
-    }
-    left, row, colour, alt_parts = 0.85, 0.42, style(BASE).colour, []
-    width = (WIDTH - left - 0.2) / len(measures)
-    figure = new_figure(0.8 + row * len(names) + 0.45)
-    for column, (measure, pair) in enumerate(measures.items()):
-        ax = axes_at(figure, left + column * width, 0.8, width - 0.25, row * len(names))
-        farthest = max(map(max, pair))
-        for place, (name, alone, ahead) in enumerate(zip(names, *pair, strict=True)):
-            side = 1 if ahead >= alone else -1
-            if abs(ahead - alone) > 0.2 * farthest:  # otherwise the two marks leave no room for an arrow
-                how = {"arrowstyle": "-|>", "color": colour, "lw": 1.8, "shrinkA": 4, "shrinkB": 3}
-                ax.annotate("", (ahead, place), (alone, place), arrowprops=how, zorder=2)
-            ax.plot(alone, place, "o", color=colour, mfc="white", ms=5.5, zorder=3, clip_on=False)
-            ax.plot(ahead, place, "o", color=colour, ms=5.5, zorder=3, clip_on=False)
-            _beside(ax, alone, place, -side)
-            _beside(ax, ahead, place, side)
-            alt_parts.append(f"{name}, {measure}: {alone:.0f} to {ahead:.0f}")
-        plain_axes(ax, measure, grid="x")
-        ax.set(xlim=(-0.22 * farthest, 1.25 * farthest), ylim=(len(names) - 0.5, -0.6))
-        ax.set_yticks(range(len(names)), names if column == 0 else [])
-        ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-        ax.xaxis.set_major_locator(MaxNLocator(4))
-        ax.set_xticks([tick for tick in ax.get_xticks() if 0 <= tick <= 1.05 * farthest])
-    words = "○ alone   ● with rollouts of ten decisions"
-    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
-    return finish(figure, title, f"From alone to with rollouts. {'; '.join(alt_parts)}.")
-
-
-def _beside(ax: Axes, x: float, place: int, side: int) -> None:
-    """The number x, to the right (1) or left (-1) of its mark."""
-    look = {"ha": "left" if side > 0 else "right", "va": "center", "fontsize": SMALL, "color": INK}
-    ax.annotate(f"{x:,.0f}", (x, place), (6 * side, 0), textcoords="offset points", **look)
 
 
 def each_agent(cells: dict[str, Results], bases: Sequence[str], title: str) -> Figure:
@@ -158,16 +117,9 @@ def _check_computed(there: Container, wanted: Sequence, base: str) -> None:
         )
 
 
-def safer_with_shield(cells: dict[str, Results], base: str = CLOSELY[0]) -> int:
-    """With how many of the wrong models the shield has fewer accidents than the rollouts."""
-    rates = {
-        form: [score(cells, Cell(base, form, model=name)).accident_rate.value for name in MODELS if name != "exact"]
-        for form in ("shield", "rollouts")
-    }
-    return sum(shield < rollouts for shield, rollouts in zip(*rates.values(), strict=True))
-
-
-def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
+def wrong_models(
+    cells: dict[str, Results], title: str = "Accidents with models that are wrong", base: str = CLOSELY[0]
+) -> Figure:
     """Accidents with each wrong model, as full rollouts and as a shield, and of the base policy alone.
 
     Raises BootcourseError if the base policy alone, or any of the two with a model, was not computed.
@@ -202,9 +154,6 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     ax.text(value, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
     legend = f"● rollouts{_drives(scores_of['rollouts'])}    □ shield{_drives(scores_of['shield'])}"
     figure.text(0.012, 0.1 / figure.get_figheight(), legend, fontsize=SMALL, color=INK)
-    safer, wrong = safer_with_shield(cells, base), len(names) - 1
-    often = "each" if safer == wrong else f"{safer}"
-    title = f"With {often} of {wrong} wrong models the shield has fewer accidents than the rollouts"
     alt = (
         f"For each model, accidents in 1,000 drives and the return. Alone: {1000 * alone.accident_rate.value:.1f} and "
         f"{alone.returns.value:.1f}. {' '.join(words)}"

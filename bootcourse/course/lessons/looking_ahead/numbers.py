@@ -5,10 +5,9 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course import shipped as course
+from bootcourse.course.lessons.looking_ahead import explorable
 from bootcourse.course.lessons.looking_ahead.figures import BASE
-from bootcourse.course.lessons.looking_ahead.figures import safer_with_shield as safer_with_shield
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.episodes.lookahead import NINE, imagine
 from bootcourse.episodes.models import MODELS
 from bootcourse.episodes.record import record
 from bootcourse.research.computed import experiment
@@ -16,7 +15,6 @@ from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import Cell, Score, score
 from bootcourse.research.results import Results
 from bootcourse.road.state import Accident
-from bootcourse.scenario import DEFAULT
 
 LATE = "everything a second late"
 KEEPING = "others keep speed and lane"
@@ -98,9 +96,18 @@ def earned(base: str, form: str = "rollouts") -> np.ndarray:
 
 
 @cache
-def nine_ends() -> list[int]:
-    """How the nine imagined drives end, six seconds before the first agent's first collision: 0 without an accident."""
+def ways_out() -> list[int]:
+    """In the first agent's first collision, for each decision: how many of its nine futures have no accident."""
     agent, roads = course.shipped_agents("bootstrapped")[0].as_policy(), held_out_seeds(15, 40)
     drive = record(agent, [roads[int((how_five_end()[0] == Accident.COLLISION).argmax())]])[0]
-    cars = drive.states[(len(drive.actions) - 6) * DEFAULT.clock.steps]
-    return [int(end) for end in imagine(cars[None], NINE[None], agent, horizon=10).accidents[0]]
+    return explorable.ways_out(drive, agent).tolist()
+
+
+def worse_than_alone(base: str, form: str) -> int:
+    """With how many of the wrong models a base policy crashes more often than alone."""
+    return sum(per_thousand(base, form, model) > per_thousand(base, "alone") for model in WRONG)
+
+
+def fewer_rows() -> int:
+    """How many of the ten learned their last model from fewer decisions than that of the control."""
+    return int((learning().notes["rows"][:, -1] < learning().measured["rows"]).sum())
