@@ -97,6 +97,8 @@ def test_the_install_compiles_the_road_and_the_learner_and_jupyterlab_will_ask_n
     *_, lock, package, prefix, compiled, page, learner = called.read_text().splitlines()
     assert lock.endswith("--require-hashes -r student.lock") and "--editable ." in package
     assert "bootcourse.doctor import road" in compiled and "bundle" in page and "learner='compiled'" in learner
+    exec(learner.removeprefix("-c "), names := {})
+    assert names["t"].updates == 1, "the first update compiles the learner"
     settings = json.loads((tmp_path / "share/jupyter/lab/settings/overrides.json").read_text())
     assert settings == {name: CALM[name] for name in settings}, "the settings that the tests of JupyterLab rely on"
     assert CALM["@jupyterlab/apputils-extension:notification"] in settings.values()

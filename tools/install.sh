@@ -36,4 +36,4 @@ JSON
 echo "Now the road and the learner are compiled, once."
 "$python" -c "from bootcourse.doctor import road; print(next(road()).what)"
 "$python" -c "from bootcourse.web.bundle import content; content()"
-"$python" -c "import bootcourse as bc; t = bc.Training([bc.settings_for('sac')], 1, learner='compiled'); t.run(False, updates=1)"
+"$python" -c "import bootcourse as bc; t = bc.Training([bc.settings_for('sac')], learner='compiled'); t.run(False, updates=1)"

@@ -203,4 +203,5 @@ class Note:
         return printable(self.sentence)
 
     def _repr_html_(self) -> str:
-        return str(html('<div role="status">{}</div>', self.sentence))
+        # The first line is what JupyterLab shows of a folded output.
+        return str(html('<!-- a note -->\n<div role="status">{}</div>', self.sentence))

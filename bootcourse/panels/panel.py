@@ -19,16 +19,19 @@ from bootcourse.plots.svg import Drawing, printed
 
 STYLE = """<style>
 .bc-panel {border: 1px solid var(--jp-border-color2, #E3E7EB); border-radius: 6px; padding: 10px 14px 12px;
-  max-width: 1100px; overflow: hidden; color: var(--jp-ui-font-color1, #1F2933)}
+  max-width: 1100px; overflow: hidden; color: var(--jp-ui-font-color1, #1F2933); container-type: inline-size}
 .bc-panel h3 {margin: 0 0 2px; font: 650 15px system-ui, sans-serif}
 .bc-panel .bc-quiet {font: 12px/1.35 system-ui, sans-serif; color: var(--jp-ui-font-color2, #5F6B77)}
 .bc-panel .bc-says {font: 600 13px/1.4 system-ui, sans-serif; min-height: 18px}
 .bc-panel .bc-wrong {color: @ALARM@}
 .bc-panel svg {display: block; max-width: 100%; height: auto}
-@media (max-width: 640px) {  /* a drawing keeps a size that can be read, and its box scrolls */
+@container (max-width: 640px) {  /* a drawing keeps a size that can be read, and its box scrolls */
   .bc-panel .widget-html-content {overflow-x: auto}
-  .bc-panel .widget-html-content > svg {max-width: none; width: 720px}
+  .bc-panel .widget-html-content > svg {max-width: none; width: 640px}
 }
+.bc-panel .jupyter-widgets-disconnected::before {content: none}  /* one sentence in place of a mark at each part */
+.bc-panel.jupyter-widgets-disconnected::before {content: "The kernel has ended: run this cell again."; padding: 0;
+  font: 600 13px/1.6 system-ui, sans-serif; color: @ALARM@}
 .bc-panel :focus-visible {outline: 2px solid var(--jp-brand-color1, #1976D2); outline-offset: 2px}
 .bc-panel .widget-html, .bc-panel .widget-html-content {line-height: normal; height: auto}
 </style>""".replace("@ALARM@", ALARM)

@@ -349,7 +349,7 @@ class Game {
     this.find("speed").textContent = cars[SPEED].toFixed(1);
     this.find("return").textContent = points(earned.reduce((sum, reward) => sum + reward, 0));
     this.find("earning").textContent = (lastReward < 0 ? "" : "+") + lastReward.toFixed(2).replace("-", "−");
-    const where = this.options.watch ? `, road ${this.number}` : "";
+    const where = this.options.watch ? `\nroad ${this.number}` : "";
     this.find("clock").textContent = `${Math.floor(this.shown)} of ${this.road.scenario.decisions} s${where}`;
   }
 
@@ -384,10 +384,12 @@ class Game {
     this.dirty = true;
   }
 
-  // A remark stays for a few decisions, so that it can be read.
-  remark(words) {
+  // A remark stays for a few decisions, so that it can be read; one that asks for an action, while it is right.
+  remark({ words, asks }) {
+    if (!words && !this.asked && this.drive.time - this.remarkedAt <= 6) return;
     if (words) this.remarkedAt = this.drive.time;
-    if (words || this.drive.time - this.remarkedAt > 6) this.say(words);
+    this.asked = asks;
+    this.say(words);
   }
 
   // A sentence for everybody, if there is one.

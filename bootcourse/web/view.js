@@ -1,6 +1,8 @@
 // The road from above, up the page: x grows upwards, the left lane is on the left. Draws one frame on a canvas.
 
 const AHEAD = 0.66; // where the ego is, from the top
+const UNDER = 100; // pixels at the bottom, beside the road, that belong to speed and return
+const LINE = 15; // pixels from one line of a sign to the next
 const TRAIL = "#44aa99"; // of the imagined drive that is worth most
 const SIGNS = ["↙", "↓", "↘", "←", "•", "→", "↖", "↑", "↗"];
 
@@ -148,23 +150,33 @@ class View {
     const [, py] = this.spot(state[X], state[Y]);
     this.car(state, colour, { label: "", hollow: true, alpha: gone ? 0.4 : 1 });
     const beyond = py < 10 || py > this.height - 10, [edge] = this.spot(0, -this.scenario.laneWidth / 2);
-    if (beyond) this.signAway(name, state[X] - this.x, colour);
-    else this.sign(name, edge - 8, this.free(py + 4), colour, "right"); // beside the road, where it covers no car
+    const away = state[X] - this.x, words = beyond ? this.away(name, away) : name;
+    const lines = this.lines(words, edge - 8, "right").length; // beside the road, where it covers no car
+    this.sign(words, edge - 8, this.free(beyond ? (away > 0 ? 76 : this.height) : py + 4, lines), colour, "right");
   }
 
-  // The height of a sign beside the road: below those that are there already.
-  free(y) {
-    for (const other of this.signs.beside) if (Math.abs(other - y) < 24) y = other + 24;
-    this.signs.beside.push(y);
+  // The height of a sign of so many lines beside the road: clear of those that are there already, and of the dials.
+  free(y, lines) {
+    const lowest = this.height - UNDER - (LINE / 2) * (lines - 1), up = y > lowest;
+    y = Math.min(y, lowest);
+    for (const other of this.signs.beside) {
+      const apart = 24 + (LINE / 2) * (lines + other.lines - 2);
+      if (Math.abs(other.y - y) < apart) y = other.y + (up ? -apart : apart);
+    }
+    this.signs.beside.push({ y, lines });
     return y;
   }
 
-  // The sign of a car that is not in the picture: where, and how far.
+  // Where a car is that is not in the picture.
+  away(name, metres) {
+    return `${metres > 0 ? "▲" : "▼"} ${name}, ${Math.abs(metres).toFixed(0)} m`;
+  }
+
+  // The sign, in 3D, of a car that is not in the picture.
   signAway(name, away, colour) {
-    const words = `${away > 0 ? "▲" : "▼"} ${name}, ${Math.abs(away).toFixed(0)} m`;
     const below = this.width < 480 ? 100 : 18; // on a phone above the dials, which leave no room between them
     const row = 26 * this.signs[away > 0 ? "above" : "below"]++;
-    this.sign(words, this.width / 2, away > 0 ? 62 + row : this.height - below - row, colour);
+    this.sign(this.away(name, away), this.width / 2, away > 0 ? 62 + row : this.height - below - row, colour);
   }
 
   // Where an accident was.
@@ -177,16 +189,17 @@ class View {
     pen.stroke();
   }
 
-  // Words in a frame, in the middle above (x, y), to its left ("right": that is where they end) or to its right.
+  // Words in a frame, in the middle above (x, y), to its left ("right": that is where they end) or to its right; in
+  // several lines where one would not fit.
   sign(words, x, y, colour, align = "center") {
-    const { pen } = this;
-    pen.font = "12.5px system-ui, sans-serif";
-    const half = pen.measureText(words).width / 2 + 9, wanted = { center: x, right: x - half, left: x + half }[align];
+    const { pen } = this, lines = this.lines(words, x, align), first = y - (LINE / 2) * (lines.length - 1);
+    const half = Math.max(...lines.map(line => pen.measureText(line).width)) / 2 + 9;
+    const wanted = { center: x, right: x - half, left: x + half }[align];
     const middle = Math.min(Math.max(wanted, half + 4), this.width - half - 4);
     pen.fillStyle = this.colour("card");
     pen.globalAlpha = 0.92;
     pen.beginPath();
-    pen.roundRect(middle - half, y - 15, 2 * half, 22, 11);
+    pen.roundRect(middle - half, first - 15, 2 * half, 22 + LINE * (lines.length - 1), 11);
     pen.fill();
     pen.globalAlpha = 1;
     pen.strokeStyle = colour;
@@ -194,7 +207,19 @@ class View {
     pen.stroke();
     pen.fillStyle = this.colour("ink");
     pen.textAlign = "center";
-    pen.fillText(words, middle, y + 0.5);
+    lines.forEach((line, i) => pen.fillText(line, middle, first + 0.5 + LINE * i));
+  }
+
+  // The lines of a sign at x: as few as fit beside x.
+  lines(words, x, align) {
+    this.pen.font = "12.5px system-ui, sans-serif";
+    const room = { center: this.width, right: x, left: this.width - x }[align] - 22, lines = [];
+    for (const word of words.split(" ")) {
+      const longer = `${lines.at(-1)} ${word}`;
+      if (lines.length && this.pen.measureText(longer).width <= room) lines[lines.length - 1] = longer;
+      else lines.push(word);
+    }
+    return lines;
   }
 
   // The action of the next decision, as an arrow before the car.

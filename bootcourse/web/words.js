@@ -46,15 +46,15 @@ function verdict(drive, idle, who) {
   return `Compared with following, ${who} ${cost} and gained ${points(sum - lowest)} afterwards. That makes ${total}.`;
 }
 
-// What is worth saying to a player at this moment, or "".
+// What is worth saying to a player at this moment, or "", and whether it asks for an action.
 function remark(cars, justOut, attempts) {
-  const tries = attempts > 1 ? `, in ${attempts} attempts` : "";
-  if (justOut) return `You are out${tries}. 15 m/s pays best. Press 5 for a faster clock.`;
-  if (cars[SPEED] < 3) return "Slow: below 1 m/s the drive ends.";
-  if (cars[SPEED] > 16.5) return "Above 15 m/s every second pays less.";
-  if (cars[Y] < -1.2) return "You are at the edge of the road: steer right (→).";
-  if (cars[Y] > 9.2) return "You are at the edge of the road: steer left (←).";
-  return "";
+  const tries = attempts > 1 ? `, in ${attempts} attempts` : "", asks = true;
+  if (cars[Y] < -1.2) return { words: "You are at the edge of the road: steer right (→).", asks };
+  if (cars[Y] > 9.2) return { words: "You are at the edge of the road: steer left (←).", asks };
+  if (justOut) return { words: `You are out${tries}. 15 m/s pays best. Press 5 for a faster clock.` };
+  if (cars[SPEED] < 3) return { words: "Slow: below 1 m/s the drive ends.", asks };
+  if (cars[SPEED] > 16.5) return { words: "Above 15 m/s every second pays less." };
+  return { words: "" };
 }
 
 // The way out that the third hint describes; the tests drive by these numbers.
