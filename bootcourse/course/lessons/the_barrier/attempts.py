@@ -11,16 +11,11 @@ from bootcourse.learn.teachers import toward
 from bootcourse.policies import PlanPolicy, Policy, PolicyOutput, idle_policy, random_policy, rule_policy
 from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.road.vector_env import TrapVectorEnv
-from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS
+from bootcourse.scenario import DEFAULT, N_ACTIONS
 
 FAST = 15.0  # m/s; the speed that pays most
-ACCELERATE, BRAKE = 7, 1  # straight on
+ACCELERATE = 7  # straight on
 PLAN = [5, *[3] * 4, *[5] * 3, *[7] * 5]  # right 1 s, left 4 s, right 3 s, accelerate 5 s
-BEGINNINGS = {  # of drives from mid-lane
-    "1 acceleration": [ACCELERATE],
-    **{f"{times} accelerations": [ACCELERATE] * times for times in range(2, 6)},
-    "4 brakes": [BRAKE] * 4,
-}
 
 
 @dataclass(frozen=True)
@@ -79,25 +74,6 @@ def drive(policy: Policy, seeds: Sequence[int], make_env: Callable[..., VectorEn
         rewards.append(step.rewards)
         accident |= step.infos["accident"] > 0
     return Outcome(np.stack(rewards, axis=1), step.infos["is_success"], accident)
-
-
-def stays_or_begins(
-    beginning: Sequence[int], share: float, seeds: Sequence[int], make_env: Callable[..., VectorEnv], seed: int = 0
-) -> list[Outcome]:
-    """Two drives on each road: one does nothing, the other first takes the actions of `beginning`, then does nothing.
-
-    share: the probability that a later action is random instead, the same in both drives; drawn with `seed`.
-    """
-    rng = np.random.default_rng(seed)
-    shape = DEFAULT.clock.decisions, len(seeds)
-    errs, wrong = rng.random(shape) < share, rng.integers(N_ACTIONS, size=shape)
-    errs[: len(beginning)] = False
-    outcomes = []
-    for first in ([], beginning):
-        actions = np.full(shape, IDLE)
-        actions[: len(first)] = np.reshape(first, (-1, 1))
-        outcomes.append(drive(PlanPolicy(np.where(errs, wrong, actions)), seeds, make_env))
-    return outcomes
 
 
 def kinds(roads: int, seed: int = 0) -> Mapping[str, Policy]:

@@ -75,11 +75,22 @@ class MidLaneStart(LaterStart):
         self.cars[mask, EGO, Y] = 0.0
 
 
-def costing(price: float) -> Callable[..., TrapVectorEnv]:
-    """The road as it is, where an accident ends the drive and costs this much in place of 10: as `TrapVectorEnv`."""
+def mid_lane_at(speeds: np.ndarray) -> type[MidLaneStart]:
+    """The same, with an ego that starts at the given speed, m/s (roads,)."""
+
+    class AtSpeed(MidLaneStart):
+        def _start(self, mask: np.ndarray) -> None:
+            super()._start(mask)
+            self.cars[mask, EGO, SPEED] = speeds[mask]
+
+    return AtSpeed
+
+
+def costing(price: float, road: type[TrapVectorEnv] = TrapVectorEnv) -> Callable[..., TrapVectorEnv]:
+    """A road, where an accident ends the drive and costs this much in place of 10: as `TrapVectorEnv`."""
 
     def make_env(roads: int, scenario: Scenario = DEFAULT, *more) -> TrapVectorEnv:
-        return TrapVectorEnv(roads, replace(scenario, reward=replace(scenario.reward, accident=-price)), *more)
+        return road(roads, replace(scenario, reward=replace(scenario.reward, accident=-price)), *more)
 
     return make_env
 

@@ -50,39 +50,27 @@ def worth(outcomes: Mapping[str, Outcome], title: str) -> Figure:
 
 
 FAR, SOME, NOT = 2, 1, 0  # how far a learner got: its square is dark, light or empty
-AGENTS = (
-    "it gains (ends ahead on 95 % of the roads or more, and returns more than staying)",
-    "ends ahead on 10 % or more, but misses the 95 %, staying's return, or both",
-    "ends ahead on fewer than 10 %",
-)
+AGENTS = ("escapes: ends ahead on 95 % of the roads or more", "ends ahead on 10 % or more", "ends ahead on fewer")
 LEARNERS = ("learned to leave", "was on the free road, and did not learn to leave", "was not on the free road")
 SHADES = {FAR: style("sac").colour, SOME: "#A9CFE6", NOT: "white"}
 
 
-def paying(results: Results, staying: float) -> np.ndarray:
-    """Which agents escape and earn more than a car that stays behind trap 1, (agents,)."""
-    return (results.scores("success") >= ESCAPES) & (results.scores("returns") > staying)
-
-
-def ends(results: Results, gamma: float, staying: float) -> list[tuple[int, bool]]:
-    """How the agents with this γ drive, for `squares`: how far they get, and whether they crash on most roads.
-
-    staying: the return of a car that stays behind trap 1 there.
-    """
+def ends(results: Results, gamma: float) -> list[tuple[int, bool]]:
+    """How the agents with this γ drive, for `squares`: how far they get, and whether they crash on most roads."""
     chosen = np.array([agent["gamma"] == gamma for agent in results.agents])
     success, accident = (results.scores(name)[chosen] for name in ("success", "accident"))
-    far = np.where(paying(results, staying)[chosen], FAR, np.where(success >= 0.1, SOME, NOT))
+    far = np.where(success >= ESCAPES, FAR, np.where(success >= 0.1, SOME, NOT))
     return list(zip(far.tolist(), (accident > 0.5).tolist(), strict=True))
 
 
-def escapes(trained: Mapping[str, Results], staying: Mapping[str, float], title: str) -> Figure:
-    """How the agents of each kind of road end, at each discount. staying: what a car that stays returns there."""
+def escapes(trained: Mapping[str, Results], kinds: Sequence[str], title: str) -> Figure:
+    """How the agents of each of these kinds of road end, at each discount."""
     panels = {}
-    for kind, returned in staying.items():
+    for kind in kinds:
         for gamma in sorted({agent["gamma"] for agent in trained[kind].agents}):
             panel = panels.setdefault(f"γ = {gamma}", {})
             name = "the road as it is" if kind == "as it is" else kind.split(", ")[-1]
-            panel[name] = ends(trained[kind], gamma, returned)
+            panel[name] = ends(trained[kind], gamma)
     return squares(panels, title, AGENTS, "has an accident on most roads")
 
 
@@ -108,13 +96,17 @@ def once_unhurt(results: Results) -> np.ndarray:
     return ((results.curves["success"] > 0) & (results.curves["accident"] == 0)).any(axis=1)
 
 
-def while_they_learned(short: Results, long: Results):
-    """A table: how many agents, trained for as long as the lesson's or longer, ended ahead while they learned."""
+def while_they_learned(short: Results, long: Results, chance: float):
+    """A table: how many agents, trained for as long as the lesson's or longer, ended ahead while they learned.
+
+    chance: that an agent as short-lived as the lesson's would, if all its actions were random.
+    """
     rows = []
     for name, agents in (("as long as in Round 1", short), ("longer, in the study", long)):
         unhurt = once_unhurt(agents).sum() if "accident" in agents.curves else "not recorded"
         rows.append([name, len(agents), once_ahead(agents).sum(), unhurt, agents.escapers("sac")])
-    return table(["trained", "agents", "ended ahead once or more", "unhurt", "escape in the end"], rows)
+    below = f"If each action were random, {len(short) * chance:.0f} of twenty would end ahead in 400 drives."
+    return table(["trained", "agents", "ended ahead once or more", "unhurt", "escape in the end"], rows, below)
 
 
 def learners(all_q: Sequence[np.ndarray]) -> list[tuple[int, bool]]:

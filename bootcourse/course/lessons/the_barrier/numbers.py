@@ -10,6 +10,7 @@ from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.policies import idle_policy, random_policy
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, of, shipped_experiment
 
@@ -64,70 +65,41 @@ MIDDLE, CHEAP = easier.MIDDLE, easier.CHEAP
 RAM = "accelerates into trap 1"
 
 
-def paying(kind: str) -> int:
-    """How many of the twenty agents of a kind escape and earn more than staying."""
-    return int(figures.paying(easy(kind), easier.staying(kind)).sum())
-
-
-def below_staying(kind: str) -> int:
-    """How many of those that do not escape return at least 3 less than staying."""
-    agents = easy(kind)
-    less = easier.staying(kind) - agents.scores("returns") >= 3
-    return int((less & (agents.scores("success") < ESCAPES)).sum())
-
-
 def often_ahead(kind: str) -> int:
     """How many of the twenty end ahead on 10 % of their held-out roads or more."""
     return int((easy(kind).scores("success") >= 0.1).sum())
 
 
-def most_unhurt(kind: str) -> float:
-    """Of each of the twenty agents, the share of roads on which it ends ahead without an accident: the largest."""
-    agents = easy(kind)
-    return float(((agents.episodes("success") > 0) & (agents.episodes("accident") == 0)).mean(axis=1).max())
-
-
-def hurt_ahead(kind: str) -> float:
-    """Of the twenty agents' drives that end ahead, the share with an accident."""
-    ahead = easy(kind).episodes("success") > 0
-    return float(easy(kind).episodes("accident")[ahead].mean())
-
-
-MANY = held_out_seeds(7, 1000)  # of the lesson's random actions
-
-
-@cache
-def _random_later(beginning: int | str, share: float) -> tuple[attempts.Outcome, attempts.Outcome]:
-    first = attempts.BEGINNINGS[beginning] if isinstance(beginning, str) else [attempts.ACCELERATE] * beginning
-    return attempts.stays_or_begins(first, share, MANY, easier.MidLaneStart)
-
-
-def added(beginning: int | str, share: float, gamma: float) -> tuple[float, float]:
-    """Mid-lane: what a beginning adds to staying if later actions are random so often; its standard error.
-
-    beginning: so many accelerations, or a name of `attempts.BEGINNINGS`.
-    """
-    stays, goes = _random_later(beginning, share)
-    more = goes.values(gamma) - stays.values(gamma)
+def slope(share: float, price: float, gamma: float) -> tuple[float, float]:
+    """Mid-lane, with this share of random actions: what 11 m/s is worth more than 10; its standard error."""
+    values = explorable.at_price(explorable.rewards_from(share), price)
+    worth = values @ gamma ** np.arange(values.shape[-1])
+    more = worth[explorable.NOW + 1] - worth[explorable.NOW]
     return float(more.mean()), float(more.std() / np.sqrt(len(more)))
 
 
-def gains(times: int, share: float, gamma: float) -> bool:
-    """Whether that is above 0 by more than two standard errors."""
-    return added(times, share, gamma)[0] > 2 * added(times, share, gamma)[1]
+def costs(share: float, price: float, gamma: float) -> bool:
+    """Whether that is below 0 by more than two standard errors."""
+    return slope(share, price, gamma)[0] < -2 * slope(share, price, gamma)[1]
 
 
-def costs(times: int, share: float, gamma: float) -> bool:
-    """Whether it is below 0 by as much."""
-    return added(times, share, gamma)[0] < -2 * added(times, share, gamma)[1]
+def worths(share: float) -> np.ndarray:
+    """What each of the picture's speeds is worth at γ = 0.8, (speeds,)."""
+    rewards = explorable.rewards_from(share)
+    return (rewards @ 0.8 ** np.arange(rewards.shape[-1])).mean(axis=1)
 
 
-def sooner(beginning: int | str) -> float:
-    """By how many seconds the accident comes sooner after a beginning, if each later action is random."""
-    both = _random_later(beginning, 1)
-    assert all(each.accident.all() for each in both)
-    stays, goes = ((each.rewards != 0).cumsum(axis=1).argmax(axis=1).mean() for each in both)
-    return float(stays - goes)
+def ends_after(share: float) -> np.ndarray:
+    """After how many seconds a drive from each of the picture's speeds has its accident, on average."""
+    rewards = explorable.rewards_from(share)
+    crashed = rewards == DEFAULT.reward.accident
+    assert crashed.any(axis=-1).all()
+    return 1 + crashed.argmax(axis=-1).mean(axis=1)
+
+
+def slow(kind: str) -> int:
+    """How many of the twenty drive slower than 8 m/s, on average."""
+    return int((easy(kind).scores("speed") < 8).sum())
 
 
 def _straight() -> np.ndarray:
@@ -195,11 +167,6 @@ def times_the_lane(gamma: float) -> float:
     """How many times the best drive in the lane the best drive is worth, as the lesson finds them."""
     searched = is_staying_optimal(range(4), gamma=gamma, beam=50)
     return searched.best.value / searched.keep_lane.value
-
-
-def crashed(kind: str) -> int:
-    """How many of the twenty that do not escape have an accident on most roads."""
-    return int(((easy(kind).scores("accident") > 0.5) & (easy(kind).scores("success") < ESCAPES)).sum())
 
 
 def driven() -> np.ndarray:

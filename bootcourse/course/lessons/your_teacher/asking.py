@@ -7,7 +7,7 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.teachers import Rule, teacher_policy
 from bootcourse.policies import Policy, PolicyOutput
 
-HEADINGS = ["the first student drives, and asks", "seconds it asks in, %", "success, %", "accidents, %", "return"]
+HEADINGS = ["the worst student drives, and asks", "seconds it asks in, %", "success, %", "accidents, %", "return"]
 
 
 class Asks:
@@ -28,7 +28,7 @@ class Asks:
 
 
 def compared(agents: list[Agent], teacher: Rule, seeds: list[int]) -> list[list[str]]:
-    """A row for each way to ask: never, when the students disagree, and as often at random seconds."""
+    """A row for each way in which the first agent, which drives, asks: never, when they disagree, at random seconds."""
     students, taught, rng = [agent.as_policy() for agent in agents], teacher_policy(teacher), np.random.default_rng(0)
     share, rows = 0.0, []
     ways = {

@@ -10,13 +10,16 @@ from matplotlib.figure import Figure
 from bootcourse.course import table
 from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.learn.teachers import teacher_policy
+from bootcourse.learn.demonstrations import FIRST_SEED
+from bootcourse.learn.settings import Settings
+from bootcourse.learn.teachers import teacher_of, teacher_policy
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.experiments.teacher_worth import TAUGHT, Cells
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.teachers import TEACHERS
 from bootcourse.road.state import LANE, SPEED, X, Y
+from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.statistics import ESCAPES
 
 HEAD, FOOT = 0.75, 0.55  # inches, above and below the rows of a figure
@@ -33,6 +36,30 @@ def exam_of_all() -> Markdown:
         rows.append([name, *(f"{share:.0f}" for share in shares), f"{driven.returns.mean():.0f}"])
     below = "A drive that ends ahead of trap 1 got out, even if it ends by a crash."
     return table([f"{len(driven.success)} roads", "gets out, %", "accidents, %", "return"], rows, below)
+
+
+def first_seconds(teacher: str) -> float:
+    """The share of its most frequent action in the first second of the roads that it demonstrates on."""
+    roads = [FIRST_SEED + number for number in range(Settings.demonstration_episodes)]
+    env = TrapVectorEnv(len(roads))
+    env.reset(seed=roads)
+    return np.bincount(teacher_of(TEACHERS[teacher].rule)(env.cars)).max() / len(roads)
+
+
+def records() -> Markdown:
+    """A table of the four teachers' demonstrations: how sure they begin, and how they end."""
+    rows, roads = [], [FIRST_SEED + number for number in range(Settings.demonstration_episodes)]
+    for name, words in reversed(WORDS.items()):
+        ends = drive_episodes(teacher_policy(TEACHERS[name].rule), roads)
+        rows.append([words, f"{first_seconds(name):.2f}", ends.success.sum(), np.sum(ends.accident > 0)])
+    return table([f"{len(roads)} drives", "p, counted", "end ahead of trap 1", "end in an accident"], rows)
+
+
+def of_each(tested: Mapping[str, np.ndarray]) -> Markdown:
+    """A table of what `taught_agents.tested` says, a row for each agent."""
+    columns = (100 * tested["success"], 100 * tested["accident"], tested["returns"])
+    rows = [[number, *(f"{value:.0f}" for value in row)] for number, row in enumerate(zip(*columns, strict=True), 1)]
+    return table(["student", "gets out, %", "accidents, %", "return"], rows)
 
 
 def cars_in_rows(cars: np.ndarray, shown: int = 5) -> Markdown:

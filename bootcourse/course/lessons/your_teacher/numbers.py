@@ -6,17 +6,14 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons import registry
-from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
+from bootcourse.course.lessons.your_teacher import example_teachers, figures, taught_agents  # noqa: F401
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.your_teacher.exercises import without_a_look
-from bootcourse.episodes.record import record
-from bootcourse.learn.demonstrations import FIRST_SEED
-from bootcourse.learn.teachers import teacher_policy, toward
-from bootcourse.research import teachers
+from bootcourse.learn.teachers import toward
 from bootcourse.research.beyond import lengths
 from bootcourse.road.state import EGO, LANE, SPEED, TRAFFIC, Accident
 from bootcourse.statistics import ESCAPES
-from tools.course.known import SETTINGS, shipped_teachers
+from tools.course.known import shipped_teachers
 
 COLLIDES = Accident.COLLISION
 
@@ -79,8 +76,7 @@ def one_situation(speed: float):
 @cache
 def demonstrated(teacher: str) -> list:
     """The drives that it demonstrates."""
-    roads = [FIRST_SEED + number for number in range(SETTINGS.demonstration_episodes)]
-    return record(teacher_policy(teachers.TEACHERS[teacher].rule), roads)
+    return taught_agents.demonstrated(teacher)
 
 
 def gets_ahead(teacher: str) -> int:

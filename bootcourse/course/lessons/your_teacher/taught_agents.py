@@ -15,10 +15,12 @@ from bootcourse.course.lessons.your_teacher.example_teachers import careful, rac
 from bootcourse.course.shipped import shipped_teachers
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
+from bootcourse.learn.demonstrations import FIRST_SEED
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
-from bootcourse.learn.teachers import Rule, all_roads, course_rule, teacher_of
+from bootcourse.learn.teachers import Rule, all_roads, course_rule, teacher_of, teacher_policy
 from bootcourse.learn.training import Training
 from bootcourse.research.cells import results_of
 from bootcourse.research.computed import experiment
@@ -26,6 +28,7 @@ from bootcourse.research.experiment import Experiment
 from bootcourse.research.experiments.teacher_worth import Cells
 from bootcourse.research.results import Results, agent_entries
 from bootcourse.research.teachers import RULE
+from bootcourse.research.teachers import TEACHERS as STUDIED
 from bootcourse.scenario import Scenario
 from bootcourse.statistics import holm, improvement
 
@@ -56,9 +59,12 @@ class Taught(NamedTuple):
     xi: np.ndarray  # (agents,) weight of the KL
 
 
-def teach(teacher: Rule, settings: list[Settings], updates: int = UPDATES, learner: str = "torch") -> Taught:
-    """Train agents from a teacher for a number of updates, and note their escapes every `EVERY` updates."""
-    training, notes = Training(settings, episodes=10**4, teacher=teacher, learner=learner), []
+def teach(teacher: Rule, settings: list[Settings], updates: int = UPDATES, **options) -> Taught:
+    """Train agents from a teacher for a number of updates, and note their escapes every `EVERY` updates.
+
+    options: of `Training`, such as learner="compiled", or demonstrations in place of the teacher's.
+    """
+    training, notes = Training(settings, episodes=10**4, teacher=teacher, **options), []
 
     def note(training: Training) -> None:
         if training.updates and training.updates % EVERY == 0:
@@ -140,6 +146,12 @@ def verdicts(groups: dict[str, dict[str, np.ndarray]]) -> dict[str, dict[str, st
         direction = "helps" if improvement(*each).value > 0.5 else "hurts"
         found[name][score] = direction if p < 0.05 else "not shown"
     return found
+
+
+def demonstrated(teacher: str) -> list[Rollout]:
+    """The drives that one of the study's teachers demonstrates."""
+    roads = [FIRST_SEED + number for number in range(Settings.demonstration_episodes)]
+    return record(teacher_policy(STUDIED[teacher].rule), roads)
 
 
 def of_two_learners() -> Cells:
