@@ -15,7 +15,7 @@ STYLE = """<style>
 .bc-panel .widget-radio-box {height: auto}
 .bc-panel .widget-radio-box label {display: flex; flex-direction: row-reverse; justify-content: flex-end; gap: 8px;
   height: auto; margin: 3px 0; line-height: 1.35; white-space: normal; text-align: left}
-.bc-panel .widget-radio-box input {flex: none; margin: 2px 0 0}
+.bc-panel .widget-radio-box input {flex: none; align-self: flex-start; margin: 0; height: 1.35em; line-height: 1.35}
 </style>"""
 # JupyterLab would use the arrows, which choose among radio buttons, to go from cell to cell, and Enter to edit a cell.
 # Enter in a field commits, once the kernel has what was typed.

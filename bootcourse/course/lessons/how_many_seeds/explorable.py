@@ -1,35 +1,159 @@
-"""To drag in this lesson: how many agents were trained, and what is known about all others."""
+"""To drag in this lesson: a true rate beside an exact interval, the counts of two methods, intervals of few seeds."""
+
+from functools import lru_cache
 
 import numpy as np
+import scipy
 
+from bootcourse.colours import GRID, INK, QUIET
+from bootcourse.course.shipped import shipped_results
 from bootcourse.methods import style
-from bootcourse.panels.explorable import Axes, Curve, Explorable, curves
+from bootcourse.panels.explorable import CHART, WIDTH, Explorable
 from bootcourse.panels.number import Number, whole_number
-from bootcourse.plots.svg import Drawing
+from bootcourse.plots.svg import Drawing, SvgAxes, drawing, rect, text, ticks
 from bootcourse.statistics import rate
 
-MOST = 60  # agents
-DRAWN = {*range(1, 11), 12, 15, 20, 25, 30, 40, 50, MOST}  # the numbers of agents whose interval is drawn
-SAMPLE = "agents that were trained (how many of them escape is rounded)"
-AXES = Axes(SAMPLE, "rate of escape (%), 95 % interval", (0.0, 100.0))
+SHARE, MOST = 0.8, 60  # of the trained agents so many escape; at most so many are trained
+PLAIN = "#B8BEC6"  # of what does not count
+STUDIES, DRAWS = 100, 2000  # that are shown, and of each study's bootstrap
+RESOLUTION = 400  # studies are drawn for each that is shown
 
 
 def certainty() -> Explorable:
-    """The exact interval of a rate over the number of agents, for a share of them that escapes, while both move."""
+    """How many agents escape at a true rate, above the exact interval of a count, while rate and agents move."""
+    colour = style("soft").colour
 
-    def draw(agents: float, share: float) -> Drawing:
-        counts = np.array(sorted(DRAWN | {int(agents)}))
-        hits = np.round(counts * share / 100).astype(int)
-        ends = 100 * np.array([rate(np.arange(n) < k)[1:] for n, k in zip(counts, hits, strict=True)])
-        own, colour = int(np.searchsorted(counts, agents)), style("soft").colour
-        named = {"the upper end": Curve(ends[:, 1], colour), "the lower end": Curve(ends[:, 0], colour, "--")}
-        low, high = ends[own]
-        says = f"{hits[own]} of {agents:g} escape: the 95 % interval of the rate is {low:.0f} to {high:.0f} %."
-        return curves(says, AXES, counts, named, mark=agents)
+    def draw(true: float, agents: float) -> Drawing:
+        n, k = int(agents), round(SHARE * agents)
+        chances, more = scipy.stats.binom.pmf(np.arange(n + 1), n, true / 100), true <= 100 * k / n
+        counted = np.arange(n + 1) >= k if more else np.arange(n + 1) <= k
+        says = f"If {true:g} % escape in truth, {k} or {'more' if more else 'fewer'} of {n} escape in "
+        says += f"{100 * chances[counted].sum():.1f} % of all studies."
+        _, low, high = rate(np.arange(n) < k)
+        bar = f"95 % interval of {k} of {n}: {100 * low:.0f} to {100 * high:.0f} %"
+        counts = SvgAxes(52, 66, 690, 130, (-0.6, n + 0.6), (0.0, chances.max()))
+        for count, (chance, inside) in enumerate(zip(chances, counted, strict=True)):
+            sides = [count - 0.4, count + 0.4, count + 0.4, count - 0.4]
+            counts.fill(sides, [0, 0, chance, chance], colour if inside else PLAIN)
+        for count in ticks(0, n, 10):
+            counts.parts.append(text(counts.at(count, 0)[0], 211, f"{count:g}", "middle", QUIET, 10.5))
+        below = SvgAxes(52, 258, 690, 22, (0.0, 100.0), (0.0, 1.0))
+        below.line([0, 100], [0.5, 0.5], GRID, 1.5)
+        below.fill([100 * low, 100 * high, 100 * high, 100 * low], [0.2, 0.2, 0.8, 0.8], colour)
+        below.line([true, true], [0, 1], INK, 2)
+        for tick in ticks(0, 100, 10):
+            below.parts.append(text(below.at(tick, 0)[0], 294, f"{tick:g}", "middle", QUIET, 10.5))
+        words = [
+            text(4, 20, says, size=14, bold=True),
+            text(52, 54, f"how often so many of {n} escape (blue: {k} or {'more' if more else 'fewer'})", bold=True),
+            text(52, 246, f"{bar}; the line: your true rate", bold=True),
+        ]
+        return drawing(WIDTH, 300, [*words, *counts.parts, *below.parts], f"{says} {bar}.")
 
     numbers = {
-        "agents": Number("agents", 10, 1, MOST, 1, "So many were trained, each with its own seed.",
-                         check=whole_number("agents", 1, MOST)),
-        "share": Number("share", 80, 0, 100, 5, "So many of a hundred of them escape.", "%"),
+        "true": Number("true rate", 50, 0, 100, 1, "So many of a hundred agents would escape in truth.", "%"),
+        "agents": Number("agents", 10, 5, MOST, 5, f"So many were trained, and {100 * SHARE:.0f} % of them escape.",
+                         check=whole_number("agents", 5, MOST)),
     }  # fmt: skip
-    return Explorable("What do these agents say about the next one?", draw, **numbers)
+    return Explorable("Which true rates are believable?", draw, **numbers)
+
+
+@lru_cache
+def told_apart(n: int) -> np.ndarray:
+    """`bootcourse.statistics.significant`, sooner: by the hypergeometric chances of each total; bool (n + 1, n + 1)."""
+    counts = np.arange(n + 1)
+    total = counts[:, None] + counts
+    chances = scipy.stats.hypergeom.pmf(counts[:, None], 2 * n, total, n)
+    p = np.zeros_like(chances)
+    for together in range(2 * n + 1):
+        here = total == together
+        chance = chances[here]
+        p[here] = (chance * (chance <= chance[:, None] * (1 + 1e-7))).sum(axis=1)
+    return p < 0.05
+
+
+def disc(x: float, y: float, radius: float, colour: str = "") -> str:
+    """A disc of that colour; without one, an empty circle."""
+    look = f'fill="{colour or "#FFFFFF"}" stroke="{colour or QUIET}"'
+    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{radius:.1f}" {look}/>'
+
+
+def studies() -> Explorable:
+    """All pairs of counts of two methods, each a disc as large as its chance, filled where Fisher's test sees it."""
+    colour, most = style("bootstrapped").colour, 30
+
+    def draw(agents: float, first: float, second: float) -> Drawing:
+        n, shown = int(agents), told_apart(int(agents))
+        k, j = (scipy.stats.binom.pmf(np.arange(n + 1), n, true / 100) for true in (first, second))
+        chances = np.outer(k, j)
+        found = round(100 * chances[shown].sum())
+        says = f"{n} agents of each: {found} of 100 studies tell {first:g} from {second:g} %."
+        board = SvgAxes(52, 62, 232, 232, (-0.5, n + 0.5), (-0.5, n + 0.5))
+        for y, x in np.argwhere(shown):
+            board.fill([x - 0.5, x + 0.5, x + 0.5, x - 0.5], [y - 0.5, y - 0.5, y + 0.5, y + 0.5], colour, 0.18)
+        for y, x in np.argwhere(chances > 1e-4):
+            board.parts.append(disc(*board.at(x, y), 36 * chances[y, x] ** 0.5, colour if shown[y, x] else ""))
+        for count in ticks(0, n, 5):
+            board.parts.append(text(46, board.at(0, count)[1] + 3.5, f"{count:g}", "end", QUIET, 10.5))
+            board.parts.append(text(board.at(count, 0)[0], 308, f"{count:g}", "middle", QUIET, 10.5))
+        words = [
+            text(4, 20, says, size=14, bold=True),
+            text(4, 50, f"agents of the first method that escape ({first:g} % in truth)", bold=True),
+            text(52, 325, f"agents of the second method that escape ({second:g} % in truth)", bold=True),
+            text(346, 120, "A disc is a possible study; its area says how often it comes."),
+            disc(354, 150, 8, colour),
+            text(370, 154, f"{found} of 100: the test finds the difference", bold=True),
+            disc(354, 182, 8),
+            text(370, 186, f"{100 - found} of 100: the test misses it", bold=True),
+            rect(346, 206, 16, 16, colour, 'opacity="0.18"'),
+            text(370, 218, "the counts that the test tells apart (p < 0.05)"),
+        ]
+        return drawing(WIDTH, 332, [*board.parts, *words], says)
+
+    numbers = {
+        "agents": Number("agents", 10, 2, most, 1, "So many of each method were trained.",
+                         check=whole_number("agents", 2, most)),
+        "first": Number("first", 80, 0, 100, 5, "So many of a hundred agents of the first method would escape.", "%"),
+        "second": Number("second", 30, 0, 100, 5, "So many of a hundred of the second would.", "%"),
+    }  # fmt: skip
+    return Explorable("Which studies find the difference?", draw, **numbers)
+
+
+@lru_cache
+def drawn(seeds: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Studies of so many of our bootstrapped agents: the interval of the mean, low and high, and whether it holds it.
+
+    Of many studies in the order of their means each 400th is taken, so that these stand for all.
+    """
+    returns, rng = shipped_results().of("bootstrapped").scores("returns"), np.random.default_rng(1)
+    groups = returns[rng.integers(len(returns), size=(STUDIES * RESOLUTION, seeds))]
+    groups = groups[np.argsort(groups.mean(axis=1))][RESOLUTION // 2 :: RESOLUTION]
+    times = rng.multinomial(seeds, [1 / seeds] * seeds, DRAWS)  # how often each agent is drawn
+    low, high = np.quantile(groups @ times.T / seeds, [0.025, 0.975], axis=1)
+    return low, high, (low <= returns.mean()) & (returns.mean() <= high)
+
+
+def holding(seeds: int) -> int:
+    """Of 100 such intervals so many hold the mean."""
+    return int(drawn(seeds)[2].sum())
+
+
+def intervals() -> Explorable:
+    """The intervals of a hundred studies of few seeds, drawn from our ten, and which hold the mean of the ten."""
+    returns = shipped_results().of("bootstrapped").scores("returns")
+    mean, colour = float(returns.mean()), style("bootstrapped").colour
+
+    def draw(seeds: float) -> Drawing:
+        low, high, holds = drawn(int(seeds))
+        says = f"{seeds:g} seeds: {holds.sum()} of {STUDIES} intervals hold the mean of all, {mean:.0f}."
+        chart = SvgAxes(*CHART, (0.0, STUDIES), (-20.0, 140.0))
+        chart.scale("95 % bootstrap interval of the mean return (vermilion: misses)", 4)
+        for place, (bottom, top, inside) in enumerate(zip(low, high, holds, strict=True)):
+            ends = [bottom - 0.8, top + 0.8]  # an interval without length is seen, too
+            chart.line([place + 0.5] * 2, ends, PLAIN if inside else colour, 2.4)
+        chart.line([0, STUDIES], [mean, mean], INK, 1.2)
+        under = text(397, 276, f"{STUDIES} studies, in the order of their means", "middle", QUIET, 11)
+        return drawing(WIDTH, 300, [text(4, 20, says, size=14, bold=True), *chart.parts, under], says)
+
+    seeds = Number("seeds", 3, 2, 10, 1, "So many agents are drawn for each study.", check=whole_number("seeds", 2, 10))
+    return Explorable("What if all agents were like our ten?", draw, seeds=seeds)

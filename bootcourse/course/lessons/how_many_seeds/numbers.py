@@ -6,8 +6,9 @@ from math import factorial, prod
 
 import numpy as np
 
-from bootcourse.statistics import interval, power, rate
-from tools.course.known import of, others
+from bootcourse.course.lessons.how_many_seeds import explorable  # noqa: F401 (for the expressions)
+from bootcourse.statistics import interval, power, rate, significant  # noqa: F401
+from tools.course.known import of
 
 
 def half_as_wide() -> int:
@@ -23,17 +24,6 @@ def half_as_wide() -> int:
 def enough(first: float, second: float, wanted: float = 0.8) -> int:
     """The fewest agents of each method with this power, at these true rates."""
     return next(n for n in range(2, 100) if power(first, second, n) >= wanted)
-
-
-def half_interval(method: str) -> float:
-    """Half the length of the 95 % interval of a method's mean return."""
-    _, low, high = interval(of(method).scores("returns"), np.mean)
-    return (high - low) / 2
-
-
-def apart(method: str) -> float:
-    """By how much the mean return of the ten others differs from that of the study's ten."""
-    return abs(float(others(method).scores("returns").mean() - of(method).scores("returns").mean()))
 
 
 def held(method: str, seeds: int) -> float:

@@ -78,41 +78,37 @@ methods = ("sac", "soft", "demos", "bootstrapped")  # ten agents of each
 bc.show(figures.who_escapes(study, methods))
 
 # %% [markdown]
-# Training works or fails, so a method's success is a number of agents. The bar matters for one
-# agent only, a bootstrapped one with 92 %.
+# Training works or fails, so a method's success is a number of agents. Eight of ten with the soft
+# constraint alone escape. What does that say about the next agent?
+# <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
-# Eight of ten with the soft constraint alone escape. What does that say about agents that nobody
-# has trained yet?
-# <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 and [round(100 * each) for m in ('sac',
-#   'soft', 'demos', 'bootstrapped') for each in of(m).scores('success') if 0.1 < each < 0.95] ==
-#   [92] -->
-#
-# > **Predict.** Suppose that each escapes with the same probability p. How small may p be, so that
-# > eight or more of ten still escape in 2.5 % of all studies? (Ten fair coins show eight or more
-# > heads in {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all throws.)
+# > **Predict.** Perhaps the ten were lucky, and fewer would escape in truth. How low may that true
+# > rate be, so that eight or more of ten still escape in 2.5 % of all studies? (Ten fair coins show
+# > eight or more heads in {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all throws.)
 
 # %%
 predict(
     "how_many_seeds.1",
-    "How small may p be, so that 8 or more of 10 escape in 2.5 % of all studies?",
+    "How low may the true rate be, so that 8 or more of 10 escape in 2.5 % of all studies?",
     unit="%",
 )
 
 # %% [markdown]
-# The low end of the interval below is that p. **Drag** the number of agents: how many make the
-# interval half as wide as ten do?
+# **Drag** the true rate down until the blue part is 2.5 %, then up until it is so again. Then drag
+# the agents: how many make the interval half as wide?
 
 # %%
 predicted("how_many_seeds.1")
 explorable.certainty()
 
 # %% [markdown]
-# About {{ half_as_wide() }} do: four times as many.
-# <!-- claim: half_as_wide() == 40 -->
+# **See.** Eight of ten may mean a true rate of 44 or of 97 %. Half the width takes
+# {{ half_as_wide() }} agents: four times as many.
+# <!-- claim: half_as_wide() == 40 and [round(100 * each) for each in
+#   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
-# The **exact interval** of k out of n (Clopper and Pearson's) holds every rate with which this k
-# would not be too improbable. At its low end, k *or more* have a chance of 2.5 %; at its high end,
-# k *or fewer* have.
+# This is the **exact interval** of k out of n (Clopper and Pearson's). At its low end, k *or more*
+# have a chance of 2.5 %; at its high end, k *or fewer* have.
 #
 # **Exercise (8 min, ●●○).** Write it. `scipy.stats.beta.ppf(q, a, b)` is where a beta
 # distribution reaches q, and solves both: a = k, b = n − k + 1 for the low end, a = k + 1, b = n −
@@ -129,22 +125,34 @@ def exact_interval(k, n):
 check.exact_interval(exact_interval)
 
 # %% [markdown]
-# The paper does not print how many agents or drives it used. One of its rates,
+# The paper's rates for our four methods are 0, 0, 100 and 100 %: on the middle rows the opposite of
+# ours. It does not print how many agents or drives it used; another of its rates,
 # {{ PRINTED['gail']['collision'].mean | g }} ± {{ PRINTED['gail']['collision'].sd }} % (standard
-# deviation), is exactly what one accident in {{ EPISODES }} drives gives. Suppose that *one* agent
-# drove them all:
+# deviation), is exactly what one accident in {{ EPISODES }} drives gives.
+# <!-- claim: [PRINTED[m]['success'].mean for m in ('sac', 'soft', 'demos', 'bootstrapped')] == [0,
+#   0, 100, 100] -->
 # <!-- claim: (lambda x: round(x.mean(), 2) == PRINTED['gail']['collision'].mean and
 #   round(x.std(ddof=1), 2) == PRINTED['gail']['collision'].sd)(100.0 * (np.arange(EPISODES) < 1))
 #   -->
+#
+# > **Predict.** Suppose that *one* agent made all drives of a row: 0 of 1 escape, or 1 of 1. On
+# > how many of the four rows do the paper's interval and ours lie apart?
 
 # %%
-table(counts.BESIDE_THE_PAPER, counts.beside_the_paper(study, methods))
+predict(
+    "how_many_seeds.2",
+    "On how many rows do the paper's interval and ours lie apart?",
+    ["all four", "the two middle ones", "one", "none"],
+)
+
+# %%
+predicted("how_many_seeds.2")
+bc.show(figures.beside_the_paper(study, methods))
 
 # %% [markdown]
 # **See.** Twenty drives of one agent are *one* sample, not twenty, of how often training succeeds.
-# The two middle rows look opposite, but need not contradict the paper: on each row its interval and
-# ours overlap.
-# <!-- claim: escaped('soft') == 8 and escaped('demos') == 0 -->
+# One success allows every rate above {{ 100 * rate(np.ones(1)).low | .1f }} %, so rows that look
+# opposite need not contradict each other.
 # <!-- claim: all((lambda ours, theirs: ours.low < theirs.high and theirs.low < ours.high)(
 #   escapes(of(m).scores('success')), rate(np.array([PRINTED[m]['success'].mean >= 95]))) for m in
 #   ('sac', 'soft', 'demos', 'bootstrapped')) -->
@@ -157,9 +165,8 @@ table(counts.BESIDE_THE_PAPER, counts.beside_the_paper(study, methods))
 # ## Round 2: how many agents does it take?
 #
 # With the soft constraint alone eight of ten agents escape, with both aids seven. *Fisher's exact
-# test* compares two such counts. Its **p value** is the probability of a split at least as
-# improbable as the observed one, if both groups escape equally often, given how many of all agents
-# escaped. A p below 0.05 counts as a difference.
+# test* deals these fifteen escapes out to the twenty agents at random. Its **p value** is how often
+# the split is at least as improbable as the one seen; below 0.05 it counts as a difference.
 # <!-- claim: escaped('soft') == 8 and escaped('bootstrapped') == 7 -->
 
 # %%
@@ -173,16 +180,31 @@ for second in (7, 3, 2):
 
 # %%
 predict(
-    "how_many_seeds.2",
+    "how_many_seeds.3",
     "How many of 100 studies, ten against ten, find the difference?",
     unit="of 100",
 )
 
 # %% [markdown]
-# This share is the **power** of the comparison. You can compute it before you train.
+# **Drag** the number of agents. From how many on do at least 80 of 100 studies find the difference?
+# And how far do thirty of each get with 80 against 60 %?
+
+# %%
+predicted("how_many_seeds.3")
+explorable.studies()
+
+# %% [markdown]
+# **See.** Ten against ten miss even this large difference in more than half of the studies; with 80
+# against 60 % so do thirty. So eight against seven does not show that the two methods are alike.
+# <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 30) < 0.4 and fisher(8, 7) > 0.5 -->
+# <!-- claim: (explorable.told_apart(18) == significant(18)).all() -->
 #
-# **Exercise (12 min, ●●○).** Write it. In each group the number of agents that escape is binomial.
-# `shown[k, j]` says whether the test tells k of n from j of n.
+# The share of studies that find it is the **power** of the comparison. Compute it before you train:
+# say which difference would matter to you, the **smallest effect of interest**, and take enough
+# agents for a power of 80 %; here {{ enough(0.8, 0.3) }} of each.
+#
+# **Exercise (12 min, ●●○).** Write it: add up the filled discs. In each group the number of agents
+# that escape is binomial. `shown[k, j]` says whether the test tells k of n from j of n.
 
 
 # %%
@@ -193,25 +215,12 @@ def power(first, second, shown):
 
 check.power(power)
 
-# %%
-predicted("how_many_seeds.2")
-bc.show(figures.powers(((0.8, 0.3), (0.8, 0.6)), (3, 5, 8, 10, 12, 15, 18, 20, 25, 30)))
-
 # %% [markdown]
-# **See.** By Fisher's test, ten against ten find even this large difference in fewer than half of
-# the studies. Eight against seven shows no difference, and does not show that there is none.
-# <!-- claim: power(0.8, 0.3, 10) < 0.5 and fisher(8, 7) > 0.5 -->
-#
-# How many should you train? Say first which difference would matter to you: the **smallest effect
-# of interest**. Then choose the number whose power for it is enough, usually 80 %: for the two
-# rates of the prediction {{ enough(0.8, 0.3) }} agents of each.
-#
 # ### Many comparisons
 #
-# The opposite error is to see a difference where there is none. Take twelve independent comparisons
-# without a difference. If each errs in 5 % of the cases, at least one errs with a chance of
-# {{ 100 * (1 - 0.95**12) | .0f }} %: **multiplicity**. (Fisher's test errs less often.)
-# <!-- claim: max(power(p, p, 10) for p in np.linspace(0.01, 0.99, 99)) < 0.02 -->
+# The opposite error is to see a difference where there is none. If each of twelve independent
+# comparisons errs so in 5 % of the cases, at least one does with a chance of
+# {{ 100 * (1 - 0.95**12) | .0f }} %: **multiplicity**.
 #
 # Say beforehand which comparison counts, or correct the p values in *Holm's* way: multiply the
 # smallest by their number n, the next by n − 1, and so on. No corrected p may be smaller than the
@@ -238,9 +247,9 @@ table(["7 of 10 with both aids, against", "", "p", "times", "after Holm"], rows)
 # trained: choose a change with a larger effect, or a score that is not yes or no.
 
 # %% [markdown]
-# ## Round 3: how sure is a mean?
+# ## Round 3: are three seeds enough?
 #
-# What do the agents earn?
+# You have time for three agents. Is their mean worth printing? Our ten earn:
 
 # %%
 for method in ("bootstrapped", "soft"):
@@ -248,26 +257,14 @@ for method in ("bootstrapped", "soft"):
     print(f"{method}: {', '.join(f'{each:.0f}' for each in returns)}; mean {returns.mean():.0f}")
 
 # %% [markdown]
-# Three of the ten bootstrapped agents do badly.
+# Seven of the ten bootstrapped agents do well, three badly.
 # <!-- claim: np.diff(np.sort(of('bootstrapped').scores('returns'))).max() > 40 and
 #   (of('bootstrapped').scores('returns') < 60).sum() == 3 -->
 #
-# > **Predict.** Somebody trains ten bootstrapped agents with other seeds. By how much might their
-# > mean differ from ours, in 95 of 100 repetitions? (How many of ten may do badly, and what does
-# > each cost the mean?)
-
-# %%
-predict(
-    "how_many_seeds.3", "By how much may a repetition differ, in 95 of 100 cases?", unit="of return"
-)
-
-# %% [markdown]
-# The computer imitates other tens, as if our ten were all the agents there are. How far their means
-# lie from ours shows how far our mean may lie from the truth.
-#
-# Draw ten agents out of our ten *uniformly with replacement*: some come twice, others not at all.
-# Take their mean, and repeat this some thousand times. The middle 95 % of these means are the
-# **bootstrap interval** (nothing to do with bootstrapped SAC).
+# How sure is their mean? Draw as many agents as you trained, out of these, *uniformly with
+# replacement*: some come twice, others not at all. Take the mean, and repeat this some thousand
+# times. The middle 95 % of these means are the **bootstrap interval** (nothing to do with
+# bootstrapped SAC).
 #
 # **Exercise (7 min, ●●○).** Write it. The draws are given.
 
@@ -281,32 +278,49 @@ def bootstrap_interval(scores, draws):
 check.bootstrap_interval(bootstrap_interval)
 
 # %% [markdown]
-# The *ten others* of each method have other seeds, another implementation of the learner, and twice
-# the episodes.
+# > **Predict.** Suppose that our ten are as all agents are: seven of ten do well. Somebody trains
+# > three, and computes the interval from these three. In how many of 100 such studies does it hold
+# > the mean of all? (How often do all three do well, and where is their interval then?)
 
 # %%
-predicted("how_many_seeds.3")
+predict(
+    "how_many_seeds.4",
+    "How many of 100 intervals, of three seeds each, hold the mean of all?",
+    unit="of 100",
+)
+
+# %% [markdown]
+# **Drag** the number of seeds. What do the intervals that miss look like?
+
+# %%
+predicted("how_many_seeds.4")
+explorable.intervals()
+
+# %% [markdown]
+# **See.** In {{ 100 * 0.7**3 | .0f }} of 100 studies all three do well. Resampling knows these
+# three alone, so the interval is short, and lies above the mean of all: *the shortest intervals are
+# wrong*. Of ten seeds about nine intervals in ten hold it.
+# <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 and 88 <=
+#   explorable.holding(10) <= 92 -->
+# <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:30]].any())(
+#   *explorable.drawn(3)) -->
+#
+# It happened to us, too, with the soft constraint alone. (The *ten others* of each method have
+# other seeds, another implementation of the learner, and twice the episodes.)
+
+# %%
 others = shipped.shipped_experiment("stress")
 table(counts.MEANS, counts.means(study, others, methods))
 
 # %% [markdown]
-# **Explain.** With both aids the interval reaches about
-# {{ half_interval('bootstrapped') | .0f }} to either side. That is not yet the answer: a
-# *repetition* is compared with *our* mean, which errs too. Two independent errors of this size add
-# up to $\sqrt2$ as much. So in 95 of 100 repetitions the means differ by at most about
-# {{ 2**0.5 * half_interval('bootstrapped') | .0f }}, if our ten show how agents spread. With
-# demonstrations alone more than the seeds changed: five of the ten others escaped, none of ours.
-#
-# Do not trust a short interval from few seeds: resampling draws from the trained agents alone. With
-# the soft constraint alone the first three all do well, and their interval lies above the mean of
-# ten. If our ten with both aids were all there are, the interval of three seeds would hold their
-# mean in about {{ 100 * held('bootstrapped', 3) | .0f }} of 100 studies.
+# Our first three all do well, and their interval lies above the mean of the ten *and* of the ten
+# others. With the demonstrations alone more than the seeds changed: five of the ten others escape,
+# none of ours.
 # <!-- claim: escaped('demos') == 0 and (others('demos').scores('success') >= ESCAPES).sum() == 5
 #   -->
-# <!-- claim: apart('bootstrapped') < 2**0.5 * half_interval('bootstrapped') and apart('demos') > 2
-#   * 2**0.5 * half_interval('demos') -->
 # <!-- claim: interval(of('soft').scores('returns')[:3], np.mean).low >
-#   of('soft').scores('returns').mean() and of('soft').scores('returns')[:3].min() > 120 -->
+#   max(of('soft').scores('returns').mean(), others('soft').scores('returns').mean()) and
+#   of('soft').scores('returns')[:3].min() > 120 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask for another way to summarise ten agents in one number, and try it on the bootstrapped ones.
@@ -318,20 +332,20 @@ table(counts.MEANS, counts.means(study, others, methods))
 # > How often does the bootstrapped one earn more?
 
 # %%
-predict("how_many_seeds.4", "How often does the bootstrapped agent earn more?", unit="%")
+predict("how_many_seeds.5", "How often does the bootstrapped agent earn more?", unit="%")
 
 # %% [markdown]
-# This is the **probability of improvement**: the share of pairs, one agent of each method, in which
-# the first earns more. A tie counts half.
+# The share of such pairs is the **probability of improvement**; a tie counts half.
 
 # %%
-predicted("how_many_seeds.4")
-table(*counts.improvements(study, methods))
+predicted("how_many_seeds.5")
+bc.show(figures.pairs(study, "bootstrapped", "soft"))
 
 # %% [markdown]
-# **See.** The interval against the soft constraint alone holds 50 %, where neither method is ahead:
-# "the combination is best" is not a result of this study.
-# <!-- claim: 100 * improvement([1.0, 1.0], [1.0, 1.0]).value == 50 -->
+# **See.** Nearly a coin toss: "the combination is best" is not a result of this study. With the ten
+# others it is
+# {{ 100 * improvement(others('bootstrapped').scores('returns'),
+#   others('soft').scores('returns')).value | .0f }} %.
 # <!-- claim: (lambda p: p.low <= 0.5 <= p.high)(improvement(of('bootstrapped').scores('returns'),
 #   of('soft').scores('returns'))) -->
 #
@@ -374,13 +388,12 @@ success = {name: mine.scores(name, "success") for name in settings}
 table(counts.ABLATION, *counts.ablation(success))
 
 # %% [markdown]
-# **Explain.** In our run the agents without the bonus succeeded more often, but the interval
-# holds 0: five seeds do not say which group learns earlier.
+# **Explain.** If the interval holds 0, as in our run, five seeds do not say which group learns
+# earlier.
 #
-# How many would? Do not compute it from the difference just seen: luck may have made it. Choose a
-# yes or no (does the agent escape?) and your smallest effect of interest, and use
-# `bc.statistics.power`. Then train a *new* set. If you add agents until the interval does not hold
-# 0, you err more often than the interval says.
+# How many would? Choose a yes or no (does the agent escape?) and your smallest effect of interest,
+# not the difference just seen, which luck may have made; use `bc.statistics.power`. Then train a
+# *new* set. If you add agents until the interval does not hold 0, you err more often than it says.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Give each group another number to change, and collect the results on the board: one row for each
@@ -391,14 +404,14 @@ table(counts.ABLATION, *counts.ablation(success))
 # %%
 escapes = study.of("soft").scores("success") >= bc.statistics.ESCAPES
 both, soft = (study.of(m).scores("returns") for m in ("bootstrapped", "soft"))
-_, low, high = bc.statistics.interval(both, np.mean)
 compare_predictions(
     "how_many_seeds",
     {
         1: round(100 * bc.statistics.rate(escapes).low),
-        2: round(100 * bc.statistics.power(0.8, 0.3, 10)),
-        3: round(2**0.5 * (high - low) / 2, 1),
-        4: round(100 * bc.statistics.improvement(both, soft).value, 1),
+        2: "none",
+        3: round(100 * bc.statistics.power(0.8, 0.3, 10)),
+        4: explorable.holding(3),
+        5: round(100 * bc.statistics.improvement(both, soft).value, 1),
     },
 )
 
@@ -411,8 +424,7 @@ compare_predictions(
 #   for m in ('sac', 'soft', 'demos', 'bootstrapped')) -->
 # 3. Compute the power before you train, for the smallest effect of interest.
 # 4. Of many comparisons some look good by luck: say beforehand which one counts, or correct p.
-# 5. An interval over seeds says how far a mean may be off. Two studies may differ by $\sqrt2$ as
-#    much, or more.
+# 5. A short interval from three seeds may be luck: resampling knows these three alone.
 #
 # **Three questions to think about**
 # - Which difference between two *agents* can the paper's 20 drives show, and which between two

@@ -5,8 +5,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import OTHER, Style
+from bootcourse.colours import ALARM, OTHER, Style
 from bootcourse.course import charts
+from bootcourse.course.lessons.other_ways.measures import Episodes
 from bootcourse.methods import display_name, style
 from bootcourse.plots.diagrams import Diagram, label
 from bootcourse.plots.figure import (
@@ -70,73 +71,75 @@ def believed(updates: Sequence[int], values: Mapping[str, np.ndarray], bound: fl
     return charts.lines(updates, values, title, "update", "mean Q of the rule's actions", looks=looks, marks=marks)
 
 
-def handing_over(episodes: Sequence[float], h: np.ndarray, mean: np.ndarray, needed: np.ndarray) -> Figure:
-    """How a teacher hands over: h above, and below it the mean return with the one that it has to reach.
-
-    All are of the same episodes; `needed` is NaN while there is no best mean yet.
-    """
-    figure, look = new_figure(4.0), style("jsrl")
-    title = f"In {episodes[-1]} episodes h falls {len(set(h)) - 1} times, from {h.max():g} s to {h.min():g} s"
-    upper, lower = (axes_at(figure, 0.6, 0.72 + 1.55 * row, 5.0, 1.15) for row in range(2))
-    upper.plot(episodes, h, color=look.colour, linewidth=2, drawstyle="steps-post")
-    plain_axes(upper, "h: the rule drives first (s)")
-    upper.set_ylim(0, 1.08 * np.max(h))
+def handing_over(driven: Episodes) -> Figure:
+    """How a teacher hands over: a column for each episode says who drives, and below it the mean return."""
+    figure, look, rule = new_figure(4.4), style("jsrl"), style("rule")
+    h, episodes = driven.h, np.arange(1, len(driven.h) + 1)
+    title = f"In {len(h)} episodes h falls from {h[0]:g} s to {h.min():g} s"
+    upper, lower = (axes_at(figure, 0.6, top, 5.0, height) for top, height in ((0.72, 1.75), (2.85, 1.0)))
+    by_rule = np.minimum(h, driven.decisions)
+    upper.bar(episodes, by_rule, width=0.9, color=rule.colour)
+    upper.bar(episodes, driven.decisions - by_rule, bottom=by_rule, width=0.9, color=look.colour, alpha=0.6)
+    upper.scatter(episodes[driven.accident], driven.decisions[driven.accident], s=9, color=ALARM, zorder=3)
+    plain_axes(upper, "seconds of the episode")
     upper.tick_params(labelbottom=False)
-    lower.plot(episodes, mean, color=look.colour, linewidth=2)
-    lower.plot(episodes, needed, color=QUIET, linewidth=1.2, linestyle=(0, (4, 2)), drawstyle="steps-post")
+    ends = [(h[-1] / 2, "the rule", rule.colour), (h[-1] + 30, "then the agent", look.colour)]
+    label_ends(upper, [*ends, (driven.decisions.max(), "dot: an accident", ALARM)])
+    lower.plot(episodes, driven.mean, color=look.colour, linewidth=2)
+    lower.plot(episodes, driven.needed, color=QUIET, linewidth=1.2, linestyle=(0, (4, 2)), drawstyle="steps-post")
     plain_axes(lower, "mean return of the last episodes")
-    steps = np.flatnonzero(np.diff(h) < 0) + 1
-    for ax in (upper, lower):
-        for step in steps:
-            ax.axvline(episodes[step], color=QUIET, linewidth=0.6, linestyle=(0, (1, 2)), zorder=1)
-        ax.set_xlim(min(episodes), max(episodes))
     lower.set_xlabel("training episode", fontsize=TEXT, color=INK)
-    label_ends(lower, [(mean[-1], "the mean", look.colour), (needed[-1], "what it has to reach", QUIET)])
-    each = ", ".join(f"{h[step]:g} s at {episodes[step]}" for step in steps)
-    ends = f"at the end the mean return is {mean[-1]:.0f} and has to reach {needed[-1]:.0f}"
-    return finish(figure, title, f"Against the training episode. h: {h[0]:g} s at first, {each}; {ends}.")
+    label_ends(lower, [(driven.mean[-1], "the mean", look.colour), (driven.needed[-1], "what it has to reach", QUIET)])
+    for ax in (upper, lower):
+        ax.set_xlim(0.5, len(h) + 0.5)
+    first = ", ".join(f"{seconds:g} s from {1 + np.argmax(h == seconds)}" for seconds in sorted(set(h), reverse=True))
+    ends = f"at the end the mean return is {driven.mean[-1]:.0f} and has to reach {driven.needed[-1]:.0f}"
+    accidents = f"{driven.accident.sum()} of the {len(h)} end in an accident"
+    return finish(figure, title, f"A column for each training episode. h: {first}; {accidents}; {ends}.")
 
 
 def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -> Figure:
-    """Returns with their 95 % intervals: a row for each method, a panel for each budget, and one for equal seconds.
+    """Returns with their 95 % intervals, a row for each method, a panel for each budget; then each agent's accidents.
 
     computed: see `equal_decisions.by_method`; rule: what the rule earns, the green line.
     """
-    panels = {f"{budget:,} decisions": _after(computed, budget) for budget in SHOWN}
-    timed = {method: results for method, results in computed.items() if method not in equal_decisions.UNTIMED}
-    seconds = {method: after_seconds(results) for method, results in timed.items()}
-    panels[f"{equal_decisions.SECONDS} s of a core\n(in training)"] = seconds
     names, alt_parts, height = [display_name(method) for method in computed], [], 0.35 * len(computed)
     figure = new_figure(1.6 + height)
-    for place, (words, estimates) in enumerate(panels.items()):
-        ax = axes_at(figure, 1.4 + 1.9 * place, 1.05, 1.7, height)
+    crashes = f"accidents in 100 drives,\n{SHOWN[0]:,} decisions"
+    panels = [axes_at(figure, 1.4 + 1.9 * place, 1.05, 1.7, height) for place in range(3)]
+    for ax, words in zip(panels, [f"return,\n{budget:,} decisions" for budget in SHOWN] + [crashes], strict=True):
         plain_axes(ax, words, grid="x")
-        ax.axvline(rule, color=style("rule").colour, linewidth=2, zorder=1.5)
-        for row, method in enumerate(computed):
-            if method in estimates:
-                value, low, high = estimates[method]
-                colour = style(method).colour
-                ax.plot([low, high], [row, row], color=colour, linewidth=1.8, zorder=2)
-                ax.plot(value, row, style(method).marker or "o", color=colour, ms=5.5, zorder=3)
-            else:
-                ax.text(95, row, "not timed", color=QUIET, fontsize=SMALL, ha="center", va="center")
         ax.set(xlim=(0, 140), ylim=(len(names) - 0.5, -0.5), xticks=(0, 50, 100), yticks=range(len(names)))
-        ax.set_yticklabels(names if place == 0 else [], fontsize=TEXT, color=INK)
+        ax.set_yticklabels(names if ax is panels[0] else [], fontsize=TEXT, color=INK)
+    for ax, budget in zip(panels, SHOWN, strict=False):
+        ax.axvline(rule, color=style("rule").colour, linewidth=2, zorder=1.5)
+        estimates = _returns(computed, budget)
+        for row, (method, (value, low, high)) in enumerate(estimates.items()):
+            colour = style(method).colour
+            ax.plot([low, high], [row, row], color=colour, linewidth=1.8, zorder=2)
+            ax.plot(value, row, style(method).marker or "o", color=colour, ms=5.5, zorder=3)
         numbers = (f"{display_name(method)} {_words(one)}" for method, one in estimates.items())
-        alt_parts.append(f"{words}: {'; '.join(numbers)}".replace("\n", " "))
-    first = next(iter(panels.values()))
-    lowest = list(computed).index(min(first, key=lambda method: first[method].value))  # there is room beside its mark
-    figure.axes[0].text(rule + 4, lowest, "the rule", color=style("rule").colour, fontsize=SMALL, va="center")
-    words = "return: interquartile mean of the agents, and its 95 % interval"
-    figure.text(0.6, 0.04, words, fontsize=TEXT, color=INK, ha="center")
-    numbers = f"{'. '.join(alt_parts)}. The rule: {rule:.0f}."
+        alt_parts.append(f"{budget:,} decisions: {'; '.join(numbers)}")
+    panels[2].set(xlim=(-4, 85), xticks=(0, 40, 80))
+    means = []
+    for row, (method, results) in enumerate(computed.items()):
+        of_agents = 100 * equal_decisions.at(results, "accident", SHOWN[0])
+        places = row + np.linspace(-0.2, 0.2, len(of_agents))
+        panels[2].scatter(of_agents, places, s=12, color=style(method).colour, alpha=0.6, linewidths=0, zorder=2)
+        panels[2].plot([of_agents.mean()] * 2, [row - 0.32, row + 0.32], color=INK, linewidth=1.8, zorder=3)
+        means.append(f"{display_name(method)} {of_agents.mean():.0f}, at most {of_agents.max():.0f}")
+    words = "return: interquartile mean and its 95 % interval; accidents: each agent, and the mean"
+    figure.text(0.5, 0.04, words, fontsize=TEXT, color=INK, ha="center")
+    lowest = list(computed).index(min(estimates, key=lambda method: estimates[method].value))  # room beside its mark
+    panels[0].text(rule + 4, lowest, "the rule", color=style("rule").colour, fontsize=SMALL, va="center")
+    numbers = f"{'. '.join(alt_parts)}. The rule: {rule:.0f}. Accidents in 100 drives, mean: {'; '.join(means)}."
     return finish(figure, title, f"Interquartile means of returns and their 95 % intervals. {numbers}")
 
 
-def _after(computed: Mapping[str, Results], budget: int) -> dict[str, Estimate]:
+def _returns(computed: Mapping[str, Results], budget: int) -> dict[str, Estimate]:
     """{method: the return of its tested agents} of those that made so many decisions."""
-    returns = {method: equal_decisions.at(results, "returns", budget) for method, results in computed.items()}
-    return {method: interval(each) for method, each in returns.items() if each.size}
+    values = {method: equal_decisions.at(results, "returns", budget) for method, results in computed.items()}
+    return {method: interval(each) for method, each in values.items() if each.size}
 
 
 def after_seconds(results: Results) -> Estimate:

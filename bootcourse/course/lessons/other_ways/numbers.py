@@ -5,7 +5,7 @@ from itertools import combinations
 
 import numpy as np
 
-from bootcourse.course.lessons.other_ways import figures
+from bootcourse.course.lessons.other_ways import explorable, figures
 from bootcourse.course.lessons.other_ways.figures import after_seconds  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
@@ -15,15 +15,16 @@ from bootcourse.episodes.words import overtaken
 from bootcourse.learn.settings import settings_for
 from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
-from bootcourse.research.beyond import WINDOW  # noqa: F401 (for the expressions)
+from bootcourse.research.beyond import at_budget
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES, Estimate, holm, interval
+from bootcourse.statistics import Estimate, holm, interval
 from tools.course.known import shipped_experiment
 
 FIRST, SECOND, _ = BUDGETS
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
+QUICK, SLOWER = 0.00005, 0.0001  # seconds that a decision takes beside the computing
 
 
 @cache
@@ -40,16 +41,6 @@ def later(method: str) -> Results:
 def at(method: str, measure: str, budget: int = FIRST) -> np.ndarray:
     """Each agent's mean return, success or accidents after so many decisions, or its seconds until then: (agents,)."""
     return equal_decisions.at(later(method), measure, budget)
-
-
-def accidents_in(method: str) -> float:
-    """How many of the drives of these agents end in an accident after the first budget, in %."""
-    return 100 * float(at(method, "accident").mean())
-
-
-def escape(method: str) -> int:
-    """How many agents escape after the first budget."""
-    return int((at(method, "success") >= ESCAPES).sum())
 
 
 @cache
@@ -107,7 +98,23 @@ def decisions_per_update(method: str) -> float:
     return agent["envs_per_agent"] / agent["updates"]
 
 
-def decisions_in_seconds(*methods: str) -> int:
-    """How many decisions an agent makes in equal seconds of a core, in training: the median, to a thousand."""
-    seconds = np.concatenate([at(method, "seconds") for method in methods])
-    return int(round(np.median(equal_decisions.SECONDS * FIRST / seconds), -3))
+def order(road: float) -> list[str]:
+    """The five methods by what they earn in the same time where a decision takes `road` seconds, the best first."""
+    returns = explorable.earned(road)
+    return sorted(returns, key=returns.get, reverse=True)
+
+
+def returns_on_the_road(method: str) -> np.ndarray:
+    """The return in training of each agent in the time of the picture, where a decision takes a second."""
+    decisions = explorable.time_for(1.0) / (1.0 + explorable.learners()[method].seconds)
+    return at_budget(later(method).curves, decisions)
+
+
+def on_the_road(method: str) -> Estimate:
+    """Their interquartile mean, with its interval."""
+    return interval(returns_on_the_road(method))
+
+
+def first_may_be_chance() -> bool:
+    """Whether a rank test shows no difference between the first and the second on the road."""
+    return p_value(*(returns_on_the_road(method) for method in order(1.0)[:2])) > 0.05

@@ -15,14 +15,13 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.learner import SACLearner
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import TEXT, finish, new_figure, plain_axes
+from bootcourse.plots.figure import TEXT, finish, new_figure, one_axes, plain_axes
 from bootcourse.policies import rule_policy
-from bootcourse.research.paper import PRINTED
 from bootcourse.research.report import rule_results
-from bootcourse.research.results import Results, join
-from bootcourse.research.tables import escaped, score
+from bootcourse.research.results import Results
+from bootcourse.research.tables import escaped
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import bracketed
+from bootcourse.statistics import ESCAPES
 
 SECONDS = 20  # of a drive: the way out
 GUESSING = 2 * np.log(2)  # the discriminator's loss where D = 1/2 everywhere
@@ -39,26 +38,32 @@ def three_pupils() -> list[Rollout]:
     return [beginning(drive, 50) for drive in (gail, *others)]
 
 
-def pupils(study: Results) -> tuple[list[str], list[list[str]]]:
-    """A table's columns and rows: who escapes and what it earns, the mean over agents; and what the paper prints."""
-    rule = rule_results(DEFAULT, study.tested["returns"].shape[1])
-    everyone, rows = join([Results(study.agents, study.stopped, study.tested, {}), rule]), []
-    for method in ("bc", "cql", "cql_sac", "gail", "rule"):
-        earned = bracketed(score(everyone, method, "returns", np.mean))
-        printed = PRINTED.get(method, {})
-        paper = [f"{printed[column].mean:g}" if printed else "" for column in ("success", "returns")]
-        escapers = "yes" if method == "rule" else escaped(everyone, method)
-        rows.append([display_name(method), escapers, earned, *paper])
-    return ["", "escape", "return [95 % over agents]", "the paper's success, %", "its return"], rows
-
-
-def off_the_road(study: Results) -> tuple[list[str], list[list[str]]]:
-    """A table's columns and rows: how often the agents of a method leave the road, and succeed all the same."""
-    rows = []
-    for method in ("bc", "cql", "gail"):
-        left, ahead = (study.of(method).episodes(what) > 0 for what in ("road_departure", "success"))
-        rows.append([display_name(method), f"{100 * left.mean():.1f} %", f"{100 * ahead[left].mean():.0f} %"])
-    return ["ten agents", "leave the road in", "of these drives a success"], rows
+def pupils(study: Results) -> Figure:
+    """Each agent's return and how often it leaves the road, filled: it escapes; a line for the rule's return."""
+    title = "CQL earns more than its teacher, and GAIL often leaves the road"
+    label = "return of an agent on 1,000 roads; filled: it escapes"
+    figure, ax = one_axes(3.6, title, label, "drives that leave the road")
+    by_rule, alt = rule_results(DEFAULT, study.tested["returns"].shape[1]).scores("returns").mean(), []
+    ax.axvline(by_rule, color=style("rule").colour, linewidth=1.5, zorder=1)
+    ax.text(by_rule + 0.6, 79, "the rule", fontsize=TEXT, color=style("rule").colour, va="top")
+    places = {"bc": (50.6, 20, "right"), "cql": (57.5, 7, "center"), "cql_sac": (12.5, 7, "center")}
+    places["gail"] = (16, 72, "left")
+    for method, (x, y, side) in places.items():
+        mine, look = study.of(method), style(method)
+        returns, left, ahead = mine.scores("returns"), 100 * mine.scores("road_departure"), mine.scores("success")
+        fills = np.where(ahead >= ESCAPES, look.colour, "white")
+        ax.scatter(returns, left, s=34, c=fills, edgecolors=look.colour, linewidths=1.3, zorder=3, clip_on=False)
+        words = f"{display_name(method)}: {escaped(study, method)} escape"
+        ax.text(x, y, words, fontsize=TEXT, color=look.colour, ha=side)
+        alt.append(f"{words}, mean return {returns.mean():.1f}, {left.mean():.1f} % of drives leave the road")
+        if method == "gail":
+            worst = np.argmax(np.where(ahead >= ESCAPES, left, -1))
+            alt.append(f"one is ahead of trap 1 on {100 * ahead[worst]:.0f} %\nand off the road on {left[worst]:.0f} %")
+            ax.text(returns[worst] + 1, left[worst], alt[-1], fontsize=TEXT, color=look.colour, va="center")
+    ax.set_ylim(-2, 80)
+    ax.yaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")
+    words = "; ".join(alt).replace("\n", " ")
+    return finish(figure, title, f"A dot for each agent. {words}. The rule's return is {by_rule:.1f}.")
 
 
 def judged(losses: Sequence[dict[str, torch.Tensor]]) -> Figure:
@@ -114,51 +119,66 @@ def beliefs(found: Sequence[tuple[np.ndarray, np.ndarray]], every: int) -> Figur
     return charts.lines(updates, named, title, "update", label, marks=marks, looks=looks)
 
 
-def promises(learner: SACLearner) -> tuple[list[str], list[list[str]]]:
-    """A table's columns and rows: how the agents drive 100 roads, what Q they promise and what that is worth."""
-    rows = []
-    for i, settings in enumerate(learner.settings):
-        drives = record(learner.agent(i).as_policy(with_q=True), range(100))
+def promises(learner: SACLearner) -> Figure:
+    """How the agents drive 100 roads: the Q that they promise on the way out, a ring, and what that is worth, a dot."""
+    title = "With CQL's term and without: what agents promise, and what they earn"
+    figure, ax = one_axes(2.8, title, "Q of the actions taken, mean of the first 20 s", "")
+    ax.set_position((0.2, 0.2, 0.6, 0.56))
+    plain_axes(ax, "", grid="x")
+    names, alt = [], []
+    for row, settings in enumerate(learner.settings):
+        drives = record(learner.agent(row).as_policy(with_q=True), range(100))
         q = [drive.q_values[range(len(drive.actions)), drive.actions][:SECONDS].mean() for drive in drives]
-        success, accidents = (100 * np.mean([each > 0 for each in kind]) for kind in (
-            [drive.success for drive in drives], [drive.accident for drive in drives]))  # fmt: skip
-        paid = np.mean([earned(drive, settings.gamma) for drive in drives])
-        name = f"{FORMS[2 * i // learner.agents]}, seed {settings.seed}"
-        rows.append([name, f"{success:.0f} %", f"{accidents:.0f} %", f"{np.mean(q):.1f}", f"{paid:.1f}"])
-    return ["100 roads", "success", "accidents", "promises: Q, first 20 s", "is then worth"], rows
+        promised, paid = np.mean(q), np.mean([earned(drive, settings.gamma) for drive in drives])
+        colour = (style("cql") if row < learner.agents / 2 else OTHER).colour
+        ax.plot([promised, paid], [row, row], color=colour, linewidth=1.5, zorder=2)
+        ax.plot(promised, row, "o", markersize=11, color=colour, markerfacecolor="white", zorder=3)
+        ax.plot(paid, row, "o", markersize=7, color=colour, zorder=4)
+        counts = f"{sum(drive.accident > 0 for drive in drives)} crash"
+        ax.text(1.03, row, counts, transform=ax.get_yaxis_transform(), va="center", fontsize=TEXT, color=INK)
+        names.append(f"{FORMS[2 * row // learner.agents]}, seed {settings.seed}")
+        alt.append(f"{names[-1]}: promises {promised:.1f}, is then worth {paid:.1f}, {counts} on 100 roads")
+    key = "ring: the promise · dot: what the drive is worth · right: how many of 100 crash"
+    ax.text(0, 1.06, key, transform=ax.transAxes, fontsize=TEXT, color=QUIET)
+    ax.set_yticks(range(len(names)), names)
+    ax.set_ylim(len(names) - 0.5, -0.5)
+    return finish(figure, title, f"{'; '.join(alt)}.")
 
 
-def estimates(names: Sequence[str], alike: Sequence[float], fits: np.ndarray, truth: Sequence[float]) -> Figure:
-    """What drivers are worth: a digit for each fit, (fits, drivers), with a ring if it is the largest of its fit, and
-    a bar for the truth. alike: how often each acts as the data do. A line: what the rule itself is worth.
+def estimates(names: Sequence[str], alike: Sequence[float], fits: np.ndarray, truth: Sequence[float] = ()) -> Figure:
+    """What drivers are worth: a dot for each fit, (fits, drivers), filled if it is the largest of its fit, and a bar
+    for the truth where it is known. alike: how often each acts as the data do. A line: what the rule is worth.
     """
-    miss, same = np.abs(fits - truth).max(0), np.array(alike) > 0.8
-    title = "What seven drivers are worth: three estimates, and the truth"
-    if miss[same].max() < 0.15 and miss[~same].max() > 0.3:
-        title = "Where a driver acts as the data do, all its estimates are near the truth"
+    known, largest = len(truth) > 0, np.bincount(fits.argmax(1), minlength=len(names))
+    title = "What is each driver worth? Estimates without a road"
+    if known:
+        title = "What is each driver worth? Estimates, and the truth"
+        if (fits.max(1) > np.array(truth)[fits.argmax(1)]).mean() > 0.5:
+            title = "In most fits the largest estimate is too large"
     shares = [f"{100 * each:.0f} %" for each in alike]
-    figure = new_figure(1.45 + 0.48 * len(names))
+    figure = new_figure(1.2 + 0.48 * len(names))
     height = figure.get_figheight()
-    ax = figure.add_axes((0.24, 0.5 / height, 0.73, 1 - 1.45 / height))
-    by_rule = choosing.rule_worth()
+    ax = figure.add_axes((0.27, 0.5 / height, 0.58, 1 - 1.2 / height))
+    by_rule, alt = choosing.rule_worth(), []
     ax.axvline(by_rule, color=style("rule").colour, linewidth=1.5, zorder=1)
-    for row in range(len(names)):
-        ax.plot([truth[row]] * 2, [row - 0.36, row + 0.36], color=INK, linewidth=3, zorder=2)
-        for fit, values in enumerate(fits):
-            place = values[row], row + 0.26 * (fit - (len(fits) - 1) / 2)
-            ax.text(*place, str(fit + 1), fontsize=TEXT, color=OTHER.colour, ha="center", va="center", zorder=4)
-            if row == values.argmax():
-                ax.plot(*place, "o", markersize=11, color=OTHER.colour, fillstyle="none", zorder=3)
+    for row, guesses in enumerate(fits.T):
+        fills = np.where(fits.argmax(1) == row, OTHER.colour, "white")
+        heights = row + np.linspace(-0.3, 0.3, len(guesses))
+        ax.scatter(guesses, heights, s=24, c=fills, edgecolors=OTHER.colour, linewidths=1.2, zorder=3)
+        words = f"largest in {largest[row]}" if largest[row] else ""
+        ax.text(1.03, row, words, transform=ax.get_yaxis_transform(), va="center", fontsize=TEXT, color=OTHER.colour)
+        said = f"{', '.join(f'{each:.2f}' for each in guesses)}{words and ', '}{words}"
+        if known:
+            ax.plot([truth[row]] * 2, [row - 0.4, row + 0.4], color=INK, linewidth=3, zorder=2)
+            said += f"; truth {truth[row]:.2f}"
+        alt.append(f"{names[row]}, acts as the data do in {shares[row]}: {said}")
     plain_axes(ax, "", grid="x")
     ax.set_yticks(range(len(names)), [f"{name}\nas the data: {each}" for name, each in zip(names, shares, strict=True)])
     ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
     ax.set_ylim(len(names) - 0.5, -0.5)
-    ax.set_xlim(min(fits.min(), *truth) - 0.08, max(fits.max(), *truth) + 0.08)
+    every = np.append(fits, truth)
+    ax.set_xlim(every.min() - 0.08, every.max() + 0.08)
     ax.set_xlabel("worth from the start (γ = 0.8)", fontsize=TEXT, color=INK)
-    key = "bar: the truth on the road · 1, 2, 3: the fits · ring: the largest of a fit · green: the rule"
+    key = f"dot: a fit · filled: the largest of its fit · green: the rule{' · bar: the truth on the road' * known}"
     ax.text(0, 1.03, key, transform=ax.transAxes, fontsize=TEXT, color=QUIET)
-    rows = (
-        f"{name}, acts as the data do in {share}: {', '.join(f'{each:.2f}' for each in guesses)}; truth {true:.2f}"
-        for name, share, guesses, true in zip(names, shares, fits.T, truth, strict=True)
-    )
-    return finish(figure, title, f"Estimates of three fits. {'. '.join(rows)}. The rule is worth {by_rule:.2f}.")
+    return finish(figure, title, f"{'. '.join(alt)}. The rule is worth {by_rule:.2f}.")

@@ -6,7 +6,11 @@ import numpy as np
 
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
+from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.policies import stochastic_rule_policy
 from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
 from tools.course.known import shipped_results
 
 
@@ -23,8 +27,8 @@ def overlap_of(which: int) -> float:
 
 @cache
 def estimated() -> np.ndarray:
-    """What each of the lesson's seven drivers is worth by each of three fits, (fits, drivers), as in its notebook."""
-    return choosing.fits(choosing.drivers().values(), choosing.recorded(), times=3)
+    """What each of the lesson's seven drivers is worth by each of eight fits, (fits, drivers), as in its notebook."""
+    return choosing.fits(choosing.drivers().values(), choosing.recorded(), times=8)
 
 
 @cache
@@ -41,3 +45,9 @@ def misses() -> np.ndarray:
 def largest() -> list[int]:
     """Which of the seven has the largest estimate in each fit."""
     return estimated().argmax(axis=1).tolist()
+
+
+@cache
+def by_stochastic_rule() -> list[Rollout]:
+    """Drives of the stochastic rule, the second study's teacher, on 300 roads."""
+    return record(stochastic_rule_policy(DEFAULT, np.random.default_rng(0)), range(300))

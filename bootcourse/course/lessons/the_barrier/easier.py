@@ -96,6 +96,7 @@ def costing(price: float, road: type[TrapVectorEnv] = TrapVectorEnv) -> Callable
 
 
 MIDDLE, CHEAP = "a later start, mid-lane", "accidents cost 1"
+BOTH = "mid-lane, and accidents cost 1"
 KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the settings that differ
     "as it is": (TrapVectorEnv, {}),
     "a lane keeper": (LaneKeeper, {}),
@@ -104,6 +105,7 @@ KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the set
     "a later start, η = 1": (LaterStart, {"target_entropy": 1.0}),
     "free accidents": (costing(0.0), {}),
     CHEAP: (costing(1.0), {}),
+    BOTH: (costing(1.0, MidLaneStart), {}),
 }
 
 SHOWN = ("as it is", MIDDLE, CHEAP)  # the kinds whose agents the lesson shows

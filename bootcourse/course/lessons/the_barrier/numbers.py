@@ -61,7 +61,7 @@ def the_escaper(measure: str) -> float:
 
 
 ONCE = "accelerates once, then nothing"
-MIDDLE, CHEAP = easier.MIDDLE, easier.CHEAP
+MIDDLE, CHEAP, BOTH = easier.MIDDLE, easier.CHEAP, easier.BOTH
 RAM = "accelerates into trap 1"
 
 

@@ -370,7 +370,10 @@ figures.how_they_drive(both.agents, tests)
 # | luck | not alone | {{ easy(MIDDLE).escapers('sac') }} of twenty escape from mid-lane |
 # | the price of attempts | not alone | {{ easy(CHEAP).escapers('sac')
 #   }} of twenty escape at a price of 1 |
-# | luck and price together | yes | most escape from mid-lane at a price of 1 |
+# | luck and price together | yes, most | {{ easy(BOTH).escapers('sac')
+#   }} of twenty escape from mid-lane at a price of 1 |
+# <!-- claim: len(easy(BOTH)) == 20 and all(stats.fisher_exact([[easy(kind).escapers('sac'), 20 -
+#   easy(kind).escapers('sac')] for kind in (one, BOTH)]).pvalue < 0.001 for one in (MIDDLE, CHEAP)) -->
 # <!-- claim: len(easy(CHEAP)) == len(easy(MIDDLE)) == 20 and DEFAULT.reward.accident == -10 and
 #   easy(CHEAP).escapers('sac') <= 2 and easy(MIDDLE).escapers('sac') <= 6 -->
 
@@ -383,9 +386,9 @@ figures.how_they_drive(both.agents, tests)
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask why free accidents would be a poor control (at γ = 0.8 a crash then pays more than staying),
 # and which run would test the temperature. Free accidents, a later start at the road's edge, a
-# lane keeper and η = 1 were tried, too: `bootcourse study easier` makes all seven.
+# lane keeper and η = 1 were tried, too: `bootcourse study easier` makes all eight.
 # <!-- claim: worth_of('free accidents', RAM, 0.8) > worth_of('free accidents', 'stays', 0.8) and
-#   len(easier.KINDS) == 7 -->
+#   len(easier.KINDS) == 8 -->
 
 # %% [markdown]
 # **What helps agents escape?** In the paper it is the rule, as a **soft constraint** (lesson
@@ -433,7 +436,7 @@ compare_predictions(
 #    way are worth less than staying: they crash, or their reward comes late.
 # <!-- claim: all(tested(kind).values(0.8).mean() < tested('stays').values(0.8).mean() for kind in
 #   KINDS_OF_ATTEMPTS) -->
-# 4. From mid-lane, or with cheap accidents, few agents escape; with both changes most do. For a
+# 4. From mid-lane, or with cheap accidents, few agents escape; with both changes {{ easy(BOTH).escapers('sac') }} of twenty do. For a
 #    driver that often acts at random, a little more speed costs.
 # 5. With the rule as a constraint and as data, most agents of the study escape.
 # <!-- claim: escaped('bootstrapped') > len(of('bootstrapped')) / 2 > escaped('sac') -->
