@@ -199,11 +199,21 @@ def holm(p: Sequence[float]) -> np.ndarray:
     return adjusted
 
 
+@lru_cache
 def significant(n: int) -> np.ndarray:
-    """Whether Fisher's exact test tells k of n from j of n, with a p below 0.05: bool (n + 1, n + 1), by k and j."""
-    counts = range(n + 1)
-    p = [[scipy.stats.fisher_exact([[k, n - k], [j, n - j]]).pvalue for j in counts] for k in counts]
-    return np.array(p) < 0.05
+    """Whether Fisher's exact test tells k of n from j of n, with a p below 0.05: bool (n + 1, n + 1), by k and j.
+
+    As `scipy.stats.fisher_exact` for each pair, some hundred times as fast: pairs with the same total share the
+    hypergeometric chances, and p is the sum of those that are not larger than the pair's own.
+    """
+    counts = np.arange(n + 1)
+    total = counts[:, None] + counts
+    chances = scipy.stats.hypergeom.pmf(counts[:, None], 2 * n, total, n)
+    p = np.zeros_like(chances)
+    for together in range(2 * n + 1):
+        chance = chances[total == together]
+        p[total == together] = (chance * (chance <= chance[:, None] * (1 + 1e-7))).sum(axis=1)
+    return p < 0.05
 
 
 def power(first: float, second: float, n: int) -> float:

@@ -161,6 +161,12 @@ def test_a_rolling_mean_ends_where_its_agent_ends():
     assert rolling_means(np.full((2, 3), np.nan), 2)[1].shape == (2, 0)
 
 
+@pytest.mark.parametrize("n", (2, 5, 10))
+def test_counts_are_told_apart_as_by_scipy_s_test_of_each_pair(n):
+    p = [[stats.fisher_exact([[k, n - k], [j, n - j]]).pvalue for j in range(n + 1)] for k in range(n + 1)]
+    assert (significant(n) == (np.array(p) < 0.05)).all()
+
+
 def test_the_power_is_how_often_simulated_studies_differ():
     rng, shown = np.random.default_rng(0), significant(8)
     simulated = shown[rng.binomial(8, 0.9, 20_000), rng.binomial(8, 0.4, 20_000)].mean()

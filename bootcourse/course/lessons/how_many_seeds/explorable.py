@@ -11,7 +11,7 @@ from bootcourse.methods import style
 from bootcourse.panels.explorable import CHART, WIDTH, Explorable
 from bootcourse.panels.number import Number, whole_number
 from bootcourse.plots.svg import Drawing, SvgAxes, drawing, rect, text, ticks
-from bootcourse.statistics import rate
+from bootcourse.statistics import rate, significant
 
 SHARE, MOST = 0.8, 60  # of the trained agents so many escape; at most so many are trained
 PLAIN = "#B8BEC6"  # of what does not count
@@ -58,20 +58,6 @@ def certainty() -> Explorable:
     return Explorable("Which true rates are believable?", draw, **numbers)
 
 
-@lru_cache
-def told_apart(n: int) -> np.ndarray:
-    """`bootcourse.statistics.significant`, sooner: by the hypergeometric chances of each total; bool (n + 1, n + 1)."""
-    counts = np.arange(n + 1)
-    total = counts[:, None] + counts
-    chances = scipy.stats.hypergeom.pmf(counts[:, None], 2 * n, total, n)
-    p = np.zeros_like(chances)
-    for together in range(2 * n + 1):
-        here = total == together
-        chance = chances[here]
-        p[here] = (chance * (chance <= chance[:, None] * (1 + 1e-7))).sum(axis=1)
-    return p < 0.05
-
-
 def disc(x: float, y: float, radius: float, colour: str = "") -> str:
     """A disc of that colour; without one, an empty circle."""
     look = f'fill="{colour or "#FFFFFF"}" stroke="{colour or QUIET}"'
@@ -83,7 +69,7 @@ def studies() -> Explorable:
     colour, most = style("bootstrapped").colour, 30
 
     def draw(agents: float, first: float, second: float) -> Drawing:
-        n, shown = int(agents), told_apart(int(agents))
+        n, shown = int(agents), significant(int(agents))
         k, j = (scipy.stats.binom.pmf(np.arange(n + 1), n, true / 100) for true in (first, second))
         chances = np.outer(k, j)
         found = round(100 * chances[shown].sum())

@@ -197,7 +197,6 @@ explorable.studies()
 # **See.** Ten against ten miss even this large difference in more than half of the studies; with 80
 # against 60 % so do thirty. So eight against seven does not show that the two methods are alike.
 # <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 30) < 0.4 and fisher(8, 7) > 0.5 -->
-# <!-- claim: (explorable.told_apart(18) == significant(18)).all() -->
 #
 # The share of studies that find it is the **power** of the comparison. Compute it before you train:
 # say which difference would matter to you, the **smallest effect of interest**, and take enough

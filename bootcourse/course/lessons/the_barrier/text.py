@@ -436,8 +436,9 @@ compare_predictions(
 #    way are worth less than staying: they crash, or their reward comes late.
 # <!-- claim: all(tested(kind).values(0.8).mean() < tested('stays').values(0.8).mean() for kind in
 #   KINDS_OF_ATTEMPTS) -->
-# 4. From mid-lane, or with cheap accidents, few agents escape; with both changes {{ easy(BOTH).escapers('sac') }} of twenty do. For a
-#    driver that often acts at random, a little more speed costs.
+# 4. From mid-lane, or with cheap accidents, few agents escape; with both changes {{
+#    easy(BOTH).escapers('sac') }} of twenty do. For a driver that often acts at random, a little
+#    more speed costs.
 # 5. With the rule as a constraint and as data, most agents of the study escape.
 # <!-- claim: escaped('bootstrapped') > len(of('bootstrapped')) / 2 > escaped('sac') -->
 #
