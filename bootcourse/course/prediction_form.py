@@ -92,7 +92,8 @@ class PredictionForm(Panel):
 
     def _repr_mimebundle_(self, **kwargs) -> dict:
         """The same in every notebook, whatever is kept."""
-        question, by_hand = self.question, 'No buttons here? Add answer="…" to the call, and run the cell.'
+        by_hand = 'Run this cell to answer. No buttons then? Add answer="…" to the call, and run it again.'
+        question = self.question
         choices = joined(html("<li>{}</li>", marked(choice)) for choice in question.choices)
         choices = html("<ul>{}</ul>", choices) if choices else ""
         page = '<div class="bc-prediction"><strong>Prediction {}</strong> {}{}<div><small>{}</small></div></div>'
