@@ -8,6 +8,7 @@ rounded to a millimetre; both keep an exported file small.
 from dataclasses import dataclass, field
 
 import numpy as np
+from viser import _messages
 
 from bootcourse.colours import ALARM, rgb
 from bootcourse.methods import display_name, style
@@ -19,6 +20,7 @@ from bootcourse.replay3d.road import AHEAD, BEHIND, THEMES, ground, road_parts
 from bootcourse.replay3d.timeline import Timeline
 from bootcourse.road.state import EGO, TRAP_1, TRAP_2, X
 
+PLACES = {"position": _messages.SetPositionMessage, "wxyz": _messages.SetOrientationMessage}
 GRAIN = 1024.0  # positions are rounded to 1/1024 m, which is exact in binary
 
 
@@ -81,8 +83,6 @@ class Stage:
                 for node in (*drive.rings.values(), *drive.labels.values(), *drive.futures):
                     node.visible = not node.visible
                 drive.crumbs.vertices = drive.crumbs.vertices + 1.0
-                for node in (drive.road, *drive.cars.values()):
-                    node.position, node.wxyz = (-1.0, -1.0, -1.0), (0.0, 0.0, 0.0, 1.0)
 
     def _surroundings(self) -> None:
         colours, api = THEMES[self.dark], self.server.scene
@@ -173,10 +173,16 @@ class Stage:
             self._set(node, color=rgb(one.colour))
 
     def _set(self, node, **properties) -> None:
-        """Give a node new properties. viser sends a value only if it is new, but takes 50 µs to find that it is not."""
+        """Give a node new properties, if they are new.
+
+        viser's own setters of a place compare it once more, by numpy, which takes as long as all the rest of a frame.
+        """
         for name, value in properties.items():
             if self.sent.get((id(node), name)) != value:
-                setattr(node, name, value)
+                if name in PLACES:
+                    self.server.scene._queue_scene_message(PLACES[name](node.name, value))
+                else:
+                    setattr(node, name, value)
                 self.sent[id(node), name] = value
 
 
