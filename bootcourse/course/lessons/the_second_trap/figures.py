@@ -1,6 +1,6 @@
-"""What two speeds in turn earn, PPO's clipped loss of one decision against its ratio, and the speeds of two drives."""
+"""Return against success, the return in training, PPO's clipped loss against the ratio, the speeds of two drives."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import torch
@@ -9,35 +9,56 @@ from torch import Tensor
 
 from bootcourse.colours import Style
 from bootcourse.course.charts import lines
+from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, Driven, Trained, reference
 from bootcourse.course.lessons.the_second_trap.second_trap import speeds
-from bootcourse.episodes.record import Rollout
+from bootcourse.episodes.record import Rollout, record
 from bootcourse.methods import style
-from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
+from bootcourse.policies import idle_policy
 from bootcourse.scenario import DEFAULT
 
 RATIOS = np.linspace(0.3, 1.7, 141)
 POINTS = (0.5, 1.5)  # where a dot says what the gradient does
 
 
-def convex(speed_reward: Callable[[float], float], title: str) -> Figure:
-    """The speed reward of a steady speed, and of 5 and 15 m/s in turn with the same mean; dots at 10 m/s."""
-    slow, mean, fast = 5.0, 10.0, 15.0
-    v = np.linspace(slow, fast, 101)
-    steady, turns = [speed_reward(each) for each in v], (v - slow) / (fast - slow)
-    figure, ax = one_axes(3.6, title, "mean speed (m/s)", "speed reward of a second")
-    ax.plot(v, turns, color=QUIET, linewidth=2, linestyle="--")
-    ax.plot(v, steady, color=INK, linewidth=2)
-    ax.set(xlim=(slow, fast), ylim=(-0.03, 1.03))
-    values = speed_reward(mean), 0.5 * (speed_reward(slow) + speed_reward(fast))
-    ax.plot([mean, mean], values, color=GRID, linewidth=1.5, zorder=1)
-    for value, colour, side in zip(values, (INK, QUIET), ("left", "right"), strict=True):
-        ax.plot(mean, value, "o", color=colour, ms=7, zorder=3)
-        away = (7 if side == "left" else -7, -10 if side == "left" else 6)
-        ax.annotate(f"{value:.2f}", (mean, value), away, textcoords="offset points", ha=side, color=colour)
-    ax.text(7.6, 0.34, "5 and 15 m/s in turn", ha="right", fontsize=TEXT, color=QUIET)
-    ax.text(11.6, 0.1, "a steady speed", fontsize=TEXT, color=INK)
-    alt = f"At a mean of {mean:g} m/s a steady speed earns {values[0]:.2f}, {slow:g} and {fast:g} m/s {values[1]:.2f}"
-    return finish(figure, title, f"The speed reward against the mean speed, from {slow:g} to {fast:g} m/s. {alt}.")
+def plane(kinds: Mapping[str, Driven], title: str, own: Sequence[tuple[float, float]] = ()) -> Figure:
+    """Where each agent's return and its share of roads ahead put it: a dot for each.
+
+    own: (return, share ahead) of another agent before and after its training, joined by an arrow.
+    """
+    roads = f"mean return of an agent on {len(ROADS)} roads"
+    figure, ax = one_axes(3.5, title, roads, "roads on which it ends ahead of trap 1, %")
+    ax.set(xlim=(0, 125), ylim=(-8, 108))
+    looks, alt = {"the rule": style("rule").colour, "keeping straight": style("idle").colour}, []
+    for name, (returns, ahead) in kinds.items():
+        colour = looks.get(name, style("ppo").colour)
+        ax.scatter(returns, 100 * ahead, s=34, color=colour, edgecolors="white", linewidths=0.6, zorder=3)
+        x, y = float(np.mean(returns)), 100 * float(np.mean(ahead))
+        look = {"textcoords": "offset points", "ha": "center", "fontsize": TEXT, "color": INK}
+        ax.annotate(name, (x, y), (0, 9 if y < 50 else -17), **look)
+        alt.append(f"{name}: {len(returns)} with a mean return of {x:.0f}, ahead on {y:.0f} %")
+    if own:
+        (x, y), (to_x, to_y) = ((returns, 100 * ahead) for returns, ahead in own)
+        ax.annotate("", (to_x, to_y), (x, y), arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.2})
+        ax.plot(x, y, "o", color="white", markeredgecolor=INK, ms=6, zorder=3)
+        ax.plot(to_x, to_y, "o", color=INK, ms=6, zorder=4)
+        ax.annotate("your clone", (x, y), (0, -15), textcoords="offset points", ha="center", fontsize=TEXT, color=INK)
+        alt.append(f"your clone: from return {x:.0f}, ahead on {y:.0f} %, to return {to_x:.0f}, ahead on {to_y:.0f} %")
+    return finish(figure, title, f"A dot for each agent. {'; '.join(alt)}.")
+
+
+def learning(yours: Trained, title: str) -> Figure:
+    """The return in training of the agents of PPO alone that ship, and of yours, over the decisions."""
+    ships, colour = reference()["alone"], style("ppo").colour
+    at, curves = ships["at"][0], ships["curve"]
+    own = np.full(len(at), np.nan)
+    own[: len(yours.returns)] = yours.returns[: len(at)]
+    named, looks = {"ten agents of PPO alone": curves, "yours": own}, (Style(colour), Style(INK))
+    marks = {"keeping straight": record(idle_policy, [0])[0].rewards.sum()}
+    early, late = (f"{each.min():.0f} to {each.max():.0f}" for each in (curves[:, 6], curves[:, -1]))
+    ends = f"The ten earn {early} after {at[6]:,.0f} decisions, in the end {late}; yours {yours.returns[-1]:.0f}."
+    labels = "thousand decisions", "return of the last 300 training episodes"
+    return lines(at / 1000, named, title, *labels, marks=marks, looks=looks, alt=ends)
 
 
 def hinges(clipped_loss: Callable[[Tensor, Tensor, float], Tensor], clip: float, title: str) -> Figure:

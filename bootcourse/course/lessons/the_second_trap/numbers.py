@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
+from bootcourse.course.lessons.the_second_trap import explorable, ppo_kinds, second_trap  # noqa: F401 (for the text)
 from bootcourse.episodes.record import record
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.statistics import ESCAPES
@@ -24,6 +24,12 @@ def ppo_agents() -> int:
 def ppo_escapes(kind: str) -> int:
     """How many of them escape."""
     return int((ppo(kind)["success"] >= ESCAPES).sum())
+
+
+@cache
+def drivers() -> dict[str, tuple[float, float]]:
+    """{"the rule", "keeping straight"}: return, and share ahead in the end, on the roads of these agents."""
+    return {name: (returns.item(), ahead.item()) for name, (returns, ahead) in ppo_kinds.compared({}).items()}
 
 
 @cache

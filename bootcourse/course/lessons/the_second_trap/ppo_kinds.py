@@ -22,19 +22,18 @@ from bootcourse.learn.networks import mlp
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.teachers import course_rule
 from bootcourse.learn.training import MOST_EPISODES, Training
-from bootcourse.policies import idle_policy, rule_policy
+from bootcourse.policies import Policy, idle_policy, rule_policy
 from bootcourse.research.cells import results_of
 from bootcourse.research.computed import experiment
 from bootcourse.research.experiment import Experiment
 from bootcourse.research.results import Results, agent_entries, weights_of
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES
 
 SEEDS, EVERY = 10, 50_000  # agents of each kind; decisions between two points of a curve
 ROADS = held_out_seeds(14, 200)  # that every agent is tested on
 QUICK = {"hidden": (32, 32), "actor_lr": 2e-3, "critic_lr": 2e-3, "epochs": 3}  # in place of the settings of `ppo`
 GAMMA = settings_for("ppo").gamma
-HEADINGS = [f"on {len(ROADS)} roads", "ahead in the end, %", "agents that escape", "return (by agent)", "accidents, %"]
+Driven = tuple[np.ndarray, np.ndarray]  # return, share of the roads ahead in the end: of each agent, (agents,)
 
 
 class Kind(NamedTuple):
@@ -145,21 +144,18 @@ def reference() -> dict[str, dict[str, np.ndarray]]:
     return {kind: results.measured | results.notes for kind, results in shipped_kinds().items()}
 
 
-def compared(kinds: Mapping[str, str]) -> list[list[str]]:
-    """Rows below `HEADINGS`: the rule, a car that keeps straight, and the agents that ship of {name: kind}."""
-    rows = []
-    for name, policy in {"the rule": rule_policy(DEFAULT), "keeping straight": idle_policy}.items():
-        drives = drive_episodes(policy, ROADS)
-        share, crashed = drives.success.mean(), np.mean(drives.accident > 0)
-        rows.append([name, f"{100 * share:.1f}", "–", f"{drives.returns.mean():.1f}", f"{100 * crashed:.1f}"])
-    for name, kind in kinds.items():
-        success, returns, accidents = (
-            shipped_kinds()[kind].measured[each] for each in ("success", "returns", "accident")
-        )
-        escape = f"{(success >= ESCAPES).sum()} of {len(success)}"
-        earned = f"{returns.mean():.1f} ({returns.min():.0f} to {returns.max():.0f})"
-        rows.append([name, f"{100 * success.mean():.1f}", escape, earned, f"{100 * accidents.mean():.1f}"])
-    return rows
+def driven(policy: Policy) -> tuple[float, float]:
+    """Mean return on `ROADS`, and the share of them on which it ends ahead."""
+    drives = drive_episodes(policy, ROADS)
+    return drives.returns.mean(), drives.success.mean()
+
+
+def compared(kinds: Mapping[str, str]) -> dict[str, Driven]:
+    """{name: how they drive}: the rule, a car that keeps straight, and the agents that ship of {name: kind}."""
+    alone = {"the rule": rule_policy(DEFAULT), "keeping straight": idle_policy}
+    named = {name: tuple(map(np.atleast_1d, driven(policy))) for name, policy in alone.items()}
+    measured = {name: shipped_kinds()[kind].measured for name, kind in kinds.items()}
+    return named | {name: (each["returns"], each["success"]) for name, each in measured.items()}
 
 
 def agent_of(kind: str, seed: int = 0) -> Agent:

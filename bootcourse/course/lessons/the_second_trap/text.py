@@ -14,9 +14,9 @@
 # # The second trap
 #
 # **What you will be able to do**
-# - find out from a drive how an agent earns a lot and still misses its goal, and what pays for it;
+# - find out from a drive what its reward pays for;
 # - write PPO, its advantages and its loss, and train an agent with it;
-# - change a reward, and say what that does.
+# - bend a reward, and say what that does.
 #
 # **Time** 55 minutes; running it takes about one minute. **It builds on** the reward (lesson
 # [[the_trap]]), the barrier ([[the_barrier]]) and demonstrations ([[demonstrations]]).
@@ -31,9 +31,8 @@ from bootcourse.course import (
     predict,
     predicted,
     progress,
-    table,
 )
-from bootcourse.course.lessons.the_second_trap import figures, ppo_kinds, second_trap
+from bootcourse.course.lessons.the_second_trap import explorable, figures, ppo_kinds, second_trap
 from bootcourse.learn import ppo
 
 progress("the_second_trap")
@@ -41,27 +40,37 @@ progress("the_second_trap")
 # %% [markdown]
 # ## Look first
 #
-# The road is a fast program. In this course SAC drives {{ settings_for('sac').envs_per_agent }}
-# roads at once; PPO, *proximal policy optimisation*, drives hundreds. Here is one of ten agents
-# trained with it, without a rule or demonstrations. Press play.
-# <!-- claim: ppo_agents() == 10 and settings_for('ppo').envs_per_agent >= 200 -->
+# Here is another learner: PPO, *proximal policy optimisation*. Ten agents were trained with it,
+# without a rule or demonstrations. On {{ len(ppo_kinds.ROADS) }} new roads they earn {{
+# ppo('alone')['returns'].mean() | .0f }} on average. Keeping straight behind the traps earns {{
+# idle().rewards.sum() | .0f }}; the rule, which gets out, earns {{ drivers()['the rule'][0] |
+# .0f }}.
+# <!-- claim: ppo_agents() == 10 and drivers()['the rule'][1] == 1 and
+#   drivers()['keeping straight'][1] == 0 -->
+#
+# > **Predict.** On how many of these roads does a PPO agent end ahead of trap 1?
+
+# %%
+choices = ["on almost all", "on about half", "on none"]
+predict("the_second_trap.1", "On how many roads does a PPO agent end ahead of trap 1?", choices)
+
+# %% [markdown]
+# Press play. What does it do to earn this?
 
 # %% tags=["nbval-ignore-output"]
+predicted("the_second_trap.1")
 ROAD = 10
 drive = bc.record(ppo_kinds.agent_of("alone").as_policy(), [ROAD], label="PPO alone")[0]
 bc.recording([drive], height=360)
 
-# %% [markdown]
-# It stays behind trap 1. How do all ten do?
-# <!-- claim: len(ppo_kinds.ROADS) == 200 and not ppo_drive().success -->
-
 # %%
-table(ppo_kinds.HEADINGS, ppo_kinds.compared({"PPO alone": "alone"}))
+title = "Ten agents of PPO alone earn what the rule earns, and none gets out"
+bc.show(figures.plane(ppo_kinds.compared({"PPO alone": "alone"}), title))
 
 # %% [markdown]
-# None of the agents gets out, and the rule does. Yet on average they earn about what the rule
-# earns, and twice what keeping straight (the *first trap*) earns. This is the **second trap**.
-# <!-- claim: (ppo('alone')['success'] == 0).all() -->
+# **See.** None ends ahead on any of these roads. Yet they earn twice what keeping straight (the
+# *first trap*) earns: this is the **second trap**. Returns alone do not show it.
+# <!-- claim: (ppo('alone')['success'] == 0).all() and not ppo_drive().success -->
 # <!-- claim: ppo('alone')['returns'].mean() > 1.8 * idle().rewards.sum() and
 #   abs(ppo('alone')['returns'].mean() / of('rule').scores('returns')[0] - 1) < 0.25 -->
 
@@ -71,19 +80,17 @@ table(ppo_kinds.HEADINGS, ppo_kinds.compared({"PPO alone": "alone"}))
 # %% [markdown]
 # ## Round 1: what pays for it
 #
-# How does it earn so much? Look at its speed.
+# Look at its speed.
 
 # %%
 title = "PPO alone sprints and falls back, again and again, and does not pass trap 1"
 bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
 
 # %% [markdown]
-# The agent brakes and falls back, sprints, and brakes again.
-# <!-- claim: ppo_gap().min() < -40 and ppo_speeds().max() > 13.5 and ppo_speeds()[40:].min() < 7
-#   -->
-#
 # Behind trap 1 it cannot be faster than trap 1 *on average*, apart from the first few metres. But
 # it chooses how its speed is spread.
+# <!-- claim: ppo_gap().min() < -40 and ppo_speeds().max() > 13.5 and ppo_speeds()[40:].min() < 7
+#   -->
 # <!-- claim: ppo_drive().states[-1, EGO, X] < ppo_drive().states[-1, TRAP_1, X] and
 #   ppo_speeds().mean() < DEFAULT.traps.speed + 20 / DEFAULT.clock.decisions -->
 #
@@ -95,18 +102,23 @@ bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
 
 # %%
 choices = ["about half", "the same", "about twice as much", "almost four times as much"]
-predict("the_second_trap.1", "What does changing between 5 and 15 m/s earn?", choices)
-
-# %% tags=["hide-input"]
-predicted("the_second_trap.1")
-title = "5 and 15 m/s in turn earn almost four times what a steady 10 m/s earns"
-bc.show(figures.convex(bc.formulas.speed_reward, title))
+predict("the_second_trap.2", "What does changing between 5 and 15 m/s earn?", choices)
 
 # %% [markdown]
-# The speed reward is **convex** up to 15 m/s: its slope grows. The mean of a convex function is at
-# least the function of the mean (*Jensen's inequality*). So a speed that changes in this range
-# earns at least as much as a steady one with the same mean. The difference is **Jensen's gap**. How
-# large is it in the agent's drive?
+# **Drag** the swing. From where on does changing pay more than a steady 10 m/s?
+
+# %%
+predicted("the_second_trap.2")
+explorable.sprints()
+
+# %% [markdown]
+# **See.** Up to a swing of 2.5 m/s it pays nothing more: r_v is straight from 5 to 12.5 m/s.
+# At 5 it pays almost four times as much. Up to 15 m/s r_v is **convex**: its slope grows. The mean
+# of a convex function is at least the function of the mean (*Jensen's inequality*). The difference
+# is **Jensen's gap**. How large is it in the agent's drive?
+# <!-- claim: 3.5 < np.divide(*explorable.paid(speed_reward, 5)) < 4 and
+#   abs(np.divide(*explorable.paid(speed_reward, 2.5)) - 1) < 1e-9 <
+#   np.divide(*explorable.paid(speed_reward, 3)) - 1 -->
 # <!-- claim: (lambda r: all(r[i - 1] + r[i + 1] >= 2 * r[i] - 1e-12 for i in range(1, len(r) -
 #   1)))([speed_reward(v) for v in np.linspace(0, 15, 601)]) -->
 
@@ -117,10 +129,8 @@ print(f"mean speed {speeds.mean():.1f} m/s; if it were steady, it would pay {ste
 print(f"this drive's speed pays {steady + gap:.2f} a second: Jensen's gap is {gap:.2f}")
 
 # %% [markdown]
-# **Explain.** The sprints pay about three times what a steady {{ ppo_speeds().mean() | .1f }} m/s
-# pays, and over twice what the idle driver's 10 m/s pays. How does PPO learn this?
-# <!-- claim: 2.7 < np.mean([speed_reward(v) for v in ppo_speeds()]) /
-#   speed_reward(ppo_speeds().mean()) < 3.4 -->
+# **Explain.** The sprints pay over twice what the idle driver's 10 m/s pays. How does PPO learn
+# this?
 # <!-- claim: np.mean([speed_reward(v) for v in ppo_speeds()]) > 2.2 * speed_reward(10) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -177,11 +187,12 @@ def advantages(rewards, values, next_values, terminated, ended, gamma, lam):
 check.advantages(advantages)
 
 # %% [markdown]
-# **When does a decision stop pushing?** PPO drives its roads for {{ settings_for('ppo').horizon }}
-# seconds and takes several passes over these decisions of the old policy. The **ratio** $\rho =
-# \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since it was taken. A
-# good action (A > 0) pushes until it is ε = {{ settings_for('ppo').clip }} likelier, a bad one
-# until it is ε rarer; other decisions may push further:
+# **When does a decision stop pushing?** PPO drives {{ settings_for('ppo').envs_per_agent }} roads at
+# once for {{ settings_for('ppo').horizon }} seconds and takes several passes over these decisions of
+# the old policy. The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an
+# action has become since it was taken. A good action (A > 0) pushes until it is ε = {{
+# settings_for('ppo').clip }} likelier, a bad one until it is ε rarer; other decisions may push
+# further:
 #
 # $$ L = -\,\mathrm{mean}\big[\min(\rho A,\ \mathrm{clip}(\rho, 1 - ε, 1 + ε)\, A)\big] $$
 #
@@ -192,7 +203,7 @@ check.advantages(advantages)
 
 # %%
 choices = ["yes, it makes the action rarer", "yes, likelier", "no, it is clipped"]
-predict("the_second_trap.2", "Does it still change the policy?", choices)
+predict("the_second_trap.3", "Does it still change the policy?", choices)
 
 # %% [markdown]
 # **Exercise (8 min, ●●○).** Write the loss. Its gradient is checked, too.
@@ -210,7 +221,7 @@ def clipped_loss(ratio, advantage, clip):
 check.clipped_loss(clipped_loss)
 
 # %%
-predicted("the_second_trap.2")
+predicted("the_second_trap.3")
 title = "A good action pushes until it is 20 % likelier, a bad one until it is 20 % rarer"
 bc.show(figures.hinges(ppo.clipped_loss, 0.2, title))
 
@@ -240,21 +251,23 @@ def ppo_loss(log_pi, values, actions, old_log_pi, advantage, returns, clip, entr
 check.ppo_loss(ppo_loss)
 
 # %% [markdown]
-# Train one agent with your parts, for fewer decisions than those that ship ({{
-# ppo_kinds.KINDS['alone'].decisions | , }}). **Yours will differ** from a neighbour's: the result
-# depends on the processor.
+# Train one agent with your parts, for fewer decisions than the ten had. **It will differ** from a
+# neighbour's: the result depends on the processor.
 
 # %% tags=["nbval-ignore-output"]
 MOST = 100_000  # episodes; the number of decisions ends each training
 training = own_code.training([ppo_kinds.settings_of("alone")], MOST)
 mine = ppo_kinds.train(training, 500_000)
-print(f"{training.decisions:,} decisions in {training.seconds:.0f} s")
 your_drive = bc.record(mine.agent.as_policy(), [ROAD], label="your agent")[0]
-title = f"Your agent ends {'ahead of' if your_drive.success else 'behind'} trap 1 on this road"
-bc.show(bc.traces(your_drive, title=title, what=("speed", "distance")))
+gap = second_trap.jensen_gap(second_trap.speeds(your_drive))
+print(f"{training.decisions:,} decisions in {training.seconds:.0f} s; Jensen's gap {gap:.2f}")
+title = "PPO pauses at what keeping straight earns, then finds the sprints"
+bc.show(figures.learning(mine, title))
 
 # %% [markdown]
-# Does yours sprint, too? What is its Jensen's gap?
+# PPO goes into the first trap first, and from there into the second. How far is yours?
+# <!-- claim: (lambda curve: (abs(curve[:, 6] / idle().rewards.sum() - 1) < 0.2).all() and (curve[:,
+#   -1] > 1.3 * idle().rewards.sum()).all())(ppo('alone')['curve']) -->
 
 # %% [markdown] tags=["instructor"] minutes=7
 # The two endings are the hard part. Draw two rows, one that ends in an accident and one
@@ -264,9 +277,18 @@ bc.show(bc.traces(your_drive, title=title, what=("speed", "distance")))
 # %% [markdown]
 # ## Round 3: change the reward
 #
-# The reward pays for sprints, so change it: from 5 to 15 m/s let the speed pay √((v − 5) / 10)
-# instead of r_v. That is **concave**, bent the other way: of all drives in this range with the same
-# mean speed, the steady one earns the most. Ten agents were trained with this reward.
+# The reward pays for sprints, so bend it. **Drag** what it pays at 12.5 m/s: from where on do the
+# sprints pay nothing more?
+
+# %%
+explorable.bends()
+
+# %% [markdown]
+# From 0.75 on, where it is a straight line. Above, it is **concave**: of all drives from 5 to 15 m/s
+# with the same mean speed, the steady one earns the most. Ten agents were trained with a concave
+# one, √((v − 5) / 10).
+# <!-- claim: (lambda sprints: abs(sprints(0.75)) < 1e-9 < sprints(0.7) and sprints(0.8) < 0)(lambda
+#   knee: np.subtract(*explorable.paid(explorable.bent(knee), 5))) -->
 # <!-- claim: [float(second_trap.concave_speed_reward(np.float64(v))) for v in (5, 15)] == [0, 1]
 #   and len(ppo('concave')['success']) == 10 -->
 #
@@ -274,18 +296,17 @@ bc.show(bc.traces(your_drive, title=title, what=("speed", "distance")))
 
 # %%
 choices = ["it leaves", "it drives steadily behind trap 1", "it falls back and sprints as before"]
-predict("the_second_trap.3", "What does PPO do with the concave reward?", choices)
+predict("the_second_trap.4", "What does PPO do with the concave reward?", choices)
 
 # %%
-predicted("the_second_trap.3")
+predicted("the_second_trap.4")
 concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD])[0]
 title = "Paid by the concave reward, PPO drives at almost the speed of the traps, and stays"
 bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": concave}, title))
 
 # %% [markdown]
-# **See.** The sprints are gone, and none of the ten agents escapes. Counted with the road's own
-# reward they earn {{ ppo('concave')['returns'].mean() | .0f }} on average, about what keeping
-# straight earns: this is the first trap.
+# **See.** The sprints are gone, and none of the ten agents escapes. By the road's own reward they
+# earn about what keeping straight earns: this is the first trap.
 # <!-- claim: all(9 <= drive_episodes(ppo_kinds.agent_of('concave', i).as_policy(),
 #   ppo_kinds.ROADS).speed.mean() <= 10.05 for i in range(ppo_agents())) and
 #   np.sort(ppo('concave')['accident'])[-2] < 0.01 -->
@@ -294,11 +315,10 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 # <!-- claim: all(ppo_speeds('concave', i)[20:].std() < 0.3 * ppo_speeds()[20:].std() for i in
 #   range(ppo_agents())) -->
 #
-# **Explain.** A reward says what is best, and not how it is found. On this road the concave reward
-# pays {{ paid_concavely(by_rule()) | .0f }} for the rule's drive, which gets out, and {{
-# paid_concavely(ppo_drive('concave')) | .0f }} for the agent's; discounted, too, it pays more for
-# the rule's. So getting out would pay. Perhaps the price of attempts keeps PPO in (lesson
-# [[the_barrier]]).
+# **Explain.** A reward says what is best, and not how it is found. On this road the concave one pays
+# {{ paid_concavely(by_rule()) | .0f }} for the rule's drive, which gets out, and {{
+# paid_concavely(ppo_drive('concave')) | .0f }} for the agent's. Perhaps the price of attempts keeps
+# PPO in (lesson [[the_barrier]]).
 # <!-- claim: paid_concavely(by_rule(), settings_for('ppo').gamma) >
 #   paid_concavely(ppo_drive('concave'), settings_for('ppo').gamma) and by_rule().success -->
 
@@ -320,39 +340,34 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 # %%
 leaves = "it leaves, and earns"
 choices = ["it stays behind trap 1", f"{leaves} what the rule earns", f"{leaves} far more"]
-predict("the_second_trap.4", "What does it do after PPO?", choices)
+predict("the_second_trap.5", "What does it do after PPO?", choices)
 
 # %% tags=["nbval-ignore-output"]
-predicted("the_second_trap.4")
+predicted("the_second_trap.5")
 training = own_code.training([ppo_kinds.settings_of("cloned")], MOST)
-before = bc.evaluate(training.agent(0).as_policy(), 100)
-after = bc.evaluate(ppo_kinds.train(training, 200_000).agent.as_policy(), 100)
-for when, found in {"before PPO": before, "after PPO": after}.items():
-    crashed = found.collision.value + found.road_departure.value + found.stoppage.value
-    rates = f"ahead on {100 * found.success.value:.0f} %, accidents {100 * crashed:.0f} %"
-    print(f"{when}: {rates}, return {found.returns.value:.1f}")
-
-# %%
-kinds = {"PPO alone": "alone", "PPO after cloning": "cloned"}
-table(ppo_kinds.HEADINGS, ppo_kinds.compared(kinds))
-
-# %%
-fast = bc.record(ppo_kinds.agent_of("cloned").as_policy(), [ROAD], label="ppo_cloned")[0]
-title = "PPO alone stays behind trap 1; after cloning it passes trap 1 and stays ahead"
-bc.show(bc.traces([drive, fast], title=title, what=("speed", "distance")))
+start = ppo_kinds.driven(training.agent(0).as_policy())
+yours = ppo_kinds.train(training, 200_000).agent
+named = {"PPO alone": "alone", "PPO after cloning": "cloned"}
+title = "After cloning, PPO gets out and earns twice what its teacher earns"
+own = start, ppo_kinds.driven(yours.as_policy())
+bc.show(figures.plane(ppo_kinds.compared(named), title, own))
 
 # %% [markdown]
-# **See.** All ten cloned agents escape. They earn about twice what the rule earns: the clone is
-# only their start. Some of their drives end in an accident, none of the rule's.
+# **See.** All ten cloned agents escape, and earn about twice what the rule earns: the clone is
+# only their start. But {{ 100 * ppo('cloned')['accident'].mean() | .1f }} % of their drives end in
+# an accident, none of the rule's. Watch yours:
 # <!-- claim: ppo_escapes('cloned') == ppo_agents() and 1.8 < ppo('cloned')['returns'].mean() /
 #   of('rule').scores('returns')[0] < 2.4 and ppo('cloned')['accident'].mean() > 0 -->
 # <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_kinds.ROADS).accident.any() -->
-#
-# **Explain.** Getting out *and driving fast* pays over twice what sprinting pays; the rule's slower
-# way pays about as much. So the reward does not prefer the second trap; if it did, this would be
-# *reward hacking*. PPO alone did not find the way. The clone gets out on many roads, at first for
-# less than sprints pay. *Probably* PPO makes its good drives likelier.
-# <!-- claim: abs(ppo('alone')['returns'].mean() / of('rule').scores('returns')[0] - 1) < 0.25 -->
+
+# %% tags=["nbval-ignore-output"]
+fast = bc.record(yours.as_policy(), [ROAD], label="ppo_cloned")[0]
+bc.recording([drive, fast], height=360)
+
+# %% [markdown]
+# **Explain.** Getting out *and driving fast* pays over twice what sprinting pays. So the reward
+# does not prefer the second trap; if it did, this would be *reward hacking*. The clone gets out on
+# many roads, at first for less than sprints pay. *Probably* PPO makes its good drives likelier.
 # <!-- claim: ppo('cloned')['returns'].mean() > 2 * ppo('alone')['returns'].mean() and
 #   discounted(ppo_drive('cloned'), settings_for('ppo').gamma) > 2 * discounted(ppo_drive(),
 #   settings_for('ppo').gamma) -->
@@ -366,10 +381,11 @@ bc.show(bc.traces([drive, fast], title=title, what=("speed", "distance")))
 compare_predictions(
     "the_second_trap",
     {
-        1: "almost four times as much",
-        2: "yes, it makes the action rarer",
-        3: "it drives steadily behind trap 1",
-        4: f"{leaves} far more",
+        1: "on none",
+        2: "almost four times as much",
+        3: "yes, it makes the action rarer",
+        4: "it drives steadily behind trap 1",
+        5: f"{leaves} far more",
     },
 )
 
@@ -403,10 +419,10 @@ compare_predictions(
 # **Read on**: Schulman et al., *Proximal Policy Optimization Algorithms* (arXiv 1707.06347) and
 # *High-Dimensional Continuous Control Using Generalized Advantage Estimation* (arXiv 1506.02438).
 #
-# **Try**: add a *shaping reward*, which leaves the best policy as it is (Ng, Harada and Russell
-# 1999): it pays γ Φ(s') − Φ(s), where the *potential* Φ(s) says how far to the left the car has
-# come. Hand `make_env=ppo_kinds.KINDS["shaped"].make_env` to the first training. Does the agent get
-# out? Next: [looking ahead](looking_ahead.ipynb).
+# **Try** a *shaping reward*, which leaves the best policy as it is (Ng, Harada and Russell 1999): it
+# pays γ Φ(s') − Φ(s), where the *potential* Φ says how far to the left the car has come. Hand
+# `make_env=ppo_kinds.KINDS["shaped"].make_env` to the first training. Does the agent get out?
+# Next: [looking ahead](looking_ahead.ipynb).
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** r_v against v with a chord from 5 to 15 m/s; below it the speed of an agent that

@@ -1,0 +1,78 @@
+"""To drag in this lesson: how far a speed swings around that of the traps, and how the reward is bent; what it pays."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from bootcourse.colours import GRID, INK
+from bootcourse.methods import style
+from bootcourse.panels.explorable import HEIGHT, WIDTH, Curve, Explorable, legend
+from bootcourse.panels.number import Number
+from bootcourse.plots.svg import Drawing, SvgAxes, drawing, text
+from bootcourse.road.formulas import speed_reward
+from bootcourse.scenario import DEFAULT
+
+SLOW, KNEE, FAST = 5.0, 12.5, 15.0  # m/s, where the speed reward's slope changes
+MEAN, MOST = DEFAULT.traps.speed, 5.0  # m/s
+SECONDS, HALF = 40.0, 10  # of a drive that is shown; so long it keeps each speed
+
+
+def paid(reward: Callable[[float], float], swing: float) -> tuple[float, float]:
+    """What a second pays on average at two speeds in turn, `swing` below and above the mean, and at the mean."""
+    return (reward(MEAN - swing) + reward(MEAN + swing)) / 2, reward(MEAN)
+
+
+def picture(says: str, reward: Callable[[float], float], swing: float) -> Drawing:
+    """The two speeds and the mean on the reward's curve, beside the two drives' speeds over time."""
+    slow, fast, colour = MEAN - swing, MEAN + swing, style("ppo").colour
+    turns, steady = paid(reward, swing)
+    left = SvgAxes(52, 78, 300, 176, (SLOW, FAST), (0.0, 1.0))
+    left.frame("speed reward of a second", "speed, m/s")
+    v = np.linspace(SLOW, FAST, 101)
+    left.line(v, [reward(each) for each in v], INK, 1.6)
+    left.line([slow, fast], [reward(slow), reward(fast)], colour, 1.4, "--")
+    left.line([MEAN, MEAN], [steady, turns], GRID, 1.2)
+    for v_x, pays in ((slow, reward(slow)), (fast, reward(fast)), (MEAN, turns)):
+        left.dot(v_x, pays, colour)
+    left.dot(MEAN, steady, INK)
+    right = SvgAxes(436, 78, 306, 176, (0.0, SECONDS), (SLOW - 1, FAST + 1))
+    right.frame("speed, m/s", "time, s")
+    right.line([0, SECONDS], [MEAN, MEAN], INK, 1.2)
+    changes = np.arange(0, SECONDS + 1, HALF)  # s
+    right.line(np.repeat(changes, 2)[1:-1], np.repeat([slow, fast, slow, fast], 2), colour, 1.6)
+    named = {
+        f"{slow:g} and {fast:g} m/s in turn: {turns:.2f} a second": Curve([], colour),
+        f"a steady {MEAN:g} m/s: {steady:.2f}": Curve([], INK),
+    }
+    words = [text(4, 20, says, size=14, bold=True), *legend(named)]
+    return drawing(WIDTH, HEIGHT, [*words, *left.parts, *right.parts], says)
+
+
+def sprints() -> Explorable:
+    """The road's own speed reward, while the two speeds move apart."""
+
+    def draw(swing: float) -> Drawing:
+        turns, steady = paid(speed_reward, swing)
+        more = f"pay {turns / steady:.1f} times as much as" if turns > steady + 1e-9 else "pay the same as"
+        says = f"{MEAN - swing:g} and {MEAN + swing:g} m/s in turn {more} a steady {MEAN:g}."
+        return picture(says, speed_reward, swing)
+
+    swing = Number("swing", 1, 0, MOST, 0.5, "So far below and above 10 m/s the two speeds lie.", "m/s")
+    return Explorable("What does changing pay?", draw, swing=swing)
+
+
+def bent(at_knee: float) -> Callable[[float], float]:
+    """A speed reward that pays so much at 12.5 m/s, and at 5 and 15 m/s what the road's pays."""
+    return lambda v: float(np.interp(v, [SLOW, KNEE, FAST], [0.0, at_knee, 1.0]))
+
+
+def bends() -> Explorable:
+    """5 and 15 m/s in turn, while the reward is bent."""
+
+    def draw(at_knee: float) -> Drawing:
+        turns, steady = paid(bent(at_knee), MOST)
+        verb = "make no difference" if abs(turns - steady) < 1e-9 else "pay" if turns > steady else "cost"
+        return picture(f"With {at_knee:g} at {KNEE:g} m/s, sprints {verb}.", bent(at_knee), MOST)
+
+    at_knee = Number("at 12.5 m/s", 0.2, 0, 1, 0.05, "So much a second at 12.5 m/s pays; at 5 m/s 0, at 15 m/s 1.")
+    return Explorable("Which reward pays for sprints?", draw, at_knee=at_knee)
