@@ -1,4 +1,4 @@
-"""Two drives of MountainCar, and one of DoorKey."""
+"""Two drives of MountainCar, one of DoorKey, and what ships of the study on other problems (research/elsewhere.py)."""
 
 from collections.abc import Sequence
 
@@ -6,11 +6,17 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Rectangle
 
-from bootcourse.colours import ALARM
+from bootcourse.colours import ALARM, Style
 from bootcourse.course import charts
 from bootcourse.course.lessons.your_own_problem import loops
+from bootcourse.course.lessons.your_own_problem.cells import BONUSES, FOUR, THREE, cells
+from bootcourse.learn.agent import Agent
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, TEXT, axes_at, finish, new_figure
+from bootcourse.plots.figure import INK, TEXT, axes_at, finish, new_figure, plain_axes
+from bootcourse.research.problems import PROBLEMS
+
+LOOKS = {"cloning": "bc", "soft": "soft", "demonstrations": "demos", "both": "bootstrapped"}
+NAMES = {"cloning": "clone", "soft": "soft constraint", "demonstrations": "demonstrations", "both": "both aids"}
 
 
 def climbs(title: str) -> Figure:
@@ -50,3 +56,77 @@ def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
     cells = len(set(map(tuple, way.tolist())))
     alt = f"Two columns with a door between them. The drive visits {cells} cells in {len(states)} decisions"
     return finish(figure, title, f"{alt}; the last {stays} change nothing.")
+
+
+def returns(title: str) -> Figure:
+    """The mean return of each agent with a flawed teacher, a dot: a column for each problem, a row for each method."""
+    figure, alt = new_figure(4.3), []
+    for row, teacher in enumerate(("random", "systematic")):
+        for column, problem in enumerate(THREE):
+            ax = axes_at(figure, 1.15 + 1.95 * column, 0.95 + 1.75 * row, 1.75, 1.2)
+            plain_axes(ax, PROBLEMS[problem].name, grid="x")
+            lines = {"good teacher": style("rule").colour, "this teacher": ALARM, "plain SAC": style("sac").colour}
+            good, this = (cells().mean(problem, kind, "the teacher") for kind in ("good", teacher))
+            alone = cells().mean(problem, teacher, "SAC")
+            for value, colour, line in zip((good, this, alone), lines.values(), ("-", "--", ":"), strict=True):
+                ax.axvline(value, color=colour, linestyle=line, linewidth=1.6, zorder=2)
+            means = []
+            for place, method in enumerate(FOUR):
+                scores = np.sort(cells().scores(problem, teacher, method))
+                heights = place + np.linspace(-0.25, 0.25, len(scores))
+                look = {"color": style(LOOKS[method]).colour, "edgecolors": "white", "linewidths": 0.3}
+                ax.scatter(scores, heights, s=13, zorder=3, **look)
+                means.append(f"{NAMES[method]} {scores.mean():.0f}")
+            ax.set_yticks(range(len(FOUR)), NAMES.values() if column == 0 else [""] * len(FOUR))
+            ax.set_ylim(len(FOUR) - 0.5, -0.5)
+            what = f"good teacher {good:.0f}, this teacher {this:.0f}, plain SAC {alone:.0f}"
+            alt.append(f"{PROBLEMS[problem].name}, {teacher}: {what}, {', '.join(means)}.")
+        above = 1 - (0.75 + 1.75 * row) / 4.3
+        figure.text(0.012, above, f"a {teacher}\nteacher", va="top", fontsize=TEXT, fontweight="bold", color=INK)
+    x = 1.15
+    for (words, colour), line in zip(lines.items(), ("-", "--", ":"), strict=True):
+        key = axes_at(figure, x, 0.56, 1.3, 0.12)
+        key.plot([0, 0.2], [0.5, 0.5], color=colour, linestyle=line, linewidth=1.6)
+        key.text(0.25, 0.45, words, va="center", fontsize=TEXT, color=INK)
+        key.set(xlim=(0, 1), ylim=(0, 1))
+        key.set_axis_off()
+        x += 1.3
+    figure.text(0.58, 0.02, "return; a dot for each of ten agents", ha="center", fontsize=TEXT, color=INK)
+    return finish(figure, title, " ".join(alt))
+
+
+def bonuses(title: str) -> Figure:
+    """How often agents with both aids reach the goal of DoorKey, over the bonus, for each teacher; drawn actions."""
+    at, named = np.arange(len(BONUSES)), {}
+    for teacher in ("good", "random", "systematic"):
+        scores = [cells().mean("doorkey", teacher, method, "drawn_success") for method in BONUSES.values()]
+        named[f"{teacher} teacher"] = 100 * np.array(scores)
+    looks = [style("rule"), style("bootstrapped"), Style(ALARM, "--")]
+    marks = {"plain SAC": 100 * cells().mean("doorkey", "none", "SAC", "drawn_success")}
+    over, of = "bonus c for each decision of a demonstration", "drives that reach the goal, %"
+    figure = charts.lines(at, named, title, over, of, marks=marks, limits=(0, 103), looks=looks)
+    figure.axes[0].set_xticks(at, [name.removeprefix("c = ") for name in BONUSES])
+    return figure
+
+
+def edges(agents: Sequence[Agent], title: str) -> Figure:
+    """Where each agent on CartPole changes from left to right, by the pole's angle and speed; the cart rests."""
+    figure = new_figure(3.3)
+    ax = axes_at(figure, 0.7, 0.75, 4.0, 1.95)
+    plain_axes(ax, "speed of the pole, rad/s")
+    ax.set_xlabel("angle of the pole, rad", fontsize=TEXT, color=INK)
+    angle, speed = np.linspace(-0.2, 0.2, 81), np.linspace(-1.5, 1.5, 81)
+    at = np.zeros((81, 81, 4), dtype=np.float32)
+    at[..., 2], at[..., 3] = np.meshgrid(angle, speed)
+    colour, rule, changes = style("soft").colour, style("rule").colour, []
+    for agent in agents:
+        right = np.asarray(agent.probabilities(at.reshape(-1, 4)))[:, 1].reshape(81, 81)
+        ax.contour(angle, speed, right, levels=[0.5], colors=[colour], linewidths=1.6)
+        changes.append("/".join(f"{speed[(right[:, x] >= 0.5).argmax()]:.2f}" for x in (20, 60)))
+    ax.axvline(0, color=rule, linewidth=2.5, zorder=1)
+    ax.text(-0.19, -1.4, "push left", fontsize=TEXT, color=INK)
+    ax.text(0.19, 1.3, "push right", ha="right", fontsize=TEXT, color=INK)
+    for place, (words, look) in enumerate({"the rule": rule, "one agent each": colour}.items()):
+        ax.text(1.04, 0.6 - 0.13 * place, words, transform=ax.transAxes, fontsize=TEXT, color=look)
+    alt = f"At {angle[20]:.1f}/{angle[60]:.1f} rad they push right from these speeds on: {', '.join(changes)} rad/s."
+    return finish(figure, title, f"{alt} The rule does so at each speed if the angle is above 0.")

@@ -3,8 +3,8 @@
 import numpy as np
 
 from bootcourse.course.lessons import registry
-from bootcourse.course.lessons.your_own_problem import loops  # noqa: F401 (for the expressions)
-from bootcourse.course.lessons.your_own_problem.tables import BONUSES, FOUR, THREE, cells  # noqa: F401
+from bootcourse.course.lessons.your_own_problem import explorable, loops  # noqa: F401 (for the expressions)
+from bootcourse.course.lessons.your_own_problem.cells import BONUSES, FOUR, THREE, cells  # noqa: F401
 from bootcourse.research import elsewhere_claims, equal_decisions  # noqa: F401
 from bootcourse.research.problems import PROBLEMS  # noqa: F401
 
