@@ -10,7 +10,7 @@ from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing
 
 LAST = 40  # pushes before the fall that are shown
-AXES = Axes("pushes that are left before the pole falls", "value at which the target no longer changes", (0.0, 55.0))
+AXES = Axes("pushes from the fall (−1: the last push)", "value at which the target no longer changes", (0.0, 55.0))
 
 
 def the_end() -> Explorable:
@@ -24,12 +24,13 @@ def the_end() -> Explorable:
         for left in range(LAST):  # the last push is the one that ends the episode
             following = knows[left] = sac.critic_target(1.0, left == 0, following, gamma)
         forgets = np.full(LAST, 1 / (1 - gamma))
+        knows = knows[::-1]  # in the order of time
         named = {
             "the target knows the end": Curve(knows, style("sac").colour),
             "the target forgets it": Curve(forgets, OTHER.colour, "--"),
         }
-        says = f"γ = {gamma:g}: before the last push the two are {knows[0]:.3g} and {forgets[0]:.3g}."
-        return curves(says, AXES, np.arange(1, LAST + 1), named, mark=1)
+        says = f"γ = {gamma:g}: before the last push the two are {knows[-1]:.3g} and {forgets[-1]:.3g}."
+        return curves(says, AXES, np.arange(-LAST, 0), named, mark=-1)
 
     gamma = Number("γ", 0.9, 0.5, 0.98, 0.01, "What a reward one push later is worth, as a share of one now.")
     return Explorable("Does the critic know that the pole will fall?", draw, gamma=gamma)

@@ -1,15 +1,16 @@
-"""Figures of the lesson on SAC's update and loop: the pole before training, the tests, and what critics expect."""
+"""Figures of the lesson on SAC's update and loop: the pole before training, tests, scores, and what critics expect."""
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import OTHER, STRANGERS
+from bootcourse.colours import INK, OTHER, STRANGERS
 from bootcourse.course import charts
 from bootcourse.course.lessons.discrete_sac.figures import cartpole_strip
 from bootcourse.course.lessons.update_and_loop import by_hand, left_out
 from bootcourse.learn.teachers import teacher_policy
+from bootcourse.plots.figure import SMALL, TEXT, finish, one_axes, plain_axes
 from bootcourse.research.experiments import checks
 
 
@@ -34,8 +35,38 @@ def tests_in_training(tests: Sequence[float], block: int) -> Figure:
                         "pushes balanced, mean of 10 episodes", looks=looks)  # fmt: skip
 
 
-def estimates(q: Mapping[str, np.ndarray], title: str) -> Figure:
-    """What critics expect of the start while they learn: {words: (agents, points)}, see `left_out.estimates`."""
+def without_a_part(scores: np.ndarray) -> Figure:
+    """For how many pushes each agent balances, as a dot, a row for each of `left_out.KINDS`; scores (kinds, seeds)."""
+    means = scores.mean(1)
+    worst = 1 + means[1:].argmin()
+    title = f"Without {left_out.KINDS[worst]} no agent balances for more than {scores[worst].max():.0f} pushes"
+    figure, ax = one_axes(3.2, title, "pushes balanced, mean of 10 episodes; a dot: an agent; bar: mean of a row", "")
+    ax.set_position((0.26, 0.19, 0.6, 0.64))
+    plain_axes(ax, "", grid="x")
+    alt = []
+    for place, (kind, row, mean) in enumerate(zip(left_out.KINDS, scores, means, strict=True)):
+        look = STRANGERS[0] if place == worst else STRANGERS[1]
+        ax.scatter(row, [place] * len(row), s=34, color=look.colour, alpha=0.75, zorder=3, clip_on=False)
+        ax.plot([mean] * 2, [place - 0.32, place + 0.32], color=INK, linewidth=2, zorder=4)
+        ax.annotate(f"{mean:.0f}", (1.03, place), xycoords=("axes fraction", "data"), va="center", fontsize=SMALL)
+        alt.append(f"{kind}: {', '.join(f'{score:.0f}' for score in row)}")
+    ax.set_yticks(range(len(scores)), ["the whole agent", *(f"without {kind}" for kind in left_out.KINDS[1:])])
+    ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
+    ax.set(xlim=(0, 500), ylim=(len(scores) - 0.5, -0.5))
+    return finish(figure, title, f"A dot for each agent. {'; '.join(alt)}.")
+
+
+def along_falls(critics: Mapping[str, left_out.Learned]) -> Figure:
+    """What critics expect with each push of a fall, see `left_out.along_falls`."""
+    named = {words: left_out.along_falls(each.agents) for words, each in critics.items()}
+    title = "Told of no end, a critic expects most of the pole that has fallen"
+    return charts.lines(np.arange(-left_out.BEFORE, 1), named, title, "pushes from the fall (0: the pole has fallen)",
+                        "Q, mean of 40 falls, a line for each agent", looks=STRANGERS[1::-1])  # fmt: skip
+
+
+def estimates(critics: Mapping[str, left_out.Learned], title: str) -> Figure:
+    """What critics expect of the start while they learn."""
+    q = {words: each.q for words, each in critics.items()}
     updates = left_out.EVERY * np.arange(1, 1 + min(values.shape[1] for values in q.values()))
     return charts.lines(updates, q, title, "updates", "Q at the start, a line for each agent",
                         marks={"1 / (1 − γ) = 100": 100.0}, looks=STRANGERS)  # fmt: skip
