@@ -117,8 +117,7 @@ def stop_in_words(stopped: Stopped, answer: Callable | str, cases: int) -> str:
                 "waits, such as `sleep` or `input`.")  # fmt: skip
     if computed < 0.6 * seconds:
         return (f"Too slow, {begin}, of which your function computed for only {computed:.2g} s{where}: it waits, or "
-                "the computer is busy with other programs. Look for a loop that never ends; if there is none, run the "
-                "check again.")  # fmt: skip
+                "the computer is busy with other programs. Run the check again.")  # fmt: skip
     if stopped.is_endless:
         return (f"Too slow, {begin} in one of the {cases} cases{where}: look for a loop that never ends, or that takes "
                 "far too many turns.")  # fmt: skip

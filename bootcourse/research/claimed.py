@@ -109,7 +109,7 @@ def alone(study: StudyResults) -> Claim:
                 share(study.results["calibrated"], "sac") < 0.5, told(study.results["calibrated"], "sac")
             ),
         },
-        also=["Luck and the price of an attempt keep most in, over 2,000 updates: see the lesson on the barrier."],
+        also=["Where attempts are easier to steer and cheaper, most escape: see the lesson on the barrier."],
     )  # fmt: skip
 
 

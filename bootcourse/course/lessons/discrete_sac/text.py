@@ -90,8 +90,8 @@ bc.show(diagrams.sac_diagram())
 # ## Round 1: what is a state worth when entropy is rewarded?
 #
 # **Drag** the temperature α. At which end does the agent nearly always take its best action, to go
-# straight, and what does it do at the other end? And how can the state be worth {{ WORTH | .2f }} at first,
-# when its best action is worth {{ max(q) | g }}? (Nats are explained below.)
+# straight, and what does it do at the other end? And how can the state be worth {{ WORTH | .2f }}
+# at first, when its best action is worth {{ max(q) | g }}? (Nats are explained below.)
 
 # %%
 explorable.undecided()
@@ -368,7 +368,7 @@ explorable.thermostat()
 # and less for exploration. **Drag** η: where does α come to rest, and where does it rise for ever?
 #
 # Why then −1? The paper gives no reason. Perhaps it comes from a rule of thumb for *continuous*
-# actions, whose entropy can be negative.
+# actions, minus the number of their dimensions: their entropy can be negative.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=5

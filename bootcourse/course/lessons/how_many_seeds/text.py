@@ -304,8 +304,8 @@ explorable.intervals()
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:30]].any())(
 #   *explorable.drawn(3)) -->
 #
-# It happened to us, too, with the soft constraint alone. (The *ten others* of each method have
-# other seeds, another implementation of the learner, and twice the episodes.)
+# It happened to us, too, with the soft constraint. (The *ten others* of each method have other
+# seeds, another implementation of the learner, and twice the episodes.)
 
 # %%
 others = shipped.shipped_experiment("stress")
@@ -353,7 +353,7 @@ bc.show(figures.pairs(study, "bootstrapped", "soft"))
 # You change one number of the method, and train five agents with it and five without. For that you
 # need an interval for a *difference*. The score of a group is its **interquartile mean** (IQM), the
 # mean of the middle half: sort, and leave out a quarter, rounded down, at each end. Of five the
-# middle three remain, so one outlier does not count.
+# middle three remain, so one outlier does not count, and neither does one failure in five.
 # <!-- claim: iqm([-900.0, 1.0, 2.0, 3.0, 4.0]) == iqm([1.0, 2.0, 3.0, 0.0, 900.0]) == 2 -->
 #
 # **Exercise (15 min, ●●●).** Write it: the difference of two IQMs, and its bootstrap interval. Each
@@ -388,7 +388,7 @@ table(counts.ABLATION, *counts.ablation(success))
 
 # %% [markdown]
 # **Explain.** If the interval holds 0, as in our run, five seeds do not say which group learns
-# earlier.
+# earlier. If it does not, remember Round 3: intervals of so few seeds are too short.
 #
 # How many would? Choose a yes or no (does the agent escape?) and your smallest effect of interest,
 # not the difference just seen, which luck may have made; use `bc.statistics.power`. Then train a

@@ -97,7 +97,8 @@ explorable.futures(drive, agent)
 # The **horizon** h is the number of decisions in the drive. With h = 1 the drive ends after the
 # action a itself. With h = 10 the agent decides nine more times. An accident ends the sum.
 # Otherwise $W(v)$ stands for what comes after the horizon: the return of a whole episode on an
-# empty road that starts with the last speed v. So a drive without an accident is always worth more.
+# empty road that starts with the last speed v. W is so large that a drive without an accident is
+# always worth more.
 #
 # **Exercise (18 min, ●●●).** Write $\hat Q$ for all nine actions and many roads at once. You have
 # - `imagined_road.step(cars, actions)`: one decision. It returns the next cars, the rewards, and
@@ -369,8 +370,8 @@ compare_predictions(
 # 2. The best of nine rollouts improves one decision at a time, without training.
 # 3. The rest of each imagined drive is the base policy's: some agents that were stuck get out, and
 #    some do not.
-# 4. A wrong model costs. With PPO's agents five of our nine make rollouts worse than no look-ahead;
-#    with everything a second late each drive ends in an accident.
+# 4. A wrong model costs. With five of our nine PPO's agents crash more often with rollouts than
+#    alone; with everything a second late each drive ends in an accident.
 # 5. With a model from the agent's own drives the rollouts crash nearly always. Drives of the
 #    look-ahead correct it in part.
 # <!-- claim: worse_than_alone('ppo_cloned', 'rollouts') == 5 -->

@@ -109,10 +109,10 @@ values = measures.from_drives_alone(training, updates)
 bc.show(figures.believed(updates, values, measures.worth_at_most(settings.gamma)))
 
 # %% [markdown]
-# **See.** (Yours will differ.) Without layer normalisation Q passes what any drive can earn.
+# **See.** (Yours will differ.) In 1,000 updates Q passes what any drive can earn only without layer
+# normalisation.
 #
-# **Explain.** The target takes the smallest of two guesses. It is still too high if all of them
-# are.
+# **Explain.** The target takes the smallest of two guesses. It is still too high if both are.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask why the critics agree on a wrong value: they learn from the same rows, and none of these says
@@ -269,7 +269,7 @@ bc.show(figures.at_equal_budgets(compared, by_rule.returns.mean(), title))
 #
 # **Explain.** Return is not safety: the five earn twice the rule's return, and all their agents
 # have accidents. One of RLPD's has them in {{ 100 * at('rlpd', 'accident').max() | .0f }} % of its
-# drives. PPO and plain SAC have no teacher.
+# drives. Untaught, PPO and SAC earn half the rule's return.
 # <!-- claim: min(map(middle, TAUGHT)) > 2 * of('rule').scores('returns').mean() and all(at(m,
 #   'accident').min() > 0 for m in TAUGHT) -->
 #
@@ -293,7 +293,7 @@ bc.show(figures.at_equal_budgets(compared, by_rule.returns.mean(), title))
 # <!-- claim: {decisions_per_update(m) for m in ('bootstrapped', 'jsrl', 'ibrl')} == {4} -->
 #
 # > **Predict.** Each learner has {{ equal_decisions.SECONDS }} seconds of computing, our fast
-# > simulator included. Which one earns the most?
+# > simulator included. Which one earns the most in training?
 
 # %%
 predict("other_ways.4", "Which earns the most after 5 seconds of computing?", learners)
@@ -310,9 +310,9 @@ predicted("other_ways.4")
 explorable.same_time()
 
 # %% [markdown]
-# **See.** The order turns round. PPO after cloning leads at {{ 1000 * QUICK | g }} ms, no more at
-# {{ 1000 * SLOWER | g }} ms, which is ten thousand times as fast as the road. On the road it is
-# last. RLPD goes from the last place to the first, where its lead over IBRL may be chance.
+# **See.** First and last change places. PPO after cloning leads at {{ 1000 * QUICK | g }} ms, no
+# more at {{ 1000 * SLOWER | g }} ms, which is ten thousand times as fast as the road. On the road
+# it is last. RLPD goes from the last place to the first, where its lead over IBRL may be chance.
 # <!-- claim: order(0.000001)[0] == order(QUICK)[0] == 'ppo_cloned' != order(SLOWER)[0] and
 #   order(0.000001)[-1] == 'rlpd' and order(1)[0] == 'rlpd' and order(1)[-1] == 'ppo_cloned' and
 #   round(1 / SLOWER) == 10_000 -->
@@ -322,8 +322,8 @@ explorable.same_time()
 #   of['rlpd'].high < min(of[m].low for m in of if m != 'rlpd'))({m: after_seconds(later(m)) for m in
 #   compared() if m != 'sac'}) and equal_decisions.SECONDS == 5 -->
 #
-# **Explain.** So "the best way to use a teacher" depends on what is scarce: decisions, the
-# teacher's time, or computing time.
+# **Explain.** So "the best way to use a teacher" depends on what is scarce: computing time, or
+# seconds on the road. The teacher's time was not tried.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask who in the room has which clock: a simulator and one night, or a car and one day. Then: a
@@ -347,8 +347,9 @@ compare_predictions(
 #
 # 1. A teacher can give data, a start, a second opinion or a pull, once or for as long as the agent
 #    drives.
-# 2. RLPD bounds its critics by layer normalisation. IBRL's critics choose between the teacher's
-#    action and the agent's. Jump-start RL hands over where the return is about its best.
+# 2. In RLPD layer normalisation lets the last weights alone limit Q. IBRL's critics choose between
+#    the teacher's action and the agent's. Jump-start RL hands over where the return is about its
+#    best.
 # 3. After {{ FIRST | , }} decisions bootstrapped SAC and IBRL earn more than PPO after cloning. Ten
 #    agents of each tell no other two apart.
 # 4. In {{ equal_decisions.SECONDS }} s with a fast simulator PPO after cloning earns the most of the

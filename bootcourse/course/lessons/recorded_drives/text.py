@@ -85,8 +85,8 @@ bc.show(figures.pupils(study))
 # %% [markdown]
 # **See.** CQL, which is told the reward, earns more than its teacher, the clones a little less,
 # GAIL much less. All ten clones and all ten CQL agents *escape*: they are ahead of trap 1 on at
-# least {{ 100 * ESCAPES | .0f }} % of the roads. So do six of GAIL's, but some of their dots lie
-# high: *a success rate that counts who is ahead hides later accidents.*
+# least {{ 100 * ESCAPES | .0f }} % of the roads. So do six of GAIL's, but some of these leave the
+# road in many drives, one in 62 %: *a success rate that counts who is ahead hides later accidents.*
 # <!-- claim: escaped('cql') == len(of('cql')) == 10 and of('cql').scores('returns').min() >
 #   of('rule').scores('returns').max() -->
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 and 0.8 < of('bc').scores('returns').max() /
@@ -205,8 +205,8 @@ bc.show(figures.judged(losses))
 
 # %% [markdown]
 # **See.** First the judge learns to tell the agent from the rule, and its loss falls. Then the
-# agent makes this harder. The loss ends below the line: after so short a training the judge still
-# tells them apart.
+# agent makes this harder. The loss ends below the line: the judge still tells the pairs apart, and
+# the memory holds the agent's old drives, too.
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Let them say in one sentence what a clone is told in a state that no demonstration holds, and what

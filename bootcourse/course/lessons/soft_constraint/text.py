@@ -86,8 +86,8 @@ table(["p", "price of the rule's action (nats)", "of any other (nats)"], rows)
 # $\log 10$ = {{ math.log(10) | .1f }} nats only, to one and a half of what it was.
 # <!-- claim: 1.5 < math.log(800) / math.log(80) < 1.55 -->
 #
-# A whole policy is charged its mean price, minus its own entropy. This is the **Kullback-Leibler
-# divergence** (KL) from π̃:
+# A whole policy is charged its mean price, less its own entropy, so that π̃ itself pays nothing.
+# This is the **Kullback-Leibler divergence** (KL) from π̃:
 #
 # $$ D_\mathrm{KL}(\pi \,\|\, \tilde\pi) = \sum_a \pi(a|s) \big( -\log \tilde\pi(a|s) \big)
 # - \mathcal{H}(\pi) = \sum_a \pi(a|s) \log \frac{\pi(a|s)}{\tilde\pi(a|s)} $$
@@ -332,16 +332,17 @@ rows.append(["crash", "-10", "-10"])
 table(["what the car does", "Q without the value penalty", "Q with it"], rows)
 
 # %% [markdown]
-# **Explain.** *The value penalty lowers Q of a future in which the rule would act otherwise.* With it
+# **Explain.** *The value penalty lowers Q most where the rule would act otherwise.* With it
 # following is worth less than a crash, and falling back, as the rule does at first, more than both.
 # <!-- claim: 0.15625 * 5 - 2 * math.log(8 / 0.1) * 4 < DEFAULT.reward.accident < -1 <
 #   by_rule().rewards[3] * 5 + 2 * math.log(RULE_P) * 4 < 0.15625 -->
 # <!-- claim: math.isclose(0.8 / (1 - 0.8), 4) -->
 #
 # An agent **finds the way** if it ends ahead in more than half of 50 training episodes in a row.
-# *Whether the value penalty helps is open.* Ten agents with policy regularisation alone find the way
-# sooner than each of the ten with both, and {{ actor_only().escapers('soft') }} of them escape after
-# training; with both {{ escaped('soft') }} do.
+# *Here the value penalty delays finding; whether it helps keeping is open.* Ten agents with policy
+# regularisation alone find the way sooner than each of the ten with both, and {{
+# actor_only().escapers('soft') }} of them escape after training; with both {{ escaped('soft') }}
+# do.
 # <!-- claim: len(of('soft')) == len(actor_only()) == found(of('soft')) == found(actor_only()) == 10
 #   and sooner_without() -->
 

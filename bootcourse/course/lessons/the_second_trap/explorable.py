@@ -71,8 +71,9 @@ def bends() -> Explorable:
 
     def draw(at_knee: float) -> Drawing:
         turns, steady = paid(bent(at_knee), MOST)
-        verb = "make no difference" if abs(turns - steady) < 1e-9 else "pay" if turns > steady else "cost"
-        return picture(f"With {at_knee:g} at {KNEE:g} m/s, sprints {verb}.", bent(at_knee), MOST)
+        more = "the same as" if abs(turns - steady) < 1e-9 else "more than" if turns > steady else "less than"
+        says = f"With {at_knee:g} at {KNEE:g} m/s, sprints pay {more} a steady {MEAN:g} m/s."
+        return picture(says, bent(at_knee), MOST)
 
     at_knee = Number("at 12.5 m/s", 0.2, 0, 1, 0.05, "So much a second at 12.5 m/s pays; at 5 m/s 0, at 15 m/s 1.")
     return Explorable("Which reward pays for sprints?", draw, at_knee=at_knee)

@@ -234,7 +234,7 @@ bc.show(figures.hinges(ppo.clipped_loss, 0.2, title))
 # Each pass takes the decisions in *minibatches*. Scale the advantages of each to mean 0 and
 # deviation 1 (`advantage.std()`), so that a step does not depend on the size of the rewards.
 #
-# **Exercise (10 min, ●●○).** (You may skip it: the library's loss trains then.) Put PPO together.
+# **Exercise (10 min, ●●○).** (You may skip it: then the library's loss trains.) Put PPO together.
 # `ppo.clipped_loss`, or your own, is L.
 
 
@@ -265,7 +265,7 @@ title = "PPO pauses at what keeping straight earns, then finds the sprints"
 bc.show(figures.learning(mine, title))
 
 # %% [markdown]
-# PPO goes into the first trap first, and from there into the second. How far is yours?
+# Its return pauses at the first trap's. Only a drive shows the second: is yours in it?
 # <!-- claim: (lambda curve: (abs(curve[:, 6] / idle().rewards.sum() - 1) < 0.2).all() and (curve[:,
 #   -1] > 1.3 * idle().rewards.sum()).all())(ppo('alone')['curve']) -->
 
@@ -315,10 +315,10 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 # <!-- claim: all(ppo_speeds('concave', i)[20:].std() < 0.3 * ppo_speeds()[20:].std() for i in
 #   range(ppo_agents())) -->
 #
-# **Explain.** A reward says what is best, and not how it is found. On this road the concave one pays
-# {{ paid_concavely(by_rule()) | .0f }} for the rule's drive, which gets out, and {{
-# paid_concavely(ppo_drive('concave')) | .0f }} for the agent's. Perhaps the price of attempts keeps
-# PPO in (lesson [[the_barrier]]).
+# **Explain.** A reward says what is best, and not how it is found. On this road the concave one
+# pays {{ paid_concavely(by_rule()) | .0f }} for the rule's drive, which gets out, and {{
+# paid_concavely(ppo_drive('concave')) | .0f }} for the agent's. Perhaps PPO stays because staying,
+# too, pays more now, or because of the price of attempts (lesson [[the_barrier]]).
 # <!-- claim: paid_concavely(by_rule(), settings_for('ppo').gamma) >
 #   paid_concavely(ppo_drive('concave'), settings_for('ppo').gamma) and by_rule().success -->
 
@@ -327,7 +327,7 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 # been ahead learns from it about the way out.
 
 # %% [markdown]
-# ## Round 4: a short cloning
+# ## Round 4: start as a clone
 #
 # The rule drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads, one action in ten
 # at random, and the actor learns to predict its actions: it is *cloned* (lesson

@@ -216,7 +216,7 @@ bc.show(figures.tests_in_training(tests, BLOCK))
 print(f"Then it balances for {by_hand.balanced(agent, 100):.0f} pushes, a mean of 100 episodes.")
 
 # %% [markdown]
-# **See.** Does a test fall below the one before? A network that changes for one state changes for
+# **See.** Is a test worse than the one before? A network that changes for one state changes for
 # others, too, so an update can make a policy worse. Train again with `SEED = 1`: one agent is one
 # sample.
 #
@@ -249,7 +249,7 @@ bc.show(figures.without_a_part(scores))
 
 # %% [markdown]
 # **Explain.** Here each agent without (1 − terminated) is below all others: three seeds suffice to
-# see it. The other rows overlap: they show neither that those parts help nor that they are
+# see it. The other kinds overlap: they show neither that those parts help nor that they are
 # useless. Lesson [[how_many_seeds]] shows how many agents such a question needs.
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -259,10 +259,10 @@ bc.show(figures.without_a_part(scores))
 # %% [markdown]
 # ## Round 4: why does the pole fall at once?
 #
-# A pole that is pushed to one side only falls after {{ min(PUSHES) }} to {{ max(PUSHES) }} pushes. So
-# those agents let it fall about as fast as one can. But their rows all say "1 now, and then the value
-# of the next state", and one constant fits all (but for the entropy): Q = 1 / (1 − γ) =
-# {{ 1 / (1 - 0.99) | .0f }}.
+# A pole that is pushed to one side only falls after {{ min(PUSHES) }} to {{ max(PUSHES) }} pushes.
+# Those agents need 9, the untrained one above needed 11: have they learned nothing, or to let it
+# fall? But their rows all say "1 now, and then the value of the next state", and one constant fits
+# all (but for the entropy): Q = 1 / (1 − γ) = {{ 1 / (1 - 0.99) | .0f }}.
 #
 # > **Predict.** Two agents learn with your parts, from rows without an end. (Their α is small and
 # > stays.) What do their critics expect of a fallen pole, compared with a standing one?

@@ -279,8 +279,8 @@ print(f"the rule itself earns {driven.returns.mean():.1f}")
 bc.compare(methods, decisions=1_000, make_env=my_env, teacher=own_rule, **how)
 
 # %% [markdown]
-# **See.** The agents with the soft constraint earn several times what their teacher does. Did the
-# reward teach them? A control takes it away: in training each decision pays 0.
+# **See.** The agents with the soft constraint earn several times what their teacher does. Did they
+# need the reward? A control takes it away: in training each decision pays 0.
 #
 # > **Predict.** What do they earn now, if the test counts rewards as before?
 
@@ -309,10 +309,10 @@ for agent in agents:
 bc.show(figures.edges(agents, "The rule looks at the angle, its copies at the speed, too"))
 
 # %% [markdown]
-# **Explain.** They earn as much without reward: *it did not teach them*. Each is a bad copy of the
-# rule: it pushes after a pole that moves fast. On CartPole this error is a better rule.
-# The angle is a small number beside the speed. Train them with `PROBLEMS["cartpole"].make_env`,
-# where it is ten times as large: what do they earn now?
+# **Explain.** Without reward, too, they earn several times what the rule does: *that needs no
+# reward*. Each is a bad copy of the rule: it pushes after a pole that moves fast. On CartPole this
+# error is a better rule. The angle is a small number beside the speed. Train them with
+# `PROBLEMS["cartpole"].make_env`, where it is ten times as large: what do they earn now?
 #
 # **Now yours.** Exchange the environment and the rule, run these cells again but the last, and
 # answer in a sentence with a number each:
@@ -373,12 +373,12 @@ bc.board(result, block=BLOCK)
 # 3. Which way to use a teacher is best depends on the problem.
 # 4. A bonus for each decision can make a loop worth more than the goal. A formula gives the
 #    threshold.
-# 5. To know whether the reward taught an agent, train it without.
+# 5. To know whether an agent needs the reward, train it without.
 #
 # **Three questions to think about**
 # - Where does the rule of the road err systematically, and what did the agents correct?
 # - The course's road has no goal that ends the drive. What then bounds c?
-# - When would you trust one of the six pictures for another problem?
+# - When would you trust one of Round 2's six panels for another problem?
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Answers to the three questions. (1) Its sight of 200 m keeps it slow behind the traffic; all good

@@ -403,13 +403,13 @@ compare_predictions(
 # 1. A teacher is a function of the true state. It enters the learner in three places: swap it in
 #    each of them.
 # 2. All ten bootstrapped students escaped of a teacher that got out in
-#    {{ gets_ahead('random-50') }} of {{ len(demonstrated('random-50')) }} drives: how a teacher
-#    drives does not say what it teaches.
+#    {{ gets_ahead('random-50') }} of {{ len(demonstrated('random-50')) }} drives:
+#    *how often* a teacher gets out does not by itself say whether its students will.
 # 3. Success and return can give opposite verdicts on a teacher: give both, from more than three
 #    students.
-# 4. What a teacher must be good at depends on the learner. With whole drives one that rarely got
-#    out was enough; with labels alone it was not.
-# 5. A rule that looks nowhere can pass a test. Test it on a road where looking matters.
+# 4. What a teacher must be good at depends on the learner. With drives and labels a teacher that
+#    rarely got out was enough; with labels alone it was not.
+# 5. A rule that looks at no other car can pass a test. Test it on a road where looking matters.
 #
 # **Three questions to think about**
 # - Could two bad teachers together be a good one? Which two of the six, and how mixed?
