@@ -17,7 +17,6 @@ from bootcourse.research.results import Results
 from bootcourse.road.state import Accident
 
 LATE = "everything a second late"
-KEEPING = "others keep speed and lane"
 WRONG = [name for name in MODELS if name != "exact"]
 
 

@@ -260,9 +260,9 @@ bc.show(figures.without_a_part(scores))
 # ## Round 4: why does the pole fall at once?
 #
 # A pole that is pushed to one side only falls after {{ min(PUSHES) }} to {{ max(PUSHES) }} pushes.
-# Those agents need 9, the untrained one above needed 11: have they learned nothing, or to let it
-# fall? But their rows all say "1 now, and then the value of the next state", and one constant fits
-# all (but for the entropy): Q = 1 / (1 − γ) = {{ 1 / (1 - 0.99) | .0f }}.
+# Those agents need about as few, and so did the untrained one above: have they learned nothing, or
+# to let it fall? But their rows all say "1 now, and then the value of the next state", and one
+# constant fits all (but for the entropy): Q = 1 / (1 − γ) = {{ 1 / (1 - 0.99) | .0f }}.
 #
 # > **Predict.** Two agents learn with your parts, from rows without an end. (Their α is small and
 # > stays.) What do their critics expect of a fallen pole, compared with a standing one?
