@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
+from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure, one_axes, plain_axes
 from bootcourse.research.paper import PRINTED
@@ -21,20 +22,15 @@ def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
     ax = figure.add_axes((0.24, 0.5 / height, 0.57, 1 - 1.1 / height))
     ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
     for row, method in enumerate(methods):
-        success, colour = np.sort(100 * results.of(method).scores("success")), style(method).colour
-        places = row + np.linspace(-0.38, 0.38, len(success))
-        fills = [colour if each >= 100 * ESCAPES else "white" for each in success]
-        ax.scatter(success, places, s=18, c=fills, edgecolors=colour, linewidths=1.2, zorder=3, clip_on=False)
+        success, colour = 100 * results.of(method).scores("success"), style(method).colour
+        dots(ax, success, row, colour, success >= 100 * ESCAPES, spread=0.38)
         one = (success >= 100 * ESCAPES).sum() == 1
         words = f"{escaped(results, method)} escape{'s' if one else ''}"
-        ax.annotate(words, (1.04, row), xycoords=("axes fraction", "data"), va="center", fontsize=TEXT, color=INK)
+        beside(ax, row, words)
         alt_parts.append(f"{display_name(method)}: {', '.join(f'{each:.0f}' for each in success)} %")
-    plain_axes(ax, "", grid="x")
-    ax.set_yticks(range(len(methods)), [display_name(method) for method in methods])
-    ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-    ax.set(xlim=(-2, 102), ylim=(len(methods) - 0.5, -0.5))
     words = f"success of an agent on the held-out roads (%); filled: {100 * ESCAPES:.0f} % or more, it escapes"
-    ax.set_xlabel(words, fontsize=SMALL, color=INK)
+    name_rows(ax, [display_name(method) for method in methods], words)
+    ax.set_xlim(-2, 102)
     everyone = np.concatenate([results.of(method).scores("success") for method in methods])
     split = int(((everyone > 0.9) | (everyone < 0.1)).sum())
     who = f"each of {split} agents succeeds" if split == len(everyone) else f"{split} of {len(everyone)} agents succeed"

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from bootcourse.colours import INK, OTHER, QUIET, Style
 from bootcourse.course import charts
+from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.shipped import beginning, shipped_agents
 from bootcourse.episodes.record import record
@@ -162,23 +163,17 @@ def estimates(names: Sequence[str], alike: Sequence[float], fits: np.ndarray, tr
     by_rule, alt = choosing.rule_worth(), []
     ax.axvline(by_rule, color=style("rule").colour, linewidth=1.5, zorder=1)
     for row, guesses in enumerate(fits.T):
-        fills = np.where(fits.argmax(1) == row, OTHER.colour, "white")
-        heights = row + np.linspace(-0.3, 0.3, len(guesses))
-        ax.scatter(guesses, heights, s=24, c=fills, edgecolors=OTHER.colour, linewidths=1.2, zorder=3)
+        dots(ax, guesses, row, OTHER.colour, fits.argmax(1) == row, bar=truth[row] if known else None, size=24)
         words = f"largest in {largest[row]}" if largest[row] else ""
-        ax.text(1.03, row, words, transform=ax.get_yaxis_transform(), va="center", fontsize=TEXT, color=OTHER.colour)
+        beside(ax, row, words, colour=OTHER.colour)
         said = f"{', '.join(f'{each:.2f}' for each in guesses)}{words and ', '}{words}"
         if known:
-            ax.plot([truth[row]] * 2, [row - 0.4, row + 0.4], color=INK, linewidth=3, zorder=2)
             said += f"; truth {truth[row]:.2f}"
         alt.append(f"{names[row]}, acts as the data do in {shares[row]}: {said}")
-    plain_axes(ax, "", grid="x")
-    ax.set_yticks(range(len(names)), [f"{name}\nas the data: {each}" for name, each in zip(names, shares, strict=True)])
-    ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-    ax.set_ylim(len(names) - 0.5, -0.5)
+    rows = [f"{name}\nas the data: {each}" for name, each in zip(names, shares, strict=True)]
+    name_rows(ax, rows, "worth from the start (γ = 0.8)")
     every = np.append(fits, truth)
     ax.set_xlim(every.min() - 0.08, every.max() + 0.08)
-    ax.set_xlabel("worth from the start (γ = 0.8)", fontsize=TEXT, color=INK)
     key = f"dot: a fit · filled: the largest of its fit · green: the rule{' · bar: the truth on the road' * known}"
     ax.text(0, 1.03, key, transform=ax.transAxes, fontsize=TEXT, color=QUIET)
     return finish(figure, title, f"{'. '.join(alt)}. The rule is worth {by_rule:.2f}.")

@@ -8,11 +8,12 @@ from torch import Tensor
 
 from bootcourse.colours import INK, QUIET, Style
 from bootcourse.course.charts import action_bars, lines
+from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.episodes.record import record
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.training import Result, Training
 from bootcourse.methods import style
-from bootcourse.plots.figure import SMALL, finish, one_axes, plain_axes
+from bootcourse.plots.figure import finish, one_axes
 from bootcourse.policies import stochastic_rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import ACTION_NAMES, DEFAULT
@@ -50,20 +51,15 @@ def pull_of(result: Result) -> Figure:
 def twenty(kinds: Mapping[str, Sequence[Results]]) -> Figure:
     """The return of each agent as a dot, a row for each kind of agents with the soft constraint, filled: it escapes."""
     title = "Only where ξ falls to 0.1 and stays there do all twenty agents escape"
-    figure, ax = one_axes(3.0, title, "return of an agent on 1,000 roads; filled: it escapes; bar: mean of twenty", "")
+    figure, ax = one_axes(3.0, title, "", "")
     ax.set_position((0.17, 0.19, 0.62, 0.6))
-    plain_axes(ax, "", grid="x")
     colour, alt = style("soft").colour, []
     for place, (kind, studies) in enumerate(kinds.items()):
         returns = np.concatenate([each.scores("returns") for each in studies])
         found, kept = np.concatenate([each.found_and_kept("soft") for each in studies], axis=1)
-        order, fills = np.argsort(returns), np.where(kept, colour, "white")
-        heights = place + np.linspace(-0.28, 0.28, len(returns))
-        ax.scatter(returns[order], heights, s=20, c=fills[order], edgecolors=colour, linewidths=1.1, zorder=3)
-        ax.plot([returns.mean()] * 2, [place - 0.36, place + 0.36], color=INK, linewidth=2, zorder=4)
+        dots(ax, returns, place, colour, kept, bar=returns.mean())
         counts = f"{found.sum()} find the way,\n{kept.sum()} escape"
-        ax.text(1.02, place, counts, transform=ax.get_yaxis_transform(), va="center", fontsize=SMALL, color=INK)
+        beside(ax, place, counts)
         alt.append(f"{kind}: {counts}, mean return {returns.mean():.0f}, {returns.min():.0f} to {returns.max():.0f}")
-    ax.set_yticks(range(len(kinds)), list(kinds))
-    ax.set_ylim(len(kinds) - 0.5, -0.5)
+    name_rows(ax, list(kinds), "return of an agent on 1,000 roads; filled: it escapes; bar: mean of twenty")
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt)}.".replace("\n", " "))

@@ -5,12 +5,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import INK, OTHER, STRANGERS
+from bootcourse.colours import OTHER, STRANGERS
 from bootcourse.course import charts
+from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.discrete_sac.figures import cartpole_strip
 from bootcourse.course.lessons.update_and_loop import by_hand, left_out
 from bootcourse.learn.teachers import teacher_policy
-from bootcourse.plots.figure import SMALL, TEXT, finish, one_axes, plain_axes
+from bootcourse.plots.figure import finish, one_axes
 from bootcourse.research.experiments import checks
 
 
@@ -40,19 +41,17 @@ def without_a_part(scores: np.ndarray) -> Figure:
     means = scores.mean(1)
     worst = 1 + means[1:].argmin()
     title = f"Without {left_out.KINDS[worst]} no agent balances for more than {scores[worst].max():.0f} pushes"
-    figure, ax = one_axes(3.2, title, "pushes balanced, mean of 10 episodes; a dot: an agent; bar: mean of a row", "")
+    figure, ax = one_axes(3.2, title, "", "")
     ax.set_position((0.26, 0.19, 0.6, 0.64))
-    plain_axes(ax, "", grid="x")
     alt = []
     for place, (kind, row, mean) in enumerate(zip(left_out.KINDS, scores, means, strict=True)):
         look = STRANGERS[0] if place == worst else STRANGERS[1]
-        ax.scatter(row, [place] * len(row), s=34, color=look.colour, alpha=0.75, zorder=3, clip_on=False)
-        ax.plot([mean] * 2, [place - 0.32, place + 0.32], color=INK, linewidth=2, zorder=4)
-        ax.annotate(f"{mean:.0f}", (1.03, place), xycoords=("axes fraction", "data"), va="center", fontsize=SMALL)
+        dots(ax, row, place, look.colour, bar=mean)
+        beside(ax, place, f"{mean:.0f}")
         alt.append(f"{kind}: {', '.join(f'{score:.0f}' for score in row)}")
-    ax.set_yticks(range(len(scores)), ["the whole agent", *(f"without {kind}" for kind in left_out.KINDS[1:])])
-    ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-    ax.set(xlim=(0, 500), ylim=(len(scores) - 0.5, -0.5))
+    rows = ["the whole agent", *(f"without {kind}" for kind in left_out.KINDS[1:])]
+    name_rows(ax, rows, "pushes balanced, mean of 10 episodes; a dot: an agent; bar: mean of a row")
+    ax.set_xlim(0, 500)
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt)}.")
 
 

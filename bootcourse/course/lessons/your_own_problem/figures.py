@@ -8,6 +8,7 @@ from matplotlib.patches import Arc, Rectangle
 
 from bootcourse.colours import ALARM, Style
 from bootcourse.course import charts
+from bootcourse.course.dots import dots
 from bootcourse.course.lessons.your_own_problem import loops
 from bootcourse.course.lessons.your_own_problem.cells import BONUSES, FOUR, THREE, cells
 from bootcourse.learn.agent import Agent
@@ -72,10 +73,8 @@ def returns(title: str) -> Figure:
                 ax.axvline(value, color=colour, linestyle=line, linewidth=1.6, zorder=2)
             means = []
             for place, method in enumerate(FOUR):
-                scores = np.sort(cells().scores(problem, teacher, method))
-                heights = place + np.linspace(-0.25, 0.25, len(scores))
-                look = {"color": style(LOOKS[method]).colour, "edgecolors": "white", "linewidths": 0.3}
-                ax.scatter(scores, heights, s=13, zorder=3, **look)
+                scores = cells().scores(problem, teacher, method)
+                dots(ax, scores, place, style(LOOKS[method]).colour, size=11)
                 means.append(f"{NAMES[method]} {scores.mean():.0f}")
             ax.set_yticks(range(len(FOUR)), NAMES.values() if column == 0 else [""] * len(FOUR))
             ax.set_ylim(len(FOUR) - 0.5, -0.5)

@@ -4,17 +4,17 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 from IPython.display import Markdown
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bootcourse.course import table
+from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.demonstrations import FIRST_SEED
 from bootcourse.learn.settings import Settings
 from bootcourse.learn.teachers import teacher_of, teacher_policy
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
+from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure
 from bootcourse.research.experiments.teacher_worth import TAUGHT, Cells
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.teachers import TEACHERS
@@ -88,15 +88,15 @@ def students(
     for place, (name, group) in enumerate(groups.items()):
         colour = style("sac" if name == taught_agents.ALONE else "bootstrapped").colour
         success = np.sort(100 * group["success"])
-        _dots(ax, success, place, colour, success >= 100 * ESCAPES)
+        dots(ax, success, place, colour, success >= 100 * ESCAPES)
         escape, mean = f"{(success >= 100 * ESCAPES).sum()} of {len(success)}", round(group["returns"].mean())
         accidents, found = f"{100 * group['accident'].mean():.0f}", verdicts.get(name, {})
         marks = [MARKS.get(found.get(score), "") for score in ("success", "returns")]
-        _beside(ax, (f"{escape} {marks[0]}", f"{mean} {marks[1]}", accidents), place)
+        beside(ax, place, f"{escape} {marks[0]}", f"{mean} {marks[1]}", accidents)
         words = "".join(f", {score}: {word}" for score, word in found.items())
         alt_parts.append(f"{name}: {escape} escape, return {mean}, accidents in {accidents} %{words}")
-    _beside(ax, ("escape", "return", "accidents, %"), -0.75, QUIET)
-    _finish_axes(ax, list(groups), f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes")
+    beside(ax, -0.75, "escape", "return", "accidents, %", colour=QUIET)
+    name_rows(ax, list(groups), f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes")
     ax.set_xlim(-2, 102)
     return finish(figure, title, f"A dot for each student. {'; '.join(alt_parts)}.")
 
@@ -120,9 +120,9 @@ def learners(computed: Cells, title: str) -> Figure:
     for at, (teacher, method) in labels.items():
         agents = computed[teacher, method]
         fills = agents.scores("success") >= ESCAPES
-        _dots(ax, agents.scores("returns"), at, style(method).colour, fills, 0.24)
+        dots(ax, agents.scores("returns"), at, style(method).colour, fills, spread=0.24)
         escape = f"{agents.escapers(method)} of {len(agents)}"
-        _beside(ax, (f"{escape} escape",), at)
+        beside(ax, at, f"{escape} escape")
         mean = agents.scores("returns").mean()
         alt_parts.append(f"{name_of(teacher)}, {display_name(method)}: {escape} escape, mean return {mean:.0f}")
     for at, teacher in heads.items():
@@ -131,32 +131,9 @@ def learners(computed: Cells, title: str) -> Figure:
         ax.text(-0.4, at, name_of(teacher), transform=ax.get_yaxis_transform(), fontsize=TEXT,
                 fontweight="bold", color=INK, va="center")  # fmt: skip
     words = "return of an agent after training; filled: it escapes; green line: its teacher's own return"
-    _finish_axes(ax, [display_name(method) for _, method in labels.values()], words, list(labels))
+    name_rows(ax, [display_name(method) for _, method in labels.values()], words, list(labels))
     ax.set_ylim(place - 0.5, -0.5)
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
-
-
-def _dots(ax: Axes, values: np.ndarray, place: float, colour: str, filled: np.ndarray, spread: float = 0.28) -> None:
-    order = np.argsort(values)
-    fills = [colour if each else "white" for each in np.asarray(filled)[order]]
-    places = place + np.linspace(-spread, spread, len(values)) if len(values) > 1 else [place]
-    look = {"edgecolors": colour, "linewidths": 1.1, "zorder": 3, "clip_on": False}
-    ax.scatter(np.asarray(values)[order], places, s=18, c=fills, **look)
-
-
-def _beside(ax: Axes, cells: tuple[str, ...], place: float, colour: str = INK) -> None:
-    """Write cells to the right of a row, at fixed places."""
-    for column, words in enumerate(cells):
-        at = (1.04 + 0.25 * column, place)
-        ax.annotate(words, at, xycoords=("axes fraction", "data"), va="center", fontsize=SMALL, color=colour)
-
-
-def _finish_axes(ax: Axes, names: list[str], words: str, places: list[float] | None = None) -> None:
-    plain_axes(ax, "", grid="x")
-    ax.set_yticks(range(len(names)) if places is None else places, names)
-    ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-    ax.set_ylim(len(names) - 0.5, -0.5)
-    ax.set_xlabel(words, fontsize=SMALL, color=INK)
 
 
 def name_of(teacher: str) -> str:
