@@ -28,6 +28,7 @@ OTHER_ROADS, HALF = "200 other roads", "half the time step"
 Counted = Callable[[Results], np.ndarray]
 FOUR = "4 updates, no demonstrations"  # a cell of the experiment with the clocks
 HEAD_START = 200 / 201 * math.log(0.9 / (0.1 / (N_ACTIONS - 1)))  # of the rule's action, with p = 0.9 and ξ = 200 α
+EASED = "a later start, mid-lane", "accidents cost 1", "mid-lane, and accidents cost 1"  # cells of `easier`
 BLOCK, ROADS = 9, 200  # held-out roads that no lesson and no study uses
 BLIND = [("keep right", 1), ("keep left", 4), ("keep right", 3), ("accelerate straight", 5)]
 
@@ -109,7 +110,37 @@ def alone(study: StudyResults) -> Claim:
                 share(study.results["calibrated"], "sac") < 0.5, told(study.results["calibrated"], "sac")
             ),
         },
-        also=["Where attempts are easier to steer and cheaper, most escape: see the lesson on the barrier."],
+    )  # fmt: skip
+
+
+def eased(study: StudyResults) -> Claim:
+    roads = study.experiments["easier"]
+    steering, price, both = (roads[road] for road in EASED)
+
+    def only_both(among: Counted, cells: dict[str, str]) -> tuple[bool, str]:
+        of = {words: among(roads[cell]) for words, cell in cells.items()}
+        one, other, most = (escape.mean() for escape in of.values())
+        seen = (f"{words} {escape.sum()} of {len(escape)}" for words, escape in of.items())
+        return max(one, other) < 0.5 < most, ", ".join(seen)
+
+    def looking(gamma: float) -> Counted:
+        return lambda agents: escaping(agents)[[agent["gamma"] == gamma for agent in agents.agents]]
+
+    words = "steering", "price", "both"
+    as_computed = dict(zip(words, EASED, strict=True))
+    return Claim(
+        "eased",
+        "Where attempts are easier to steer and an accident costs 1, most agents of plain SAC escape; where one of "
+        "the two is eased, most do not.",
+        f"steering: {told(steering)}; price: {told(price)}; both: {told(both)}",
+        {
+            "other seeds, twice the updates": only_both(
+                escaping, {name: f"{road}, twice the updates" for name, road in as_computed.items()}
+            ),
+            **{f"agents with γ = {gamma} alone": only_both(looking(gamma), as_computed) for gamma in (0.8, 0.95)},
+        },
+        different(both, steering, escaping),
+        ["Tested on 200 roads of their own kind. To escape is not to earn: return and accidents stand beside it."],
     )  # fmt: skip
 
 
@@ -498,6 +529,7 @@ def ahead(study: StudyResults) -> Claim:
 
 CLAIMS = {  # by the lesson in which a reader meets them
     "the_trap": (alone, discount, blind),
+    "the_barrier": (eased,),
     "the_rule": (sight, room),
     "demonstrations": (copies,),
     "soft_constraint": (constraint, strength, floor),

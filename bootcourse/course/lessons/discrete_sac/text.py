@@ -54,7 +54,7 @@ drives = {}
 for label, driver in drivers.items():
     rows, pushes = checks.data(driver, checks.cartpole, 1, seed=0)
     drives[f"{label}: {pushes:.0f} pushes"] = rows[:, :4].numpy()
-title = "One weighted sum balances the pole; chance does not"
+title = "One weighted sum balances this pole; chance does not"
 bc.show(figures.cartpole_strip(drives, title))
 
 # %% [markdown]
@@ -89,9 +89,10 @@ bc.show(diagrams.sac_diagram())
 # %% [markdown]
 # ## Round 1: what is a state worth when entropy is rewarded?
 #
-# **Drag** the temperature α. At which end does the agent nearly always take its best action, to go
-# straight, and what does it do at the other end? And how can the state be worth {{ WORTH | .2f }}
-# at first, when its best action is worth {{ max(q) | g }}? (Nats are explained below.)
+# An agent can go left, straight or right. **Drag** the temperature α. At which end does it nearly
+# always go straight, its best action, and what does it do at the other end? How can the state be
+# worth {{ WORTH | .2f }} at first, when its best action is worth {{ max(q) | g }}? (Nats are
+# explained below.)
 
 # %%
 explorable.undecided()
@@ -156,14 +157,14 @@ predict("discrete_sac.2", "At which α are both worth the same?", ["0.5", "0.693
 
 # %%
 predicted("discrete_sac.2")
-title = f"Above α = {1 / np.log(2):.2f} the even policy beats the sure one; the best beats both"
+title = f"Above α = {1 / np.log(2):.2f} the even policy is worth more than the sure one"
 bc.show(figures.against_temperature([1.0, 3.0], title))
 
 # %% [markdown]
 # **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy: both have the same V
-# at α = 1 / 0.693 = {{ 1 / math.log(2) | .2f }}. The best policy lies between the two. It is a
+# at α = 1 / 0.693 = {{ 1 / math.log(2) | .2f }}. The best policy for an α is a
 # *softmax*, $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$: with a high α nearly even, with a low α nearly
-# sure of one action. So with α > 0 the best policy of SAC gives up some Q for entropy.
+# sure of one action. So here, with α > 0, it gives up some Q for entropy.
 #
 # <details><summary>Why a softmax?</summary>
 #
@@ -244,9 +245,9 @@ print(sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0
 
 # %% [markdown]
 # V uses the smaller value of **two critics**, because the actor prefers actions that a critic
-# overestimates. And it uses **target networks**, slow copies of the critics, which take over a small
-# share τ ("tau") of the new weights at each update. So a step towards the target hardly moves the
-# target.
+# overestimates. And it uses **target critics** (or *target networks*), slow copies of both. They
+# take over a small share τ ("tau") of the new weights at each update, so a step towards the target
+# hardly moves it.
 #
 # **Exercise (6 min, ●●○).** Write the loss of both critics: for each the mean over the batch of
 # $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action that was taken. The target is held
@@ -389,7 +390,7 @@ compare_predictions(
 #    softmax(Q / α).
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed; an episode that ran out of
 #    time is not terminated.
-# 3. V(s') takes the smaller value of the two critics' slow copies.
+# 3. V(s') takes the smaller value of the two target critics.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
 # 5. The temperature is a thermostat for the entropy, which lies between 0 and log n for n actions.
 #    With η = {{ SETTINGS.target_entropy }} α falls at each update.
@@ -402,7 +403,7 @@ compare_predictions(
 # - V takes the smaller of two critics. What would happen with the larger?
 #
 # **Read on**: Haarnoja et al., *Soft Actor-Critic* (arXiv 1801.01290), and with the thermostat
-# (arXiv 1812.05905); Fujimoto et al. on two critics and slow copies (TD3, arXiv 1802.09477);
+# (arXiv 1812.05905); Fujimoto et al. on two critics and target critics (TD3, arXiv 1802.09477);
 # Christodoulou, *Soft Actor-Critic for Discrete Action Settings* (arXiv 1910.07207); Xu et al. on
 # the target entropy of discrete SAC (arXiv 2112.02852).
 

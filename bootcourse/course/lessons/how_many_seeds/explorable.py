@@ -133,7 +133,7 @@ def intervals() -> Explorable:
         low, high, holds = drawn(int(seeds))
         says = f"{seeds:g} seeds: {holds.sum()} of {STUDIES} intervals hold the mean of all, {mean:.0f}."
         chart = SvgAxes(*CHART, (0.0, STUDIES), (-20.0, 140.0))
-        chart.scale("95 % bootstrap interval of the mean return (vermilion: misses)", 4)
+        chart.scale("95 % bootstrap interval of the mean return (vermilion: misses; line: the mean of all)", 4)
         for place, (bottom, top, inside) in enumerate(zip(low, high, holds, strict=True)):
             ends = [bottom - 0.8, top + 0.8]  # an interval without length is seen, too
             chart.line([place + 0.5] * 2, ends, PLAIN if inside else colour, 2.4)

@@ -28,7 +28,7 @@ def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
         words = f"{escaped(results, method)} escape{'s' if one else ''}"
         beside(ax, row, words)
         alt_parts.append(f"{display_name(method)}: {', '.join(f'{each:.0f}' for each in success)} %")
-    words = f"success of an agent on the held-out roads (%); filled: {100 * ESCAPES:.0f} % or more, it escapes"
+    words = f"success of an agent on the held-out roads (%); filled: {100 * ESCAPES:.0f} % or more (dashed), it escapes"
     name_rows(ax, [display_name(method) for method in methods], words)
     ax.set_xlim(-2, 102)
     everyone = np.concatenate([results.of(method).scores("success") for method in methods])

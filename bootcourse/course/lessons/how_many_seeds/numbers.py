@@ -1,13 +1,15 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 from collections import Counter
+from collections.abc import Callable
 from itertools import combinations_with_replacement
 from math import factorial, prod
 
 import numpy as np
 
 from bootcourse.course.lessons.how_many_seeds import explorable  # noqa: F401 (for the expressions)
-from bootcourse.statistics import interval, power, rate, significant  # noqa: F401
+from bootcourse.research.results import Results
+from bootcourse.statistics import Estimate, improvement, interval, power, rate, significant  # noqa: F401
 from tools.course.known import of
 
 
@@ -24,6 +26,19 @@ def half_as_wide() -> int:
 def enough(first: float, second: float, wanted: float = 0.8) -> int:
     """The fewest agents of each method with this power, at these true rates."""
     return next(n for n in range(2, 100) if power(first, second, n) >= wanted)
+
+
+def better(agents: Callable[[str], Results]) -> Estimate:
+    """In how many per cent of the pairs the bootstrapped agent earns more than the one with the soft constraint."""
+    both, soft = (agents(method).scores("returns") for method in ("bootstrapped", "soft"))
+    return Estimate(*(100 * each for each in improvement(both, soft)))
+
+
+def first_three_hold(method: str) -> bool:
+    """Does the interval of our first three agents hold the mean return of all ten?"""
+    returns = of(method).scores("returns")
+    _, low, high = interval(returns[:3], np.mean)
+    return bool(low <= returns.mean() <= high)
 
 
 def held(method: str, seeds: int) -> float:

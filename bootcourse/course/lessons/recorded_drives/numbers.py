@@ -11,7 +11,8 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.policies import stochastic_rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
-from tools.course.known import shipped_results
+from bootcourse.statistics import ESCAPES
+from tools.course.known import of, shipped_results
 
 
 def of_paper(method: str) -> Results:
@@ -35,6 +36,11 @@ def estimated() -> np.ndarray:
 def truth() -> np.ndarray:
     """What each of the seven is worth on the road, (drivers,)."""
     return np.array([choosing.worth(driver, range(100), 0.8) for driver in choosing.drivers().values()])
+
+
+def accidents_of_escapers() -> np.ndarray:
+    """In which share of its drives each GAIL agent that escapes leaves the road, (agents,)."""
+    return of("gail").scores("road_departure")[of("gail").scores("success") >= ESCAPES]
 
 
 def misses() -> np.ndarray:

@@ -10,7 +10,7 @@ from bootcourse.learn.bootstrap import kl_to_rule
 from bootcourse.research.results import Results
 
 TWO_ACTIONS = ["all Q equal, α = ξ", "the rule's action", "any other"]
-HEADINGS = ["", "find the way", "escape", "return", "mean of all"]
+HEADINGS = ["", "find the way out", "escape", "return", "mean return of all"]
 BELOW = " agents in each row. The return: the median of those that escape (lowest to highest), on 1,000 roads."
 
 

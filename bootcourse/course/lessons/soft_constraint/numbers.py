@@ -7,7 +7,10 @@ from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.panels.compromise import Ways
 from bootcourse.research.results import Results
-from bootcourse.statistics import found_after
+from bootcourse.statistics import HAD as HAD
+from bootcourse.statistics import IN_A_ROW as IN_A_ROW
+from bootcourse.statistics import LOST as LOST
+from bootcourse.statistics import found_after, lost
 from tools.course.known import RULE_P, of, others, shipped_experiment
 
 
@@ -64,9 +67,9 @@ def twenty(count: Callable[[Results], int]) -> int:
     return sum(map(count, floored()))
 
 
-def mean_return(agents: list[Results]) -> float:
-    """Of all agents of these studies, in which they are as many."""
-    return sum(each.scores("returns").mean() for each in agents) / len(agents)
+def losing(agents: list[Results]) -> int:
+    """How many agents of these studies lose the way out at least once in their training."""
+    return sum(int(lost(each.of("soft").curves["success"]).sum()) for each in agents)
 
 
 def returning_more() -> int:

@@ -44,16 +44,18 @@ progress("soft_constraint")
 # ## Look first
 #
 # Here are the probabilities of the nine actions in the first second of a drive: an untrained
-# agent's, π, and those of the stochastic rule of lesson [[the_rule]], π̃ ("pi tilde").
+# agent's, π, and the stochastic rule's (lesson [[the_rule]]), π̃ ("pi tilde").
 
 # %%
 ROAD = 10
 bc.show(figures.first_second(ROAD))
 
 # %% [markdown]
-# The rule escapes from the trap and is slow afterwards, so the agent should follow it at first, and
-# improve on it later. This lesson builds such a **pull**, the *soft constraint*: a penalty that
-# grows with the difference between π and π̃.
+# The rule **escapes**: it ends ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the roads.
+# Afterwards it is slow, so the agent should follow it at first, and improve on it later. This lesson
+# builds such a **pull**, the *soft constraint*: a penalty that grows with the difference between π
+# and π̃.
+# <!-- claim: of('rule').scores('success').min() >= ESCAPES -->
 #
 # Your parts of lessons [[discrete_sac]] and [[update_and_loop]] train its agents.
 
@@ -83,10 +85,9 @@ table(["p", "price of the rule's action (nats)", "of any other (nats)"], rows)
 
 # %% [markdown]
 # From p = 0.9 to 0.99 any other action becomes ten times as unlikely, but its price grows by
-# $\log 10$ = {{ math.log(10) | .1f }} nats only, to one and a half of what it was.
-# <!-- claim: 1.5 < math.log(800) / math.log(80) < 1.55 -->
+# $\log 10$ = {{ math.log(10) | .1f }} nats only.
 #
-# A whole policy is charged its mean price, less its own entropy, so that π̃ itself pays nothing.
+# A whole policy is charged its mean price, less its entropy, so that π̃ itself pays nothing.
 # This is the **Kullback-Leibler divergence** (KL) from π̃:
 #
 # $$ D_\mathrm{KL}(\pi \,\|\, \tilde\pi) = \sum_a \pi(a|s) \big( -\log \tilde\pi(a|s) \big)
@@ -118,8 +119,8 @@ rows = [[words, f"{examples.kl_of(pi, rule_says):.3f}"] for words, pi in policie
 table(["the agent is sure of", "its KL (nats)"], rows)
 
 # %% [markdown]
-# **Explain.** The agent that is sure of the rule's action is charged least, but not 0. Being surer
-# than π̃ is charged, too.
+# **Explain.** The agent that is sure of the rule's action is charged least, but not 0: it is surer
+# than π̃.
 #
 # **Exercise (7 min, ●●○).** Write the KL for a batch of states.
 
@@ -141,8 +142,8 @@ check.soft_constraint(soft_constraint)
 # %% [markdown]
 # ## Round 2: which compromise is best?
 #
-# In one state the agent has three goals: actions with a high Q, entropy (weight α), and a small
-# distance from the rule (weight ξ, "xi").
+# In one state the agent has three goals: a high Q, entropy (weight α), and a small distance from the
+# rule (weight ξ, "xi").
 #
 # $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
 # - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
@@ -189,8 +190,8 @@ same_q = bc.bootstrap.regularised_policy(torch.zeros(1, 9), log_rule, alpha=0.1,
 table(examples.TWO_ACTIONS, examples.beside(log_rule.exp(), same_q))
 
 # %% [markdown]
-# **See.** With all Q equal and α = ξ the best policy is $\sqrt{\tilde\pi}$, divided by its sum. With
-# different Q, can an optimiser that starts from an even policy beat the formula?
+# **See.** With all Q equal and α = ξ the best policy is $\sqrt{\tilde\pi}$, divided by its sum. Can an
+# optimiser beat the formula where Q differs?
 
 # %%
 q = torch.tensor([[0.2, 0.1, 0.0, 0.6, 0.4, 0.1, 0.3, 1.2, 0.2]])
@@ -210,22 +211,19 @@ print(f"largest difference of a probability: {(logits.softmax(-1) - best).abs().
 bc.show(figures.compromise(q, log_rule, alpha, best))
 
 # %% [markdown]
-# **Explain.** The optimiser finds the same policy.
+# **Explain.** The optimiser finds the same policy. *The best compromise is SAC's best policy for
+# another Q and another temperature*, $Q + \xi\log\tilde\pi$ and α + ξ. The rule's action gets $\xi
+# \log \frac{8p}{1-p}$ more than any other: its **head start**.
 #
-# *The soft constraint is SAC with another reward and another temperature*, $r +
-# \xi\log\tilde\pi(a|s)$ and α + ξ. The rule's action gets $\xi \log \frac{8p}{1-p}$ more than any
-# other: its **head start**.
-#
-# With p = 0.9 and the paper's first ξ = 2 the head start is {{ 2 * math.log(72) | .2f }}. Count only the
-# rewards in Q. At γ = 0.8 driving at 15 m/s for ever is worth about {{ second_pays(15) / (1 - 0.8) |
-# .1f }}, less than the head start. So speed never outweighs the rule. A crash in the next second, −10,
-# does.
+# With p = 0.9 and the paper's first ξ = 2 the head start is {{ 2 * math.log(72) | .2f }}. If Q counts
+# rewards only, driving at 15 m/s for ever is worth about {{ second_pays(15) / (1 - 0.8) | .1f }} at
+# γ = 0.8, so speed alone cannot outweigh the rule. A crash in the next second, −10, can.
 # <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident -->
 
 # %% [markdown]
-# **Drag** ξ. You see a trained agent's π and Q, the rule's π̃, and the best compromise, *optimum*. By
-# the compromise's most probable action the car drives the black line, red if it ends in an accident.
-# Does each compromise get past the traps unharmed?
+# **Drag** ξ. *Optimum* is the best compromise of a trained agent's Q and π̃. Thick: the drive by its
+# most probable actions, red if it ends in an accident; thin: the agent's own way and the rule's. Does
+# each compromise get past the traps unharmed?
 
 # %%
 helped = bc.shipped_agents("soft")[0]
@@ -234,9 +232,8 @@ bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 
 # %% [markdown]
 # **See.** On this road, with ξ near 0.1, the car has an accident, although with Q alone and with the rule
-# alone it has none. *A compromise between two good drivers need not be a good driver.* In training the
-# pull stands in the losses.
-# <!-- claim: accidents_of_the_panel(0.1) == ['this compromise'] and accidents_of_the_panel(0.01) ==
+# alone it has none. *A compromise between two good drivers need not be a good driver.*
+# <!-- claim: accidents_of_the_panel(0.1) == ['this compromise'] and accidents_of_the_panel(0) ==
 #   accidents_of_the_panel(1) == [] -->
 
 # %% [markdown] tags=["instructor"] minutes=6
@@ -246,7 +243,7 @@ bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 # %% [markdown]
 # ## Round 3: where does the KL enter the losses?
 #
-# A learner maximises a sum over time, so the KL stands inside this sum: each second pays $r +
+# The paper puts the KL inside the sum over time that a learner maximises: each second pays $r +
 # \alpha\mathcal{H} - \xi D_\mathrm{KL}$. This changes two losses.
 #
 # **The actor's loss** is minus the soft value, now with the KL in it. The KL in this loss alone is
@@ -273,7 +270,7 @@ check.constrained_loss(constrained_loss)
 #
 # **Exercise (15 min, ●●●).** Derive the target on paper, then write it. In $Q(s,a)$ the action a has
 # been taken already: from which state on does the policy choose, charged a KL and earning an
-# entropy? Remember the smaller of two critics, and the end of an episode.
+# entropy? Remember both critics and the end of an episode.
 
 
 # %%
@@ -332,35 +329,35 @@ rows.append(["crash", "-10", "-10"])
 table(["what the car does", "Q without the value penalty", "Q with it"], rows)
 
 # %% [markdown]
-# **Explain.** *The value penalty lowers Q most where the rule would act otherwise.* With it
-# following is worth less than a crash, and falling back, as the rule does at first, more than both.
+# **Explain.** *The value penalty takes {{ 8 * math.log(80) | .0f }} from an agent that leaves the rule for
+# ever, and {{ -8 * math.log(0.9) | .1f }} from one that obeys it.* With it a crash is worth more than
+# following trap 1, and falling back, as the rule does, more than both.
 # <!-- claim: 0.15625 * 5 - 2 * math.log(8 / 0.1) * 4 < DEFAULT.reward.accident < -1 <
 #   by_rule().rewards[3] * 5 + 2 * math.log(RULE_P) * 4 < 0.15625 -->
 # <!-- claim: math.isclose(0.8 / (1 - 0.8), 4) -->
 #
-# An agent **finds the way** if it ends ahead in more than half of 50 training episodes in a row.
-# *Here the value penalty delays finding; whether it helps keeping is open.* Ten agents with policy
-# regularisation alone find the way sooner than each of the ten with both, and {{
-# actor_only().escapers('soft') }} of them escape after training; with both {{ escaped('soft') }}
-# do.
+# An agent **finds the way out** if it ends ahead in more than half of 50 training episodes in a row,
+# and **keeps** it if it escapes after training. *Here the value penalty delays finding.* Ten agents
+# with policy regularisation alone find it sooner than each of ten with both; {{ kept(actor_only()) }}
+# and {{ kept(of('soft')) }} keep it.
 # <!-- claim: len(of('soft')) == len(actor_only()) == found(of('soft')) == found(actor_only()) == 10
 #   and sooner_without() -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # In the paper the KL stands inside the discounted sum (its Equation 15), so it is a value penalty.
 # `settings_for("soft", kl_in_target=False)` leaves it out of the target. A good project for two
-# students: ten seeds of each, success against episodes. In Round 2's reading the price of a stands in
-# the reward, so that Q is ours plus ξ log π̃(a|s); the policies are the same.
+# students: ten seeds of each, success against episodes. SAC with the reward r + ξ log π̃(a|s) and the
+# temperature α + ξ has our Q plus ξ log π̃(a|s), and the same policies.
 
 # %% [markdown]
 # ## Round 4: what fades, and must it?
 #
-# The paper couples the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. It
-# starts at {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}. The target entropy η = {{
+# The paper couples the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. ξ starts
+# at {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}. The target entropy η = {{
 # SETTINGS.target_entropy }} cannot be reached, so α falls, as in lesson [[discrete_sac]].
 #
-# > **Predict.** α falls to a hundredth, and so does ξ. In the logits of the best compromise,
-# > (Q + ξ log π̃) / (α + ξ), the rule's action starts ahead. How much of this head start is left?
+# > **Predict.** α falls to a hundredth, and so does ξ. How much of the rule's head start is left in
+# > the logits of the best compromise, (Q + ξ log π̃) / (α + ξ)?
 
 # %%
 predict(
@@ -395,34 +392,33 @@ explorable.pull()
 
 # %%
 targets = [bc.settings_for("soft", target_entropy=eta) for eta in (-1, 1.5)]
-result = own_code.training(targets, episodes=300).run()
-bc.show(figures.pull_of(result))
+training, live = own_code.training(targets, episodes=300), figures.LivePull()
+training.run(progress=False, callback=live)
+live.show(training)
 
 # %% [markdown]
-# **Explain.** Both fall at first: the even policy has an entropy of {{ math.log(9) | .1f }}, above both
-# targets. But π comes nearer to π̃, and its entropy falls below 1.5. Now α rises, and ξ with it, which
-# brings π nearer still. *The coupling runs away.*
+# **Explain.** Both ξ fall at first: the even policy has an entropy of {{ math.log(9) | .1f }}, above both
+# targets. Later the second rises: the entropy of its π is below 1.5. A larger α divides Q by more but
+# keeps the head start, so the best compromise comes nearer to π̃, whose entropy is lower still.
+# *In this agent the coupling runs away.*
 #
 # The study also trained agents whose ξ stays. **Say first**: a second at 15 m/s pays {{
-# second_pays(15) - second_pays(10) | .2f }} more than one at 10 m/s. It costs {{ math.log(80) | .2f }} ξ
-# where the rule would brake. With which ξ do agents drive faster than the rule, which returns {{
-# of('rule').scores('returns').mean() | .0f }}?
+# second_pays(15) - second_pays(10) | .2f }} more than one at 10 m/s. To accelerate where the rule
+# would brake costs {{ math.log(80) | .2f }} ξ a second. With which of ξ = 2, 0.5 and 0.1 do agents
+# drive faster than the rule, which returns {{ of('rule').scores('returns').mean() | .0f }}?
 
 # %%
 changed, study = shipped.shipped_experiment("ablations"), shipped.shipped_results()
 kinds = {f"ξ stays at {xi:g}": [changed[f"ξ stays at {xi:g}"]] for xi in (2, 0.5, 0.1)}
-kinds["ξ fades from 2"] = [study.of("soft")]
+kinds["ξ falls towards 0"] = [study.of("soft")]
 table(examples.HEADINGS, examples.outcomes(kinds), below=f"Ten{examples.BELOW}")
 
 # %% [markdown]
-# **Explain.** With ξ at 2 or at 0.5 leaving the rule costs more than speed pays, and these agents end
-# near the rule's return. (The two at 2 that do not escape still end ahead on about nine roads in
-# ten.) At 0.1 speed pays more, but two agents do not find the way. If ξ fades, all find it, and two
-# lose it.
+# **Explain.** At 2 and 0.5 leaving the rule costs more than speed pays, and these agents end near the
+# rule's return. At 0.1 speed pays more: those that escape return more than twice as much, but two do not
+# find the way out. If ξ falls towards 0, all find it, and two do not keep it.
 # <!-- claim: found(stays(2)) == found(stays(0.5)) == found(of('soft')) == 10 -->
-# <!-- claim: escaped('soft') == stays(2).escapers('soft') == 8 and
-#   sorted(of('soft').scores('success'))[1] < 0.01 < 0.88 < stays(2).scores('success').min() and
-#   sorted(stays(2).scores('success'))[1] < 0.93 -->
+# <!-- claim: escaped('soft') == 8 -->
 # <!-- claim: all(len(stays(xi)) == len(of('soft')) == 10 and stays(xi).sizes == of('soft').sizes for
 #   xi in (2, 0.5, 0.1)) -->
 # <!-- claim: all(0.75 * of('rule').scores('returns').mean() < stays(xi).scores('returns').min() <
@@ -433,35 +429,40 @@ table(examples.HEADINGS, examples.outcomes(kinds), below=f"Ten{examples.BELOW}")
 # <!-- claim: 0.1 < (second_pays(15) - second_pays(10)) / math.log(80) < 0.5 -->
 
 # %% [markdown]
-# *Finding and keeping are two things.* So let ξ = {{ SETTINGS.xi_multiplier }} α fall to 0.1 and no
+# *Finding and keeping are two things.* Now ξ = {{ SETTINGS.xi_multiplier }} α falls to 0.1 and no
 # further: `bc.settings_for("soft", xi_min=0.1)`.
 #
 # > **Predict.** What do twenty such agents do?
 
 # %%
-choices = ["not all find the way", "all find it, and some lose it", "all find it and keep it"]
+choices = ["not all find the way out", "all find it, and some lose it", "all find it and keep it"]
 predict("soft_constraint.5", "What do twenty agents do whose ξ falls to 0.1 and stays?", choices)
 
 # %%
 predicted("soft_constraint.5")
-others = shipped.shipped_experiment("stress")  # other seeds, twice the episodes
+# the study's ten, and ten others: other seeds, another learner, twice the episodes
+others = shipped.shipped_experiment("stress")
 both = {"ξ stays at 0.1": [changed["ξ stays at 0.1"], others["soft, ξ stays at 0.1"]]}
-both["ξ fades from 2"] = [study.of("soft"), others["soft"]]
+both["ξ falls towards 0"] = [study.of("soft"), others["soft"]]
 both["ξ falls to 0.1"] = [changed["ξ falls to 0.1"], others["soft, ξ falls to 0.1"]]
 bc.show(figures.twenty(both))
 
 # %% [markdown]
-# **See.** *A pull that is strong first and weak later finds the way and keeps it*, in twenty of twenty
-# agents. With a ξ that fades to nothing {{ returning_more() }} return more than any of these, but four
-# lose the way, and the mean is lower. (If both were equally reliable, a difference as large as {{
-# in_all(kept) }} to {{ twenty(kept) }} would still come up in {{ 100 * stats.fisher_exact([[20, 0],
-# [in_all(kept), 20 - in_all(kept)]]).pvalue | .0f }} % of trials.)
+# **See.** *A pull that is strong first and weak later finds the way out, keeps it, and returns more
+# than twice as much as the rule*, in twenty of twenty agents. Of those whose ξ falls towards 0, {{
+# returning_more() }} return more than any of these. But four do not escape, and {{ losing(fading()) }}
+# **lose** the way out at least once in training: after {{ HAD }} of {{ IN_A_ROW }} episodes ahead come {{
+# LOST }} or fewer. Chance may explain {{ in_all(kept) }} against twenty, hardly {{ losing(fading()) }}
+# against none.
+# <!-- claim: stats.fisher_exact([[20, 0], [in_all(kept), 20 - in_all(kept)]]).pvalue > 0.1 -->
+# <!-- claim: losing(floored()) == 0 and stats.fisher_exact([[20, 0], [20 - losing(fading()),
+#   losing(fading())]]).pvalue < 1e-6 -->
 # <!-- claim: (in_all(found, 0.1), in_all(found), twenty(found)) == (13, 20, 20) == (in_all(kept, 0.1),
 #   20, twenty(kept)) -->
 # <!-- claim: in_all(len, 0.1) == in_all(len) == twenty(len) == 20 -->
 # <!-- claim: in_all(fast_keepers) == in_all(kept) and in_all(fast_keepers, 0.1) == in_all(kept, 0.1)
 #   and twenty(fast_keepers) == twenty(kept) -->
-# <!-- claim: 10 < returning_more() < in_all(kept) and mean_return(floored()) > mean_return(fading()) -->
+# <!-- claim: 10 < returning_more() < in_all(kept) -->
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask before the last prediction what an agent with ξ = 2 could do better than the rule, and what each
@@ -480,24 +481,24 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. One number, p, turns a rule into probabilities. The price of an action is minus the logarithm of
-#    its probability; the KL is what a whole policy is charged.
+# 1. One number, p, turns a rule into probabilities. Minus their logarithms are the actions' prices; the
+#    KL is what a policy is charged.
 # 2. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)). The rule's action has a head start of
 #    ξ log(8p / (1 − p)) in Q.
 # 3. The KL stands in the actor's loss and in the critics' target. There it lowers the value of
-#    futures in which the rule would act otherwise.
+#    futures in which the agent leaves the rule.
 # 4. With ξ = {{ SETTINGS.xi_multiplier }} α the head start in logits stays. The temperature fades, so
-#    Q decides in the end. With a target entropy above that of π̃, ξ can grow instead.
-# 5. In the study, with one update for four decisions, a strong pull that stays ends near the rule's
-#    return. With a weak one not every agent finds the way. Strong first and weak later, all twenty
-#    find it and keep it.
+#    Q decides in the end. With η = 1.5, above the entropy of π̃, ξ grew instead in one agent.
+# 5. In the study, with one update for four decisions, agents whose pull stays strong end near the
+#    rule's return. If it is weak throughout, not all find the way out. Strong first and weak later,
+#    all twenty find and keep it.
 # <!-- claim: twenty(found) == twenty(kept) == 20 > in_all(found, 0.1) -->
 
 # %% [markdown]
 # **Three questions to think about**
 # - An η between 0 and the entropy of π̃ can be reached. What would ξ do with η = 0.4?
 # - Where the rule is wrong, which p would you want? Could p depend on the state?
-# - Which ξ between 0.1 and 0.5 would be the last with which agents drive fast, if it stays?
+# - Up to which ξ that stays, between 0.1 and 0.5, would agents drive fast?
 #
 # **Read on**: Huang et al., *Efficient Deep Reinforcement Learning with Imitative Expert Priors for
 # Autonomous Driving* (arXiv 2103.10690); Levine, *Reinforcement Learning and Control as

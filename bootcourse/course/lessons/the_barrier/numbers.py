@@ -62,6 +62,7 @@ def the_escaper(measure: str) -> float:
 
 ONCE = "accelerates once, then nothing"
 MIDDLE, CHEAP, BOTH = easier.MIDDLE, easier.CHEAP, easier.BOTH
+stressed = easier.stressed
 RAM = "accelerates into trap 1"
 
 
@@ -120,6 +121,30 @@ def straight_speed() -> float:
 def straight_return() -> float:
     """The most that one of them earns."""
     return float(easy(MIDDLE).scores("returns")[_straight()].max())
+
+
+def _freed() -> tuple[np.ndarray, np.ndarray]:
+    """Of the agents that escape with both changes: what each earns, and whether it is faster than 20 m/s."""
+    out = easy(BOTH).scores("success") >= ESCAPES
+    return easy(BOTH).scores("returns")[out], easy(BOTH).scores("speed")[out] > 20
+
+
+def too_fast() -> int:
+    """How many of them are faster than 20 m/s; each of these earns less than a car that stays."""
+    returns, fast = _freed()
+    assert (returns[fast] < easier.staying(BOTH)).all()
+    return int(fast.sum())
+
+
+def freed_and_slower() -> np.ndarray:
+    """What the others of them earn."""
+    returns, fast = _freed()
+    return returns[~fast]
+
+
+def last_entropy() -> float:
+    """The largest entropy of one of the study's plain agents in its last 100 training episodes, nats."""
+    return float(of("sac").curves["entropy"][:, -100:].mean(axis=1).max())
 
 
 def decided() -> int:

@@ -15,7 +15,7 @@
 #
 # **What you will be able to do**
 # - train plain SAC in the trap, live, and say where it ends;
-# - test four explanations of why it stays, and say what is still open;
+# - test five explanations of why it stays, and say what is still open;
 # - compute how often chance would end ahead, and what an attempt is worth.
 #
 # **Time** 37 minutes; running it takes about one minute. **It builds on** the trap of lesson
@@ -62,7 +62,7 @@ title = f"The planner goes through between the traps and earns {earned}"
 bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12], title=title))
 
 # %% [markdown]
-# **See.** To **end ahead** of trap 1 pays much more than staying. Does plain SAC learn it?
+# **See.** To **end ahead** of trap 1 pays much more here than staying. Does plain SAC learn it?
 # <!-- claim: planned(50, 1.0) > 5 * idle().rewards.sum() -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -97,13 +97,14 @@ figures.how_they_drive(alone.agents, tests)
 # <!-- claim: easy('as it is').escapers('sac') == 1 and len(easy('as it is')) == 20 -->
 # <!-- claim: abs(the_escaper('returns') - idle().rewards.sum()) < 0.5 -->
 #
-# **What keeps most agents from it?** We test four explanations.
+# **What keeps most agents from it?** We test five explanations.
 #
 # - **Staying is best.** At γ = 0.8 a reward in 20 s hardly counts.
 # <!-- claim: 0.8 ** 20 < 0.02 and SETTINGS.gamma == 0.8 -->
 # - **γ is too small.** To end ahead is best, but it takes a larger γ to learn it.
 # - **Luck.** To end ahead takes a rare sequence of actions that chance hardly hits.
 # - **Price.** Most attempts fail, and each of these costs 10.
+# - **Steering.** The way to the free lane takes seconds of steering, which are hard to learn.
 
 # %% [markdown] tags=["instructor"] minutes=8
 # The training takes 7 seconds on a free machine: collect explanations for a flat line while it
@@ -117,7 +118,8 @@ figures.how_they_drive(alone.agents, tests)
 # planner search for the largest such sum, once with all actions and once in its lane.
 #
 # > **Predict.** At γ = 0.8, how many times the best drive in its lane is the best drive of all
-# > worth?
+# > worth? (A second behind trap 1 earns {{ idle().rewards[0] | .2f }}, one at 15 m/s up to {{
+# tested(THE_PLAN).rewards.max() | .2f }}.)
 
 # %%
 choices = ["as much: it stays in the lane", "1.1 times", "2 to 3 times", "about 10 times"]
@@ -135,9 +137,8 @@ headings = ["γ", "doing nothing", "best in lane", "best found", "that is", "it 
 table(headings, rows, below="Discounted sums from the start, means of four roads.")
 
 # %% [markdown]
-# **Explain.** To end ahead *quickly* pays at γ = 0.8, too. And a larger γ is not enough: {{
-# farther().sum() }} of {{ len(farther()) }} agents with γ from 0.9 to
-# 0.99 escapes.
+# **Explain.** On these roads, to end ahead *quickly* pays at γ = 0.8, too. And a larger γ is not
+# enough: {{ farther().sum() }} of {{ len(farther()) }} agents with γ from 0.9 to 0.99 escapes.
 # <!-- claim: 2 < times_the_lane(0.8) < 3 -->
 # <!-- claim: len(farther()) > 50 and farther().sum() == 1 -->
 
@@ -201,8 +202,8 @@ figures.while_they_learned(trained["as it is"], study.of("sac"), by_chance)
 # %% [markdown]
 # **Explain.** *{{ once_ahead('as it is') }} of twenty ended ahead at least once, and {{
 # easy('as it is').escapers('sac') }} escapes.*
-# So most do not lack the luck to end ahead. To end ahead *unhurt* is rarer: {{ once_unhurt() }} of the
-# study's ten did.
+# So most do not lack the luck to end ahead. To end ahead *unhurt* is rarer: {{
+# once_unhurt() }} of the study's ten did.
 # <!-- claim: abs(20 * (1 - np.exp(-400 * by_chance().success.mean())) -
 #   once_ahead('as it is')) < 3 -->
 # <!-- claim: len(easy('as it is')) == 20 and len(of('sac')) == 10 and
@@ -211,8 +212,9 @@ figures.while_they_learned(trained["as it is"], study.of("sac"), by_chance)
 # %% [markdown]
 # ## Round 3: is it the price of attempts?
 #
-# That plan crashes on about every fourth road. **Drag** the number of accidents. How many in a
-# hundred attempts can it afford before staying is worth more? And how many at γ = 0.95?
+# Lesson [[the_trap]]'s plan crashes on about every fourth road. **Drag** the number of accidents.
+# How many in a hundred attempts can it afford before staying is worth more? And how many at
+# γ = 0.95?
 # <!-- claim: 0.2 < tested(THE_PLAN).accident.mean() < 0.3 and attempts.PLAN[:9] == [5] + 4 * [3] +
 #   3 * [5] + [7] -->
 
@@ -224,10 +226,10 @@ explorable.price()
 # may_crash(0.95) }}.
 
 # %% [markdown]
-# What is an attempt worth on the road? Here are four kinds, and the rule's way for comparison:
+# What is an attempt worth? Here are four kinds, and the rule's way:
 #
 # - *random for 150 s*: one of the nine actions each second;
-# - *4 random actions, then accelerates*: to 15 m/s; a *lane keeper*, a few lines of code, steers;
+# - *4 random actions, then accelerates*: to 15 m/s; a *lane keeper* steers;
 # - *random lanes and speeds*: a random wish each second; a lane keeper steers;
 # - *one plan, then accelerates*: the plan above.
 #
@@ -252,7 +254,7 @@ title += "at γ = 0.95 the plan and the rule's way are worth more"
 bc.show(figures.worth(outcomes, title))
 
 # %% [markdown]
-# **Explain.** The **barrier** of lesson [[values]] was a rare sequence. Here a loss is part of it:
+# **Explain.** An attempt costs now and pays later. This is part of the **barrier**:
 #
 # - *A crash costs 10 and ends the drive.* At γ = 0.8 the plan's unhurt drives are worth {{
 #   unhurt_plan().mean() | .2f }}, more than staying. With those that crash it is {{
@@ -280,8 +282,6 @@ bc.show(figures.worth(outcomes, title))
 # - *Mid-lane*, where one action is enough: an episode begins after the plan's {{ easier.LATER }}
 #   seconds of steering, in the middle of the free lane, behind the traps and as fast as they are.
 # - *Accidents cost 1* in place of 10.
-#
-# What pays from mid-lane?
 
 # %%
 few, rows = bc.held_out_seeds(7, 100), []
@@ -294,7 +294,8 @@ headings = ["the drive", "ends ahead", "accidents", "worth at γ = 0.8", "at γ 
 table(headings, rows, below=f"Mid-lane, {len(few)} roads each.")
 
 # %% [markdown]
-# **See.** One acceleration ends ahead unhurt on each road, and is worth more than staying.
+# **See.** One acceleration ends ahead unhurt on each of these roads, and is worth more than
+# staying.
 # <!-- claim: not easier_outcome(MIDDLE, ONCE).accident.any() and
 #   easier_outcome(MIDDLE, ONCE).ahead.all() -->
 # <!-- claim: all(worth_of(MIDDLE, ONCE, g) > worth_of(MIDDLE, 'stays', g) for g in (0.8, 0.95)) -->
@@ -302,7 +303,7 @@ table(headings, rows, below=f"Mid-lane, {len(few)} roads each.")
 # > **Predict.** How many of the twenty agents escape from *mid-lane*?
 
 # %%
-choices = ["none", "about 5", "about 12", "nearly all"]
+choices = ["none", "about 5: a crash still costs 10", "about 12", "nearly all: one action will do"]
 predict("the_barrier.4", "How many of the twenty agents escape from mid-lane?", choices)
 
 # %%
@@ -313,7 +314,7 @@ bc.show(figures.escapes(trained, easier.SHOWN, title))
 # %% [markdown]
 # **Explain.** {{ easy(MIDDLE).escapers('sac') }} of twenty agents escape from mid-lane. {{
 # straight_on() }} of these drive at {{ straight_speed() | .0f }} m/s and earn less than staying; and {{
-# slow(MIDDLE) }} of the twenty drive *slower* than 8 m/s! Where accidents cost 1, {{
+# slow(MIDDLE) }} of the twenty drive *slower* than 8 m/s. Where accidents cost 1, {{
 # often_ahead(CHEAP) }} end ahead on 10 % of the roads or more; {{ easy(CHEAP).escapers('sac')
 # }} escape, and crash.
 # <!-- claim: easy(MIDDLE).escapers('sac') == straight_on() + 2 and
@@ -323,28 +324,28 @@ bc.show(figures.escapes(trained, easier.SHOWN, title))
 # <!-- claim: (easy(CHEAP).scores('accident')[easy(CHEAP).scores('success') >= ESCAPES] > 0.95).all() -->
 
 # %% [markdown]
-# Why slower? A share of a learner's actions is random. **Drag** each number alone. Which of them
-# makes the first m/s above 10 pay?
+# Why slower? One possible reason: a share of a learner's actions is random. **Drag** each number
+# alone. Which of them makes the first m/s above 10 pay?
 
 # %%
 explorable.landscape()
 
 # %% [markdown]
-# **See.** *A driver that often acts at random is right to be slow.* With half of its actions random,
-# each m/s from 10 to 12 costs, as the crash comes sooner; from 13 to 15 each pays. Without random
-# actions more speed always pays here, and at a price of 1 nearly so. At γ = 0.95 the dip stays.
-# <!-- claim: (np.diff(worths(0.5)[4:7]) < -0.1).all() and (np.diff(worths(0.5)[7:10]) > 0.3).all() -->
-# <!-- claim: (np.diff(ends_after(0.5)[4:7]) < 0).all() and (np.diff(worths(0))[:9] > 0).all() -->
+# **See.** *With half of its actions random, this driver pays for speed*: each m/s from 6 to 12
+# costs, as the crash comes sooner; from 13 to 15 each pays. Without random actions this **dip** is
+# gone. A price of 1 makes it small, γ = 0.95 does not.
+# <!-- claim: (np.diff(worths(0.5)[:7]) < -0.1).all() and (np.diff(worths(0.5)[7:10]) > 0.3).all() -->
+# <!-- claim: (np.diff(ends_after(0.5)[:7]) < 0).all() and (np.diff(worths(0))[:9] > 0).all() -->
 # <!-- claim: costs(0.5, 10, 0.8) and costs(0.5, 10, 0.95) and slope(0.5, 10, 0.95)[0] < -0.5 and
 #   abs(slope(0.5, 1, 0.8)[0]) < 0.2 -->
-# <!-- claim: explorable.SPEEDS[4:7].tolist() == [10, 11, 12] and explorable.SPEEDS[9] == 15 and
+# <!-- claim: explorable.SPEEDS[[0, 4, 6, 7, 9]].tolist() == [6, 10, 12, 13, 15] and
 #   slow(MIDDLE) == 6 -->
 #
 # > **Predict.** Four agents with γ = 0.8 begin mid-lane *and* pay 1 for an accident. How many
 # > escape?
 
 # %%
-choices = ["none: γ is too small", "1: each change helps few", "3 or 4: the dip is gone"]
+choices = ["none: γ is too small", "1: each change helps few", "3 or 4: the dip is small"]
 predict("the_barrier.5", "How many of four escape with both changes?", choices)
 
 # %%
@@ -359,33 +360,37 @@ figures.how_they_drive(both.agents, tests)
 
 # %% [markdown]
 # **Explain.** *Ease the steering or the price, and few agents escape. Ease both, and most do*: {{
-# easy(BOTH).escapers('sac') }} of our twenty. Some of these are so fast that they earn less than
-# staying; others earn several times as much.
-# <!-- claim: (lambda earn: (earn < easier.staying(BOTH)).sum() > 3 and (earn > 3 *
-#   easier.staying(BOTH)).sum() > 5)(easy(BOTH).scores('returns')[easy(BOTH).scores('success') >=
-#   ESCAPES]) -->
+# easy(BOTH).escapers('sac') }} of our twenty, and {{ easy(stressed(BOTH)).escapers('sac')
+# }} of twenty others that learn for twice as long. {{ too_fast() }} of the first are faster than
+# 20 m/s and earn less than staying; the others earn more.
+# <!-- claim: freed_and_slower().min() > easier.staying(BOTH) -->
 #
 # **The verdict**
 #
 # | what could keep agents in | verdict | evidence |
 # |---|---|---|
 # | at γ = 0.8 staying is best | not on four roads | the best drive found ends ahead on each |
-# | γ is too small | not by itself | {{ farther().sum() }} of {{ len(farther())
+# | γ is too small | a larger one is not enough | {{ farther().sum() }} of {{ len(farther())
 #   }} agents with a larger γ escapes |
-# | luck | not for most | {{ once_ahead('as it is') }} of twenty ended ahead while they learned |
-# | the steering | not alone | {{ easy(MIDDLE).escapers('sac') }} of twenty escape from mid-lane |
-# | the price of attempts | not alone | {{ easy(CHEAP).escapers('sac')
+# | luck | to end ahead: not for most; unhurt: open | {{ once_ahead('as it is')
+#   }} of twenty ended ahead while they learned |
+# | the price of attempts | easing it is not enough | {{ easy(CHEAP).escapers('sac')
 #   }} of twenty escape at a price of 1 |
-# | steering and price together | yes, most | {{ easy(BOTH).escapers('sac')
+# | the steering | easing it is not enough | {{ easy(MIDDLE).escapers('sac')
+#   }} of twenty escape from mid-lane |
+# | price and steering | easing both is enough for most | {{ easy(BOTH).escapers('sac')
 #   }} of twenty escape from mid-lane at a price of 1 |
 # <!-- claim: len(easy(BOTH)) == 20 and all(stats.fisher_exact([[easy(kind).escapers('sac'), 20 -
 #   easy(kind).escapers('sac')] for kind in (one, BOTH)]).pvalue < 0.001 for one in (MIDDLE, CHEAP)) -->
+# <!-- claim: all(easy(stressed(one)).escapers('sac') < 10 for one in (MIDDLE, CHEAP)) and
+#   len(easy(stressed(BOTH))) == 20 < 2 * easy(stressed(BOTH)).escapers('sac') -->
 # <!-- claim: len(easy(CHEAP)) == len(easy(MIDDLE)) == 20 and DEFAULT.reward.accident == -10 and
 #   easy(CHEAP).escapers('sac') <= 2 and easy(MIDDLE).escapers('sac') <= 6 -->
 
 # %% [markdown]
-# *Still open*: SAC soon acts hardly at random (lesson [[discrete_sac]]). Then the dip is gone, and
-# yet slow agents stay slow. A larger target entropy helped too few of our agents to tell.
+# *Still open*: why do slow agents stay slow? In the end the study's ten hardly act at random
+# (entropy {{ last_entropy() | .2f }} nats or less). A larger target entropy helped too few of our
+# agents to tell.
 # <!-- claim: hint() > 0.05 and not often_ahead('a later start') -->
 # <!-- claim: (abs(larger_entropy() - idle().rewards.sum()) < 3).all() -->
 
@@ -410,8 +415,7 @@ bc.show(bc.training_curves(curves, title, constants={"rule": level}))
 
 # %% [markdown]
 # **See.** A thick line is the mean of the middle half, so it hides the helped agents that
-# end low, and the one plain agent that escapes. Lesson [[found_and_kept]] asks why helped agents
-# end ahead less often half-way.
+# end low, and the one plain agent that escapes.
 #
 # **Slide.** Train plain SAC for a minute, then *soft constraint only*, and move ξ. After how many
 # episodes do half of the drives end ahead?
@@ -438,19 +442,18 @@ compare_predictions(
 #    do not escape.
 # 2. It is not the discount alone: at γ = 0.8 the best drive found ends ahead on four roads. With a
 #    larger γ, {{ farther().sum() }} of our {{ len(farther()) }} agents escapes.
-# 3. Most agents ended ahead while they learned. At γ = 0.8 our four kinds of attempts and the rule's
-#    way are worth less than staying: they crash, or their reward comes late.
+# 3. Most agents ended ahead while they learned, {{ once_unhurt() }} of the study's ten unhurt. At
+#    γ = 0.8 our attempts and the rule's way are worth less than staying.
 # <!-- claim: all(tested(kind).values(0.8).mean() < tested('stays').values(0.8).mean() for kind in
 #   KINDS_OF_ATTEMPTS) -->
-# 4. From mid-lane, or with cheap accidents, few agents escape; with both changes {{
-#    easy(BOTH).escapers('sac') }} of twenty do. For a driver that often acts at random, a little
-#    more speed costs.
+# 4. From mid-lane, or with cheap accidents, few agents escape; with both {{
+#    easy(BOTH).escapers('sac') }} of twenty do.
 # 5. With the rule as a constraint and as data, most agents of the study escape.
 # <!-- claim: escaped('bootstrapped') > len(of('bootstrapped')) / 2 > escaped('sac') -->
 #
 # **Three questions to think about**
-# - Both changes together freed the agents. Which of them could a demonstration replace?
-# - With which share of random actions does an agent begin, and with which does it end?
+# - With both changes most agents escape. Which of the two could a demonstration replace?
+# - How would you test whether random actions keep agents slow?
 # - Where would you let each drive begin, so that an agent learns what a free road is worth?
 #
 # **Read on**: [the rule](the_rule.ipynb). Ecoffet et al., *First return, then explore*
@@ -459,12 +462,11 @@ compare_predictions(
 # %% [markdown] tags=["instructor"] minutes=5
 # **Model answers.**
 #
-# - *A demonstration* can replace the steering: it shows states ahead of the traps. The price stays, so
-#   the agent still has to learn to drive there without random actions.
-# - *From all towards none.* In their last 100 episodes {{ decided() }} of the study's ten agents of
-#   plain SAC have an entropy of 0.01 nat or less, so they draw one action again and again. For such
-#   a driver more speed would pay, but it no longer tries it: more training alone shows it nothing
-#   new. Look at the entropy first.
+# - *A demonstration* can replace the steering: it shows states ahead of the traps. The price stays.
+# - *Random actions.* Let agents begin with a smaller α, or end with a larger target entropy, and
+#   count the slow ones. The study's agents begin with actions that are nearly all random; in their
+#   last 100 episodes {{ decided() }} of its ten agents of plain SAC have an entropy of 0.01 nat or
+#   less. Look at the entropy before you train for longer.
 # - *Where to begin.* Near the end of a drive that ends ahead, and then earlier and earlier: a value
 #   comes back from states that were visited. It needs a simulator that can begin anywhere.
 # <!-- claim: decided() >= 4 -->
