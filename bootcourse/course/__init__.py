@@ -6,9 +6,12 @@ from collections.abc import Sequence
 from pkgutil import resolve_name
 
 from bootcourse.course.predictions import compare_predictions, predict, predicted
+from bootcourse.course.too_early import hint_at_names
 from bootcourse.terminal import printable
 
 __all__ = ["compare_predictions", "predict", "predicted", "progress", "source", "table"]
+
+hint_at_names()
 
 
 def progress(lesson: str | None = None):
