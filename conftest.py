@@ -1,12 +1,28 @@
-"""For the notebooks that nbval runs: each must leave nothing behind (tests/leftovers.py). And who runs which tests."""
+"""For the notebooks that nbval runs: each must leave nothing behind (tests/leftovers.py)."""
+
+import os
+import tempfile
+import uuid
 
 import pytest
 
 from tests.leftovers import LeavesNothing, files, survey
 
 collect_ignore = ["notebooks/solved"]  # what `make solved` writes
-# These files use the numbers in the text of all lessons: one worker computes and keeps them.
-TOGETHER = {f"tests/test_{name}.py" for name in ("book", "claims", "course", "teaching")}
+
+
+def pytest_configure(config):
+    """Kernels talk by files: a port that is found free for one may be taken by another before it is used."""
+    if config.pluginmanager.hasplugin("nbval") and os.name == "posix":
+        from nbval import kernel
+
+        manager = kernel.KernelManager
+        kernel.KernelManager = lambda **options: manager(transport="ipc", ip=new_socket(), **options)
+
+
+def new_socket() -> str:
+    """Where a kernel's sockets are: their names begin so. A socket's name may have 107 characters."""
+    return os.path.join(tempfile.gettempdir(), f"kernel-{uuid.uuid4().hex}")
 
 
 def is_notebook_cell(item) -> bool:
@@ -26,16 +42,3 @@ def pytest_runtest_call(item):
     """Look around before the first cell of a notebook."""
     if is_notebook_cell(item) and not hasattr(item.parent, "before"):
         item.parent.before, item.parent.files = survey(item.parent.kernel), files()
-
-
-@pytest.hookimpl(optionalhook=True)
-def pytest_xdist_make_scheduler(config, log):
-    """As --dist=loadfile: the tests of a file stay in one process, and those of the files above in the same."""
-    from xdist.scheduler import LoadFileScheduling
-
-    class ByFile(LoadFileScheduling):
-        def _split_scope(self, nodeid):
-            file = super()._split_scope(nodeid)
-            return "the lessons' text" if file in TOGETHER else file
-
-    return ByFile(config, log) if config.getvalue("dist") == "loadfile" else None
