@@ -12,13 +12,18 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from bootcourse.episodes.evaluate import Episodes
+from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.models import MODELS
+from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.road_model import ImaginedAhead, RoadModel
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import CLOSELY, FORM_NAMES, Cell, Score, score
 from bootcourse.research.results import Results
+from bootcourse.scenario import N_ACTIONS
 
 MEANINGS = {  # of the wrong models, for readers
     "others keep speed and lane": "nobody accelerates, brakes or changes lane",
@@ -34,6 +39,8 @@ MEANINGS = {  # of the wrong models, for readers
 LEARNED_FORMS = {"rollouts": "mean of five", "the shield": "shield"}  # as the lesson calls two of the learned model's
 BASE = "bootstrapped"  # whose agents the lesson follows
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
+LOWEST = 120.0  # return: lower ones stand at the axis' left end as numbers
+MARKS = {"rollouts": "●", "shield": "□"}
 
 
 def _accident_axis(axis_of: Axes, axis: str) -> None:
@@ -80,6 +87,19 @@ def each_agent(cells: dict[str, Results], bases: Sequence[str], title: str) -> F
     return finish(figure, title, f"A line for each agent, from alone to with rollouts. {'; '.join(alt_parts)}.")
 
 
+def promised(agent: Agent, model: RoadModel, roads: Sequence[int]) -> tuple[list[str], list[list]]:
+    """A table of what a learned model promises for each road's first decision, and what the true road then gives."""
+    policy = agent.as_policy()
+    begun = [(drive.observations[0], drive.cars[0]) for drive in record(policy, roads)]
+    observations, cars = (np.stack(each) for each in zip(*begun, strict=True))
+    values, own = ImaginedAhead(agent, model)(observations, cars).q_values, policy(observations, cars).actions
+    true, of_own = nine_drives(cars, policy).values, np.arange(N_ACTIONS) == own[:, None]
+    taken = np.arange(N_ACTIONS) == values.argmax(1)[:, None]
+    which = {"the agent's own": of_own, "the other eight": ~of_own, "the one that the rollouts take": taken}
+    rows = [[name, f"{values[of].mean():.0f}", f"{true[of].mean():.0f}"] for name, of in which.items()]
+    return ["action at the first decision", "the model promises", "the true road gives"], rows
+
+
 def learned(computed: dict[str, Results], cells: dict[str, Results], title: str) -> Figure:
     """Accidents of each agent with a model that it learned: a panel for each form, over the rounds; 0 is alone.
 
@@ -100,14 +120,16 @@ def learned(computed: dict[str, Results], cells: dict[str, Results], title: str)
         ax.plot(rounds + 0.8, control.mean(), "s", color=INK, ms=6, clip_on=False)
         plain_axes(ax, name)
         ax.set(xlim=(-0.2, rounds + 1.1), ylim=(0, 1000))
-        ax.set_xticks([*range(rounds + 1), rounds + 0.8], ["alone", *map(str, range(1, rounds + 1)), "c"])
-        ax.set_xlabel("rounds", fontsize=TEXT, color=INK)
+        drives = [str(learned_model.DRIVES * number) for number in range(1, rounds + 1)]
+        ax.set_xticks([*range(rounds + 1), rounds + 0.8], ["alone", *drives, "control"])
+        ax.set_xlabel("drives that the model learned from", fontsize=TEXT, color=INK)
         means = ", ".join(f"{mean:.0f}" for mean in values.mean(0))
         alt_parts.append(f"{name}: {means}; the control {control.mean():.0f}")
     figure.text(0.012, 1 - 0.83 / figure.get_figheight(), "accidents in 1,000 drives", fontsize=SMALL, color=QUIET)
-    words = "thin: each agent; thick: their mean; c, squares: the control, as many drives without a look-ahead"
+    drives = rounds * learned_model.DRIVES
+    words = f"thin: each agent; thick: their mean; squares: the control, {drives} drives of the agent"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
-    return finish(figure, title, f"Mean accidents in 1,000 drives, alone and after each round. {'; '.join(alt_parts)}.")
+    return finish(figure, title, f"Mean accidents in 1,000 drives, alone and with each model. {'; '.join(alt_parts)}.")
 
 
 def _check_computed(there: Container, wanted: Sequence, base: str) -> None:
@@ -120,7 +142,7 @@ def _check_computed(there: Container, wanted: Sequence, base: str) -> None:
 def wrong_models(
     cells: dict[str, Results], title: str = "Accidents with models that are wrong", base: str = CLOSELY[0]
 ) -> Figure:
-    """Accidents with each wrong model, as full rollouts and as a shield, and of the base policy alone.
+    """Accidents and return with each wrong model, as full rollouts and as a shield, and of the base policy alone.
 
     Raises BootcourseError if the base policy alone, or any of the two with a model, was not computed.
     """
@@ -129,30 +151,40 @@ def wrong_models(
     _check_computed(cells, [Cell(base, "alone").name, *models], base)
     row, colour = 0.4, style(base).colour
     figure = new_figure(1.0 + row * len(names) + 0.8)
-    ax = axes_at(figure, 2.25, 1.0, 4.5, row * len(names))
+    ax, earned = (axes_at(figure, left, 1.0, wide, row * len(names)) for left, wide in ((2.25, 2.6), (5.2, 1.6)))
     words, scores_of = [], {}
     for form, shift, fill in (("rollouts", -0.14, colour), ("shield", 0.14, "white")):
         scores = {name: score(cells, Cell(base, form, model=name)) for name in names}
         scores_of[form] = scores
+        at = np.arange(len(names)) + shift
+        look = {"fmt": "o" if form == "rollouts" else "s", "color": colour, "mfc": fill, "mec": colour, "mew": 1.5}
         middle, low, high = 1000 * np.array([one.accident_rate for one in scores.values()]).T
-        at = [place + shift for place in range(len(names))]
-        ax.errorbar(middle, at, xerr=[middle - low, high - middle], fmt="o" if form == "rollouts" else "s",
-                    color=colour, mfc=fill, mec=colour, mew=1.5, ms=6, lw=1.3, zorder=3)  # fmt: skip
+        ax.errorbar(middle, at, xerr=[middle - low, high - middle], **look, ms=6, lw=1.3, zorder=3)
+        middle, low, high = np.array([one.returns for one in scores.values()]).T
+        shown = middle > LOWEST
+        earned.errorbar(middle[shown], at[shown], xerr=[(middle - low)[shown], (high - middle)[shown]], **look, ms=6,
+                        lw=1.3, zorder=3)  # fmt: skip
+        for value, place in zip(middle[~shown], at[~shown], strict=True):
+            mark = f"◂ {MARKS[form]} {value:.0f}".replace("-", "−")
+            earned.text(LOWEST, place, mark, va="center", fontsize=SMALL, color=colour)
         numbers = (
             f"{name} {1000 * one.accident_rate.value:.1f} and {one.returns.value:.1f}" for name, one in scores.items()
         )
         words.append(f"{FORM_NAMES[form]}: {'; '.join(numbers)}.")
-    plain_axes(ax, "", grid="x")
-    value, low, high = (1000 * each for each in alone.accident_rate)
-    ax.axvspan(low, high, color=QUIET, alpha=0.15, linewidth=0, zorder=0)
-    ax.axvline(value, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
-    ax.set_ylim(len(names) - 0.5, -0.5)
-    ax.set_xlabel("accidents in 1,000 drives (logarithmic above 1)", fontsize=TEXT, color=INK)
-    ax.spines["bottom"].set_color(GRID)
+    of_alone = {ax: 1000 * np.array(alone.accident_rate), earned: np.array(alone.returns)}
+    labels = {ax: "accidents in 1,000 drives\n(logarithmic above 1)", earned: "return"}
+    for panel, (value, low, high) in of_alone.items():
+        plain_axes(panel, "", grid="x")
+        panel.axvspan(low, high, color=QUIET, alpha=0.15, linewidth=0, zorder=0)
+        panel.axvline(value, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
+        panel.text(value, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
+        panel.set(ylim=(len(names) - 0.5, -0.5), yticks=[])
+        panel.set_xlabel(labels[panel], fontsize=TEXT, color=INK)
+        panel.spines["bottom"].set_color(GRID)
     _accident_axis(ax, "x")
+    earned.set_xlim(LOWEST, 140)
     ax.set_yticks(range(len(names)), [name.replace(", ", ",\n") for name in names], fontsize=TEXT, color=INK)
-    ax.text(value, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
-    legend = f"● rollouts{_drives(scores_of['rollouts'])}    □ shield{_drives(scores_of['shield'])}"
+    legend = "    ".join(f"{MARKS[form]} {form}{_drives(of)}" for form, of in scores_of.items())
     figure.text(0.012, 0.1 / figure.get_figheight(), legend, fontsize=SMALL, color=INK)
     alt = (
         f"For each model, accidents in 1,000 drives and the return. Alone: {1000 * alone.accident_rate.value:.1f} and "

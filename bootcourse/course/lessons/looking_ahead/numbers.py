@@ -16,7 +16,7 @@ from bootcourse.research.experiments.lookahead import Cell, Score, score
 from bootcourse.research.results import Results
 from bootcourse.road.state import Accident
 
-LATE = "everything a second late"
+LATE, WORST = "everything a second late", "worst case of three wrong models"
 WRONG = [name for name in MODELS if name != "exact"]
 
 
@@ -57,9 +57,16 @@ def learning() -> Results:
     return learned_model.together(experiment(learned_model.NAME))
 
 
-def learned(form: str) -> np.ndarray:
-    """Accidents in 1,000 drives, the agents' mean after each round, (rounds,)."""
+def learned(form: str, measure: str = "accidents") -> np.ndarray:
+    """Accidents in 1,000 drives, or the return, the agents' mean after each round, (rounds,)."""
+    if measure == "returns":
+        return learning().notes[f"{form}, returns"].mean(0)
     return learned_model.per_thousand(learning(), form).mean(0)
+
+
+def further() -> int:
+    """The drives that each model gets after its first ones."""
+    return (learned_model.ROUNDS - 1) * learned_model.DRIVES
 
 
 def still_worse() -> int:
@@ -67,8 +74,10 @@ def still_worse() -> int:
     return int((learned_model.per_thousand(learning(), "mean of five")[:, -1] > each(BASE, "alone", "accidents")).sum())
 
 
-def learned_without(form: str) -> float:
+def learned_without(form: str, measure: str = "accidents") -> float:
     """The same of the control, whose model learned from drives without a look-ahead."""
+    if measure == "returns":
+        return float(learning().measured[f"{form}, returns"].mean())
     return float(learned_model.per_thousand(learning(), form, control=True).mean())
 
 

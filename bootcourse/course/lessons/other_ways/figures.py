@@ -41,7 +41,8 @@ TAKES = {  # learner: (what it takes, from, until, whether it fades)
 def what_is_taken() -> Diagram:
     """A row for each learner: a bar while it uses the teacher, which gets thinner where that fades."""
     height = TOP + ROW * len(TAKES) + 4
-    parts = [label(8, 18, "A teacher can help before, during or after training", "start", bold=True)]
+    says = "A teacher can help before, during or after training (thinner: less and less)"
+    parts = [label(8, 18, says, "start", bold=True)]
     middles = {"before": START - 40, "training": (START + TRAINED) / 2, "after": (TRAINED + END) / 2}
     parts += [label(x, 40, words) for words, x in middles.items()]
     for x in (START, TRAINED):
@@ -98,8 +99,8 @@ def handing_over(driven: Episodes) -> Figure:
     return finish(figure, title, f"A column for each training episode. h: {first}; {accidents}; {ends}.")
 
 
-def at_equal_budgets(computed: Mapping[str, Results], rule: float, title: str) -> Figure:
-    """Returns with their 95 % intervals, a row for each method, a panel for each budget; then each agent's accidents.
+def at_equal_decisions(computed: Mapping[str, Results], rule: float, title: str) -> Figure:
+    """Returns with their 95 % intervals, a row for each method, a panel for each budget; then the accidents.
 
     computed: see `equal_decisions.by_method`; rule: what the rule earns, the green line.
     """

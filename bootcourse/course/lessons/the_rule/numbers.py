@@ -10,7 +10,7 @@ from bootcourse.course.lessons.the_rule.rules import driven as driven
 from bootcourse.episodes.evaluate import Episodes, drive_episodes
 from bootcourse.episodes.record import record
 from bootcourse.policies import PolicyOutput, rule_policy
-from bootcourse.road.state import EGO, SPEED, TRAP_1, TRAP_2, X
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SETTLED as SETTLED
 from bootcourse.rule import Reason, rule
 from bootcourse.scenario import DEFAULT
@@ -55,6 +55,17 @@ def begun_in_sight(floor: float, sight: float = 20.0) -> int:
     reasons, _, cars, _ = decided(sight, floor=floor)
     changes, sees = reasons == Reason.CHANGE, cars[:, :, TRAP_1, X] - cars[:, :, EGO, X] <= sight
     return int((sees[changes.argmax(0), np.arange(len(ROADS))] & changes.any(0)).sum())
+
+
+def first_changes(floor: float, sight: float = 20.0) -> tuple[np.ndarray, np.ndarray]:
+    """(completed, called off), each (roads,): whether the first lane change that a drive begins ends in the new lane
+    within four seconds; and whether it does not, and a second after its beginning the rule sees nobody ahead.
+    """
+    reasons, _, cars, _ = decided(sight, floor=floor)
+    changes, roads = reasons == Reason.CHANGE, np.arange(len(ROADS))
+    began, lanes = changes.argmax(0), cars[:, :, EGO, LANE]
+    completed = changes.any(0) & (lanes[began + 4, roads] < lanes[began, roads])
+    return completed, changes.any(0) & ~completed & (reasons[began + 1, roads] == Reason.FREE)
 
 
 @cache

@@ -92,6 +92,17 @@ def balanced(agent: SAC, episodes: int = 10) -> float:
     return float(checks.scores([agent], checks.cartpole, episodes)[0])
 
 
+def balanced_drawn(agent: SAC, episodes: int = 30) -> float:
+    """For how many pushes the agent balances the pole if it draws them from its policy: a mean."""
+    env, rng, pushes = checks.cartpole(), np.random.default_rng(0), 0
+    for seed in range(episodes):
+        (state, _), ended = env.reset(seed=seed), False
+        while not ended:
+            state, _, fell, late, _ = env.step(agent.draw(state, rng))
+            pushes, ended = pushes + 1, fell or late
+    return pushes / episodes
+
+
 # What an answer did ------------------------------------------------------------------------------------
 
 

@@ -26,8 +26,8 @@ def the_end() -> Explorable:
         forgets = np.full(LAST, 1 / (1 - gamma))
         knows = knows[::-1]  # in the order of time
         named = {
-            "the target knows the end": Curve(knows, style("sac").colour),
-            "the target forgets it": Curve(forgets, OTHER.colour, "--"),
+            "the fall is marked": Curve(knows, style("sac").colour),
+            "it is not": Curve(forgets, OTHER.colour, "--"),
         }
         says = f"γ = {gamma:g}: before the last push the two are {knows[-1]:.3g} and {forgets[-1]:.3g}."
         return curves(says, AXES, np.arange(-LAST, 0), named, mark=-1)

@@ -3,10 +3,11 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from IPython.display import Markdown
 from matplotlib.figure import Figure
 
 from bootcourse.colours import OTHER, STRANGERS
-from bootcourse.course import charts
+from bootcourse.course import charts, table
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.discrete_sac.figures import cartpole_strip
 from bootcourse.course.lessons.update_and_loop import by_hand, left_out
@@ -55,10 +56,19 @@ def without_a_part(scores: np.ndarray) -> Figure:
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt)}.")
 
 
+def until_the_fall(trained: Sequence[by_hand.SAC]) -> Markdown:
+    """A table of how long agents of the seeds 0, 1, ... balance, before their training and after it."""
+    untrained = [by_hand.SAC(seed) for seed in range(len(trained))]
+    rows = [[f"{words}, seed {seed}", f"{by_hand.balanced(agent):.0f}", f"{by_hand.balanced_drawn(agent):.0f}"]
+            for words, agents in (("untrained", untrained), ("no fall is marked", trained))
+            for seed, agent in enumerate(agents)]  # fmt: skip
+    return table(["pushes until the fall", "the most probable ones", "drawn ones"], rows)
+
+
 def along_falls(critics: Mapping[str, left_out.Learned]) -> Figure:
     """What critics expect with each push of a fall, see `left_out.along_falls`."""
     named = {words: left_out.along_falls(each.agents) for words, each in critics.items()}
-    title = "Told of no end, a critic expects most of the pole that has fallen"
+    title = "Where no fall is marked, these critics expect most of the fallen pole"
     return charts.lines(np.arange(-left_out.BEFORE, 1), named, title, "pushes from the fall (0: the pole has fallen)",
                         "Q, mean of 40 falls, a line for each agent", looks=STRANGERS[1::-1])  # fmt: skip
 

@@ -102,30 +102,35 @@ def bonuses(title: str) -> Figure:
         named[f"{teacher} teacher"] = 100 * np.array(scores)
     looks = [style("rule"), style("bootstrapped"), Style(ALARM, "--")]
     marks = {"plain SAC": 100 * cells().mean("doorkey", "none", "SAC", "drawn_success")}
-    over, of = "bonus c for each decision of a demonstration", "drives that reach the goal, %"
+    over, of = "bonus c for each decision of a demonstration", "drives that reach the goal, %, of agents with both aids"
     figure = charts.lines(at, named, title, over, of, marks=marks, limits=(0, 103), looks=looks)
     figure.axes[0].set_xticks(at, [name.removeprefix("c = ") for name in BONUSES])
     return figure
 
 
-def edges(agents: Sequence[Agent], title: str) -> Figure:
+def edges(soft: Sequence[Agent], clones: Sequence[Agent], title: str) -> Figure:
     """Where each agent on CartPole changes from left to right, by the pole's angle and speed; the cart rests."""
     figure = new_figure(3.3)
     ax = axes_at(figure, 0.7, 0.75, 4.0, 1.95)
     plain_axes(ax, "speed of the pole, rad/s")
-    ax.set_xlabel("angle of the pole, rad", fontsize=TEXT, color=INK)
+    ax.set_xlabel("angle of the pole, rad (the cart rests in the middle)", fontsize=TEXT, color=INK)
     angle, speed = np.linspace(-0.2, 0.2, 81), np.linspace(-1.5, 1.5, 81)
     at = np.zeros((81, 81, 4), dtype=np.float32)
     at[..., 2], at[..., 3] = np.meshgrid(angle, speed)
-    colour, rule, changes = style("soft").colour, style("rule").colour, []
-    for agent in agents:
-        right = np.asarray(agent.probabilities(at.reshape(-1, 4)))[:, 1].reshape(81, 81)
-        ax.contour(angle, speed, right, levels=[0.5], colors=[colour], linewidths=1.6)
-        changes.append("/".join(f"{speed[(right[:, x] >= 0.5).argmax()]:.2f}" for x in (20, 60)))
+    rule, changes = style("rule").colour, []
+    for agents, method in ((clones, "bc"), (soft, "soft")):
+        for agent in agents:
+            right = np.asarray(agent.probabilities(at.reshape(-1, 4)))[:, 1].reshape(81, 81)
+            ax.contour(angle, speed, right, levels=[0.5], colors=[style(method).colour], linewidths=1.6)
+            if method == "soft":
+                changes.append("/".join(f"{speed[(right[:, x] >= 0.5).argmax()]:.2f}" for x in (20, 60)))
     ax.axvline(0, color=rule, linewidth=2.5, zorder=1)
+    ax.plot(angle, -angle, color=INK, linewidth=1.2, linestyle="--")
     ax.text(-0.19, -1.4, "push left", fontsize=TEXT, color=INK)
     ax.text(0.19, 1.3, "push right", ha="right", fontsize=TEXT, color=INK)
-    for place, (words, look) in enumerate({"the rule": rule, "one agent each": colour}.items()):
+    named = {f"{len(soft)} with the soft constraint": style("soft").colour, f"{len(clones)} clones": style("bc").colour}
+    for place, (words, look) in enumerate({"the rule": rule, **named, "dashes: angle + speed = 0": INK}.items()):
         ax.text(1.04, 0.6 - 0.13 * place, words, transform=ax.transAxes, fontsize=TEXT, color=look)
-    alt = f"At {angle[20]:.1f}/{angle[60]:.1f} rad they push right from these speeds on: {', '.join(changes)} rad/s."
-    return finish(figure, title, f"{alt} The rule does so at each speed if the angle is above 0.")
+    alt = f"At {angle[20]:.1f}/{angle[60]:.1f} rad those with the soft constraint push right from these speeds on: "
+    alt += f"{', '.join(changes)} rad/s. The rule does so at each speed if the angle is above 0."
+    return finish(figure, title, alt)

@@ -1,7 +1,9 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+import gymnasium as gym
 import numpy as np
 
+import bootcourse as bc
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import explorable, loops  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_own_problem.cells import BONUSES, FOUR, THREE, cells  # noqa: F401
@@ -20,6 +22,13 @@ def score(problem: str, teacher: str, method: str, measure: str = "success") -> 
 def earned(teacher: str) -> float:
     """What a teacher of MountainCar earns."""
     return score("mountain-car", teacher, "the teacher", "returns")
+
+
+def speed_rule_earns() -> float:
+    """What the rule of CartPole earns that pushes to the side of angle + speed, as the picture of the edges has it."""
+    policy = bc.teacher_policy(lambda seen: int(seen[2] + seen[3] > 0), None, n_actions=2)
+    with_poles = {"make_env": lambda n: gym.make_vec("CartPole-v1", n, vectorization_mode="sync")}
+    return bc.drive_episodes(policy, range(50), **with_poles).returns.mean()
 
 
 def by_bonus(teacher: str) -> np.ndarray:

@@ -44,6 +44,16 @@ def racer(cars: np.ndarray, scenario: Scenario) -> int:
     return toward(cars, 20.0, 0, scenario) if cars[EGO, LANE] == 0 else careful(cars, scenario)
 
 
+def two_speeds(slow: float, fast: float) -> Rule:
+    """A rule that looks at no other car: `slow` (m/s) and one lane to the left, and `fast` on the free lane."""
+
+    def blind(cars: np.ndarray, scenario: Scenario) -> int:
+        lane = int(cars[EGO, LANE])
+        return toward(cars, fast if lane == 0 else slow, max(0, lane - 1), scenario)
+
+    return blind
+
+
 # A harder road --------------------------------------------------------------------------------------
 
 DENSE = replace(DEFAULT, name="dense left lane", traffic=replace(DEFAULT.traffic, cars=10))

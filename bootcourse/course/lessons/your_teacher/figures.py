@@ -1,6 +1,6 @@
 """What teachers are worth: each of their students as a dot, and whether they help."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from IPython.display import Markdown
@@ -10,16 +10,14 @@ from bootcourse.course import table
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.learn.demonstrations import FIRST_SEED
-from bootcourse.learn.settings import Settings
-from bootcourse.learn.teachers import teacher_of, teacher_policy
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.teachers import course_rule, teacher_of, teacher_policy
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure
 from bootcourse.research.experiments.teacher_worth import TAUGHT, Cells
 from bootcourse.research.jobs import HELD_OUT
 from bootcourse.research.teachers import TEACHERS
 from bootcourse.road.state import LANE, SPEED, X, Y
-from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.statistics import ESCAPES
 
 HEAD, FOOT = 0.75, 0.55  # inches, above and below the rows of a figure
@@ -38,21 +36,31 @@ def exam_of_all() -> Markdown:
     return table([f"{len(driven.success)} roads", "gets out, %", "accidents, %", "return"], rows, below)
 
 
-def first_seconds(teacher: str) -> float:
-    """The share of its most frequent action in the first second of the roads that it demonstrates on."""
-    roads = [FIRST_SEED + number for number in range(Settings.demonstration_episodes)]
-    env = TrapVectorEnv(len(roads))
-    env.reset(seed=roads)
-    return np.bincount(teacher_of(TEACHERS[teacher].rule)(env.cars)).max() / len(roads)
+def of_speeds() -> Markdown:
+    """A table of how rules drive that look at no other car: one speed everywhere, and last a higher one in lane 0."""
+    rows = []
+    for slow, fast in (*((speed, speed) for speed in range(8, 16)), (9, 12)):
+        driven = example_teachers.examine(example_teachers.two_speeds(slow, fast)).episodes
+        shares = (100 * driven.success.mean(), 100 * np.mean(driven.accident > 0))
+        words = f"{slow}" if slow == fast else f"{slow}, and {fast} in lane 0"
+        rows.append([words, *(f"{share:.0f}" for share in shares), f"{driven.returns.mean():.0f}"])
+    return table(["speed (m/s)", "gets out, %", "accidents, %", "return"], rows)
+
+
+def like_the_rule(drives: Sequence[Rollout]) -> float:
+    """In which share of the states of a teacher's drives its action is the rule's."""
+    cars, actions = (np.concatenate([getattr(drive, name) for drive in drives]) for name in ("cars", "actions"))
+    return float(np.mean(teacher_of(course_rule)(cars) == actions))
 
 
 def records() -> Markdown:
-    """A table of the four teachers' demonstrations: how sure they begin, and how they end."""
-    rows, roads = [], [FIRST_SEED + number for number in range(Settings.demonstration_episodes)]
+    """A table of the four teachers' demonstrations: how many of their labels are the rule's, and how they end."""
+    rows = []
     for name, words in reversed(WORDS.items()):
-        ends = drive_episodes(teacher_policy(TEACHERS[name].rule), roads)
-        rows.append([words, f"{first_seconds(name):.2f}", ends.success.sum(), np.sum(ends.accident > 0)])
-    return table([f"{len(roads)} drives", "p, counted", "end ahead of trap 1", "end in an accident"], rows)
+        drives = taught_agents.demonstrated(name)
+        ends = [sum(bool(drive.success) for drive in drives), sum(drive.accident > 0 for drive in drives)]
+        rows.append([words, f"{100 * like_the_rule(drives):.0f}", *ends])
+    return table([f"{len(drives)} drives", "the rule's labels, %", "end ahead of trap 1", "end in an accident"], rows)
 
 
 def of_each(tested: Mapping[str, np.ndarray]) -> Markdown:
@@ -107,7 +115,7 @@ def learners(computed: Cells, title: str) -> Figure:
     computed: as `shipped_teachers` returns them; what was not run has no row.
     """
     teachers = [teacher for teacher in TEACHERS if any(teacher == each for each, _ in computed)]
-    row, heads, labels, place, alt_parts = 0.24, {}, {}, 0, []
+    row, heads, labels, place, alt_parts = 0.32, {}, {}, 0, []
     for teacher in teachers:
         heads[place] = teacher
         for method in TAUGHT:
@@ -116,15 +124,17 @@ def learners(computed: Cells, title: str) -> Figure:
                 labels[place] = teacher, method
         place += 1
     figure, own = new_figure(HEAD + row * place + FOOT), own_returns(teachers)
-    ax = axes_at(figure, 1.75, HEAD, 4.2, row * place)
+    ax = axes_at(figure, 1.75, HEAD, 3.2, row * place)
     for at, (teacher, method) in labels.items():
         agents = computed[teacher, method]
         fills = agents.scores("success") >= ESCAPES
-        dots(ax, agents.scores("returns"), at, style(method).colour, fills, spread=0.24)
+        dots(ax, agents.scores("returns"), at, style(method).colour, fills, spread=0.42)
         escape = f"{agents.escapers(method)} of {len(agents)}"
-        beside(ax, at, f"{escape} escape")
-        mean = agents.scores("returns").mean()
-        alt_parts.append(f"{name_of(teacher)}, {display_name(method)}: {escape} escape, mean return {mean:.0f}")
+        mean, accidents = agents.scores("returns").mean(), f"{100 * agents.scores('accident').mean():.0f}"
+        beside(ax, at, escape, accidents)
+        alt_parts.append(f"{name_of(teacher)}, {display_name(method)}: {escape} escape, mean return {mean:.0f}, "
+                         f"accidents in {accidents} %")  # fmt: skip
+    beside(ax, -0.75, "escape", "accidents, %", colour=QUIET)
     for at, teacher in heads.items():
         last = at + sum(each == teacher for each, _ in labels.values())
         ax.plot([own[teacher]] * 2, [at + 0.5, last + 0.5], color=style("rule").colour, linewidth=2.5, zorder=2)

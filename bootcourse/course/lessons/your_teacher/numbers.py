@@ -9,7 +9,7 @@ from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_teacher import example_teachers, figures, taught_agents  # noqa: F401
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.your_teacher.exercises import without_a_look
-from bootcourse.learn.teachers import toward
+from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
 from bootcourse.research.beyond import lengths
 from bootcourse.road.state import EGO, LANE, SPEED, TRAFFIC, Accident
 from bootcourse.statistics import ESCAPES
@@ -55,28 +55,13 @@ def student_escapes(teacher: str) -> int:
 @cache
 def two_situations(slow: float):
     """How a rule of two situations drives there: 12 m/s on the free lane, elsewhere slow (m/s) and one lane left."""
-
-    def rule(cars, scenario):
-        lane = int(cars[EGO, LANE])
-        return toward(cars, 12.0 if lane == 0 else slow, max(0, lane - 1), scenario)
-
-    return example_teachers.examine(rule).episodes
+    return example_teachers.examine(example_teachers.two_speeds(slow, 12.0)).episodes
 
 
 @cache
 def one_situation(speed: float):
     """How a rule drives there that aims for one speed (m/s), and for the next lane to the left, everywhere."""
-
-    def rule(cars, scenario):
-        return toward(cars, speed, max(0, int(cars[EGO, LANE]) - 1), scenario)
-
-    return example_teachers.examine(rule).episodes
-
-
-@cache
-def demonstrated(teacher: str) -> list:
-    """The drives that it demonstrates."""
-    return taught_agents.demonstrated(teacher)
+    return example_teachers.examine(example_teachers.two_speeds(speed, speed)).episodes
 
 
 def gets_ahead(teacher: str) -> int:

@@ -6,6 +6,7 @@ One training depends on the processor's rounding; the lesson's text rests on the
 """
 
 from dataclasses import replace
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -148,6 +149,7 @@ def verdicts(groups: dict[str, dict[str, np.ndarray]]) -> dict[str, dict[str, st
     return found
 
 
+@cache
 def demonstrated(teacher: str) -> list[Rollout]:
     """The drives that one of the study's teachers demonstrates."""
     roads = [FIRST_SEED + number for number in range(Settings.demonstration_episodes)]
