@@ -29,7 +29,7 @@ def worth(by_rule: Rollout, stays: Rollout, seconds: int = 60) -> Figure:
 
 def critics(named: Mapping[str, Opinion]) -> Figure:
     """Bars of the demonstrated action's Q, of the best other's and of the others' mean, for each critic."""
-    figure, ax = one_axes(3.5, title := "The bonus raises Q, and the best other action keeps up", "", "mean Q")
+    figure, ax = one_axes(3.5, title := "The bonus raises Q, also that of the best other action", "", "mean Q")
     looks = {
         "demonstrated action": ("shown", style("demos").colour),
         "best other action": ("best", "#5F6B77"),
@@ -75,7 +75,7 @@ def returns(kinds: Kinds, episodes: int = 1000) -> Figure:
     for words in ("demonstrations, c = 2", "demonstrations, c = 0", "no demonstrations"):
         at, each = rolling_means(kinds[words][0][0].curves["return"][:, :episodes], 50)
         named[words] = each.mean(axis=0)
-    title = "With c = 2 the return passes the rule's late, and falls again near episode 1,000"
+    title = "With c = 2 the return stays near the rule's until about episode 500"
     looks = [charts.Style("#D55E00"), charts.Style("#332288", "--"), charts.Style("#56B4E9", ":")]
     rule = {"rule": evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value}
     return charts.lines(at, named, title, "training episode", "mean return of ten agents", marks=rule, looks=looks)

@@ -41,19 +41,9 @@ def alone(name: str, which: int) -> str:
     return measures.escape([_with(name)[1][which]])
 
 
-def of_lasting(bonus: int) -> tuple[int, np.ndarray]:
-    """With both aids and a β that never ends: how many agents of the study, and what those that escape earn."""
-    agents = shipped_experiment("ablations")["β for ever" if bonus else "β for ever, c = 0"].of("bootstrapped")
-    return len(agents), _of_escapers(agents)
-
-
 def escapers_earn() -> np.ndarray:
-    """The returns of the study's agents with both aids that escape, (agents that do,)."""
-    return _of_escapers(shipped_results().of("bootstrapped"))
-
-
-def _of_escapers(agents: Results) -> np.ndarray:
-    """The mean return of each of these agents that escapes."""
+    """The mean return of each of the study's agents with both aids that escapes, (agents that do,)."""
+    agents = shipped_results().of("bootstrapped")
     return agents.scores("returns")[agents.scores("success") >= ESCAPES]
 
 
