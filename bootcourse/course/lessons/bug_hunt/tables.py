@@ -4,6 +4,7 @@ import numpy as np
 
 from bootcourse.course.lessons.bug_hunt.bugs import Hunt
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
+from bootcourse.learn.settings import settings_for
 
 DRIVEN = [
     "200 roads",
@@ -12,8 +13,19 @@ DRIVEN = [
     "return, most probable",
     "accidents, most probable, %",
 ]
-AGREEMENT = ["early in training, both seeds", "as the rule now, %", "as one second later, %"]
+AGREEMENT = ["early in training, both seeds", "as the rule does now, %", "as it does one second later, %"]
 EARLY = slice(2, 6)  # of the probes: after 500 to 1,250 updates
+TITLES = {  # of the pictures; here, so that the student's cell does not give away what it answers
+    "success": "Four of the six agents with a bug succeed in training",
+    "end": "One agent values its own accidents far below −10",
+    "promise": "Two agents promise far more than the healthy one",
+    "rarest": "Two agents keep their rarest action far likelier than the healthy one",
+}
+
+
+def most() -> float:
+    """What the road pays at most, about 1 a second for ever, discounted."""
+    return 1 / (1 - settings_for("bootstrapped").gamma)
 
 
 def drives(hunt: Hunt, name: str, drawn: bool = False) -> Episodes:

@@ -71,7 +71,8 @@ table(["in 150 s", "in the end", "return"], rows)
 # - `shifted_labels`: the rule was asked after the step: each label is the next second's.
 #
 # > **Predict.** With how many of them does an agent still *succeed*: end ahead of trap 1 in more
-# > than 75 % of its last 30 training episodes, with both seeds?
+# > than 75 % of its last 30 training episodes, with both seeds? Ask of each: does Q still rank the
+# > actions? Does the actor still learn from Q?
 
 # %%
 choices = ["none", "one or two", "three or four", "five", "all six"]
@@ -90,19 +91,18 @@ predict("bug_hunt.1", "With how many of the bugs does an agent still succeed?", 
 predicted("bug_hunt.1")
 episode, share = "training episode (logarithmic)", "success in the last 30 episodes (%)"
 curves = {name: (x, 100 * each) for name, (x, each) in hunt.curves("success").items()}
-title = "Most of the agents with a bug succeed in training"
+title = tables.TITLES["success"]
 bc.show(charts.many(curves, title, episode, share, reference="healthy", x_scale="log"))
 
 # %% [markdown]
-# **See.** *A curve can look right although the code is wrong.* Four of the six succeed. A, C and D
-# end like the healthy agent.
+# **See.** *A curve can look right although the code is wrong.* A, C and D end like the healthy agent.
 # <!-- claim: {n for n in 'ABCDEF' if hunt().at_the_end('success')[n].mean() >=
 #   hunt().at_the_end('success')['healthy'].mean()} == set('ACD') -->
 # <!-- claim: {n for n in 'ABCDEF' if (hunt().at_the_end('success')[n] > 0.75).all()} ==
 #   set('ACDE') -->
 #
-# In training an agent draws its actions from π. Now the first seed of each drives 200 new roads
-# twice: by its most probable action, and by drawn ones.
+# The first seed of each now drives 200 new roads twice: by its most probable action, and by drawn
+# ones, as in training.
 
 # %%
 table(tables.DRIVEN, tables.driven(hunt))
@@ -154,7 +154,7 @@ check.end_error(end_error)
 
 # %% tags=["hide-input"]
 predicted("bug_hunt.2")
-title = "One agent values its own accidents far below −10"
+title = tables.TITLES["end"]
 asked = "Q where an accident followed (dotted: −10)"
 bc.show(charts.many(hunt.probes("end"), title, "updates", asked, "healthy", level=-10))
 
@@ -181,8 +181,7 @@ predict("bug_hunt.3", "What is the most that such a critic may promise?", unit="
 
 # %%
 predicted("bug_hunt.3")
-most = 1 / (1 - 0.8)
-title = "Two agents promise far more than the healthy one"
+most, title = tables.most(), tables.TITLES["promise"]
 asked = f"promise Σ π Q, cut off at 20 (dotted: {most:.0f})"
 probes, limits = hunt.probes("promise"), (-2, 20)
 bc.show(charts.many(probes, title, "updates", asked, "healthy", limits=limits, level=most))
@@ -218,11 +217,11 @@ table(tables.AGREEMENT, tables.agreement(hunt))
 #   early('C', 'late') / early('C') > 0.85 > 0.75 > max(early(n, 'late') / early(n) for n in ('A',
 #   'B', 'D', 'E', 'healthy')) -->
 #
-# The other probe is the probability of the policy's **rarest** action, the smallest of the nine.
+# The other probe is the probability of the policy's **rarest** action.
 #
 # > **Predict.** The right KL charges the policy for going where the rule would not. The flipped KL
 # > charges it for *not* going where the rule might, and the stochastic rule gives each action a
-# > little probability. What does the policy then do to an action that the rule hardly ever takes?
+# > little probability. What does the policy then do to an action that the rule seldom takes?
 
 # %%
 choices = ["it drops it as fast", "it drops it more slowly", "it keeps it as likely as at first"]
@@ -230,15 +229,15 @@ predict("bug_hunt.4", "What does the policy do to such an action, with the flipp
 
 # %% tags=["hide-input"]
 predicted("bug_hunt.4")
-title = "Two agents keep their rarest action far likelier than the healthy one"
+title = tables.TITLES["rarest"]
 asked = "log of the rarest action's probability"
 bc.show(charts.many(hunt.probes("rarest"), title, "updates", asked, "healthy"))
 
 # %% [markdown]
 # **Explain.** With the right KL it costs little to drop an action. The flipped KL grows without
-# bound when the probability of an action goes to zero, so each falls more slowly. *Two* agents keep
-# their rarest action far likelier than the healthy one. One bug cuts the actor off from Q: see
-# Round 1.
+# bound when the probability of an action goes to zero, so the policy drops each more slowly. *Two*
+# agents keep their rarest action far likelier than the healthy one. In one of the two the actor does
+# not learn from Q: see Round 1.
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'rarest')[:, -1].min() > -20} == {'A', 'B'}
 #   and (hunt().probe('healthy', 'rarest')[:, -1] < -30).all() -->
 
@@ -275,12 +274,11 @@ check.diagnose(diagnose)
 #
 # - **B**: no gradient passes through a draw among nine actions: the KL alone teaches the actor,
 #   towards the stochastic rule.
-# - **C**: only the pull is shifted; the demonstrations still show the action of now. We think that
-#   this is why "now" stays ahead.
-# - **D** adds the value of a car that has just crashed. It is low, so the accident counts again.
+# - **C**: only the pull is shifted; the demonstrations still show the action of now.
+# - **D** adds the value of a car that has just crashed. Q far below −10 says that it is negative.
 # - **E**: with a bonus for all, demonstrations have no advantage. E does what the slow rule does in
 #   {{ 100 * as_the_rule('E') | .0f }} % of its seconds, the healthy agent in {{ 100 *
-#   as_the_rule('healthy') | .0f }} %. We think that E earns more for this reason.
+#   as_the_rule('healthy') | .0f }} %. Is that why E earns more? This is not tested.
 # - **F**: the actor's loss changes the critic, and raises the Q of what the policy likes.
 #
 # </details>
@@ -310,8 +308,7 @@ check.diagnose(diagnose)
 # **Exercise (20 min, ●●●).** Write that test. You are given a function
 # `target(reward, demo, bonus, end, next_value, gamma)`, of which you do not see the code: bonus
 # and gamma are floats, the rest arrays of shape (batch,); demo and end hold 1 or 0. Say whether it
-# is wrong. The check gives your test three right functions and twelve that are wrong, each in
-# another way.
+# is wrong. The check gives your test three right functions and twelve wrong ones.
 # <!-- claim: (lambda e: len(e.TARGETS) - len(e.RIGHT_TARGETS) == 12 and len(e.RIGHT_TARGETS) ==
 #   3)(__import__('bootcourse.course.lessons.bug_hunt.target_probe', fromlist=['x'])) -->
 
@@ -346,12 +343,12 @@ compare_predictions(
 # 1. A curve can look right although the code is wrong: four of six agents with a bug succeed; one
 #    earns more, and crashes more.
 # 2. A probe asks one part of a learner something whose right answer is known. Compare with an agent
-#    you trust.
+#    you trust. A probe that looks right clears only what it asks.
 # 3. Ask the critic what an accident is worth, and how much it promises. Without a bonus a promise
-#    far above {{ 1 / (1 - SETTINGS.gamma) | .0f }} is wrong here. A lower one proves nothing.
+#    far above {{ 1 / (1 - SETTINGS.gamma) | .0f }} is wrong here.
 # 4. Ask the actor whether it does what the rule does *now*, and which actions it drops. Let it
 #    drive by drawn actions, too.
-# 5. A test with a few cases worked out by hand finds a wrong target without training.
+# 5. A test with a few cases worked out by hand can find a wrong target without training.
 #
 # **Three questions to think about**
 # - You may run one probe during your trainings from now on. Which, and at what value does it warn?

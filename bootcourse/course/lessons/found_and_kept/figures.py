@@ -13,6 +13,10 @@ from bootcourse.research.cells import VARIED
 from bootcourse.research.results import Results
 from bootcourse.statistics import IN_A_ROW, rolling_means
 
+# Titles that answer a prediction stand here, so that the student's cell does not give it away.
+IN_THE_STUDY = "With demonstrations alone half of the agents find the way out, and none keeps it"
+OF_TWO_GROUPS = "With two updates and π̃ all ten with demonstrations keep it, five with the soft constraint"
+
 
 def one_agent(results: Results, which: int, title: str) -> Figure:
     """Training of one agent of one method: how often it is ahead, its first and last good window, how often it crashes.

@@ -81,6 +81,13 @@ def fate(kind: str) -> list[str]:
     return next(row[1:] for row in counts.fates(*experiments()) if row[0] == kind)
 
 
+def without_bonus() -> tuple[int, float]:
+    """With both aids, a β that never ends and c = 0: how many agents keep the way out, and the return of these."""
+    agents = shipped_experiment("ablations")["β for ever, c = 0"].of("bootstrapped")
+    kept = agents.found_and_kept("bootstrapped")[1]
+    return int(kept.sum()), float(agents.scores("returns")[kept].mean())
+
+
 def first_losses() -> list[tuple[int, int]]:
     """Of each of the study's agents with both aids: the failures in the window in which it first loses the way out, and
     how many of these are accidents.
