@@ -1,5 +1,6 @@
 """The notebooks as files. nbval executes them; test_course.py holds them to the lessons' texts."""
 
+import ast
 import re
 from pathlib import Path
 
@@ -53,3 +54,11 @@ def test_each_row_of_a_table_is_one_line(notebook):
     text = "\n\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
     assert re.findall(r"^\|.*\n(?!\||\n).+", text, re.M) == []
     assert [line for line in text.splitlines() if line.startswith("|") and not line.rstrip().endswith("|")] == []
+
+
+def test_the_code_that_answers_a_prediction_does_not_say_the_answer(notebook):
+    """It is read before it is run: a title that is a sentence stands in the lesson's figures, not in the cell."""
+    answering = [cell.source for cell in notebook.cells if "predicted(" in cell.source and cell.cell_type == "code"]
+    parts = [node for source in answering for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Constant)]
+    strings = [part.value for part in parts if isinstance(part.value, str) and "\n" not in part.value]
+    assert [words for words in strings if len(words.split()) >= 8 and not words.endswith(".")] == []

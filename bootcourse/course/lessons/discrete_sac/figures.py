@@ -50,8 +50,9 @@ def _draw_cart(ax, state: np.ndarray, x: float, colour: str) -> None:
     ax.plot([cart, tip[0]], [0.15, tip[1]], color=colour, linewidth=3.5, solid_capstyle="round")
 
 
-def against_temperature(q: Sequence[float], title: str) -> Figure:
+def against_temperature(q: Sequence[float]) -> Figure:
     """Soft values of the sure, the even and the best policy over α, of a state whose actions have these Q."""
+    title = f"Above α = {1 / np.log(2):.2f} the even policy is worth more than the sure one"
     values, temperatures = torch.tensor([q], dtype=torch.float64), np.linspace(0, 3, 31)
     worth = {name: [] for name in ("the sure policy", "the even policy", "the best policy")}
     for alpha in torch.tensor(temperatures):

@@ -157,8 +157,7 @@ predict("discrete_sac.2", "At which α are both worth the same?", ["0.5", "0.693
 
 # %%
 predicted("discrete_sac.2")
-title = f"Above α = {1 / np.log(2):.2f} the even policy is worth more than the sure one"
-bc.show(figures.against_temperature([1.0, 3.0], title))
+bc.show(figures.against_temperature([1.0, 3.0]))
 
 # %% [markdown]
 # **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy: both have the same V

@@ -63,8 +63,9 @@ def compared(drives_of: Mapping[str, Episodes]) -> tuple[list[str], list[list]]:
     return ["the same agent", f"accidents in {roads}", "return"], rows
 
 
-def each_agent(cells: dict[str, Results], bases: Sequence[str], title: str) -> Figure:
+def each_agent(cells: dict[str, Results], bases: Sequence[str]) -> Figure:
     """Each agent's success and accidents, from alone to with rollouts: a panel for each measure and base policy."""
+    title = "With rollouts some agents leave the trap, and some crash more often than alone"
     figure, alt_parts, left, high = new_figure(2 * 2.1 + 0.7), [], 0.55, 2.1
     width = (WIDTH - left - 0.1) / len(bases)
     measures = {"ahead of trap 1 (%)": "success", "accidents in 1,000 drives (logarithmic above 1)": "accidents"}
@@ -100,11 +101,12 @@ def promised(agent: Agent, model: RoadModel, roads: Sequence[int]) -> tuple[list
     return ["action at the first decision", "the model promises", "the true road gives"], rows
 
 
-def learned(computed: dict[str, Results], cells: dict[str, Results], title: str) -> Figure:
+def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
     """Accidents of each agent with a model that it learned: a panel for each form, over the rounds; 0 is alone.
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
+    title = "Drives of the look-ahead help its rollouts in part; more drives of the agent do not"
     figure, rounds, alt_parts = new_figure(3.7), learned_model.ROUNDS, []
     agents, colour, left = learned_model.together(computed), style(learned_model.BASE).colour, 0.6
     width = (WIDTH - left) / len(LEARNED_FORMS)
@@ -139,13 +141,12 @@ def _check_computed(there: Container, wanted: Sequence, base: str) -> None:
         )
 
 
-def wrong_models(
-    cells: dict[str, Results], title: str = "Accidents with models that are wrong", base: str = CLOSELY[0]
-) -> Figure:
+def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     """Accidents and return with each wrong model, as full rollouts and as a shield, and of the base policy alone.
 
     Raises BootcourseError if the base policy alone, or any of the two with a model, was not computed.
     """
+    title = "With everything a second late, every drive with rollouts ends in an accident"
     alone, names = score(cells, Cell(base, "alone")), list(MODELS)
     models = [Cell(base, form, model=name).name for form in ("rollouts", "shield") for name in names]
     _check_computed(cells, [Cell(base, "alone").name, *models], base)

@@ -184,8 +184,7 @@ predict("looking_ahead.3", "Do the nine get out in some drives, and do any crash
 # %%
 predicted("looking_ahead.3")
 study = shipped_experiment("look-ahead")
-title = "With rollouts some agents leave the trap, and some crash more often than alone"
-bc.show(figures.each_agent(study, ("sac", "demos"), title))
+bc.show(figures.each_agent(study, ("sac", "demos")))
 
 # %% [markdown]
 # **See.** Each line is an agent. Of the nine, {{ (of_the_nine() > 0).sum() }} get out in some
@@ -265,8 +264,7 @@ predict("looking_ahead.4", "Which error ends every drive in an accident?", list(
 
 # %% tags=["nbval-ignore-output"]
 predicted("looking_ahead.4")
-title = "With everything a second late, every drive with rollouts ends in an accident"
-bc.show(figures.wrong_models(study, title))
+bc.show(figures.wrong_models(study))
 
 # %% [markdown]
 # **See.** With the exact model these agents have no accident. With everything a second late each
@@ -331,8 +329,7 @@ predict("looking_ahead.5", "After which do the rollouts crash less?", choices)
 
 # %%
 predicted("looking_ahead.5")
-title = "Drives of the look-ahead help its rollouts in part; more drives of the agent do not"
-bc.show(figures.learned(shipped_experiment("learned-model"), study, title))
+bc.show(figures.learned(shipped_experiment("learned-model"), study))
 
 # %% [markdown]
 # **See.** Means of ten agents:

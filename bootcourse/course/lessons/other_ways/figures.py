@@ -99,11 +99,12 @@ def handing_over(driven: Episodes) -> Figure:
     return finish(figure, title, f"A column for each training episode. h: {first}; {accidents}; {ends}.")
 
 
-def at_equal_decisions(computed: Mapping[str, Results], rule: float, title: str) -> Figure:
+def at_equal_decisions(computed: Mapping[str, Results], rule: float) -> Figure:
     """Returns with their 95 % intervals, a row for each method, a panel for each budget; then the accidents.
 
     computed: see `equal_decisions.by_method`; rule: what the rule earns, the green line.
     """
+    title = "After 100,000 decisions bootstrapped SAC and IBRL earn more than PPO after cloning"
     names, alt_parts, height = [display_name(method) for method in computed], [], 0.35 * len(computed)
     figure = new_figure(1.6 + height)
     crashes = f"accidents in 100 drives,\n{SHOWN[0]:,} decisions"

@@ -251,8 +251,7 @@ predict("other_ways.3", "Which has the lowest mean return after 100,000 decision
 predicted("other_ways.3")
 compared = equal_decisions.by_method(shipped.shipped_experiment("beyond"))
 by_rule = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 200))
-title = "After 100,000 decisions bootstrapped SAC and IBRL earn more than PPO after cloning"
-bc.show(figures.at_equal_decisions(compared, by_rule.returns.mean(), title))
+bc.show(figures.at_equal_decisions(compared, by_rule.returns.mean()))
 
 # %% [markdown]
 # **See.** A **rank test** (lesson [[your_teacher]]) compares the agents of two methods. The five

@@ -15,8 +15,9 @@ from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
 
 
-def worth(outcomes: Mapping[str, Outcome], title: str) -> Figure:
+def worth(outcomes: Mapping[str, Outcome]) -> Figure:
     """What each kind of attempt is worth at two discounts, beside the line of the one that "stays"; its accidents."""
+    title = "At γ = 0.8 none of these pays as much as staying; at γ = 0.95 the plan and the rule's way pay more"
     kinds = [name for name in outcomes if name != "stays"]
     height, top = 0.3 * len(kinds), 1.0
     figure, listed = new_figure(top + height + 0.62), []
@@ -63,8 +64,9 @@ def ends(results: Results, gamma: float) -> list[tuple[int, bool]]:
     return list(zip(far.tolist(), (accident > 0.5).tolist(), strict=True))
 
 
-def escapes(trained: Mapping[str, Results], kinds: Sequence[str], title: str) -> Figure:
+def escapes(trained: Mapping[str, Results], kinds: Sequence[str]) -> Figure:
     """How the agents of each of these kinds of road end, at each discount."""
+    title = "From each of the easier roads few agents escape"
     panels = {}
     for kind in kinds:
         for gamma in sorted({agent["gamma"] for agent in trained[kind].agents}):

@@ -249,9 +249,7 @@ predicted("the_barrier.3")
 TESTED, outcomes = bc.held_out_seeds(7, 500), {}
 for name, driver in attempts.kinds(len(TESTED)).items():
     outcomes[name] = attempts.drive(driver, TESTED)
-title = "At γ = 0.8 none of these is worth as much as staying; "
-title += "at γ = 0.95 the plan and the rule's way are worth more"
-bc.show(figures.worth(outcomes, title))
+bc.show(figures.worth(outcomes))
 
 # %% [markdown]
 # **Explain.** An attempt costs now and pays later. This is part of the **barrier**:
@@ -308,8 +306,7 @@ predict("the_barrier.4", "How many of the twenty agents escape from mid-lane?", 
 
 # %%
 predicted("the_barrier.4")
-title = "From each of the easier roads few agents escape"
-bc.show(figures.escapes(trained, easier.SHOWN, title))
+bc.show(figures.escapes(trained, easier.SHOWN))
 
 # %% [markdown]
 # **Explain.** {{ easy(MIDDLE).escapers('sac') }} of twenty agents escape from mid-lane. {{

@@ -70,8 +70,9 @@ def reasons_over_time(rollout: Rollout, title: str, enlarged: float = 15.0) -> F
     return finish(figure, title, f"Share of the decisions: {shares}.")
 
 
-def against_sight(sights: Sequence[float], driven: Sequence[Episodes], title: str) -> Figure:
+def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure:
     """The rule's mean return against how far it sees (m); a red cross where it has accidents."""
+    title = "A shorter sight more than doubles the rule's return, until it loses the traps"
     returns = np.array([each.returns.mean() for each in driven])
     crashed = np.array([np.mean(each.accident > 0) for each in driven])
     figure, ax = one_axes(3.2, title, "how far the rule sees (m)", "return of an episode")

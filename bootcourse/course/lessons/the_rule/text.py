@@ -262,8 +262,7 @@ predicted("the_rule.3")
 sights = [20, 30, 50, 70, 100, 150, 200]
 by_sight = [rules.driven(sight) for sight in sights]
 safe = [s for s, each in zip(sights, by_sight, strict=True) if not each.accident.any()]
-title = "A shorter sight more than doubles the rule's return, until it loses the traps"
-bc.show(figures.against_sight(sights, by_sight, title))
+bc.show(figures.against_sight(sights, by_sight))
 
 # %% [markdown]
 # **Explain.** The sight of {{ DEFAULT.sight.distance | g }} m is our choice (§), and we keep it:

@@ -20,6 +20,8 @@ from bootcourse.scenario import DEFAULT
 RATIOS = np.linspace(0.3, 1.7, 141)
 POINTS = (0.5, 1.5)  # where a dot says what the gradient does
 
+AFTER_CLONING = "After cloning, PPO gets out and earns about twice what the rule earns"
+
 
 def plane(kinds: Mapping[str, Driven], title: str, own: Sequence[tuple[float, float]] = ()) -> Figure:
     """Where each agent's return and its share of roads ahead put it: a dot for each.
@@ -61,8 +63,9 @@ def learning(yours: Trained, title: str) -> Figure:
     return lines(at / 1000, named, title, *labels, marks=marks, looks=looks, alt=ends)
 
 
-def hinges(clipped_loss: Callable[[Tensor, Tensor, float], Tensor], clip: float, title: str) -> Figure:
+def hinges(clipped_loss: Callable[[Tensor, Tensor, float], Tensor], clip: float) -> Figure:
     """Two panels, for a decision that turned out well (A = 2) and one that turned out badly (A = −2)."""
+    title = "A good action pushes until it is 20 % likelier, a bad one until it is 20 % rarer"
     figure, colour, alt_parts = new_figure(3.7), style("ppo").colour, []
     for left, advantage in zip((0.5, 4.0), (2.0, -2.0), strict=True):
         ax = axes_at(figure, left, 1.0, 2.85, 1.9)
@@ -89,8 +92,9 @@ def hinges(clipped_loss: Callable[[Tensor, Tensor, float], Tensor], clip: float,
     return finish(figure, title, f"The loss against the ratio. {'; '.join(alt_parts)}.")
 
 
-def two_speeds(drives: Mapping[str, Rollout], title: str) -> Figure:
+def two_speeds(drives: Mapping[str, Rollout]) -> Figure:
     """The speeds of a drive of PPO alone and of another one over time, and that of the traps."""
+    title = "Paid by the concave reward, this agent drives at almost the traps' speed, and stays"
     named = {words: speeds(drive) for words, drive in drives.items()}
     seconds, looks = np.arange(1, 1 + max(map(len, named.values()))), (Style(style("ppo").colour), Style(QUIET))
     marks = {"the traps": DEFAULT.traps.speed}

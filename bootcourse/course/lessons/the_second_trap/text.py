@@ -221,8 +221,7 @@ check.clipped_loss(clipped_loss)
 
 # %%
 predicted("the_second_trap.3")
-title = "A good action pushes until it is 20 % likelier, a bad one until it is 20 % rarer"
-bc.show(figures.hinges(ppo.clipped_loss, 0.2, title))
+bc.show(figures.hinges(ppo.clipped_loss, 0.2))
 
 # %% [markdown]
 # **The whole loss.** V learns by squared error, from $\hat V_t = A_t + V(s_t)$ (`returns` in the
@@ -301,8 +300,7 @@ predict("the_second_trap.4", "What does PPO do with the concave reward?", choice
 # %%
 predicted("the_second_trap.4")
 concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD])[0]
-title = "Paid by the concave reward, this agent drives at almost the traps' speed, and stays"
-bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": concave}, title))
+bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": concave}))
 
 # %% [markdown]
 # **See.** The sprints are gone, and none of the ten agents escapes. By the road's own reward they
@@ -350,9 +348,8 @@ training = own_code.training([ppo_kinds.settings_of("cloned")], MOST)
 start = ppo_kinds.driven(training.agent(0).as_policy())
 yours = ppo_kinds.train(training, 200_000).agent
 named = {"PPO alone": "alone", "PPO after cloning": "cloned"}
-title = "After cloning, PPO gets out and earns about twice what the rule earns"
 own = start, ppo_kinds.driven(yours.as_policy())
-bc.show(figures.plane(ppo_kinds.compared(named), title, own))
+bc.show(figures.plane(ppo_kinds.compared(named), figures.AFTER_CLONING, own))
 
 # %% [markdown]
 # **See.** All ten cloned agents escape, and earn about twice what the rule earns. But {{ 100 *

@@ -20,8 +20,9 @@ LOOKS = {"cloning": "bc", "soft": "soft", "demonstrations": "demos", "both": "bo
 NAMES = {"cloning": "clone", "soft": "soft constraint", "demonstrations": "demonstrations", "both": "both aids"}
 
 
-def climbs(title: str) -> Figure:
+def climbs() -> Figure:
     """Two drives of MountainCar: always pushed to the right, and by the course's teacher."""
+    title = "A rule of one line swings the car up to the flag"
     drives = loops.first_drives()
     longest = max(map(len, drives.values()))
     shown = {name: np.r_[x, np.full(longest - len(x), np.nan)] for name, x in drives.items()}
@@ -59,8 +60,9 @@ def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
     return finish(figure, title, f"{alt}; the last {stays} change nothing.")
 
 
-def returns(title: str) -> Figure:
+def returns() -> Figure:
     """The mean return of each agent with a flawed teacher, a dot: a column for each problem, a row for each method."""
+    title = "Clones outdo these random teachers, not the systematic ones"
     figure, alt = new_figure(4.3), []
     for row, teacher in enumerate(("random", "systematic")):
         for column, problem in enumerate(THREE):
@@ -94,8 +96,9 @@ def returns(title: str) -> Figure:
     return finish(figure, title, " ".join(alt))
 
 
-def bonuses(title: str) -> Figure:
+def bonuses() -> Figure:
     """How often agents with both aids reach the goal of DoorKey, over the bonus, for each teacher; drawn actions."""
+    title = "With a flawed teacher, the larger the bonus the rarer the goal"
     at, named = np.arange(len(BONUSES)), {}
     for teacher in ("good", "random", "systematic"):
         scores = [cells().mean("doorkey", teacher, method, "drawn_success") for method in BONUSES.values()]

@@ -56,7 +56,7 @@ predict(
 
 # %%
 predicted("your_own_problem.1")
-bc.show(figures.climbs("A rule of one line swings the car up to the flag"))
+bc.show(figures.climbs())
 
 # %% [markdown]
 # **See.** To get up, the car has to drive away from the flag in between. The reward does not say so:
@@ -129,7 +129,7 @@ predict("your_own_problem.2", "What does the clone of the random teacher earn?",
 
 # %%
 predicted("your_own_problem.2")
-bc.show(figures.returns("Clones outdo these random teachers, not the systematic ones"))
+bc.show(figures.returns())
 
 # %% [markdown]
 # **See.** The clones of each random teacher earn nearly what the good one does, or more; those of a
@@ -204,7 +204,7 @@ predict("your_own_problem.3", "How often do agents with both aids reach the goal
 
 # %%
 predicted("your_own_problem.3")
-bc.show(figures.bonuses("With a flawed teacher, the larger the bonus the rarer the goal"))
+bc.show(figures.bonuses())
 
 # %% [markdown]
 # **See.** With c = 2 and a flawed teacher the goal is hardly ever reached; with the good one both

@@ -80,14 +80,13 @@ def cars_in_rows(cars: np.ndarray, shown: int = 5) -> Markdown:
     return table(["car", "`X` (m)", "`Y` (m)", "`SPEED` (m/s)", "`LANE`"], rows)
 
 
-def students(
-    groups: Mapping[str, Mapping[str, np.ndarray]], verdicts: Mapping[str, Mapping[str, str]], title: str
-) -> Figure:
+def students(groups: Mapping[str, Mapping[str, np.ndarray]], verdicts: Mapping[str, Mapping[str, str]]) -> Figure:
     """Each student's success as a dot, a row for each group; beside it how many escape, return and accidents.
 
     groups: {teacher, or "alone": what `taught_agents.tested` says of its students, each (agents,)}; verdicts: as
     `taught_agents.verdicts` returns them.
     """
+    title = "The racer's students get out more often than those alone, and earn less"
     row = 0.42
     figure = new_figure(HEAD + row * len(groups) + FOOT)
     ax = axes_at(figure, 1.25, HEAD, 2.8, row * len(groups))
@@ -109,11 +108,12 @@ def students(
     return finish(figure, title, f"A dot for each student. {'; '.join(alt_parts)}.")
 
 
-def learners(computed: Cells, title: str) -> Figure:
+def learners(computed: Cells) -> Figure:
     """Each agent's return as a dot, a row for each learner below its teacher, whose own return is a green line.
 
     computed: as `shipped_teachers` returns them; what was not run has no row.
     """
+    title = "All ten bootstrapped students of the half-random teacher escape; with labels alone, one"
     teachers = [teacher for teacher in TEACHERS if any(teacher == each for each, _ in computed)]
     row, heads, labels, place, alt_parts = 0.32, {}, {}, 0, []
     for teacher in teachers:

@@ -221,8 +221,7 @@ predict("your_teacher.2", "What do the students of the racer earn?", choices)
 predicted("your_teacher.2")
 groups = taught_agents.reference()
 verdicts = taught_agents.verdicts(groups)
-title = "The racer's students get out more often than those alone, and earn less"
-bc.show(figures.students(groups | {"yours, 3 here": learned}, verdicts, title))
+bc.show(figures.students(groups | {"yours, 3 here": learned}, verdicts))
 
 # %% [markdown]
 # **See.** Of these six teachers only those that get out have students that escape, and of the ten
@@ -322,8 +321,7 @@ predict("your_teacher.4", "How many of ten escape with the labels alone?", choic
 # %%
 predicted("your_teacher.4")
 worth = taught_agents.of_two_learners()
-title = "All ten bootstrapped students of the half-random teacher escape; with labels alone, one"
-bc.show(figures.learners(worth, title))
+bc.show(figures.learners(worth))
 
 # %% [markdown]
 # **See.** Students can earn more than their teacher: the green line is its own return. None of the
