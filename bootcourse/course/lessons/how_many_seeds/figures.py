@@ -33,8 +33,8 @@ def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
     ax.set_xlim(-2, 102)
     everyone = np.concatenate([results.of(method).scores("success") for method in methods])
     split = int(((everyone > 0.9) | (everyone < 0.1)).sum())
-    who = f"each of {split} agents succeeds" if split == len(everyone) else f"{split} of {len(everyone)} agents succeed"
-    title = f"Training works or fails: {who} on over 90 % of the roads or on under 10 %"
+    who = f"each of {split} agents gets out" if split == len(everyone) else f"{split} of {len(everyone)} agents get out"
+    title = f"Success is all or nothing: {who} on over 90 % of the roads or on under 10 %"
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
 
 

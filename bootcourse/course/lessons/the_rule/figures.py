@@ -72,7 +72,7 @@ def reasons_over_time(rollout: Rollout, title: str, enlarged: float = 15.0) -> F
 
 def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure:
     """The rule's mean return against how far it sees (m); a red cross where it has accidents."""
-    title = "A shorter sight more than doubles the rule's return, until it loses the traps"
+    title = "A shorter sight more than doubles the rule's return; at 20 m drives crash"
     returns = np.array([each.returns.mean() for each in driven])
     crashed = np.array([np.mean(each.accident > 0) for each in driven])
     figure, ax = one_axes(3.2, title, "how far the rule sees (m)", "return of an episode")

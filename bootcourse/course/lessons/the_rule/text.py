@@ -165,8 +165,9 @@ bc.show(figures.when_to_change(drive))
 # %% [markdown]
 # **Explain.** While you are slower, the left side is negative. The condition would be true when you
 # close in fast on a near car, which is when a lane change is dangerous. So we take its sign for a
-# misprint. But with its sign turned it is true at once, beside trap 2. So our rule changes lane when
-# the gap *from bumper to bumper* is **longer** than the safety distance, and this has a floor.
+# misprint. Turn it, and the condition is true at once, with trap 2 still beside you: Δx counts from
+# centre to centre. So our rule changes lane when the gap *from bumper to bumper* is **longer** than
+# the safety distance, and this has a floor.
 # <!-- claim: (8.25 - 10) * DEFAULT.rule.t_safe < 0 < 12 -->
 # <!-- claim: (8.25 - 10) * DEFAULT.rule.t_safe < by_rule().states[0, TRAP_2, X] < DEFAULT.car.length -->
 #
@@ -249,9 +250,8 @@ bc.show(figures.speed_and_distance(drive, title))
 # With a shorter sight it would slow down later.
 #
 # > **Predict.** A lane change needs trap 2 more than
-# > {{ DEFAULT.car.length + DEFAULT.rule.floor | g }} m ahead. Trap 1 is
-# > {{ apart()[0] | .0f }} to {{ apart()[1] | .0f }} m farther. When it is out of sight, the rule
-# > speeds up. Which is the shortest sight without an accident?
+# > {{ DEFAULT.car.length + DEFAULT.rule.floor | g }} m ahead. Trap 1 is {{ apart()[0] | .0f }} to
+# > {{ apart()[1] | .0f }} m farther. When it is out of sight, the rule speeds up. Which is the shortest sight without an accident, with this floor?
 
 # %%
 choices = ["150 m", "100 m", "50 m", "30 m", "20 m"]
@@ -267,10 +267,10 @@ bc.show(figures.against_sight(sights, by_sight))
 # %% [markdown]
 # **Explain.** The sight of {{ DEFAULT.sight.distance | g }} m is our choice (§), and we keep it:
 # such a teacher, without accidents but **sub-optimal**, is what the paper is about. But remember:
-# **with a sight of 30 m the rule earns {{ rule_seeing(30.0).returns.mean() | .0f }} on the same {{ roads() | , }}
-# roads, and gets out on each without an accident**. (Part of this is a gift of the drivers ahead, who
-# make way.) A later lesson that says "earns more than the rule" compares with the rule that *we* made
-# slow.
+# **with a sight of 30 m the rule earns {{ rule_seeing(30.0).returns.mean() | .0f }} on the same {{
+# roads() | , }} roads, and gets out on each without an accident**. (Most of this gain is a gift of
+# the drivers ahead, who make way: see the end.) A later lesson that says "earns more than the rule"
+# compares with the rule that *we* made slow.
 # <!-- claim: rule_seeing(30.0).success.all() and not rule_seeing(30.0).accident.any() -->
 # <!-- claim: rule_seeing(30.0).returns.mean() > 2 * of('rule').scores('returns').mean() -->
 # <!-- claim: driven(20.0).accident.any() and not driven(30.0).accident.any() -->
@@ -291,8 +291,9 @@ rules.ranked({"the rule": {}, "a sight of 30 m": {"sight": 30}, "yours": mine})
 #
 # With a sight of 20 m some drives crash. Can the two safety numbers prevent it?
 #
-# > **Predict.** With which floor do most drives get out? Is trap 1 still in sight when the lane change
-# > *ends*? If nobody is, case 1 applies: the rule calls the change off and speeds up.
+# > **Predict.** At 20 m and t_safe = 1.5 s, with which floor do most drives get out? Is trap 1
+# > still in sight when the lane change *ends*? If nobody is, case 1 applies: the rule calls the
+# > change off and speeds up.
 
 # %%
 predict("the_rule.4", "With which floor do most drives get out?", ["0.5 m", "3 m", "6 m"])
@@ -305,13 +306,13 @@ rules.ends(far + near)
 
 # %% [markdown]
 # **Explain.** At 200 m the two numbers hardly matter. At 20 m the floor decides when the change
-# begins. With 6 m trap 1 is on most roads out of sight before there is room. With 3 m
-# {{ begun_in_sight(3.0) }} drives begin in time, but a second later
-# {{ first_changes(3.0)[1].sum() }} have lost trap 1: they call the change off and speed up. All that
-# crash are among these. They change lane later, {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s
-# faster than trap 2, and the gap is just what they need to brake. With t_safe = 2 s it is longer, and
-# none crashes. With 0.5 m each drive completes its first change. *The floor is meant for safety, and
-# yet with 3 m the rule is less safe than with 0.5 m.*
+# begins. With 6 m trap 1 is on most roads out of sight before there is room. With 3 m {{
+# begun_in_sight(3.0) }} drives begin in time, but a second later {{ first_changes(3.0)[1].sum() }}
+# have lost trap 1: they call the change off and speed up. All that crash are among these: they
+# change lane later, {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster than trap 2, and
+# t_safe = 1.5 s leaves just the gap to brake in, nothing to spare. With 2 s none crashes. With 0.5
+# m each drive completes its first change. *The floor is meant for safety; at this sight drives
+# crash with the larger one.*
 # <!-- claim: begun_in_sight(6.0) < 60 and begun_in_sight(0.5) == 200 == first_changes(0.5)[0].sum() -->
 # <!-- claim: first_changes(3.0)[1][driven(20.0).accident > 0].all() and
 #   first_changes(3.0)[0].sum() + first_changes(3.0)[1].sum() == begun_in_sight(3.0) -->
@@ -353,8 +354,9 @@ for p in (0.5, 0.9, 0.99, 0.999):
 table(["p, 1,000 roads each", "no accident", "leaves the road", "collides"], rows)
 
 # %% [markdown]
-# **Explain.** At p = 0.9 most drives leave the road. So the rule itself drives this course's
-# demonstrations, and $\tilde\pi$ is what the learner is compared with.
+# **Explain.** At p = 0.9 most drives leave the road. We let the rule itself drive most
+# demonstrations (lesson [[demonstrations]] tests this choice); $\tilde\pi$ is what the learner is
+# compared with.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask what a stochastic rule is good for if it drives so badly. (It does not have to drive: it gives
