@@ -89,7 +89,7 @@ def differing(agents: Sequence[Agent], of_rule: Sequence[Rollout], own: Sequence
     unlike = cloning.unlike_the_rule(own)
     mine, here = np.nanmean(unlike, axis=0), f"{100 * np.nanmean(unlike[:, 10:40]):.0f} %"
     there = f"{100 * theirs[10:40].mean():.0f} %"
-    title = f"From 10 to 40 s the clones differ in {here} of their own states, in {there} of the rule's"
+    title = f"First they differ in both; from 10 to 40 s in {here} of their own states, in {there} of the rule's"
     named = {"in their own states": 100 * mine, "in the rule's states": 100 * theirs}
     looks = [charts.Style(style(method).colour) for method in ("bc", "rule")]
     return charts.lines(np.arange(len(mine)), named, title, "time (s)", "differ (%)", looks=looks)

@@ -57,7 +57,7 @@ bc.show(figures.where_they_were(driven, seconds=30, title=title))
 
 # %% [markdown]
 # Whose drives would you copy: the rule's, without an accident, or those of the stochastic rule,
-# which often leaves the road? Round 2 compares them.
+# which often leaves the road?
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -111,12 +111,10 @@ for name, each in (("the rule", by_rule), ("the stochastic rule", by_chance)):
 table(["200 episodes of", "transitions", "end in an accident", "not the rule's action"], rows)
 
 # %% [markdown]
-# **See.** *A small risk in each second is a large one in a drive.* With {{ 100 * (1 - 0.1 ** (1 /
-# 150)) | .1f }} % a second one drive in ten lasts 150 s, and the mean drive about a minute: 200
-# minutes are 12,000 transitions.
+# **See.** *A small risk in each second is a large one in a drive.* One drive in ten lasts
+# 150 s: (1 − q)¹⁵⁰ = 0.1, so the risk q is {{ 100 * (1 - 0.1 ** (1 / 150)) | .1f }} % a second. The
+# mean drive lasts 0.9 / q, about a minute: 200 minutes are 12,000 transitions.
 # <!-- claim: 58 < 0.9 / (1 - 0.1 ** (1 / 150)) < 62 -->
-#
-# One in ten rows of the stochastic rule holds another action than the rule's.
 #
 # The third way: drive the road below yourself, until you get out once. Round 2 clones your drives
 # that get out or, if there is none, the rule's.
@@ -190,14 +188,14 @@ measured = {name: cloning.measure(clones[name], rows) for name, rows in data.ite
 bc.show(figures.clones(measured))
 
 # %% [markdown]
-# **See.** In our runs the clones of the rule agree most with their data, and crash most. *Agreement
-# does not say who drives well:* the rule's eight clones agree about equally, and some crash at
-# least twice as often as others.
+# **See.** *Agreement does not say who drives well:* the rule's eight clones agree about equally, and
+# some crash at least twice as often as others. The stochastic rule's clones crash far less than it
+# does: they take the likeliest action.
 #
-# The third data set is labelled by the rule, as the first is, and has other states. So here it is
-# the states that help. These drives also end earlier; but eight clones of the rule's drives, cut to
-# the same lengths, crash far more often than those of the third set. We think it is
-# **coverage**: the stochastic rule's drives contain more states, and show how to return to the path.
+# The third data set is labelled by the rule, as the first is, and has other states. So here the
+# states help. These drives also end earlier; but four clones of the rule's drives, cut to the same
+# lengths, crash far more often than those of the third set. We think it is **coverage**: the
+# stochastic rule's drives contain more states, and show how to return to the path.
 # <!-- claim: accidents_of_clones_of_cut_drives() > 0.25 -->
 #
 # All this is after very short training. The study's clones, with more than 40 times as many
@@ -282,12 +280,14 @@ bc.show(figures.differing(rule_clones, driven["the rule"], alone))
 print(cloning.slowness(driven["the rule"], alone))
 
 # %% [markdown]
-# **See.** *One error feeds itself: slowness after the lane change.* The rule accelerates
-# at once, so its drives hardly show a slow car in the free lane. The clone keeps its speed, stays
-# slow, and meets such states again: this error makes the next one.
+# **See.** *First they err in the rule's states, too: mostly they steer too early or too late. Then
+# one error feeds itself: slowness after the lane change.* The rule accelerates at once, so its
+# drives hardly show a slow car in the free lane. The clone keeps its speed, stays slow, and meets
+# such states again.
+# <!-- claim: early_errors()[0] > 0.3 and early_errors()[1] > 0.8 -->
 #
-# Does it cause the accidents? Let the rule drive the first 15 s, or only the seconds 15 to 40, and
-# the clone the rest.
+# Which counts more? Let the rule drive the first 15 s, or only the seconds 15 to 40, and the clone
+# the rest.
 
 # %%
 tests = {
@@ -298,16 +298,16 @@ tests = {
 table(*figures.of_tests(tests))
 
 # %% [markdown]
-# **See.** *Slowness feeds itself, but does not explain most accidents.* In the second row the
-# clones differ less, so their errors do compound, and they seldom crash. In the third they are
-# hardly slow, and crash far more often than in the second. So the first 15 s matter more. Most
-# accidents come after 40 s; why, the table does not show.
+# **See.** *They err first where training was too short, and errors lead to errors.* In the second
+# row the clones differ less, so their errors do compound, and they seldom crash. In the third they
+# are far less slow than in the first, and crash almost as often: 25 s of the rule do not make up
+# for the first 15 s. (Trained longer, they hardly crash: Round 2.)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Stop at the slow car. Ask which rows in the data would show how to leave such a state, and who
 # could supply them: a driver that errs (Round 2), or a teacher that labels the clone's own states
-# (Round 4). Then ask what the last row of the table rules out: that the slow start makes most of
-# the accidents. Draw both bounds, T and T².
+# (Round 4). Then ask what the last row of the table rules out: that the slowness makes most of the
+# accidents. Draw both bounds, T and T².
 
 # %% [markdown]
 # ## Round 4: what if the rule labels the clone's own states?
@@ -354,17 +354,17 @@ table(*figures.of_trainings(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
 # **Explain.** *In our trainings the clone comes to agree less in the rule's states, and more in its
-# own.* There it counts: a probability of at most ε in its own states adds up to at most ε T
-# errors, with no T². (Not every error is an accident.)
+# own.* A probability of at most ε there adds up to at most ε T errors, with no T². (But compare
+# rows 1 and 2: which errors are left counts, too.)
 #
 # The last one learned from 80 drives, with as many updates as the clones of 200, and crashes far
 # less. Three trainings do not show that each one works: try `seeds=range(3, 7)`.
 #
-# The study's clones of 200 drives, trained longer, hardly crash either: DAgger can pay where
-# training is short.
+# The study's clones of the rule, trained longer, hardly crash either: DAgger can pay where training
+# is short.
 #
-# The cloning loss asks a clone to be like its teacher, not better. To drive better than the rule,
-# an agent has to learn from what its actions lead to: lesson [[learning_from_demonstrations]].
+# A clone can leave out its teacher's rare slips (Round 2), but its loss does not ask what an action
+# leads to. A learner that does: lesson [[learning_from_demonstrations]].
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody
@@ -390,12 +390,14 @@ compare_predictions(
 # ## What you now know
 #
 # 1. A demonstration is a list of transitions. An accident terminates the last one, the end
-#    of the time does not. Look into the data before you learn from them.
+#    of the time does not.
 # 2. A clone's agreement with its data does not say how well it drives.
 # 3. A clone is trained on the teacher's states and drives in its own, where one error can lead to
 #    the next: ours, after {{ UPDATES | , }} updates, stay slow. With many more, ten of ten escape.
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 and accidents('bc') < 0.01 -->
-# 4. In this short training, clones of a driver that often errs crash less than clones of the rule.
+# 4. In this short training, clones of a driver that often errs crash less than clones of the rule;
+#    in the study's long one, more.
+# <!-- claim: clones_of_the_stochastic_rule().scores('accident').mean() > 10 * accidents('bc') -->
 # 5. DAgger asks the teacher for labels in the clone's own states.
 #
 # **Three questions to think about**

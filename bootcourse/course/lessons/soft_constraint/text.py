@@ -87,13 +87,13 @@ table(["p", "price of the rule's action (nats)", "of any other (nats)"], rows)
 # From p = 0.9 to 0.99 any other action becomes ten times as unlikely, but its price grows by
 # $\log 10$ = {{ math.log(10) | .1f }} nats only.
 #
-# A whole policy is charged its mean price, less its entropy, so that π̃ itself pays nothing.
-# This is the **Kullback-Leibler divergence** (KL) from π̃:
+# A whole policy is charged its mean price, less its entropy. This is the **Kullback-Leibler
+# divergence** (KL) from π̃:
 #
 # $$ D_\mathrm{KL}(\pi \,\|\, \tilde\pi) = \sum_a \pi(a|s) \big( -\log \tilde\pi(a|s) \big)
 # - \mathcal{H}(\pi) = \sum_a \pi(a|s) \log \frac{\pi(a|s)}{\tilde\pi(a|s)} $$
 #
-# The KL is 0 if the two policies are equal, otherwise positive.
+# It is 0 if the two policies are equal, otherwise positive.
 # <!-- claim: bool((lambda a, p: bootstrap.kl_to_rule(bootstrap.log_stochastic_rule(a, p), a,
 #   p))(torch.tensor([3]), torch.tensor(0.9)) == 0) -->
 #
@@ -215,9 +215,9 @@ bc.show(figures.compromise(q, log_rule, alpha, best))
 # another Q and another temperature*, $Q + \xi\log\tilde\pi$ and α + ξ. The rule's action gets $\xi
 # \log \frac{8p}{1-p}$ more than any other: its **head start**.
 #
-# With p = 0.9 and the paper's first ξ = 2 the head start is {{ 2 * math.log(72) | .2f }}. If Q counts
-# rewards only, driving at 15 m/s for ever is worth about {{ second_pays(15) / (1 - 0.8) | .1f }} at
-# γ = 0.8, so speed alone cannot outweigh the rule. A crash in the next second, −10, can.
+# With p = 0.9 and the paper's first ξ = 2 it is {{ 2 * math.log(72) | .2f }}. In rewards alone, driving
+# at 15 m/s for ever is worth about {{ second_pays(15) / (1 - 0.8) | .1f }} at γ = 0.8, so speed cannot
+# outweigh the rule. A crash in the next second, −10, can.
 # <!-- claim: second_pays(15) / (1 - 0.8) < 2 * math.log(8 * 0.9 / 0.1) < -DEFAULT.reward.accident -->
 
 # %% [markdown]
@@ -231,8 +231,9 @@ its_drive = bc.record(helped.as_policy(with_q=True), [ROAD], label="soft")[0]
 bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 
 # %% [markdown]
-# **See.** On this road, with ξ near 0.1, the car has an accident, although with Q alone and with the rule
-# alone it has none. *A compromise between two good drivers need not be a good driver.*
+# **See.** With ξ near 0.1 the car has an accident on this road; with Q alone or the rule alone it has
+# none. *A compromise between two good drivers need not be a good driver.* (This Q was learned while ξ
+# fell towards 0.)
 # <!-- claim: accidents_of_the_panel(0.1) == ['this compromise'] and accidents_of_the_panel(0) ==
 #   accidents_of_the_panel(1) == [] -->
 
@@ -241,8 +242,41 @@ bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 # Before the panel, ask how many seconds at full speed the head start of ξ = 2 is worth.
 
 # %% [markdown]
-# ## Round 3: where does the KL enter the losses?
+# ## Round 3: how does the pull enter the training?
 #
+# The paper couples ξ to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$, at first {{
+# SETTINGS.xi_multiplier * SETTINGS.alpha_init }}. The target entropy η = {{ SETTINGS.target_entropy }}
+# cannot be reached, so α falls, as in lesson [[discrete_sac]].
+#
+# > **Predict.** α falls to a hundredth, and so does ξ. How much of the rule's head start is left in
+# > the logits of the best compromise, (Q + ξ log π̃) / (α + ξ)?
+
+# %%
+predict(
+    "soft_constraint.3",
+    "How much of the rule's head start in the logits is left?",
+    ["a hundredth", "a tenth", "all of it"],
+)
+
+# %% [markdown]
+# **Drag** α down. Here another action is worth 1 more than the rule's: which number stays, and when
+# does the other action win?
+
+# %%
+predicted("soft_constraint.3")
+explorable.pull()
+
+# %% [markdown]
+# **See.** *The head start stays, and the temperature fades.* With ξ = 200 α:
+#
+# $$ \pi^*(a) \propto
+# \exp\Big( \frac{Q(a)}{201\,\alpha} + \tfrac{200}{201} \log\tilde\pi(a) \Big) $$
+#
+# In logits the head start is $\tfrac{200}{201} \log 72$ = {{ 200 / 201 * math.log(72) | .2f }} for every
+# α. Q is divided by 201 α, so its lead counts more and more, until the other action wins.
+# <!-- claim: math.isclose(200 / 201 * math.log(8 * RULE_P / (1 - RULE_P)), 4.26, abs_tol=0.005) -->
+
+# %% [markdown]
 # The paper puts the KL inside the sum over time that a learner maximises: each second pays $r +
 # \alpha\mathcal{H} - \xi D_\mathrm{KL}$. This changes two losses.
 #
@@ -289,7 +323,7 @@ check.constrained_target(constrained_target)
 #
 # In $Q(s,a)$ the action a is given, so Q contains neither the entropy nor the KL of s. From s' on the
 # policy chooses: $V(s')=\sum_a\pi\,Q(s',a)+\alpha\mathcal{H}-\xi D_\mathrm{KL}$, and
-# $y=r+\gamma\,(1-\text{terminated})\,V(s')$. After an accident no KL is charged.
+# $y=r+\gamma\,(1-\text{terminated})\,V(s')$.
 #
 # </details>
 #
@@ -307,7 +341,7 @@ own_code.compare()
 
 # %%
 predict(
-    "soft_constraint.3",
+    "soft_constraint.4",
     "What is following worth, compared with a crash?",
     [
         "more than a crash in both",
@@ -317,7 +351,7 @@ predict(
 )
 
 # %%
-predicted("soft_constraint.3")
+predicted("soft_constraint.4")
 follows = bc.record(bc.idle_policy, [ROAD])[0].rewards.mean(), math.log(8 / 0.1)  # reward, price
 falls_back = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD])[0].rewards[3], -math.log(0.9)
 rows = []
@@ -331,63 +365,14 @@ table(["what the car does", "Q without the value penalty", "Q with it"], rows)
 # %% [markdown]
 # **Explain.** *The value penalty takes {{ 8 * math.log(80) | .0f }} from an agent that leaves the rule for
 # ever, and {{ -8 * math.log(0.9) | .1f }} from one that obeys it.* With it a crash is worth more than
-# following trap 1, and falling back, as the rule does, more than both.
+# following trap 1, and falling back more than both.
 # <!-- claim: 0.15625 * 5 - 2 * math.log(8 / 0.1) * 4 < DEFAULT.reward.accident < -1 <
 #   by_rule().rewards[3] * 5 + 2 * math.log(RULE_P) * 4 < 0.15625 -->
 # <!-- claim: math.isclose(0.8 / (1 - 0.8), 4) -->
-#
-# An agent **finds the way out** if it ends ahead in more than half of 50 training episodes in a row,
-# and **keeps** it if it escapes after training. *Here the value penalty delays finding.* Ten agents
-# with policy regularisation alone find it sooner than each of ten with both; {{ kept(actor_only()) }}
-# and {{ kept(of('soft')) }} keep it.
-# <!-- claim: len(of('soft')) == len(actor_only()) == found(of('soft')) == found(actor_only()) == 10
-#   and sooner_without() -->
-
-# %% [markdown] tags=["instructor"] minutes=4
-# In the paper the KL stands inside the discounted sum (its Equation 15), so it is a value penalty.
-# `settings_for("soft", kl_in_target=False)` leaves it out of the target. A good project for two
-# students: ten seeds of each, success against episodes. SAC with the reward r + ξ log π̃(a|s) and the
-# temperature α + ξ has our Q plus ξ log π̃(a|s), and the same policies.
-
-# %% [markdown]
-# ## Round 4: what fades, and must it?
-#
-# The paper couples the pull to the temperature: $\xi = {{ SETTINGS.xi_multiplier }}\,\alpha$. ξ starts
-# at {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}. The target entropy η = {{
-# SETTINGS.target_entropy }} cannot be reached, so α falls, as in lesson [[discrete_sac]].
-#
-# > **Predict.** α falls to a hundredth, and so does ξ. How much of the rule's head start is left in
-# > the logits of the best compromise, (Q + ξ log π̃) / (α + ξ)?
-
-# %%
-predict(
-    "soft_constraint.4",
-    "How much of the rule's head start in the logits is left?",
-    ["a hundredth", "a tenth", "all of it"],
-)
-
-# %% [markdown]
-# **Drag** α down. Here another action is worth 1 more than the rule's: which number stays, and when
-# does the other action win?
-
-# %%
-predicted("soft_constraint.4")
-explorable.pull()
-
-# %% [markdown]
-# **See.** *The head start stays, and the temperature fades.* With ξ = 200 α:
-#
-# $$ \pi^*(a) \propto
-# \exp\Big( \frac{Q(a)}{201\,\alpha} + \tfrac{200}{201} \log\tilde\pi(a) \Big) $$
-#
-# In logits the head start is $\tfrac{200}{201} \log 72$ = {{ 200 / 201 * math.log(72) | .2f }} for every
-# α. Q is divided by the temperature 201 α, so a lead in Q counts more and more, until the other action
-# wins.
-# <!-- claim: math.isclose(200 / 201 * math.log(8 * RULE_P / (1 - RULE_P)), 4.26, abs_tol=0.005) -->
 
 # %% [markdown]
 # **Train** an agent with the paper's η, and one with η = 1.5, more than the entropy of π̃,
-# {{ entropy_of_the_rule() | .2f }}. **Say first**: what does the ξ of the second do?
+# {{ entropy_of_the_rule() | .2f }}. **Say first**: what does the second's ξ do?
 # <!-- claim: entropy_of_the_rule() < 1.5 < math.log(9) -->
 
 # %%
@@ -401,6 +386,27 @@ live.show(training)
 # targets. Later the second rises: the entropy of its π is below 1.5. A larger α divides Q by more but
 # keeps the head start, so the best compromise comes nearer to π̃, whose entropy is lower still.
 # *In this agent the coupling runs away.*
+
+# %% [markdown] tags=["instructor"] minutes=5
+# In the paper the KL stands inside the discounted sum (its Equation 15), so it is a value penalty.
+# `settings_for("soft", kl_in_target=False)` leaves it out of the target. A good project for two
+# students: ten seeds of each, success against episodes. SAC with the reward r + ξ log π̃(a|s) and the
+# temperature α + ξ has our Q plus ξ log π̃(a|s), and the same policies.
+#
+# In a trial with η = 1 the coupling took ξ of two agents beyond ten million in 800 episodes; of one
+# whose ξ stays at 2, α came to rest near 0.5.
+
+# %% [markdown]
+# ## Round 4: must the pull fade?
+#
+# An agent **finds the way out** if it ends ahead in more than half of 50 training episodes in a row.
+# It **loses** it if after {{ HAD }} of {{ IN_A_ROW }} episodes ahead come {{ LOST }} of {{ IN_A_ROW }}
+# or fewer, and **keeps** it if it escapes after training, even if it lost it in between.
+#
+# *In the study the value penalty delays finding*; why is open. Each of ten agents with policy
+# regularisation alone finds it before any of ten with both.
+# <!-- claim: len(of('soft')) == len(actor_only()) == found(of('soft')) == found(actor_only()) == 10
+#   and sooner_without() -->
 #
 # The study also trained agents whose ξ stays. **Say first**: a second at 15 m/s pays {{
 # second_pays(15) - second_pays(10) | .2f }} more than one at 10 m/s. To accelerate where the rule
@@ -414,9 +420,11 @@ kinds["ξ falls towards 0"] = [study.of("soft")]
 table(examples.HEADINGS, examples.outcomes(kinds), below=f"Ten{examples.BELOW}")
 
 # %% [markdown]
-# **Explain.** At 2 and 0.5 leaving the rule costs more than speed pays, and these agents end near the
-# rule's return. At 0.1 speed pays more: those that escape return more than twice as much, but two do not
-# find the way out. If ξ falls towards 0, all find it, and two do not keep it.
+# **Explain.** At 2 and 0.5 leaving the rule costs more than speed pays: all twenty end near the rule's
+# return, also the two that do not escape. At 0.1 speed pays more: those that escape return more than
+# twice as much, but two do not find the way out. If ξ falls towards 0, all find it, but two do not
+# keep it.
+# <!-- claim: (stays(2).escapers('soft'), stays(0.5).escapers('soft')) == (8, 10) -->
 # <!-- claim: found(stays(2)) == found(stays(0.5)) == found(of('soft')) == 10 -->
 # <!-- claim: escaped('soft') == 8 -->
 # <!-- claim: all(len(stays(xi)) == len(of('soft')) == 10 and stays(xi).sizes == of('soft').sizes for
@@ -429,13 +437,13 @@ table(examples.HEADINGS, examples.outcomes(kinds), below=f"Ten{examples.BELOW}")
 # <!-- claim: 0.1 < (second_pays(15) - second_pays(10)) / math.log(80) < 0.5 -->
 
 # %% [markdown]
-# *Finding and keeping are two things.* Now ξ = {{ SETTINGS.xi_multiplier }} α falls to 0.1 and no
-# further: `bc.settings_for("soft", xi_min=0.1)`.
+# Now ξ = {{ SETTINGS.xi_multiplier }} α falls to 0.1 and no further:
+# `bc.settings_for("soft", xi_min=0.1)`.
 #
 # > **Predict.** What do twenty such agents do?
 
 # %%
-choices = ["not all find the way out", "all find it, and some lose it", "all find it and keep it"]
+choices = ["not all find the way out", "all find it, some do not keep it", "all find and keep it"]
 predict("soft_constraint.5", "What do twenty agents do whose ξ falls to 0.1 and stays?", choices)
 
 # %%
@@ -448,12 +456,12 @@ both["ξ falls to 0.1"] = [changed["ξ falls to 0.1"], others["soft, ξ falls to
 bc.show(figures.twenty(both))
 
 # %% [markdown]
-# **See.** *A pull that is strong first and weak later finds the way out, keeps it, and returns more
-# than twice as much as the rule*, in twenty of twenty agents. Of those whose ξ falls towards 0, {{
+# **See.** *A pull that is strong first, then weak but not gone, finds the way out, keeps it, and
+# returns more than twice as much as the rule*, in twenty of twenty agents. (The floor also holds the
+# temperature α + ξ: which of the two helps is open.) Of those whose ξ falls towards 0, {{
 # returning_more() }} return more than any of these. But four do not escape, and {{ losing(fading()) }}
-# **lose** the way out at least once in training: after {{ HAD }} of {{ IN_A_ROW }} episodes ahead come {{
-# LOST }} or fewer. Chance may explain {{ in_all(kept) }} against twenty, hardly {{ losing(fading()) }}
-# against none.
+# lose the way out at least once. Chance may explain {{ in_all(kept) }} against twenty, hardly {{
+# losing(fading()) }} against none.
 # <!-- claim: stats.fisher_exact([[20, 0], [in_all(kept), 20 - in_all(kept)]]).pvalue > 0.1 -->
 # <!-- claim: losing(floored()) == 0 and stats.fisher_exact([[20, 0], [20 - losing(fading()),
 #   losing(fading())]]).pvalue < 1e-6 -->
@@ -464,41 +472,40 @@ bc.show(figures.twenty(both))
 #   and twenty(fast_keepers) == twenty(kept) -->
 # <!-- claim: 10 < returning_more() < in_all(kept) -->
 
-# %% [markdown] tags=["instructor"] minutes=5
+# %% [markdown] tags=["instructor"] minutes=4
 # Ask before the last prediction what an agent with ξ = 2 could do better than the rule, and what each
-# such second would cost it (8.8: far more than a second pays). In a trial with η = 1 the coupling took ξ
-# of two agents beyond ten million in 800 episodes; of one whose ξ stays at 2, α came to rest near 0.5.
+# such second would cost it (8.8: far more than a second pays).
 # <!-- claim: round(2 * math.log(80), 1) == 8.8 -->
 
 # %%
 penalty_alone = "less than a crash, but only with the value penalty"
 compare_predictions(
     "soft_constraint",
-    {1: "the same one, but not 0", 2: "proportional to the root of π̃", 3: penalty_alone}
-    | {4: "all of it", 5: "all find it and keep it"},
+    {1: "the same one, but not 0", 2: "proportional to the root of π̃", 3: "all of it"}
+    | {4: penalty_alone, 5: "all find and keep it"},
 )
 
 # %% [markdown]
 # ## What you now know
 #
-# 1. One number, p, turns a rule into probabilities. Minus their logarithms are the actions' prices; the
-#    KL is what a policy is charged.
+# 1. One number, p, turns a rule into probabilities. An action's price is −log π̃; a policy is charged
+#    the KL.
 # 2. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)). The rule's action has a head start of
 #    ξ log(8p / (1 − p)) in Q.
 # 3. The KL stands in the actor's loss and in the critics' target. There it lowers the value of
 #    futures in which the agent leaves the rule.
 # 4. With ξ = {{ SETTINGS.xi_multiplier }} α the head start in logits stays. The temperature fades, so
-#    Q decides in the end. With η = 1.5, above the entropy of π̃, ξ grew instead in one agent.
+#    Q decides in the end. With η above the entropy of π̃, ξ grew in one agent.
 # 5. In the study, with one update for four decisions, agents whose pull stays strong end near the
-#    rule's return. If it is weak throughout, not all find the way out. Strong first and weak later,
-#    all twenty find and keep it.
+#    rule's return. If it is weak throughout, not all find the way out. If it is strong first,
+#    then weak but not gone, all twenty find and keep it.
 # <!-- claim: twenty(found) == twenty(kept) == 20 > in_all(found, 0.1) -->
 
 # %% [markdown]
 # **Three questions to think about**
 # - An η between 0 and the entropy of π̃ can be reached. What would ξ do with η = 0.4?
 # - Where the rule is wrong, which p would you want? Could p depend on the state?
-# - Up to which ξ that stays, between 0.1 and 0.5, would agents drive fast?
+# - Up to which ξ that stays would agents drive fast?
 #
 # **Read on**: Huang et al., *Efficient Deep Reinforcement Learning with Imitative Expert Priors for
 # Autonomous Driving* (arXiv 2103.10690); Levine, *Reinforcement Learning and Control as

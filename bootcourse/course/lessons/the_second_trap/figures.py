@@ -1,4 +1,4 @@
-"""Return against success, the return in training, PPO's clipped loss against the ratio, the speeds of two drives."""
+"""Return against success, the return in training, PPO's clipped loss, two drives' speeds, a table of three rewards."""
 
 from collections.abc import Callable, Mapping, Sequence
 
@@ -9,13 +9,14 @@ from torch import Tensor
 
 from bootcourse.colours import Style
 from bootcourse.course.charts import lines
-from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, Driven, Trained, reference
+from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, Driven, Trained, agent_of, reference
 from bootcourse.course.lessons.the_second_trap.second_trap import speeds
 from bootcourse.episodes.record import Rollout, record
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
 from bootcourse.policies import idle_policy
 from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import ESCAPES
 
 RATIOS = np.linspace(0.3, 1.7, 141)
 POINTS = (0.5, 1.5)  # where a dot says what the gradient does
@@ -99,3 +100,15 @@ def two_speeds(drives: Mapping[str, Rollout]) -> Figure:
     seconds, looks = np.arange(1, 1 + max(map(len, named.values()))), (Style(style("ppo").colour), Style(QUIET))
     marks = {"the traps": DEFAULT.traps.speed}
     return lines(seconds, named, title, "time (s)", "speed (m/s)", marks=marks, looks=looks)
+
+
+def of_rewards(kinds: Mapping[str, str], road: int) -> tuple[list[str], list[list[str]], str]:
+    """A table's columns, rows and last line: how the agents drive that ship of {reward: kind}, and their speeds."""
+    columns, rows = ["trained with", "escape", "return, as the road pays", "fastest and slowest, from 20 s on"], []
+    for reward, kind in kinds.items():
+        ships = reference()[kind]
+        out, seeds = (ships["success"] >= ESCAPES).sum(), range(len(ships["success"]))
+        late = [speeds(record(agent_of(kind, seed).as_policy(), [road])[0])[20:] for seed in seeds]
+        ends = " and ".join(f"{np.mean([end(each) for each in late]):.0f}" for end in (np.max, np.min))
+        rows.append([reward, f"{out} of {len(seeds)}", f"{ships['returns'].mean():.0f}", f"{ends} m/s"])
+    return columns, rows, f"Speeds are means of the agents' drives on road {road}."

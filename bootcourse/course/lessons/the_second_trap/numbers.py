@@ -12,7 +12,7 @@ from tools.course.known import ROAD, shipped_teachers
 
 
 def ppo(kind: str) -> dict:
-    """What ships of the second trap's agents of a kind: "alone", "concave" or "cloned"."""
+    """What ships of the second trap's agents of a kind: "alone", "shaped", "concave" or "cloned"."""
     return ppo_kinds.reference()[kind]
 
 

@@ -31,6 +31,7 @@ from bootcourse.course import (
     predict,
     predicted,
     progress,
+    table,
 )
 from bootcourse.course.lessons.the_second_trap import explorable, figures, ppo_kinds, second_trap
 from bootcourse.learn import ppo
@@ -40,11 +41,14 @@ progress("the_second_trap")
 # %% [markdown]
 # ## Look first
 #
-# Here is another learner: PPO, *proximal policy optimisation*. Ten agents were trained with it,
-# without a rule or demonstrations. On {{ len(ppo_kinds.ROADS) }} new roads they earn {{
+# Here is another learner: PPO, *proximal policy optimisation*, with γ = {{
+# settings_for('ppo').gamma }} in place of SAC's {{ SETTINGS.gamma }}. Ten agents were trained without
+# a rule or demonstrations. On {{ len(ppo_kinds.ROADS) }} new roads they earn {{
 # ppo('alone')['returns'].mean() | .0f }} on average. Keeping straight behind the traps earns {{
 # idle().rewards.sum() | .0f }}; the rule, which gets out, earns {{ drivers()['the rule'][0] |
 # .0f }}.
+# <!-- claim: settings_for('ppo_cloned').gamma == settings_for('ppo').gamma and
+#   settings_for('sac').gamma == SETTINGS.gamma -->
 # <!-- claim: ppo_agents() == 10 and drivers()['the rule'][1] == 1 and
 #   drivers()['keeping straight'][1] == 0 -->
 #
@@ -68,8 +72,8 @@ title = "These ten agents of PPO alone earn about what the rule earns, and none 
 bc.show(figures.plane(ppo_kinds.compared({"PPO alone": "alone"}), title))
 
 # %% [markdown]
-# **See.** None ends ahead on any of these roads. Yet they earn twice what keeping straight (the
-# *first trap*) earns: this is the **second trap**. Returns alone do not show it.
+# **See.** None ends ahead. Yet they earn twice what keeping straight (the *first trap*) earns: this
+# is the **second trap**.
 # <!-- claim: (ppo('alone')['success'] == 0).all() and not ppo_drive().success -->
 # <!-- claim: ppo('alone')['returns'].mean() > 1.8 * idle().rewards.sum() and
 #   abs(ppo('alone')['returns'].mean() / of('rule').scores('returns')[0] - 1) < 0.25 -->
@@ -79,8 +83,6 @@ bc.show(figures.plane(ppo_kinds.compared({"PPO alone": "alone"}), title))
 
 # %% [markdown]
 # ## Round 1: what pays for it
-#
-# Look at its speed.
 
 # %%
 title = "This agent sprints and falls back, again and again, and does not pass trap 1"
@@ -129,8 +131,12 @@ print(f"mean speed {speeds.mean():.1f} m/s; if it were steady, it would pay {ste
 print(f"this drive's speed pays {steady + gap:.2f} a second: Jensen's gap is {gap:.2f}")
 
 # %% [markdown]
-# **Explain.** This drive's speed pays over twice what a steady 10 m/s pays. How does PPO learn it?
+# **Explain.** Sprints pay, but late: at γ = {{ SETTINGS.gamma }} this drive would be worth less than
+# keeping straight. How does PPO learn it?
 # <!-- claim: np.mean([speed_reward(v) for v in ppo_speeds()]) > 2.2 * speed_reward(10) -->
+# <!-- claim: discounted(ppo_drive(), SETTINGS.gamma) < 0.6 * discounted(idle(), SETTINGS.gamma) and
+#   discounted(ppo_drive(), settings_for('ppo').gamma) > 1.8 * discounted(idle(),
+#   settings_for('ppo').gamma) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask for everyday payments that are convex: bonuses above a threshold, overtime at a higher rate.
@@ -146,9 +152,9 @@ print(f"this drive's speed pays {steady + gap:.2f} a second: Jensen's gap is {ga
 #
 # $$ \nabla_\theta\, \mathrm{E}[R] = \mathrm{E}\big[\nabla_\theta \log \pi(a)\; R\big] $$
 #
-# since ∇π = π ∇log π: a mean over *drawn* actions. Subtracting what was expected keeps this mean.
-# PPO takes this **advantage** A: how much more came than was expected. It expects V(s), which it
-# learns. The surprise of one second is the temporal difference
+# since ∇π = π ∇log π: a mean over *drawn* actions. Subtracting what was expected before
+# the action keeps it. PPO takes this **advantage** A: how much more came than was expected. It
+# expects V(s), which it learns. The surprise of one second is the temporal difference
 #
 # $$ \delta_t = r_t + \gamma V(s_{t+1}) - V(s_t) $$
 #
@@ -160,8 +166,7 @@ print(f"this drive's speed pays {steady + gap:.2f} a second: Jensen's gap is {ga
 # *generalised advantage estimation*.
 #
 # **Two endings need care.** After an accident nothing follows: V is 0. If the time is over,
-# the last state still has its value. In both cases the sum stops: the next row belongs to another
-# episode.
+# the last state still has its value. There the sum stops, as it does after the last row.
 #
 # **Exercise (15 min, ●●●).** Write the advantages, in torch.
 
@@ -189,9 +194,9 @@ check.advantages(advantages)
 # **When does a decision stop pushing?** PPO drives {{ settings_for('ppo').envs_per_agent }} roads at
 # once for {{ settings_for('ppo').horizon }} seconds and takes several passes over these decisions of
 # the old policy. The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an
-# action has become since it was taken. A good action (A > 0) pushes until it is ε = {{
-# settings_for('ppo').clip }} likelier, a bad one until it is ε rarer; other decisions may push
-# further:
+# action has become since it was taken. A good action (A > 0) pushes until it is ε = {{ 100 *
+# settings_for('ppo').clip | .0f }} % likelier, a bad one until it is ε rarer; other decisions may
+# push further:
 #
 # $$ L = -\,\mathrm{mean}\big[\min(\rho A,\ \mathrm{clip}(\rho, 1 - ε, 1 + ε)\, A)\big] $$
 #
@@ -205,7 +210,7 @@ choices = ["yes, it makes the action rarer", "yes, likelier", "no, it is clipped
 predict("the_second_trap.3", "Does it still change the policy?", choices)
 
 # %% [markdown]
-# **Exercise (8 min, ●●○).** Write the loss. Its gradient is checked, too.
+# **Exercise (8 min, ●●○).** Write the loss.
 
 
 # %%
@@ -224,31 +229,6 @@ predicted("the_second_trap.3")
 bc.show(figures.hinges(ppo.clipped_loss, 0.2))
 
 # %% [markdown]
-# **The whole loss.** V learns by squared error, from $\hat V_t = A_t + V(s_t)$ (`returns` in the
-# code), with the old V. A little entropy H is paid for:
-#
-# $$ L + \tfrac12\, \mathrm{mean}\big[(V - \hat V)^2\big] - c_H\, \mathrm{mean}[H] $$
-#
-# Each pass takes the decisions in *minibatches*. Scale the advantages of each to mean 0 and
-# deviation 1 (`advantage.std()`), so that a step does not depend on the size of the rewards.
-#
-# **Exercise (10 min, ●●○).** (You may skip it: then the library's loss trains.) Put PPO together.
-# `ppo.clipped_loss`, or your own, is L.
-
-
-# %%
-def ppo_loss(log_pi, values, actions, old_log_pi, advantage, returns, clip, entropy_weight):
-    """PPO's loss of a minibatch, one number. log_pi (batch, 9): log π of every action, now.
-
-    actions (batch,): those taken; old_log_pi (batch,): their log π when they were taken. values:
-    V(s) now; advantage, returns: all (batch,). entropy_weight: c_H.
-    """
-    # solution: the exercise's own
-
-
-check.ppo_loss(ppo_loss)
-
-# %% [markdown]
 # Train one agent with your parts, for fewer decisions than the ten. **It will differ** from a
 # neighbour's: the result depends on the processor.
 
@@ -263,8 +243,7 @@ title = "The return pauses at about what keeping straight earns, then rises agai
 bc.show(figures.learning(mine, title))
 
 # %% [markdown]
-# The return pauses at the first trap's. The gap says what your agent's changes of speed pay: does
-# it sprint?
+# Does your agent sprint? The gap says what that pays.
 # <!-- claim: (lambda curve: (abs(curve[:, 6] / idle().rewards.sum() - 1) < 0.2).all() and (curve[:,
 #   -1] > 1.3 * idle().rewards.sum()).all())(ppo('alone')['curve']) -->
 
@@ -303,8 +282,7 @@ concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD])[0]
 bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": concave}))
 
 # %% [markdown]
-# **See.** The sprints are gone, and none of the ten agents escapes. By the road's own reward they
-# earn about what keeping straight earns: this is the first trap.
+# **See.** The sprints are gone, and none of the ten agents escapes: this is the first trap.
 # <!-- claim: all(9 <= drive_episodes(ppo_kinds.agent_of('concave', i).as_policy(),
 #   ppo_kinds.ROADS).speed.mean() <= 10.05 for i in range(ppo_agents())) and
 #   np.sort(ppo('concave')['accident'])[-2] < 0.01 -->
@@ -314,24 +292,41 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 #   range(ppo_agents())) -->
 #
 # **Explain.** Two things changed: sprints do not pay, and a steady 10 m/s pays five times as much.
-# On this road the concave reward still pays more for the rule's drive, which gets out, than
-# for the agent's: {{ paid_concavely(by_rule()) | .0f }} and {{
-# paid_concavely(ppo_drive('concave')) | .0f }}. Does PPO stay because staying pays more, or because
-# of the price of attempts (lesson [[the_barrier]])?
+# Yet the concave reward pays more for the rule's drive on this road, which gets out, than for the
+# agent's: {{ paid_concavely(by_rule()) | .0f }} and {{ paid_concavely(ppo_drive('concave')) | .0f
+# }}. Does PPO stay since 10 m/s pays more than before, or for the price of attempts (lesson
+# [[the_barrier]])?
+#
+# Now add to the road's reward a *shaping reward*, which leaves the best policy as it is (Ng, Harada
+# and Russell 1999): γ Φ(s') − Φ(s). The *potential* Φ is {{ second_trap.PER_LANE | .0f }} for each
+# lane to the left, and 0 after an accident. Ten agents were trained with this guide.
 # <!-- claim: 5 < second_trap.concave_speed_reward(np.float64(10)) / speed_reward(10) < 5.5 -->
 # <!-- claim: paid_concavely(by_rule(), settings_for('ppo').gamma) >
 #   paid_concavely(ppo_drive('concave'), settings_for('ppo').gamma) and by_rule().success -->
 
+# %%
+kinds = {"the road's": "alone", "the concave one": "concave", "the road's and the guide": "shaped"}
+table(*figures.of_rewards(kinds, ROAD))
+
+# %% [markdown]
+# **See.** *The guide does not lead out either*, though 10 m/s pays no more than before. An accident
+# takes back what the guide paid: a failed attempt costs as much as before. This fits the price of
+# attempts; it is no proof.
+# <!-- claim: ppo_escapes('shaped') == 0 and len(ppo('shaped')['success']) == ppo_agents() -->
+# <!-- claim: abs(sum(settings_for('ppo').gamma ** t * second_trap.shaping_reward(20 * t, 20 * t + 20,
+#   t == 2, settings_for('ppo').gamma) for t in range(3))) < 1e-9 -->
+
 # %% [markdown] tags=["instructor"] minutes=3
 # Let them propose other rewards that need no sprints, and say for each what a driver who has never
-# been ahead learns from it about the way out.
+# been ahead learns from it about the way out. Then let them add up the guide's payments over a
+# drive: with γ = 1 only its two ends are left.
 
 # %% [markdown]
 # ## Round 4: start as a clone
 #
-# The rule drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads, one action in ten
-# at random, and the actor learns to predict its actions: it is *cloned* (lesson
-# [[demonstrations]]). Then PPO begins, with the road's own reward, and the rule is not asked again.
+# The stochastic rule drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads, and the
+# actor learns the rule's actions there: it is *cloned* (lesson [[demonstrations]]). Then PPO
+# begins, with the road's own reward, and the rule is not asked again.
 # <!-- claim: settings_for('ppo_cloned').xi_multiplier == 0 ==
 #   settings_for('ppo_cloned').beta_start -->
 #
@@ -352,9 +347,8 @@ own = start, ppo_kinds.driven(yours.as_policy())
 bc.show(figures.plane(ppo_kinds.compared(named), figures.AFTER_CLONING, own))
 
 # %% [markdown]
-# **See.** All ten cloned agents escape, and earn about twice what the rule earns. But {{ 100 *
-# ppo('cloned')['accident'].mean() | .1f }} % of their drives end in an accident, none of the
-# rule's. Watch yours:
+# **See.** All ten cloned agents escape. But {{ 100 * ppo('cloned')['accident'].mean() | .1f }} % of
+# their drives end in an accident, none of the rule's. Watch yours:
 # <!-- claim: ppo_escapes('cloned') == ppo_agents() and 1.8 < ppo('cloned')['returns'].mean() /
 #   of('rule').scores('returns')[0] < 2.4 and ppo('cloned')['accident'].mean() > 0 -->
 # <!-- claim: not drive_episodes(rule_policy(DEFAULT), ppo_kinds.ROADS).accident.any() -->
@@ -364,9 +358,10 @@ fast = bc.record(yours.as_policy(), [ROAD], label="ppo_cloned")[0]
 bc.recording([drive, fast], height=360)
 
 # %% [markdown]
-# **Explain.** Getting out *and driving fast* pays over twice what sprinting pays. So the reward
-# does not prefer the second trap; if it did, this would be *reward hacking*. Your clone got out on
-# some roads before PPO, for less than sprints pay. *Perhaps* PPO makes its good drives likelier.
+# **Explain.** Getting out *and driving fast* pays over twice what sprinting pays (on our road at
+# PPO's γ, too). So the reward does not prefer the second trap; if it did, this would be *reward
+# hacking*. Before PPO your clone got out on some roads, and on average earned less than sprints.
+# *Perhaps* PPO makes its good drives likelier.
 # <!-- claim: ppo('cloned')['returns'].mean() > 2 * ppo('alone')['returns'].mean() and
 #   discounted(ppo_drive('cloned'), settings_for('ppo').gamma) > 2 * discounted(ppo_drive(),
 #   settings_for('ppo').gamma) -->
@@ -375,6 +370,32 @@ bc.recording([drive, fast], height=360)
 # Ask which of the course's figures would have looked the same for the second trap: those that
 # show returns. Then ask for one sentence for an abstract about PPO alone that is true, and does
 # not mislead.
+
+# %% [markdown]
+# ## If you have time: the whole loss
+#
+# V learns by squared error, from $\hat V_t = A_t + V(s_t)$ (`returns` in the code), with the old V.
+# A little entropy H is paid for:
+#
+# $$ L + \tfrac12\, \mathrm{mean}\big[(V - \hat V)^2\big] - c_H\, \mathrm{mean}[H] $$
+#
+# Each pass takes the decisions in *minibatches*. Scale the advantages of each to mean 0 and
+# deviation 1 (`advantage.std()`): then the rewards' size does not count.
+#
+# **Exercise (10 min, ●●○).** Put PPO together. `ppo.clipped_loss`, or your own, is L.
+
+
+# %%
+def ppo_loss(log_pi, values, actions, old_log_pi, advantage, returns, clip, entropy_weight):
+    """PPO's loss of a minibatch, one number. log_pi (batch, 9): log π of every action, now.
+
+    actions (batch,): those taken; old_log_pi (batch,): their log π when they were taken. values:
+    V(s) now; advantage, returns: all (batch,). entropy_weight: c_H.
+    """
+    # solution: the exercise's own
+
+
+check.ppo_loss(ppo_loss)
 
 # %%
 compare_predictions(
@@ -394,9 +415,9 @@ compare_predictions(
 # 1. After {{ ppo_kinds.KINDS['alone'].decisions | , }} decisions the ten agents of PPO alone earn
 #    twice what keeping straight earns, and none gets out. So look at success, and a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one.
-# 3. PPO makes likelier what went better than V expected. In its loss a good action pushes until it
-#    is ε likelier, a bad one until it is ε rarer.
-# 4. A reward says what is best, and not how it is found: with the concave one the ten agents stay.
+# 3. PPO makes likelier what went better than V expected. A good action pushes until it is ε likelier.
+# 4. With the concave reward the ten agents stay, though on our road the rule's drive would pay more.
+#    With a guide to the left, none gets out either.
 # 5. After a short cloning of the rule PPO ({{ ppo_kinds.KINDS['cloned'].decisions | , }} decisions)
 #    leaves the trap, and earns more than the rule.
 #
@@ -417,9 +438,6 @@ compare_predictions(
 # **Read on**: Schulman et al., *Proximal Policy Optimization Algorithms* (arXiv 1707.06347) and
 # *High-Dimensional Continuous Control Using Generalized Advantage Estimation* (arXiv 1506.02438).
 #
-# **Try** a *shaping reward*, which leaves the best policy as it is (Ng, Harada and Russell 1999): it
-# pays γ Φ(s') − Φ(s), where the *potential* Φ says how far to the left the car has come. Hand
-# `make_env=ppo_kinds.KINDS["shaped"].make_env` to the first training. Does the agent get out?
 # Next: [looking ahead](looking_ahead.ipynb).
 
 # %% [markdown] tags=["instructor"]
