@@ -370,8 +370,8 @@ def second_trap(study: StudyResults) -> Claim:
     other = theirs["PPO alone"], theirs["PPO after cloning"]
     return Claim(
         "second-trap", "PPO alone does not leave the trap; after cloning the rule most agents do.",
-        f"each tuned by its own search, after 200,000 decisions: alone {out('ppo', 200_000)}; after cloning "
-        f"{out('ppo_cloned', 200_000)}",
+        f"other agents than the lesson's, tuned by search, after 200,000 decisions: alone {out('ppo', 200_000)}; after "
+        f"cloning {out('ppo_cloned', 200_000)}",
         {
             "four times the decisions": (
                 count("ppo", 800_000) == 0 and count("ppo_cloned", 800_000) > 5,

@@ -251,7 +251,8 @@ bc.show(figures.speed_and_distance(drive, title))
 #
 # > **Predict.** A lane change needs trap 2 more than
 # > {{ DEFAULT.car.length + DEFAULT.rule.floor | g }} m ahead. Trap 1 is {{ apart()[0] | .0f }} to
-# > {{ apart()[1] | .0f }} m farther. When it is out of sight, the rule speeds up. Which is the shortest sight without an accident, with this floor?
+# > {{ apart()[1] | .0f }} m farther. When it is out of sight, the rule speeds up. Which is
+# > the shortest sight without an accident, with this floor?
 
 # %%
 choices = ["150 m", "100 m", "50 m", "30 m", "20 m"]
