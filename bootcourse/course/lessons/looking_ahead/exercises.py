@@ -149,7 +149,7 @@ def shield_cases(rng):
     ),
     mistakes={
         "np.where(danger, values.argmax(axis=1), actions) -> values.argmax(axis=1)":
-            "You take the best action everywhere: these are the full rollouts. The shield keeps the base's action "
+            "You take the best action everywhere: this is the look-ahead. The shield keeps the base's action "
             "where its drive ends well.",
         "accidents[np.arange(len(actions)), actions] -> accidents.any(axis=1)":
             "You overrule the base wherever *any* of the nine drives ends in an accident. Only the drive of its own "

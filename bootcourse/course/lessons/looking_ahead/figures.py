@@ -13,7 +13,6 @@ from matplotlib.ticker import NullLocator
 
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.lookahead import nine_drives
-from bootcourse.episodes.models import MODELS
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
@@ -21,26 +20,24 @@ from bootcourse.learn.road_model import ImaginedAhead, RoadModel
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.experiments import learned_model
-from bootcourse.research.experiments.lookahead import CLOSELY, FORM_NAMES, Cell, Score, score
+from bootcourse.research.experiments.lookahead import CLOSELY, Cell, Score, score
 from bootcourse.research.results import Results
 from bootcourse.scenario import N_ACTIONS
 
-MEANINGS = {  # of the wrong models, for readers
+MEANINGS = {  # of the wrong models that the lesson shows, for readers
     "others keep speed and lane": "nobody accelerates, brakes or changes lane",
-    "desired speed 2 m/s too low": "the others want to drive 2 m/s slower than they do",
     "twice the time gap": "the others keep twice the distance",
-    "other drivers drawn anew": "twenty kinds of drivers, drawn around the true one; each road has one",
     "only the four visible cars": "the cars that the agent's numbers do not show are missing",
     "places off by 1 m, speeds by 0.5 m/s": "noise on the others, drawn anew each second",
     "the others a second late": "the others where they were a second ago, moved on at their speed",
     "everything a second late": "the whole road as it was a second ago, the ego included",
-    "worst case of three wrong models": "the first three; of each action the worst outcome counts",
 }
-LEARNED_FORMS = {"rollouts": "mean of five", "the shield": "shield"}  # as the lesson calls two of the learned model's
+LEARNED_FORMS = {"the look-ahead": "mean of five", "the shield": "shield"}  # as the lesson calls two forms
 BASE = "bootstrapped"  # whose agents the lesson follows
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
 LOWEST = 120.0  # return: lower ones stand at the axis' left end as numbers
 MARKS = {"rollouts": "●", "shield": "□"}
+NAMES = {"rollouts": "look-ahead", "shield": "shield"}  # as the lesson calls the forms
 
 
 def _accident_axis(axis_of: Axes, axis: str) -> None:
@@ -64,8 +61,8 @@ def compared(drives_of: Mapping[str, Episodes]) -> tuple[list[str], list[list]]:
 
 
 def each_agent(cells: dict[str, Results], bases: Sequence[str]) -> Figure:
-    """Each agent's success and accidents, from alone to with rollouts: a panel for each measure and base policy."""
-    title = "With rollouts some agents leave the trap, and some crash more often than alone"
+    """Each agent's success and accidents, alone and with the look-ahead: a panel for each measure and base policy."""
+    title = "With the look-ahead some agents leave the trap, and some crash more often than alone"
     figure, alt_parts, left, high = new_figure(2 * 2.1 + 0.7), [], 0.55, 2.1
     width = (WIDTH - left - 0.1) / len(bases)
     measures = {"ahead of trap 1 (%)": "success", "accidents in 1,000 drives (logarithmic above 1)": "accidents"}
@@ -82,23 +79,23 @@ def each_agent(cells: dict[str, Results], bases: Sequence[str]) -> Figure:
             ax.set(xlim=(-0.15, 1.15), ylim=(0, 100))
             if measure == "accidents":
                 _accident_axis(ax, "y")
-            ax.set_xticks([0, 1], ["alone", "rollouts"])
+            ax.set_xticks([0, 1], ["alone", "look-ahead"])
             each = ", ".join(f"{alone:.0f} to {ahead:.0f}" for alone, ahead in values.T)
             alt_parts.append(f"{display_name(base)}, {words}: {each}")
-    return finish(figure, title, f"A line for each agent, from alone to with rollouts. {'; '.join(alt_parts)}.")
+    return finish(figure, title, f"A line for each agent, from alone to with the look-ahead. {'; '.join(alt_parts)}.")
 
 
 def promised(agent: Agent, model: RoadModel, roads: Sequence[int]) -> tuple[list[str], list[list]]:
-    """A table of what a learned model promises for each road's first decision, and what the true road then gives."""
+    """A table of Q at each road's first decision, as a learned model has it, and as the true road has it."""
     policy = agent.as_policy()
     begun = [(drive.observations[0], drive.cars[0]) for drive in record(policy, roads)]
     observations, cars = (np.stack(each) for each in zip(*begun, strict=True))
     values, own = ImaginedAhead(agent, model)(observations, cars).q_values, policy(observations, cars).actions
     true, of_own = nine_drives(cars, policy).values, np.arange(N_ACTIONS) == own[:, None]
     taken = np.arange(N_ACTIONS) == values.argmax(1)[:, None]
-    which = {"the agent's own": of_own, "the other eight": ~of_own, "the one that the rollouts take": taken}
+    which = {"the agent's own": of_own, "the other eight": ~of_own, "the one that the look-ahead takes": taken}
     rows = [[name, f"{values[of].mean():.0f}", f"{true[of].mean():.0f}"] for name, of in which.items()]
-    return ["action at the first decision", "the model promises", "the true road gives"], rows
+    return ["action at the first decision", "Q̂ in the model", "Q̂ on the true road"], rows
 
 
 def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
@@ -106,7 +103,7 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
-    title = "Drives of the look-ahead help its rollouts in part; more drives of the agent do not"
+    title = "Drives of the look-ahead help it in part; more drives of the agent do not"
     figure, rounds, alt_parts = new_figure(3.7), learned_model.ROUNDS, []
     agents, colour, left = learned_model.together(computed), style(learned_model.BASE).colour, 0.6
     width = (WIDTH - left) / len(LEARNED_FORMS)
@@ -146,8 +143,8 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
 
     Raises BootcourseError if the base policy alone, or any of the two with a model, was not computed.
     """
-    title = "With everything a second late, every drive with rollouts ends in an accident"
-    alone, names = score(cells, Cell(base, "alone")), list(MODELS)
+    title = "With everything a second late, every drive with the look-ahead ends in an accident"
+    alone, names = score(cells, Cell(base, "alone")), ["exact", *MEANINGS]
     models = [Cell(base, form, model=name).name for form in ("rollouts", "shield") for name in names]
     _check_computed(cells, [Cell(base, "alone").name, *models], base)
     row, colour = 0.4, style(base).colour
@@ -171,7 +168,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
         numbers = (
             f"{name} {1000 * one.accident_rate.value:.1f} and {one.returns.value:.1f}" for name, one in scores.items()
         )
-        words.append(f"{FORM_NAMES[form]}: {'; '.join(numbers)}.")
+        words.append(f"{NAMES[form]}: {'; '.join(numbers)}.")
     of_alone = {ax: 1000 * np.array(alone.accident_rate), earned: np.array(alone.returns)}
     labels = {ax: "accidents in 1,000 drives\n(logarithmic above 1)", earned: "return"}
     for panel, (value, low, high) in of_alone.items():
@@ -185,7 +182,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     _accident_axis(ax, "x")
     earned.set_xlim(LOWEST, 140)
     ax.set_yticks(range(len(names)), [name.replace(", ", ",\n") for name in names], fontsize=TEXT, color=INK)
-    legend = "    ".join(f"{MARKS[form]} {form}{_drives(of)}" for form, of in scores_of.items())
+    legend = "    ".join(f"{MARKS[form]} {NAMES[form]}{_drives(of)}" for form, of in scores_of.items())
     figure.text(0.012, 0.1 / figure.get_figheight(), legend, fontsize=SMALL, color=INK)
     alt = (
         f"For each model, accidents in 1,000 drives and the return. Alone: {1000 * alone.accident_rate.value:.1f} and "

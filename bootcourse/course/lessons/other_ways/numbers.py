@@ -25,6 +25,7 @@ from tools.course.known import shipped_experiment
 FIRST, SECOND, _ = BUDGETS
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
 QUICK, SLOWER = 0.00005, 0.0001  # seconds that a decision takes beside the computing
+APART = {"method", "seed", "bonus"}  # SAC has no demonstrations that a bonus could reward
 
 
 @cache
@@ -36,6 +37,12 @@ def compared() -> dict[str, Results]:
 def later(method: str) -> Results:
     """The agents of a method in this comparison."""
     return compared()[method]
+
+
+def taught_by(method: str) -> set[str]:
+    """The settings of a method's agents that SAC's do not have, or have with another value."""
+    agents, plain = later(method).agents[0], later("sac").agents[0]
+    return {name for name in agents | plain if agents.get(name) != plain.get(name)} - APART
 
 
 def at(method: str, measure: str, budget: int = FIRST) -> np.ndarray:
