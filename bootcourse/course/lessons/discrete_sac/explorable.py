@@ -1,4 +1,6 @@
-"""To drag in this lesson: three values, the temperature and the policy that they make; a target entropy."""
+"""To drag in this lesson: three values, the temperature and the policy that they make; how many estimates err; a target
+entropy.
+"""
 
 import numpy as np
 import torch
@@ -34,6 +36,33 @@ def undecided() -> Explorable:
     help = "The temperature: what one nat of indecision is worth."
     alpha = Number("α", ALPHA, 0.01, 10, 0.05, help, logarithmic=True)
     return Explorable("What does an agent do that is paid for being undecided?", draw, alpha=alpha, **values)
+
+
+MOST, DRAWS = 20, 4000  # actions, and states in which all of them are worth the same
+
+
+def overestimated() -> Explorable:
+    """The highest estimate of some actions that are all worth 0, by one critic and by the smaller of two."""
+    errors = np.random.default_rng(0).normal(size=(2, DRAWS, MOST))
+    of_one, of_two = (np.maximum.accumulate(each, axis=-1).mean(0) for each in (errors[0], errors.min(0)))
+    counts, limits = np.arange(1, MOST + 1), (-1.5, 4.0)
+
+    def draw(actions: float, error: float) -> Drawing:
+        one, two = error * of_one, error * of_two
+        seems, less = (float(np.interp(actions, counts, each)) for each in (one, two))
+        named = {
+            "one critic": Curve(one, style("sac").colour),
+            "for each action the smaller of two critics": Curve(two, OTHER.colour, "--"),
+        }
+        axes = Axes("actions, each worth 0", "highest estimate, on average", limits)
+        says = f"The highest of {actions:g}: {seems:.2f} by one critic, {less:.2f} by the smaller of two."
+        return curves(says.replace("-", "−"), axes, counts, named, mark=actions)
+
+    numbers = {
+        "actions": Number("actions", 2, 1, MOST, 1, "So many actions are worth the same."),
+        "error": Number("error", 1, 0, 2, 0.1, "How much an estimate errs: the standard deviation."),
+    }
+    return Explorable("How good does the best-looking action seem to be?", draw, **numbers)
 
 
 UPDATES, TURN = 400, 0.02  # of the thermostat; what each changes in log α

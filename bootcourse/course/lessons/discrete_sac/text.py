@@ -19,7 +19,7 @@
 # - say where a gradient must stop, and which target entropy a thermostat can reach.
 #
 # **Time** 52 minutes. **It builds on** Python, a little torch, and the Bellman equation of lesson
-# [[values]]. The next lesson, [](update_and_loop.ipynb), makes an agent of these parts.
+# [[values]].
 
 # %%
 import bootcourse as bc
@@ -36,7 +36,7 @@ progress("discrete_sac")
 # ## Look first
 #
 # Before the road, a smaller world: a pole stands on a cart. Fifty times a second you push the cart
-# to the left or to the right. Each push pays 1, the last one, too. The episode ends when the pole
+# to the left or to the right. Each push pays 1, the last, too. The episode ends when the pole
 # leans more than 12 degrees, when the cart leaves its track, or after 500 pushes. This is
 # **CartPole**.
 # <!-- claim: gym.make('CartPole-v1').unwrapped.tau == 1 / 50 -->
@@ -59,7 +59,8 @@ bc.show(figures.cartpole_strip(drives, title))
 
 # %% [markdown]
 # The rule pushes to the right where a weighted sum of place, speed, angle and angular speed is
-# positive. How does a program that starts at random learn to push as well, from rewards alone?
+# positive. How can a program that starts at random learn this from rewards alone? Here you write its
+# parts; the [next lesson](update_and_loop.ipynb) puts them together.
 
 # %% [markdown]
 # ## The parts in one picture
@@ -90,7 +91,7 @@ bc.show(diagrams.sac_diagram())
 # ## Round 1: what is a state worth when entropy is rewarded?
 #
 # An agent can go left, straight or right. **Drag** the temperature α. At which end does it nearly
-# always go straight, its best action, and what does it do at the other end? How can the state be
+# always go straight, its best action, and what does it do at the other? How can the state be
 # worth {{ WORTH | .2f }} at first, when its best action is worth {{ max(q) | g }}? (Nats are
 # explained below.)
 
@@ -98,9 +99,8 @@ bc.show(diagrams.sac_diagram())
 explorable.undecided()
 
 # %% [markdown]
-# Early estimates of Q are poor. An agent that takes only what it now thinks best may not find out
-# that something else is better. To try other actions, too, is **exploration**, and SAC pays a
-# little for it. The policy's **entropy** says how undecided it is, in nats (natural logarithm):
+# Early estimates of Q are poor, so SAC pays a little for **exploration**: trying other actions, too.
+# The policy's **entropy** says how undecided it is, in nats (natural logarithm):
 #
 # $$ \mathcal{H}(\pi(\cdot|s)) = -\sum_a \pi(a|s) \log \pi(a|s) $$
 #
@@ -163,7 +163,7 @@ bc.show(figures.against_temperature([1.0, 3.0]))
 # **Explain.** The even policy loses 1 in Q and gets 0.693 α for its entropy: both have the same V
 # at α = 1 / 0.693 = {{ 1 / math.log(2) | .2f }}. The best policy for an α is a
 # *softmax*, $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$: with a high α nearly even, with a low α nearly
-# sure of one action. So here, with α > 0, it gives up some Q for entropy.
+# sure of one action.
 #
 # <details><summary>Why a softmax?</summary>
 #
@@ -187,9 +187,8 @@ bc.show(figures.against_temperature([1.0, 3.0]))
 #
 # $$ Q(s, a) = r + \gamma \max_{a'} Q(s', a') $$
 #
-# In SAC the next state is worth something else. The critic judges the policy π, not the best one, so
-# the mean of Q under π takes the place of the largest Q. And s' pays α for each nat of entropy.
-# Together they are its soft value:
+# In SAC the critic judges the policy π, not the best one, so the mean of Q under π takes the place of
+# the largest Q. And s' pays α for each nat of entropy. Together they are its soft value:
 #
 # $$ Q(s, a) = \mathbb{E}\big[\, r + \gamma \big( \textstyle\sum_{a'} \pi(a'|s')\, Q(s', a') +
 # \alpha \mathcal{H}(\pi(\cdot|s')) \big) \big] = \mathbb{E}\big[\, r + \gamma V(s') \big] $$
@@ -198,7 +197,7 @@ bc.show(figures.against_temperature([1.0, 3.0]))
 # in s is not in it, because a is given.
 #
 # One transition gives one sample of the right side. Computed with the present estimates, it is the
-# **target** y. To learn an estimate from an estimate is **bootstrapping**.
+# target y.
 
 # %% [markdown]
 # ### Where nothing follows
@@ -243,10 +242,19 @@ print(sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0
 # our clock stopped it, and the four numbers that the critic sees do not hold the clock.
 
 # %% [markdown]
-# V uses the smaller value of **two critics**, because the actor prefers actions that a critic
-# overestimates. And it uses **target critics** (or *target networks*), slow copies of both. They
-# take over a small share τ ("tau") of the new weights at each update, so a step towards the target
-# hardly moves it.
+# ### Two critics
+#
+# Suppose that all actions are worth 0, and that each estimate errs by chance. **Drag** their number to
+# nine. How high is the highest estimate with one critic? And with the smaller of two?
+
+# %%
+explorable.overestimated()
+
+# %% [markdown]
+# The actor prefers what a critic overestimates, so V takes for each action the smaller value of **two
+# critics**. And it uses **target critics** (or *target networks*), slow copies of both. They take
+# over a small share τ ("tau") of the new weights at each update, so the target hardly moves while a
+# critic steps towards it.
 #
 # **Exercise (6 min, ●●○).** Write the loss of both critics: for each the mean over the batch of
 # $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action that was taken. The target is held
@@ -311,9 +319,9 @@ rows = [
 table(["after 200 steps", "π(a₂)", "Q(a₁)", "Q(a₂)", "V by these Q", "V by Q = 1 and 3"], rows)
 
 # %% [markdown]
-# **Explain.** An actor that may move Q marks its own work: by its own Q its policy looks better than
-# the other, and by the Q that the actions have it is worse. With Q held fixed, the actor finds the
-# best policy of Round 1, with π(a₂) = e³ / (e + e³) = {{ SOFTMAX | .2f }}. So Q is **detached**
+# **Explain.** An actor that may move Q marks its own work (no critic's loss pulls Q back here): it
+# raises Q, and its policy is worth less than the other by Q = 1 and 3. With Q held fixed, the actor
+# finds the best policy of Round 1, with π(a₂) = e³ / (e + e³) = {{ SOFTMAX | .2f }}. So Q is **detached**
 # (`q.detach()`): its value counts, and the gradient stops there.
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -367,8 +375,9 @@ explorable.thermostat()
 # every state. The thermostat turns in one direction only: α falls at each update, and SAC pays less
 # and less for exploration. **Drag** η: where does α come to rest, and where does it rise for ever?
 #
-# Why then −1? The paper gives no reason. Perhaps it comes from a rule of thumb for *continuous*
-# actions, minus the number of their dimensions: their entropy can be negative.
+# Why then −1? The paper gives no reason. For *continuous* actions, whose entropy can be negative, a
+# rule of thumb is minus the number of their dimensions; but the car has two, acceleration and
+# steering.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=5
@@ -389,10 +398,10 @@ compare_predictions(
 #    softmax(Q / α).
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed; an episode that ran out of
 #    time is not terminated.
-# 3. V(s') takes the smaller value of the two target critics.
+# 3. V(s') takes for each action the smaller value of the two target critics.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
-# 5. The temperature is a thermostat for the entropy, which lies between 0 and log n for n actions.
-#    With η = {{ SETTINGS.target_entropy }} α falls at each update.
+# 5. The temperature is a thermostat for the entropy of n actions. It can come to rest only if η lies
+#    between 0 and log n. With η = {{ SETTINGS.target_entropy }} α falls at each update.
 
 # %% [markdown]
 # **Three questions to think about**

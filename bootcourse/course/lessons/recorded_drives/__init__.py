@@ -1,3 +1,3 @@
-"""You will clone, GAIL and CQL on one data set: write the judge's loss and the reward that comes of it, the term that
-keeps a critic near its data; choose a driver without a simulator.
+"""You will clone, CQL and GAIL on one data set: write the term that keeps a critic near its data; choose an agent
+without a simulator; write the judge's loss and the reward that comes of it.
 """

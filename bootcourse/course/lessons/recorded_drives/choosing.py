@@ -1,4 +1,4 @@
-"""Choosing a driver without a simulator: what a policy is worth, estimated from recorded drives alone."""
+"""Choosing an agent without a simulator: what a policy is worth, estimated from recorded drives alone."""
 
 from collections.abc import Collection, Sequence
 
@@ -16,16 +16,16 @@ from bootcourse.methods import display_name
 from bootcourse.policies import Policy, idle_policy, rule_policy
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 
-DRIVERS = (("bc", 0), ("cql", 0), ("cql_sac", 0), ("gail", 0), ("sac", 0), ("bootstrapped", 0), ("bootstrapped", 1))
+AGENTS = (("bc", 0), ("cql", 0), ("cql_sac", 0), ("gail", 0), ("sac", 0), ("bootstrapped", 0), ("bootstrapped", 1))
 
 
-def drivers() -> dict[str, Policy]:
+def agents() -> dict[str, Policy]:
     """Seven trained agents by their names: "CQL, agent 1", ..."""
-    return {f"{display_name(m)}, agent {which + 1}": shipped_agents(m)[which].as_policy() for m, which in DRIVERS}
+    return {f"{display_name(m)}, agent {which + 1}": shipped_agents(m)[which].as_policy() for m, which in AGENTS}
 
 
 def recorded(drives: int = 200) -> Batch:
-    """The rule's drives, as the three pupils learned from them: every field (transitions, ...)."""
+    """The rule's drives, as the lesson's three agents learned from them: every field (transitions, ...)."""
     rows = collect(drives)
     return decode_transitions(rows, DEFAULT.observation_size, torch.zeros(len(rows)))
 

@@ -1,7 +1,8 @@
-"""The lesson on recorded drives: three pupils' drives and results, a judge's loss, critics' beliefs, and estimates."""
+"""The lesson on recorded drives: three agents' drives, returns, critics' beliefs, estimates, and a judge's D."""
 
 from collections.abc import Sequence
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 import torch
@@ -14,22 +15,24 @@ from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.shipped import beginning, shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.gail import GAILLearner
 from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.networks import mlp
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import TEXT, finish, new_figure, one_axes, plain_axes
 from bootcourse.policies import rule_policy
 from bootcourse.research.report import rule_results
 from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
-from bootcourse.scenario import DEFAULT
+from bootcourse.scenario import DEFAULT, N_ACTIONS
 from bootcourse.statistics import ESCAPES
 
 SECONDS = 20  # of a drive: the way out
-GUESSING = 2 * np.log(2)  # the discriminator's loss where D = 1/2 everywhere
+LAST = 10  # seconds before an accident
 FORMS = ("with the term", "without")
 
 
-def three_pupils() -> list[Rollout]:
+def three_drives() -> list[Rollout]:
     """GAIL's shortest drive that is a success and leaves the road after 30 s, and a clone's and CQL's on its road."""
     policies = [agent.as_policy() for agent in shipped_agents("gail")]
     drives = [drive for policy in policies for drive in record(policy, range(20), label="gail")]
@@ -39,7 +42,7 @@ def three_pupils() -> list[Rollout]:
     return [beginning(drive, 50) for drive in (gail, *others)]
 
 
-def pupils(study: Results) -> Figure:
+def returns(study: Results) -> Figure:
     """Each agent's return and how often it leaves the road, filled: it escapes; a line for the rule's return."""
     title = "CQL earns more than its teacher, and GAIL often leaves the road"
     label = "return of an agent on 1,000 roads; filled: it escapes"
@@ -51,32 +54,20 @@ def pupils(study: Results) -> Figure:
     places["gail"] = (16, 72, "left")
     for method, (x, y, side) in places.items():
         mine, look = study.of(method), style(method)
-        returns, left, ahead = mine.scores("returns"), 100 * mine.scores("road_departure"), mine.scores("success")
+        earns, left, ahead = mine.scores("returns"), 100 * mine.scores("road_departure"), mine.scores("success")
         fills = np.where(ahead >= ESCAPES, look.colour, "white")
-        ax.scatter(returns, left, s=34, c=fills, edgecolors=look.colour, linewidths=1.3, zorder=3, clip_on=False)
+        ax.scatter(earns, left, s=34, c=fills, edgecolors=look.colour, linewidths=1.3, zorder=3, clip_on=False)
         words = f"{display_name(method)}: {escaped(study, method)} escape"
         ax.text(x, y, words, fontsize=TEXT, color=look.colour, ha=side)
-        alt.append(f"{words}, mean return {returns.mean():.1f}, {left.mean():.1f} % of drives leave the road")
+        alt.append(f"{words}, mean return {earns.mean():.1f}, {left.mean():.1f} % of drives leave the road")
         if method == "gail":
             worst = np.argmax(np.where(ahead >= ESCAPES, left, -1))
             alt.append(f"one is ahead of trap 1 on {100 * ahead[worst]:.0f} %\nand off the road on {left[worst]:.0f} %")
-            ax.text(returns[worst] + 1, left[worst], alt[-1], fontsize=TEXT, color=look.colour, va="center")
+            ax.text(earns[worst] + 1, left[worst], alt[-1], fontsize=TEXT, color=look.colour, va="center")
     ax.set_ylim(-2, 80)
     ax.yaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")
     words = "; ".join(alt).replace("\n", " ")
     return finish(figure, title, f"A dot for each agent. {words}. The rule's return is {by_rule:.1f}.")
-
-
-def judged(losses: Sequence[dict[str, torch.Tensor]]) -> Figure:
-    """The discriminator's loss of each agent over the updates, in means of 50; an entry without it came before them."""
-    known = [each["discriminator_loss"] for each in losses if each]
-    loss = torch.stack(known[: len(known) // 50 * 50]).T.numpy()  # (agents, updates)
-    smooth = loss.reshape(len(loss), -1, 50).mean(-1)
-    later = "; later this is harder" if (smooth[:, -1] > smooth.min(1)).all() else ""
-    named = {f"gail, seed {seed}": each for seed, each in enumerate(smooth)}
-    updates, marks = np.arange(smooth.shape[1]) * 50, {"guessing: D = ½": GUESSING}
-    title = f"The judge soon tells agent from rule{later}"
-    return charts.lines(updates, named, title, "update", "discriminator's loss", marks=marks)
 
 
 @cache
@@ -153,13 +144,13 @@ def promises(learner: SACLearner) -> Figure:
 
 
 def estimates(names: Sequence[str], alike: Sequence[float], fits: np.ndarray, truth: Sequence[float] = ()) -> Figure:
-    """What drivers are worth: a dot for each fit, (fits, drivers), filled if it is the largest of its fit, and a bar
+    """What agents are worth: a dot for each fit, (fits, agents), filled if it is the largest of its fit, and a bar
     for the truth where it is known. alike: how often each acts as the data do. A line: what the rule is worth.
     """
     known, largest = len(truth) > 0, np.bincount(fits.argmax(1), minlength=len(names))
-    title = "What is each driver worth? Estimates without a road"
+    title = "What is each agent worth? Estimates without a road"
     if known:
-        title = "What is each driver worth? Estimates, and the truth"
+        title = "What is each agent worth? Estimates, and the truth"
         if (fits.max(1) > np.array(truth)[fits.argmax(1)]).mean() > 0.5:
             title = "In most fits the largest estimate is too large"
     shares = [f"{100 * each:.0f} %" for each in alike]
@@ -183,3 +174,53 @@ def estimates(names: Sequence[str], alike: Sequence[float], fits: np.ndarray, tr
     key = f"dot: a fit · filled: the largest of its fit · green: the rule{' · bar: the truth on the road' * known}"
     ax.text(0, 1.03, key, transform=ax.transAxes, fontsize=TEXT, color=QUIET)
     return finish(figure, title, f"{'. '.join(alt)}. The rule is worth {by_rule:.2f}.")
+
+
+class Judged(NamedTuple):
+    """How an agent's discriminator sees its drives and the rule's."""
+
+    crashes: int  # of 100 drives
+    before: np.ndarray  # mean D in the last seconds of those, (LAST,)
+    own: float  # mean D in all drives
+    of_rule: float  # mean D in drives of the rule
+
+
+def seen_by_judge(learner: GAILLearner) -> list[Judged]:
+    """Of each agent, on 100 roads."""
+    by_rule, found = record(rule_policy(DEFAULT), range(20)), []
+    for row in range(learner.agents):
+        drives = record(learner.agent(row).as_policy(), range(100))
+        own, of_rule = ([d_of(learner, row, drive) for drive in each] for each in (drives, by_rule))
+        ends = [d[-LAST:] for d, drive in zip(own, drives, strict=True) if drive.accident]
+        before = [np.mean([d[-back] for d in ends if len(d) >= back] or [np.nan]) for back in range(LAST, 0, -1)]
+        found.append(Judged(len(ends), np.array(before), np.concatenate(own).mean(), np.concatenate(of_rule).mean()))
+    return found
+
+
+@torch.no_grad()
+def d_of(learner: GAILLearner, row: int, drive: Rollout) -> np.ndarray:
+    """D of a drive's decisions by one agent's discriminator, (T,)."""
+    actions = torch.as_tensor(drive.actions, dtype=torch.int64)
+    states = torch.as_tensor(drive.observations[: len(actions)], dtype=torch.float32)
+    pairs = torch.cat([states, torch.eye(N_ACTIONS)[actions]], dim=-1)
+    return mlp([each[row : row + 1] for each in learner.discriminator], pairs[None]).flatten().sigmoid().numpy()
+
+
+def judged(learner: GAILLearner) -> Figure:
+    """What each agent's judge says in the last seconds before its crashes, and of the rule's drives."""
+    found = seen_by_judge(learner)
+    named = {f"gail, seed {i}: {each.crashes}": each.before for i, each in enumerate(found) if each.crashes}
+    title = "What the judge says in the last seconds before a crash"
+    if named and np.nanmin(list(named.values())) > 0.1:
+        title = "Before a crash D is not near 0, so these seconds are paid"
+    marks = {"the rule's drives": float(np.mean([each.of_rule for each in found])), "a guess": 0.5}
+    seconds = np.arange(1 - LAST, 1)
+    label = "mean D(s,a) in the drives that crash"
+    alt = "; ".join(
+        f"seed {i}, {each.crashes} of 100 drives crash, D in the last {LAST} seconds "
+        f"{', '.join(f'{d:.2f}' for d in each.before)}, in all of its own {each.own:.2f}, "
+        f"in the rule's {each.of_rule:.2f}"
+        for i, each in enumerate(found)
+    )
+    x_label = "seconds to the last one before a crash (right: crashes in 100 drives)"
+    return charts.lines(seconds, named, title, x_label, label, marks=marks, limits=(0, 1), alt=f"GAIL, {alt}.")

@@ -22,20 +22,20 @@ def of_paper(method: str) -> Results:
 
 @cache
 def overlap_of(which: int) -> float:
-    """In which share of the recorded seconds one of `choosing.DRIVERS` would do what was done."""
-    return choosing.overlap(list(choosing.drivers().values())[which], choosing.recorded())
+    """In which share of the recorded seconds one of `choosing.AGENTS` would do what was done."""
+    return choosing.overlap(list(choosing.agents().values())[which], choosing.recorded())
 
 
 @cache
 def estimated() -> np.ndarray:
-    """What each of the lesson's seven drivers is worth by each of eight fits, (fits, drivers), as in its notebook."""
-    return choosing.fits(choosing.drivers().values(), choosing.recorded(), times=8)
+    """What each of the lesson's seven agents is worth by each of eight fits, (fits, agents), as in its notebook."""
+    return choosing.fits(choosing.agents().values(), choosing.recorded(), times=8)
 
 
 @cache
 def truth() -> np.ndarray:
-    """What each of the seven is worth on the road, (drivers,)."""
-    return np.array([choosing.worth(driver, range(100), 0.8) for driver in choosing.drivers().values()])
+    """What each of the seven is worth on the road, (agents,)."""
+    return np.array([choosing.worth(agent, range(100), 0.8) for agent in choosing.agents().values()])
 
 
 def accidents_of_escapers() -> np.ndarray:

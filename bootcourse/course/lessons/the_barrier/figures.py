@@ -7,7 +7,9 @@ from matplotlib.figure import Figure
 
 from bootcourse.colours import TRAP
 from bootcourse.course import table
+from bootcourse.course.lessons.the_barrier import estimates
 from bootcourse.course.lessons.the_barrier.attempts import Outcome
+from bootcourse.course.lessons.the_barrier.explorable import NOW, SPEEDS
 from bootcourse.course.lessons.values import chain
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes, wrapped
@@ -84,7 +86,8 @@ def how_they_drive(agents: Sequence, tests: Sequence):
         shares = [f"{100 * share:.0f}" for share in (test.success.value, accidents)]
         rows.append([settings.gamma, settings.seed, *shares, f"{test.returns.value:.1f}"])
     won = sum(test.success.value >= ESCAPES for test in tests)
-    below = f"{won} of {len(agents)} agents escape. They take their most probable actions."
+    below = f"{won} of {len(agents)} agents escape. "
+    below += "In training they draw their actions; here they take the most probable ones."
     return table(["γ", "seed", "ends ahead, %", "accidents, %", "return"], rows, below=below)
 
 
@@ -109,6 +112,32 @@ def while_they_learned(short: Results, long: Results, chance: float):
         rows.append([name, len(agents), once_ahead(agents).sum(), unhurt, agents.escapers("sac")])
     below = f"If each action were random, {len(short) * chance:.0f} of twenty would end ahead in 400 drives."
     return table(["trained", "agents", "ended ahead once or more", "unhurt", "escape in the end"], rows, below)
+
+
+def expectations(agents: Sequence) -> Figure:
+    """For each agent what it expects from each speed mid-lane, by its own Q, and what its drives are then worth."""
+    expected, found = (np.array([of(agent) for agent in agents]) for of in (estimates.expected, estimates.found))
+    less = expected[:, NOW + 2] < expected[:, NOW]
+    more = less & (found[:, NOW + 2] > found[:, NOW])
+    title = f"{less.sum()} of {len(agents)} agents expect less from {SPEEDS[NOW + 2]:g} m/s than from {SPEEDS[NOW]:g}; "
+    title += f"to {more.sum()} of these it would be worth more"
+    figure, alt, everything = new_figure(2.75), [], [*expected.ravel(), *found.ravel()]
+    looks = {"its own Q": (SHADES[FAR], "-"), "what its drive is worth": (INK, (0, (4, 2)))}
+    for k, lines in enumerate(zip(expected, found, strict=True)):
+        ax = axes_at(figure, 0.45 + 1.65 * k, 0.85, 1.45, 1.35)
+        plain_axes(ax, "")
+        for (name, (colour, dash)), values in zip(looks.items(), lines, strict=True):
+            ax.plot(SPEEDS, values, color=colour, linestyle=dash, linewidth=1.8, label=name)
+            alt.append(f"agent {k}, {name}: {', '.join(f'{value:.1f}' for value in values)}")
+        ax.set(xlim=SPEEDS[[0, -1]], ylim=(min(everything) - 0.5, max(everything) + 0.5), xticks=SPEEDS[::2])
+        ahead = f"ahead on {100 * estimates.ahead(agents[k]):.0f} % of roads"
+        ax.set_title(ahead, fontsize=TEXT, color=INK, loc="left")
+        alt.append(ahead)
+        if k:
+            ax.set_yticklabels([])
+    figure.axes[0].set_xlabel("speed mid-lane, m/s", fontsize=SMALL, color=QUIET, loc="left")
+    figure.axes[-1].legend(fontsize=SMALL, frameon=False, loc="upper right", bbox_to_anchor=(1.02, -0.14), ncols=2)
+    return finish(figure, title, f"At {SPEEDS[0]:g} to {SPEEDS[-1]:g} m/s. {'; '.join(alt)}.")
 
 
 def learners(all_q: Sequence[np.ndarray]) -> list[tuple[int, bool]]:

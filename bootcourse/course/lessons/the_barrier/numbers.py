@@ -3,11 +3,11 @@
 from functools import cache
 
 import numpy as np
-from scipy import stats
 
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
+from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.policies import idle_policy, random_policy
+from bootcourse.policies import PlanPolicy, idle_policy, random_policy, rule_policy
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
@@ -54,21 +54,10 @@ def easy(kind: str) -> Results:
     return shipped_experiment("easier")[kind]
 
 
-def the_escaper(measure: str) -> float:
-    """A measure of the one agent that escapes on the road as it is."""
-    agents = easy("as it is")
-    return float(agents.scores(measure)[agents.scores("success") >= ESCAPES].item())
-
-
 ONCE = "accelerates once, then nothing"
 MIDDLE, CHEAP, BOTH = easier.MIDDLE, easier.CHEAP, easier.BOTH
 stressed = easier.stressed
 RAM = "accelerates into trap 1"
-
-
-def often_ahead(kind: str) -> int:
-    """How many of the twenty end ahead on 10 % of their held-out roads or more."""
-    return int((easy(kind).scores("success") >= 0.1).sum())
 
 
 def slope(share: float, price: float, gamma: float) -> tuple[float, float]:
@@ -106,6 +95,15 @@ def slow(kind: str) -> int:
 def _straight() -> np.ndarray:
     """Which agents from mid-lane drive faster than 20 m/s, on average."""
     return easy(MIDDLE).scores("speed") > 20
+
+
+def as_fast_as_the_traps() -> int:
+    """How many of the twenty from mid-lane neither escape nor are slow; they stay behind, as fast as the traps."""
+    agents = easy(MIDDLE)
+    rest = (agents.scores("success") < ESCAPES) & (agents.scores("speed") >= 8)
+    assert (abs(agents.scores("speed")[rest] - DEFAULT.traps.speed) < 0.6).all()
+    assert (agents.scores("success")[rest] == 0).all() and (agents.scores("accident")[rest] < 0.1).all()
+    return int(rest.sum())
 
 
 def straight_on() -> int:
@@ -178,6 +176,27 @@ def may_crash(gamma: float) -> int:
     return int(100 * (out - stays.values(gamma).mean()) / (out - crashed))
 
 
+def may_crash_there(gamma: float) -> float:
+    """The same in lesson the_trap: one road, and a crash after 3 s of the rule's way."""
+    plan, rule, stays = (
+        attempts.drive(each, [ROAD]) for each in (PlanPolicy(attempts.PLAN), rule_policy(DEFAULT), idle_policy)
+    )
+    out, crashed = plan.values(gamma)[0], np.append(rule.rewards[0, :3], -10) @ gamma ** np.arange(4)
+    return 100 * (out - stays.values(gamma)[0]) / (out - crashed)
+
+
+@cache
+def helped() -> np.ndarray:
+    """What the drives of each shipped agent that the rule helped are worth at γ = 0.8, on the roads of the attempts."""
+    agents = [agent for method in ("soft", "bootstrapped") for agent in shipped_agents(method)]
+    return np.array([attempts.drive(agent.as_policy(), ROADS).values(0.8).mean() for agent in agents])
+
+
+def helped_better() -> np.ndarray:
+    """Those of them that are worth more than staying."""
+    return helped()[helped() > tested("stays").values(0.8).mean()]
+
+
 def farther() -> np.ndarray:
     """Which agents of plain SAC with a larger γ than the paper's escape on the road as it is."""
     found = [easy("as it is")]
@@ -207,15 +226,3 @@ def once_ahead(kind: str) -> int:
 def once_unhurt() -> int:
     """How many of the study's plain agents ended a drive ahead and without an accident while they learned."""
     return int(figures.once_unhurt(of("sac")).sum())
-
-
-def larger_entropy() -> np.ndarray:
-    """What the study's plain agents with another target entropy than the paper's return, (agents,)."""
-    varied = shipped_experiment("sensitivity").items()
-    return np.concatenate([each.of("sac").scores("returns") for what, each in varied if "entropy" in what])
-
-
-def hint() -> float:
-    """Fisher's p: do more agents with η = 1 than with −1 end ahead on 10 % or more, from a later start?"""
-    ahead = [often_ahead(kind) for kind in ("a later start", "a later start, η = 1")]
-    return float(stats.fisher_exact([[each, 20 - each] for each in ahead]).pvalue)
