@@ -91,21 +91,22 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
     ax.set_xlabel("distance along the road from the start (m)", fontsize=TEXT, color=INK)
     ax.set_ylabel("y, to the right (m)", fontsize=TEXT, color=INK)
     alt = f"Nine paths fan out from the ego in the right lane. After {seconds} s: {'; '.join(ends)}."
-    sideways = abs(path_of(decoded[3], seconds, scenario)[-1, 1])
-    return finish(figure, f"Nine actions, held for {seconds} s: steering moves the car {sideways:.1f} m sideways", alt)
+    least, most = (abs(path_of(decoded[action], seconds, scenario)[-1, 1]) for action in (0, 6))
+    return finish(figure, f"In {seconds} s steering moves the car {least:.1f} to {most:.1f} m sideways", alt)
 
 
 def running_lead(lead: np.ndarray, behind: int) -> Figure:
     """What the escape has earned so far, less what doing nothing has: (seconds,). behind: its last second below 0."""
     seconds, best = np.arange(1, len(lead) + 1), lead[-1]
     title = f"The rule's way out is behind for {behind} s, and {best:.0f} ahead in the end"
-    figure, ax = one_axes(3.4, title, "time (s)", "lead of the escape (reward so far)")
+    figure, ax = one_axes(3.4, title, "time (s)", "lead of the rule's way out (reward so far)")
     look = style("rule")
     ax.axhline(0, color=QUIET, linewidth=1)
     ax.plot(seconds, lead, color=look.colour, linewidth=2)
     ax.plot(behind, lead[behind - 1], "o", color=INK)
     ax.annotate(f"still behind after {behind} s", (behind, 0), xytext=(-2, 6), textcoords="offset points",
                 ha="right", fontsize=TEXT, color=INK)  # fmt: skip
+    ax.text(92, 6, "it rises where the rule drives at 13 to 15 m/s", fontsize=SMALL, color=QUIET)
     ax.text(148, 0.3, "doing nothing", ha="right", va="bottom", fontsize=SMALL, color=QUIET)
     ax.set_xlim(0, len(lead))
     near = ax.inset_axes((0.08, 0.5, 0.4, 0.42))

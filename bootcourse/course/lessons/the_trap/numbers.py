@@ -3,18 +3,35 @@
 from functools import cache
 
 import numpy as np
+from highway_env.envs.common.abstract import AbstractEnv
 
 from bootcourse.course.lessons.the_trap.driving import all_plans, on_road
 from bootcourse.course.lessons.the_trap.figures import RIGHT_FIRST
+from bootcourse.course.lessons.the_trap.time_step import HIGHWAY_ENVS, OURS, Seen, seen
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
-from bootcourse.policies import plan_policy
-from tools.course.known import shipped_results
+from bootcourse.policies import plan_policy, rule_policy
+from bootcourse.road.formulas import bicycle_step
+from bootcourse.scenario import DEFAULT
+from tools.course.known import discounted, shipped_results
+
+BLIND = plan_policy([*RIGHT_FIRST, ("accelerate straight", 5)])  # the plan that looks at nothing
 
 
-def balanced() -> np.ndarray:
-    """Which of all plans steer left as often as right, (6561,) bool."""
-    return (all_plans() == 3).sum(axis=1) == (all_plans() == 5).sum(axis=1)
+@cache
+def into_left_lane() -> np.ndarray:
+    """Which of all plans end in the left lane, parallel to the road, and never leave it: (6561,) bool."""
+    road, plans = DEFAULT.road, all_plans()
+    half, right = road.lane_width / 2, road.lane_width * (road.lanes - 1)
+    found = (plans == 3).sum(axis=1) == (plans == 5).sum(axis=1)
+    for i in np.flatnonzero(found):
+        state, places = (0.0, right, 0.0, DEFAULT.ego.speed), []
+        for action in np.repeat(plans[i], DEFAULT.clock.steps):
+            steering = (int(action) - 4) * DEFAULT.ego.steering
+            state = bicycle_step(*state, 0.0, steering, DEFAULT.car.length, DEFAULT.clock.dt)
+            places.append(state[1])
+        found[i] = -half <= min(places) and max(places) <= right + half and abs(places[-1]) <= half
+    return found
 
 
 @cache
@@ -26,16 +43,33 @@ def getting_out(road: int) -> int:
 @cache
 def blind_plan():
     """The plan that looks at nothing on the study's 1,000 held-out roads: its episodes."""
-    return drive_episodes(plan_policy([*RIGHT_FIRST, ("accelerate straight", 5)]), held_out_seeds(1, 1000))
+    return drive_episodes(BLIND, held_out_seeds(1, 1000))
 
 
 @cache
 def on_ten():
     """That plan on road 10."""
-    return record(plan_policy([*RIGHT_FIRST, ("accelerate straight", 5)]), [10])[0]
+    return record(BLIND, [10])[0]
 
 
-def near_staying() -> int:
-    """How many of plain SAC's agents neither succeed nor crash in more than a tenth of their drives."""
+@cache
+def worth(driver: str, gamma: float) -> float:
+    """What the way of "rule" or "plan" is worth at its start: the mean of the study's 1,000 held-out roads."""
+    policy = {"rule": rule_policy(DEFAULT), "plan": BLIND}[driver]
+    return float(np.mean([discounted(drive, gamma) for drive in record(policy, held_out_seeds(1, 1000))]))
+
+
+def staying() -> np.ndarray:
+    """Which of plain SAC's agents never get out, and crash in less than a tenth of their drives: (agents,) bool."""
     agents = shipped_results().of("sac")
-    return int(((agents.scores("success") < 0.1) & (agents.scores("accident") < 0.1)).sum())
+    return (agents.scores("success") == 0) & (agents.scores("accident") < 0.1)
+
+
+def heading_alone() -> Seen:
+    """What happens on 100 roads at 0.5 s with the heading's time constant of highway-env, and all else ours."""
+    return seen((HIGHWAY_ENVS[0], OURS[1]), 2)
+
+
+def highway_env_rate() -> int:
+    """How many steps a second highway-env makes by default."""
+    return AbstractEnv.default_config()["simulation_frequency"]

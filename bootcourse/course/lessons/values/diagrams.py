@@ -1,12 +1,13 @@
-"""The chain of five states, as a diagram, and what its trap is worth, sweep by sweep."""
+"""The chain of five states, as a diagram; what its trap is worth, sweep by sweep; which learners leave it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import OTHER
 from bootcourse.course import charts
+from bootcourse.course.lessons.the_barrier import figures
 from bootcourse.course.lessons.values import chain
 from bootcourse.plots.diagrams import Diagram, arrow, box, label, line
 
@@ -43,6 +44,13 @@ def five_states() -> Diagram:
 def in_the_trap(found: Sequence[np.ndarray]) -> Figure:
     """Q of staying in the trap and of leaving it, from each sweep's Q (5, 2), the zeros before the first included."""
     stay, leave = np.array(found)[:, 0].T
-    title = "From sweep 6 on, leaving the trap is worth more than staying"
+    title = "Sweep 5 brings the free road's value to the trap; from sweep 6 on leaving is worth more"
     named, looks = {"stay in the trap": stay, "leave it": leave}, [OTHER, charts.Style("#56B4E9")]
     return charts.lines(range(len(found)), named, title, "sweep", "Q in state 0, γ = 0.8", looks=looks)
+
+
+def who_leaves(found: Mapping[str, Sequence[np.ndarray]]) -> Figure:
+    """Which learners of each kind learned to leave the trap, from the Q (5, 2) that each ends with."""
+    title = "Chance alone or a replayed demonstration teaches all thirty to leave, a longer view none"
+    rows = {kind: figures.learners(all_q) for kind, all_q in found.items()}
+    return figures.squares({"": rows}, title, figures.LEARNERS)

@@ -39,17 +39,26 @@ def with_ties(pick: str, walks: int = 30) -> int:
     return sum(_leaves(np.zeros((chain.STATES, 2)), 0.1, seed, of_equal(seed)) for seed in range(walks))
 
 
-def _leaves(q: np.ndarray, explore: float, seed: int, of_equal: Callable[[int], int] = lambda _: 0) -> bool:
+@cache
+def own_decisions(updates: int, walks: int = 30) -> int:
+    """How many of the chain's learners with A's ε and γ leave if they learn from each decision `updates` times."""
+    return sum(_leaves(np.zeros((chain.STATES, 2)), 0.1, seed, updates=updates) for seed in range(walks))
+
+
+def _leaves(
+    q: np.ndarray, explore: float, seed: int, of_equal: Callable[[int], int] = lambda _: 0, updates: int = 1
+) -> bool:
     """Does a learner of the chain that begins with this Q, which it changes in 1,000 decisions, leave at γ = 0.8?
 
-    of_equal(2): which of two equal actions it takes.
+    of_equal(2): which of two equal actions it takes. updates: how often it learns from each decision.
     """
     s = 0
     for t, chance in enumerate(chain.chances(explore, 1000, seed)):
         s = 0 if t % chain.EPISODE == 0 else s
         greedy = int(q[s].argmax()) if q[s, 0] != q[s, 1] else int(of_equal(2))
         a = greedy if chance < 0 else chance
-        q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
+        for _ in range(updates):
+            q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
         s = chain.NEXT[s, a]
     return chain.leaves(q)
 

@@ -32,7 +32,6 @@ from bootcourse.course import (
     progress,
     table,
 )
-from bootcourse.course.lessons.the_barrier import figures
 from bootcourse.course.lessons.values import chain, diagrams, explorable
 
 progress("values")
@@ -102,8 +101,7 @@ table(["γ", "to stay is worth", "to leave is worth", "better"], rows, "Sums of 
 # %% [markdown]
 # **Explain.** Leaving pays where $\gamma^4 > 0.16$: from γ = {{ 0.16**0.25 | .4f }} on. The paper's
 # γ is {{ SETTINGS.gamma }}; with it leaving is worth {{ 0.8**4 / 0.16 | .1f }} times as much as
-# staying. Keep this factor in mind for Round 4. (On road 10 of lesson [[the_trap]] the quick plan,
-# too, is worth more than staying; the rule's slow way is not.)
+# staying.
 # <!-- claim: 0.8**4 > 2.5 * 0.16 and 0.63**4 < 0.16 < 0.64**4 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -114,12 +112,12 @@ table(["γ", "to stay is worth", "to leave is worth", "better"], rows, "Sums of 
 # ## Round 2: a value from the next value
 #
 # The **value** of action a in state s, **Q(s, a)**, is the return if you take a once and then act
-# as well as possible. You need no endless sum to find it: Q is the reward, plus γ times what the
-# next state s' is worth. A state is worth as much as the better of its actions. This is the
-# **Bellman equation**:
+# as well as possible. Q is the reward, plus γ times what the next state s' is worth. A state is worth
+# as much as the better of its actions. This is the **Bellman equation**:
 #
 # $$ Q(s, a) = r(s, a) + \gamma \max_{a'} Q(s', a') $$
 #
+# (Where chance decides what comes next, it takes the mean over the next states.)
 # It says what Q *is*, not how to find it. So begin with Q = 0 everywhere and compute the right side
 # for all ten pairs (s, a) at once: this is one **sweep**, and gives a new Q. Sweep again with that.
 #
@@ -259,6 +257,8 @@ def learn_chain(chances, gamma, step, taught):
 check.learn_chain(learn_chain)
 
 # %% [markdown]
+# The end of the time changes no target: the chain goes on.
+#
 # Thirty learners of each kind make 1,000 decisions, 50 episodes, with a step of 0.3. A learner has
 # learned to leave if in the end Q(0, 1) > Q(0, 0).
 #
@@ -284,35 +284,36 @@ kinds = {
     "E: A, with replays": (0.1, 0.8, chain.WAY_OUT),
 }
 learn = own_code.yours_or_ours("learn_chain", doing="Walking")
-rows = {kind: figures.learners(chain.learned(*how, learn=learn)) for kind, how in kinds.items()}
-title = "Chance alone or a replayed demonstration gets all thirty out, a longer view none"
-bc.show(figures.squares({"": rows}, title, figures.LEARNERS))
+found = {kind: chain.learned(*how, learn=learn) for kind, how in kinds.items()}
+bc.show(diagrams.who_leaves(found))
 
 # %% [markdown]
-# **Explain.** In A none learns to leave, although leaving is worth more. States 1 to 3 pay nothing,
-# and their way back leads to a state that is known to pay. So in the end the greedy action of all
-# thirty leads back in each of them: a **barrier**. A longer view alone does not help (B): none of
-# the thirty has been on the free road, so its value is not known.
+# **Explain.** In A none learns to leave, although leaving is worth {{ 0.8**4 / 0.16 | .1f }} times as
+# much. In states 1 to 3 of all thirty the greedy action leads back: that way is known to pay, or
+# both values are still 0. This is a **barrier**. A longer view alone does not help (B): none of the
+# thirty has been on the free road, so its value is not known.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps here (C, D), but one visit is not enough: {{ free_road_seen(0.5, 0.8) }} of
-# C were on the free road, and {{ leaving(0.5, 0.8) }} learn to leave. On the road a random decision
-# can cost an accident.
+# More exploration helps here (C, D), but to have been on the free road is not enough: {{
+# free_road_seen(0.5, 0.8) }} of C were, and {{ leaving(0.5, 0.8) }} learn to leave. On the road a
+# random decision can cost an accident.
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 #
-# One demonstration, *replayed* after each decision, gets all thirty across (E): each replay moves
-# its values one state back. Small choices matter, too:
+# With one demonstration, *replayed* after each decision, all thirty leave (E): each replay moves its
+# values one state back. Small choices matter, too, and more updates alone do not help:
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
 #
 # | as A, but | learn to leave, of 30 |
 # |---|---|
 # | of two equal actions one is drawn | {{ with_ties("random") }} |
-# | of two equal actions 1 is taken, which tries what is new | {{ with_ties("1") }} |
+# | of two equal actions 1 is taken, which leads on | {{ with_ties("1") }} |
+# | as many updates as in E, of its own decisions | {{ own_decisions(6) }} |
 # | the demonstration is replayed once, at the start | {{ replayed(1) }} |
 # | replayed five times, at the start | {{ replayed(5) }} |
 # | replayed once *backwards*, at the start | {{ replayed(1, backwards=True) }} |
+# <!-- claim: own_decisions(6) == 0 and len(chain.WAY_OUT) == 5 -->
 # <!-- claim: with_ties("random") == 0 and with_ties("1") > 20 and replayed(1) < replayed(5) and
 #   replayed(1, backwards=True) > 20 -->
 #
@@ -338,17 +339,17 @@ compare_predictions(
 # 2. The Bellman equation computes a value from the reward and the next value; sweeps of it settle.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves
 #    Q(s, a) by a part of it, and needs no map.
-# 4. A value comes back one state at a time, from states that were visited.
-# 5. With a small ε the learner hardly visits what lies behind a barrier. On the chain more random
-#    decisions help, and so does a demonstration that is replayed.
+# 4. Each update moves a part of a value one state back, from a decision made or shown.
+# 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and
+#    so does a replayed demonstration.
 #
 # **Three questions to think about**
 # - If the chain's Q begins at 5 (*optimistic initial values*), {{ optimistic(0.1, 5) }} of thirty
 #   leave with A's ε and γ. Why, and what would it cost on the road?
-# - A replayed demonstration got all thirty across the chain. What could be different on the road?
+# - A replayed demonstration gets all thirty to leave. What could be different on the road?
 # - The chain has ten numbers. Your car sees 26 numbers. What replaces the table?
 #
-# **Read on**: [](discrete_sac.ipynb), which puts networks in place of the table. Sutton and Barto,
+# **Read on**: [](discrete_sac.ipynb), with networks in place of the table. Sutton and Barto,
 # *Reinforcement Learning*, chapters 3, 4 and 6.
 
 # %% [markdown] tags=["instructor"] minutes=2
