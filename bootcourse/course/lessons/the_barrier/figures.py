@@ -120,7 +120,7 @@ def expectations(agents: Sequence) -> Figure:
     less = expected[:, NOW + 2] < expected[:, NOW]
     more = less & (found[:, NOW + 2] > found[:, NOW])
     title = f"{less.sum()} of {len(agents)} agents expect less from {SPEEDS[NOW + 2]:g} m/s than from {SPEEDS[NOW]:g}; "
-    title += f"to {more.sum()} of these it would be worth more"
+    title += f"for {more.sum()} of these it would be worth more"
     figure, alt, everything = new_figure(2.75), [], [*expected.ravel(), *found.ravel()]
     looks = {"its own Q": (SHADES[FAR], "-"), "what its drive is worth": (INK, (0, (4, 2)))}
     for k, lines in enumerate(zip(expected, found, strict=True)):

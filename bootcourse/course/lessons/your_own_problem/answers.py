@@ -37,14 +37,15 @@ wrong_lines("""majority_right
 
 
 right_lines("""drowning_bonus
-    with k: (1 - gamma) * (goal * gamma**(decisions - 1 - shown) - reward * gamma**(decisions - shown) / (1 - gamma))
-    as a limit discounted: gamma**(decisions - shown) * ((1 - gamma) * goal / gamma - reward)
+    without the way's length: (1 - gamma) * goal / gamma - reward
+    sums: way = gamma**np.arange(decisions)
+        (goal * way[-1] + reward * way.sum() - reward / (1 - gamma)) / (1 / (1 - gamma) - way.sum())
 """)
 
 
 @wrong("drowning_bonus")
-def without_discounts(reward, goal, decisions, shown, gamma):
-    return (goal + reward * decisions) / max(decisions - shown, 1)
+def without_discounts(reward, goal, decisions, gamma):
+    return (goal + reward * decisions) / decisions
 
 
 equivalent("climb_rule", "2 if speed >= 0 else 0  ->  2 if speed > 0 else 0", "at rest, either side will do")
@@ -63,7 +64,7 @@ wrong_lines("""climb_rule
 """)
 
 wrong_lines("""drowning_bonus
-    capped: min(50.0, solution(reward, goal, decisions, shown, gamma))
+    capped: min(50.0, solution(reward, goal, decisions, gamma))
 """)
 
 wrong_lines("""majority_right

@@ -80,41 +80,38 @@ def majority_right(right, votes):
 
 
 def bonus_cases(rng):
-    """Nothing on the way, a cost, a gain; the way shown whole, in part, not at all; one decision; then 30 at random."""
-    yield from ((0.0, 1.0, 9, 9, 0.97), (0.0, 1.0, 9, 0, 0.97), (-1.0, 0.0, 120, 120, 0.99), (-1.0, 0.0, 20, 5, 0.9))
-    yield from ((0.1, 1.0, 4, 4, 0.9), (0.5, 0.2, 3, 1, 0.8), (0.0, 10.0, 1, 1, 0.5), (0.0, 10.0, 1, 0, 0.5))
-    yield from ((-1.0, 500.0, 2, 1, 0.5), (1.0, -40.0, 6, 3, 0.9), (-1.0, 200.0, 150, 20, 0.99))
+    """Nothing on the way, a cost, a gain; no goal, a bad one; one decision, many; then 30 at random."""
+    yield from ((0.0, 1.0, 9, 0.97), (-1.0, 0.0, 120, 0.99), (-1.0, 0.0, 20, 0.9), (0.1, 1.0, 4, 0.9))
+    yield from ((0.5, 0.2, 3, 0.8), (0.0, 10.0, 1, 0.5), (-1.0, 500.0, 2, 0.5), (1.0, -40.0, 6, 0.9))
+    yield (-1.0, 200.0, 150, 0.99)
     for number in range(30):
         n, most = int(rng.integers(1, 20)), 300 if number % 4 == 3 else 10
-        yield rng.normal(0, 1), rng.uniform(0, most), n, int(rng.integers(0, n + 1)), rng.uniform(0.7, 0.99)
+        yield rng.normal(0, 1), rng.uniform(0, most), n, rng.uniform(0.7, 0.99)
 
 
 @exercise(
-    "the c at which a loop for ever is worth as much as the way to the goal", minutes=18, difficulty=3,
+    "the c at which a loop for ever is worth as much as the way to the goal", minutes=15, difficulty=3,
     cases=bonus_cases,
     worked=[
-        ((0.0, 1.0, 1, 1, 0.5), 1.0),  # way c + 1, loop 2 c
-        ((0.0, 1.0, 2, 0, 0.5), 0.25),  # way 1/2, loop 2 c
-        ((-1.0, 0.0, 3, 3, 0.9), 1.0),  # whatever follows the goal earns 0: so does the loop at c = 1
+        ((0.0, 1.0, 1, 0.5), 1.0),  # way c + 1, loop 2 c
+        ((0.0, 1.0, 2, 0.8), 0.25),  # way 1.8 c + 0.8, loop 5 c
+        ((-1.0, 0.0, 3, 0.9), 1.0),  # whatever follows the goal earns 0: so does the loop at c = 1
     ],
     hints=(
-        "Write both values with geometric sums. The loop: (reward + c) / (1 - γ). The way: `decisions` rewards, "
-        "`shown` bonuses, and the goal in the last decision, discounted by γ^(decisions - 1).",
-        "Set them equal and solve for c. On the side of c there remains c γ^shown / (1 - γ).",
+        "Write both values with geometric sums. The loop: (reward + c) / (1 - γ). The way: `decisions` times "
+        "reward + c, and the goal in the last decision, discounted by γ^(decisions - 1).",
+        "Set them equal and solve for c. On the side of c there remains c γ^decisions / (1 - γ).",
     ),
     mistakes={
         "gamma ** (decisions - 1) -> gamma**decisions":
             "You discount the goal once too often: the first decision is not discounted, so the last one is by "
             "γ^(decisions - 1).",
-        "gamma**shown -> 1":
-            "You leave out the bonuses on the way. The agent gets c in each of the decisions that the teacher has "
-            "shown, before it reaches the goal.",
+        "(gamma**decisions / (1 - gamma)) -> (1 / (1 - gamma))":
+            "You leave out the bonuses on the way. The agent gets c in each decision before it reaches the goal, too.",
         "- reward * gamma**decisions / (1 - gamma) ->":
             "You leave out the reward. The loop earns it for ever, and the way only until the goal.",
         "- reward * gamma**decisions -> + reward * gamma**decisions":
             "The reward has the wrong sign: where each decision pays, a smaller bonus is enough for the loop.",
-        "gamma**shown -> gamma**decisions":
-            "You pay c in every decision of the way. Only the first `shown` of them are in the demonstrations.",
         "goal * gamma ** (decisions - 1) -> goal":
             "The goal comes in the last decision: discount it.",
         "return (1 - gamma) * goal":
@@ -122,6 +119,6 @@ def bonus_cases(rng):
             "on the way.",
     },
 )  # fmt: skip
-def drowning_bonus(reward, goal, decisions, shown, gamma):
+def drowning_bonus(reward, goal, decisions, gamma):
     without_bonus = goal * gamma ** (decisions - 1) - reward * gamma**decisions / (1 - gamma)
-    return without_bonus / (gamma**shown / (1 - gamma))
+    return without_bonus / (gamma**decisions / (1 - gamma))
