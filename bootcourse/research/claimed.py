@@ -410,7 +410,7 @@ def copies(study: StudyResults) -> Claim:
 
     faster = drive_episodes(rule_policy(CALIBRATED), held_out_seeds(BLOCK, ROADS), CALIBRATED).returns.mean()
     return Claim(
-        "copies", "Clones of the rule escape, and earn less than the rule itself.",
+        "copies", "The study's clones of the rule escape, and earn less than the rule itself.",
         f"{told(ours, 'bc')}; the rule {rule:.0f}",
         {
             "faster traps (10.9 m/s)": (

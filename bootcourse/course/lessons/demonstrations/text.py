@@ -188,9 +188,9 @@ measured = {name: cloning.measure(clones[name], rows) for name, rows in data.ite
 bc.show(figures.clones(measured))
 
 # %% [markdown]
-# **See.** *Agreement does not say who drives well:* the rule's eight clones agree about equally, and
-# some crash at least twice as often as others. The stochastic rule's clones crash far less than it
-# does: they take the likeliest action.
+# **See.** *Agreement does not say who drives well:* the rule's eight clones agree about equally,
+# and some crash at least twice as often as others. The stochastic rule's clones crash far less than
+# it does. (Is it that they take the likeliest action? Lesson [[recorded_drives]].)
 #
 # The third data set is labelled by the rule, as the first is, and has other states. So here the
 # states help. These drives also end earlier; but four clones of the rule's drives, cut to the same
@@ -198,9 +198,9 @@ bc.show(figures.clones(measured))
 # stochastic rule's drives contain more states, and show how to return to the path.
 # <!-- claim: accidents_of_clones_of_cut_drives() > 0.25 -->
 #
-# All this is after very short training. The study's clones, with more than 40 times as many
-# updates, have the other order: ten of the rule crash in {{ 100 * accidents('bc') | .1f }} % of
-# their drives, ten of the stochastic rule in {{ 100 *
+# All this is after {{ UPDATES | , }} updates. The study's clones, with over 40 times as many, have
+# the other order: ten of the rule crash in {{ 100 * accidents('bc') | .1f }} % of their drives, ten
+# of the stochastic rule, with more updates still, in {{ 100 *
 # clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %.
 # <!-- claim: UPDATES == 1500 -->
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 -->
@@ -298,10 +298,10 @@ tests = {
 table(*figures.of_tests(tests))
 
 # %% [markdown]
-# **See.** *They err first where training was too short, and errors lead to errors.* In the second
-# row the clones differ less, so their errors do compound, and they seldom crash. In the third they
-# are far less slow than in the first, and crash almost as often: 25 s of the rule do not make up
-# for the first 15 s. (Trained longer, they hardly crash: Round 2.)
+# **See.** *The first 15 s count more.* If the rule drives them, the clones later differ less, so
+# their errors do compound, and they seldom crash. In the third row they are far less slow than in
+# the first, and crash almost as often: slowness alone does not explain the crashes. (Trained
+# longer, they hardly crash: Round 2.)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Stop at the slow car. Ask which rows in the data would show how to leave such a state, and who

@@ -244,21 +244,22 @@ print(sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0
 # %% [markdown]
 # ### Two critics
 #
-# Suppose that all actions are worth 0, and that each estimate errs by chance. **Drag** their number to
-# nine. How high is the highest estimate with one critic? And with the smaller of two?
+# Suppose that all actions are worth 0, and that each estimate errs by chance, on its own. **Drag**
+# their number to nine. How high is the highest estimate with one critic? And with the smaller of
+# two?
 
 # %%
 explorable.overestimated()
 
 # %% [markdown]
-# The actor prefers what a critic overestimates, so V takes for each action the smaller value of **two
-# critics**. And it uses **target critics** (or *target networks*), slow copies of both. They take
-# over a small share τ ("tau") of the new weights at each update, so the target hardly moves while a
-# critic steps towards it.
+# The actor prefers what a critic overestimates, so V takes for each action the smaller value of
+# **two critics**, which can be too low. And it uses **target critics** (or *target networks*), slow
+# copies of both. They take over a small share τ ("tau") of the new weights at each update, so the
+# target hardly moves while a critic steps towards it.
 #
 # **Exercise (6 min, ●●○).** Write the loss of both critics: for each the mean over the batch of
 # $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action that was taken. The target is held
-# fixed: the check also looks at where the gradient goes.
+# fixed, or the loss could fall by moving y, not Q: the check looks at gradients, too.
 
 
 # %%
@@ -376,8 +377,7 @@ explorable.thermostat()
 # and less for exploration. **Drag** η: where does α come to rest, and where does it rise for ever?
 #
 # Why then −1? The paper gives no reason. For *continuous* actions, whose entropy can be negative, a
-# rule of thumb is minus the number of their dimensions; but the car has two, acceleration and
-# steering.
+# rule of thumb is minus the number of their dimensions; but the car has two, so it would give −2.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=5

@@ -19,7 +19,7 @@ KINDS = {  # of agents: the method, the change among the ablations ("": none), t
     "demonstrations alone, β ends": ("demos", "", "demos"),
     "demonstrations alone, β never ends": ("demos", "β for ever", "demos, β for ever"),
 }
-HEADINGS = ["twenty agents of each kind", "found it", "lost it at least once", "kept it", "return of those that kept"]
+HEADINGS = ["twenty agents", "found it", "lost it at least once", "kept it", "their return", "return of all twenty"]
 SETTINGS = ["updates", "soft constraint alone", *(f"demonstrations alone, driver {driver}" for driver in DRIVERS)]
 BOTH_TABLES = ["", "the paper's success", "the paper's return", "our agents that escape"]
 
@@ -49,8 +49,9 @@ def fates(study: Results, changed: Computed, others: Computed) -> list[list[str]
         agents = groups(kind, study, changed, others)
         found, kept = np.concatenate([each.found_and_kept(method) for each in agents], axis=1)
         losers = sum(int(lost(each.curves["success"]).sum()) for each in agents)
-        earned = np.concatenate([each.scores("returns") for each in agents])[kept].mean()
-        rows.append([kind, f"{found.sum()}", f"{losers}", f"{kept.sum()}", f"{earned:.0f}"])
+        earned = np.concatenate([each.scores("returns") for each in agents])
+        counted = [f"{found.sum()}", f"{losers}", f"{kept.sum()}"]
+        rows.append([kind, *counted, f"{earned[kept].mean():.0f}", f"{earned.mean():.0f}"])
     return rows
 
 

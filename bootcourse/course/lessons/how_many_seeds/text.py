@@ -78,9 +78,9 @@ methods = ("sac", "soft", "demos", "bootstrapped")  # ten agents of each
 bc.show(figures.who_escapes(study, methods))
 
 # %% [markdown]
-# Each training but one works or fails: one bootstrapped agent gets out on 92 % of the roads,
-# crashes on most, and does not count. So a method's success is a number of agents. Eight of ten
-# with the soft constraint alone escape. What does that say about the next agent?
+# Each training but one works or fails: one bootstrapped agent gets out on 92 % of the roads, then
+# crashes on most: no escape. So a method's success is a number of agents. Eight of ten with the
+# soft constraint alone escape. What does that say about the next agent?
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 # <!-- claim: round(100 * of('bootstrapped').scores('success')[0]) == 92 < 100 * ESCAPES and
 #   of('bootstrapped').scores('accident')[0] > 0.6 -->
@@ -314,8 +314,7 @@ explorable.intervals()
 #   of('bootstrapped').scores('returns').mean()).sum() == round(100 * 0.7**3) == 34)(
 #   *explorable.drawn(3)) -->
 #
-# It happened to us, too. (The *ten others* differ in more than seeds: lesson
-# [[learning_from_demonstrations]].)
+# It happened to us, too.
 
 # %%
 others = shipped.shipped_experiment("stress")
@@ -324,8 +323,8 @@ table(counts.MEANS, counts.means(study, others, methods))
 # %% [markdown]
 # In two of four rows the interval of our first three misses the mean of the ten: with the soft
 # constraint all three do well, with plain SAC the one that escapes is not among them. With
-# demonstrations only the ten others lie far outside our ten's interval: it speaks of other seeds,
-# not of another learner or more episodes.
+# demonstrations only the ten others (lesson [[learning_from_demonstrations]]) lie far outside our
+# ten's interval: it speaks of other seeds, not of another learner or more episodes.
 # <!-- claim: [first_three_hold(m) for m in ('sac', 'soft', 'demos', 'bootstrapped')] == [False,
 #   False, True, True] -->
 # <!-- claim: of('soft').scores('returns')[:3].min() > 120 and
@@ -399,9 +398,9 @@ table(counts.ABLATION, *counts.ablation(success))
 # earlier. If it does not, remember Round 3: there {{ 100 - explorable.holding(5) }} of 100
 # intervals of five seeds miss, not 5.
 #
-# How many agents would say it? Score each yes or no (does it escape?), choose your smallest effect
-# of interest, not the difference just seen, and ask `bc.statistics.power`. Then train a *new* set.
-# If you add agents until the interval does not hold 0, you err more often than it says.
+# How many agents would say it? Score each yes or no (here: above 20 %?), choose limit and smallest
+# effect beforehand, not from this run, and ask `bc.statistics.power`. Then train a *new* set. If
+# you add agents until the interval does not hold 0, you err more often than it says.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Give each group another number to change, and collect the results on the board: one row for each

@@ -194,8 +194,8 @@ bc.show(figures.each_agent(study, ("sac", "demos")))
 # %% [markdown]
 # **See.** Each line is an agent. Of the nine, {{ (of_the_nine() > 0).sum() }} get out in some
 # drives. So do four of five agents of demonstrations only, which had not got out once. All fifteen
-# earn more. But {{ less_safe('sac').sum() }} of the nine crash *more* than alone: those that are
-# out in about half of their drives. *Open*: why these?
+# agents in the picture earn more (not shown). But {{ less_safe('sac').sum() }} of the nine crash
+# *more* than alone: those that are out in about half of their drives. *Open*: why these?
 # <!-- claim: (outs('sac', 'alone')[less_safe('sac')] < 0.01).all() and less_safe('sac').any() and
 #   ((abs(outs('sac') - 0.53) < 0.06) == less_safe('sac')).all() -->
 # <!-- claim: all((earned(base) > earned(base, 'alone')).all() for base in ('sac', 'demos')) -->
@@ -275,18 +275,18 @@ predicted("looking_ahead.4")
 bc.show(figures.wrong_models(study))
 
 # %% [markdown]
-# **See.** With the exact model these agents have no accident. With everything a second late each
-# of {{ ahead('ppo_cloned', model=LATE).drives | , }} drives has one, and nearly each with the shield.
+# **See.** With the exact model these agents have no accident. With everything a second late each of
+# {{ ahead('ppo_cloned', model=LATE).drives | , }} drives has one, and nearly each with the shield.
 # With {{ worse_than_alone('ppo_cloned', 'rollouts') }} of the six wrong models the look-ahead
 # crashes more often than the agents alone (the dashed line), the shield with {{
-# worse_than_alone('ppo_cloned', 'shield') }}. With each of them the shield changes fewer actions than
-# the look-ahead, and crashes less.
+# worse_than_alone('ppo_cloned', 'shield') }}. With each of them the shield changes fewer actions
+# (not shown), and crashes less.
 # <!-- claim: ahead('ppo_cloned').accidents == ahead('ppo_cloned', 'shield').accidents == 0 -->
 # <!-- claim: ahead('ppo_cloned', model=LATE).accidents == ahead('ppo_cloned', model=LATE).drives and
 #   per_thousand('ppo_cloned', 'shield', model=LATE) > 990 -->
 #
-# **Explain.** If everything is late, each imagined drive begins before the ego's last action. The
-# row with late others is no control: they are also moved on.
+# **Explain.** If everything is late, the ego's last action is missing. Whether that is why is open:
+# the late others are also moved on.
 # <!-- claim: all(per_thousand('ppo_cloned', 'shield', m) < per_thousand('ppo_cloned', model=m) for m
 #   in WRONG) -->
 # <!-- claim: all(ahead('ppo_cloned', 'shield', model=m).overruled < ahead('ppo_cloned',
@@ -317,9 +317,10 @@ table(*figures.compared(drives_of))
 table(*figures.promised(agents[0], learned, roads))
 
 # %% [markdown]
-# **See.** The look-ahead now crashes more often than the agent alone. At the first decision
-# $\hat Q$ (ten seconds and W) is about right for the agent's own action, and too high for the other
-# eight. (Yours can differ a little.)
+# **See.** The look-ahead now crashes more often than the agent alone. At the first decision $\hat
+# Q$ (ten seconds and W) is about right for the agent's own action, and too high for the other
+# eight: the best of nine picks such guesses, as a critic's target can (lesson [[recorded_drives]]).
+# (Yours can differ a little.)
 #
 # > **Predict.** The model gets {{ further() }} more drives.
 # > Either the agent drives them alone, and two of three end well. Or the look-ahead drives them, in
@@ -385,7 +386,7 @@ compare_predictions(
 # 2. The best of nine improves one decision, without training. The rest of each imagined drive is the
 #    base policy's: of nine stuck agents some get out, and some do not.
 # 3. A wrong model costs: with four of six the look-ahead crashes more often than PPO's agents alone.
-# 4. With each of the six the shield changes fewer actions than the look-ahead, and crashes less.
+# 4. With each of the six the shield crashes less than the look-ahead.
 # 5. With a model from the agent's own drives the look-ahead crashes nearly always. Its own drives
 #    correct it in part.
 # <!-- claim: worse_than_alone('ppo_cloned', 'rollouts') == 4 and len(WRONG) == 6 -->

@@ -16,7 +16,7 @@
 # **What you will be able to do**
 # - say what a clone, CQL and GAIL each learn from the same drives, and what that costs;
 # - write CQL's loss, and the two halves of GAIL;
-# - choose among trained agents without a simulator, and say when that fails.
+# - say why choosing among trained agents without a simulator can fail.
 #
 # **Time** 75 minutes; running it takes under one minute. **It builds on** lesson [[demonstrations]].
 
@@ -353,9 +353,9 @@ training.run(updates=1000, progress=False)
 bc.show(figures.judged(training.learner))
 
 # %% [markdown]
-# **See.** The judge tells agent from rule. Yet *each second before a crash is paid*: −log (1 − D) is
-# above 0 for each D, and in the figure D does not come near 0. The judge learns who drives so, not
-# what comes next: a crash costs the pay of the seconds that would have followed, no more.
+# **See.** The judge tells agent from rule, but warns little: before a crash D is not near 0, and
+# −log (1 − D) is above 0 for each D. So *each second before a crash is paid*. A crash costs the pay
+# of the seconds that would have followed, no more.
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Let them say in one sentence what a clone is told in a state that no demonstration holds, and what
@@ -375,8 +375,9 @@ compare_predictions(
 # 2. A success rate that counts who is ahead hides later accidents.
 # 3. CQL's term is the cloning loss of softmax(Q). Without it our two critics promised far more than
 #    their drives were worth.
-# 4. An estimate without a simulator rests on seconds in which the agent acts as the data do; with
-#    few it may be near (D) or far (C, F). More fits show its scatter, not its bias.
+# 4. An estimate without a simulator rests on seconds in which the agent acts as the data do; about
+#    equal shares may give a near one (D) or a far one (C). More fits show its scatter, not its
+#    bias.
 # <!-- claim: misses()[3] < 0.12 and min(misses()[[2, 5]]) > 0.4 and 0.5 < overlap_of(3) <
 #   overlap_of(2) < 0.6 -->
 # 5. GAIL is paid by its discriminator; at equal D the reward's sign decides whether going on pays.

@@ -223,7 +223,7 @@ bc.show(figures.compromise(q, log_rule, alpha, best))
 # %% [markdown]
 # **Drag** ξ. *Optimum* is the best compromise of a trained agent's Q and π̃. Thick: the drive by its
 # most probable actions, red if it ends in an accident; thin: the agent's own way and the rule's. Does
-# each compromise get past the traps unharmed?
+# each compromise get past the traps unhurt?
 
 # %%
 helped = bc.shipped_agents("soft")[0]
@@ -399,9 +399,10 @@ live.show(training)
 # %% [markdown]
 # ## Round 4: must the pull fade?
 #
-# An agent **finds the way out** if it ends ahead in more than half of 50 training episodes in a row.
-# It **loses** it if after {{ HAD }} of {{ IN_A_ROW }} episodes ahead come {{ LOST }} of {{ IN_A_ROW }}
-# or fewer, and **keeps** it if it escapes after training, even if it lost it in between.
+# An agent **finds the way out** if it ends ahead in more than half of 50 training episodes in a
+# row. It **loses** it if after {{ HAD }} of {{ IN_A_ROW }} episodes ahead come {{ LOST }} of {{
+# IN_A_ROW }} or fewer, and has **kept** it if it escapes after training: it may have lost it and
+# found it again.
 #
 # *In the study the value penalty delays finding*; why is open. Each of ten agents with policy
 # regularisation alone finds it before any of ten with both.
@@ -492,14 +493,17 @@ compare_predictions(
 #    the KL.
 # 2. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)). The rule's action has a head start of
 #    ξ log(8p / (1 − p)) in Q.
-# 3. The KL stands in the actor's loss and in the critics' target. There it lowers the value of
+# 3. The KL stands in the actor's loss and in the critics' target. There it lowers most the value of
 #    futures in which the agent leaves the rule.
 # 4. With ξ = {{ SETTINGS.xi_multiplier }} α the head start in logits stays. The temperature fades, so
 #    Q decides in the end. With η above the entropy of π̃, ξ grew in one agent.
-# 5. In the study, with one update for four decisions, agents whose pull stays strong end near the
-#    rule's return. If it is weak throughout, not all find the way out. If it is strong first,
-#    then weak but not gone, all twenty find and keep it.
+# 5. In the study, with one update for four decisions (with four for each, ξ towards 0, none of
+#    three escapes), agents whose pull stays strong end near the rule's return. If it is weak
+#    throughout, not all find the way out. If it is strong first, then weak but not gone, all twenty
+#    find and keep it.
 # <!-- claim: twenty(found) == twenty(kept) == 20 > in_all(found, 0.1) -->
+# <!-- claim: (lambda agents: len(agents.of('soft')) == 3 and agents.escapers('soft') == 0)(
+#   shipped_experiment('clocks')['4 updates, no demonstrations']) -->
 
 # %% [markdown]
 # **Three questions to think about**

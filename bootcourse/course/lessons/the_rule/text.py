@@ -197,7 +197,7 @@ check.room_to_change(room_to_change)
 # %% [markdown]
 # For the lane, the rule takes the first case that applies (`bootcourse.rule.decide_rule`):
 #
-# 1. nobody ahead in sight, or already in the leftmost lane: stay;
+# 1. nobody ahead in sight in this lane, or already in the leftmost: stay;
 # 2. more than {{ SETTLED }} m to the right of this lane's middle: finish this lane change first;
 # 3. the gap to the new car ahead is not longer than $d_s$: fall back;
 # 4. a car behind in the new lane is too close: wait;
@@ -293,7 +293,7 @@ rules.ranked({"the rule": {}, "a sight of 30 m": {"sight": 30}, "yours": mine})
 # With a sight of 20 m some drives crash. Can the two safety numbers prevent it?
 #
 # > **Predict.** At 20 m and t_safe = 1.5 s, with which floor do most drives get out? Is trap 1
-# > still in sight when the lane change *ends*? If nobody is, case 1 applies: the rule calls the
+# > still in sight when the lane change *ends*? If it is not, case 1 applies: the rule calls the
 # > change off and speeds up.
 
 # %%
@@ -306,14 +306,14 @@ near = [(20, 1.5, 3), (20, 2, 3), (20, 1.5, 6), (20, 1.5, 0.5)]
 rules.ends(far + near)
 
 # %% [markdown]
-# **Explain.** At 200 m the two numbers hardly matter. At 20 m the floor decides when the change
-# begins. With 6 m trap 1 is on most roads out of sight before there is room. With 3 m {{
+# **Explain.** At 200 m both settings drive alike. At 20 m the floor decides when the change begins.
+# With 6 m trap 1 is on most roads out of sight before there is room. With 3 m {{
 # begun_in_sight(3.0) }} drives begin in time, but a second later {{ first_changes(3.0)[1].sum() }}
 # have lost trap 1: they call the change off and speed up. All that crash are among these: they
 # change lane later, {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster than trap 2, and
 # t_safe = 1.5 s leaves just the gap to brake in, nothing to spare. With 2 s none crashes. With 0.5
 # m each drive completes its first change. *The floor is meant for safety; at this sight drives
-# crash with the larger one.*
+# crash with 3 m, not with 0.5 m.*
 # <!-- claim: begun_in_sight(6.0) < 60 and begun_in_sight(0.5) == 200 == first_changes(0.5)[0].sum() -->
 # <!-- claim: first_changes(3.0)[1][driven(20.0).accident > 0].all() and
 #   first_changes(3.0)[0].sum() + first_changes(3.0)[1].sum() == begun_in_sight(3.0) -->
@@ -330,10 +330,10 @@ rules.ends(far + near)
 #
 # ### A rule that errs
 #
-# In lesson [[soft_constraint]] a learner is pulled towards the rule. For that the rule must give a
-# probability to each action. So we let it err: it takes its own action with probability $p$ and
-# each of the other eight with probability $(1-p)/8$. This is the **stochastic rule**, $\tilde\pi$
-# ("pi tilde").
+# In lesson [[soft_constraint]] a learner is pulled towards the rule. For that each action needs a
+# probability above 0. So we let it err: it takes its own action with probability $p$ and each of
+# the other eight with probability $(1-p)/8$. This is the **stochastic rule**, $\tilde\pi$ ("pi
+# tilde").
 # <!-- claim: N_ACTIONS - 1 == 8 -->
 #
 # > **Predict.** At p = 0.9 about {{ (1 - RULE_P) * 150 | .0f }} of 150 decisions are not the rule's
@@ -388,8 +388,8 @@ compare_predictions(
 #   0.3 < of('rule').scores('returns').mean() / (150 * second_pays(15)) < 0.37 -->
 # 4. With a sight of 20 m a floor of 3 m is worse than 0.5 m: most drives lose trap 1 from sight, and
 #    some of these crash.
-# 5. The stochastic rule gives each action a probability, to which a learner's can be compared. With
-#    p = 0.9 it has an accident in most drives.
+# 5. The stochastic rule gives each action a probability above 0, so a learner's can be compared.
+#    With p = 0.9 it has an accident in most drives.
 #
 # **Three questions to think about**
 # - How would you choose the sight for a car that carries people?

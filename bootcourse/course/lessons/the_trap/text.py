@@ -199,7 +199,7 @@ print(f"and behind it on {np.mean(~out & hurt):.0%}.")
 
 # %% [markdown]
 # **See.** *Right 1, left 4, right 3* gets out on most roads without looking, but crashes on about
-# every fourth. Can a program learn to be quicker than the rule, and crash less than this plan?
+# every fourth. Can a program learn to do better than both?
 # <!-- claim: blind_plan().success.mean() > 0.75 and 0.2 < np.mean(blind_plan().accident > 0) < 0.3
 #   -->
 
@@ -302,9 +302,10 @@ figures.observed(seen, first=11)
 # **See.** `car 1`, the nearest car, is trap 2: it is one lane to the left, so its `dy` is negative.
 # <!-- claim: idle().states[0, TRAP_2, Y] - idle().states[0, EGO, Y] == -DEFAULT.road.lane_width -->
 #
-# The road's **state** holds more: the cars beyond the four nearest, and the seconds that are left.
-# The learners of this course treat the observation as the state. The field calls the road a *Markov
-# decision process* (MDP): what comes next depends on the present state and the action alone.
+# The road's **state** holds more, such as the cars beyond the four nearest and the seconds that are
+# left. The learners of this course treat the observation as the state. With its state the road is a
+# *Markov decision process* (MDP): what comes next depends on the present state and the action
+# alone.
 # <!-- claim: DEFAULT.vehicles - 1 > DEFAULT.sight.neighbours -->
 # <!-- claim: not any('time' in name for name in observation.names(DEFAULT)) -->
 #
@@ -386,7 +387,8 @@ figures.who_escapes(study, blind)
 # %% [markdown]
 # **Slide.** Press *Train*: two agents learn with help. When half of the episodes are a success,
 # take the help away: drag ξ ("xi"), its strength, to its lower end, and β, the share of the rule's
-# drives in what they learn from, to 0. Do they still get out?
+# drives in what they learn from, to 0. Do they still get out? (Lesson [[found_and_kept]] asks this
+# of our agents.)
 
 # %%
 bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)

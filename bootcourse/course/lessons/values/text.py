@@ -63,7 +63,7 @@ explorable.worths()
 # %% [markdown]
 # ## Round 1: the return
 #
-# The **return** is the sum of all rewards from now on, each multiplied by γ to the power of its
+# The **discounted return** is the sum of all rewards from now on, each times γ to the power of its
 # delay, in decisions:
 #
 # $$ G = r_0 + \gamma\, r_1 + \gamma^2\, r_2 + \dots $$
@@ -226,7 +226,7 @@ print(f"Q(0, 1) = 0 + 0.3 · {delta:.2f} = {0.3 * delta:.3f}")
 # random.
 #
 # **Exercise (20 min, ●●●).** Write this learner. The random decisions have been drawn beforehand
-# (`chances`). After each decision of its own it replays a demonstrator's (`taught`): it learns from
+# (`chances`). After each decision of its own it replays a demonstration (`taught`): it learns from
 # each pair (s, a), with the chain's reward and next state, and stays where it is. Every 20
 # decisions the time is up, and the walk starts again in state 0. Does that change the target of the
 # last decision?
@@ -301,8 +301,8 @@ bc.show(diagrams.who_leaves(found))
 # random decision can cost an accident.
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 #
-# With one demonstration, *replayed* after each decision, all thirty leave (E): each replay moves its
-# values one state back. Small choices matter, too, and more updates alone do not help:
+# With one demonstration, *replayed* after each decision, all thirty learn to leave (E): each replay
+# moves its values one state back. Small choices matter, too, and more updates alone do not help:
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
 #
 # | as A, but | learn to leave, of 30 |
@@ -335,8 +335,9 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. The return is the sum of the rewards from now on, each × γ to the power of its delay.
-# 2. The Bellman equation computes a value from the reward and the next value; sweeps of it settle.
+# 1. The discounted return is the sum of the rewards from now on, each × γ to the power of its
+#    delay.
+# 2. The Bellman equation says what a value is; sweeps of it find it.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves
 #    Q(s, a) by a part of it, and needs no map.
 # 4. Each update moves a part of a value one state back, from a decision made or shown.
@@ -346,7 +347,7 @@ compare_predictions(
 # **Three questions to think about**
 # - If the chain's Q begins at 5 (*optimistic initial values*), {{ optimistic(0.1, 5) }} of thirty
 #   leave with A's ε and γ. Why, and what would it cost on the road?
-# - A replayed demonstration gets all thirty to leave. What could be different on the road?
+# - A replayed demonstration teaches all thirty to leave. What could be different on the road?
 # - The chain has ten numbers. Your car sees 26 numbers. What replaces the table?
 #
 # **Read on**: [](discrete_sac.ipynb), with networks in place of the table. Sutton and Barto,
