@@ -88,7 +88,7 @@ class OwnSAC(Own, SACLearner):
     def __init__(self, own: Parts, *arguments):
         super().__init__(own, *arguments)
         if "margin_loss" in own and (self.margin * (1 - self.paper_q_filter)).any():
-            raise BootcourseError("Your `margin_loss` has the printed Q-filter: leave paper_q_filter at True.")
+            raise BootcourseError("Your `margin_loss` has the paper's Q-filter: leave paper_q_filter at True.")
 
     def change(self, settings: Sequence[Settings], names: Sequence[str]) -> None:
         if "bonus" in names and any(name in self.own for name in BUFFER):

@@ -84,10 +84,10 @@ def large_margin_loss(q, expert_action):
         "q_expert >= q.amax(-1) -> q_expert >= q.amax(-1) - 1e-3":
             "Your filter is on where the expert's Q is a little below the largest. Compare the numbers as they are.",
         "q_expert >= -> q_expert <":
-            "Your filter is on where the printed one is off. That would make more sense, but this exercise asks for "
-            "the printed one.",
+            "Your filter is on where the paper's is off. That would make more sense, but this exercise asks for "
+            "the paper's.",
         "q.amax(-1) -> q.mean(-1)":
-            "You compare with the mean of Q. The printed filter compares with the *largest* Q.",
+            "You compare with the mean of Q. The paper's filter compares with the *largest* Q.",
         "q.amax(-1) -> q.max()":
             "You compare with the largest Q of the whole batch: each state has its own.",
         "return (q_expert >= q.amax(-1)) * large_margin_loss(q, expert_action)":
