@@ -92,7 +92,7 @@ def balanced(agent: SAC, episodes: int = 10) -> float:
     return float(checks.scores([agent], checks.cartpole, episodes)[0])
 
 
-def balanced_drawn(agent: SAC, episodes: int = 30) -> float:
+def balanced_drawn(agent: SAC, episodes: int = 10) -> float:
     """For how many pushes the agent balances the pole if it draws them from its policy: a mean."""
     env, rng, pushes = checks.cartpole(), np.random.default_rng(0), 0
     for seed in range(episodes):

@@ -7,7 +7,7 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.teachers import Rule, teacher_policy
 from bootcourse.policies import Policy, PolicyOutput
 
-HEADINGS = ["the worst student drives, and asks", "seconds it asks in, %", "success, %", "accidents, %", "return"]
+HEADINGS = ["the worst student drives, and asks", "seconds it asks in, %", "gets out, %", "accidents, %", "return"]
 
 
 class Asks:

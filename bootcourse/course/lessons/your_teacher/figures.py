@@ -63,10 +63,11 @@ def records() -> Markdown:
     return table([f"{len(drives)} drives", "the rule's labels, %", "end ahead of trap 1", "end in an accident"], rows)
 
 
-def of_each(tested: Mapping[str, np.ndarray]) -> Markdown:
-    """A table of what `taught_agents.tested` says, a row for each agent."""
+def of_each(tested: Mapping[str, np.ndarray], names: Sequence[str] = ()) -> Markdown:
+    """A table of what `taught_agents.tested` says, a row for each agent; names: of them, or else they have numbers."""
     columns = (100 * tested["success"], 100 * tested["accident"], tested["returns"])
-    rows = [[number, *(f"{value:.0f}" for value in row)] for number, row in enumerate(zip(*columns, strict=True), 1)]
+    names = names or range(1, 1 + len(columns[0]))
+    rows = [[name, *(f"{value:.0f}" for value in row)] for name, *row in zip(names, *columns, strict=True)]
     return table(["student", "gets out, %", "accidents, %", "return"], rows)
 
 

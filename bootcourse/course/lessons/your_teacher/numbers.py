@@ -38,8 +38,8 @@ def slowest_in_queues() -> float:
 
 @cache
 def students(teacher: str) -> dict:
-    """What ships of the ten students of an example teacher, or of the ten that learned "alone"."""
-    return taught_agents.reference()[teacher]
+    """What ships of the ten students of an example teacher, of the ten that learned "alone", or of `RACER_LONG`."""
+    return taught_agents.shipped(teacher)
 
 
 def verdicts() -> dict:

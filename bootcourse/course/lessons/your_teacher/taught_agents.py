@@ -124,10 +124,11 @@ def reference() -> dict[str, dict[str, np.ndarray]]:
 
     Raises BootcourseError if the students of a teacher are missing.
     """
-    return {name: _shipped(name) for name in (ALONE, *TEACHERS)}
+    return {name: shipped(name) for name in (ALONE, *TEACHERS)}
 
 
-def _shipped(name: str) -> dict[str, np.ndarray]:
+def shipped(name: str) -> dict[str, np.ndarray]:
+    """The same of one group, also of `RACER_LONG`."""
     groups = experiment("students")
     if name not in groups:
         raise BootcourseError(f"No students of {name} ship: run `bootcourse study students --out DIR`.")
