@@ -43,6 +43,15 @@ def test_a_logarithmic_slider_is_read_to_two_digits_and_a_typed_number_as_it_is(
     assert number.value == 0 and number.slider.value == pytest.approx(0.1), "the slider stands at its end"
 
 
+def test_a_typed_number_stays_when_the_page_moves_the_slider_to_its_nearest_step():
+    bonus = Number("c", 0.5, 0.001, 3, 0.05, "A bonus.", logarithmic=True)
+    bonus.field.value = 0.03
+    bonus.slider.value = 10**-1.5  # what a browser reports
+    assert bonus.value == bonus.field.value == 0.03
+    bonus.slider.value = 10**-1.4  # what a hand does
+    assert bonus.value == 0.04
+
+
 def test_slider_and_field_show_the_same_number_and_a_typed_one_may_lie_beyond_the_slider():
     number = a_p()
     from_page(number.slider, value=0.5)

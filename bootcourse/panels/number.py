@@ -27,7 +27,7 @@ class Number(widgets.VBox):
         self.check, self.symbol, self.sentence = check, symbol, help
         self._showing = False  # what `show` writes into the controls is not an entry
         self._dragged = False  # while the slider is moved nobody else moves it: it would stop short of the hand
-        self.low, self.high = low, high
+        self.low, self.high, self.step, self.logarithmic = low, high, step, logarithmic
         kind = widgets.FloatLogSlider if logarithmic else widgets.FloatSlider
         least, most = map(float, np.log10([low, high])) if logarithmic else (low, high)
         shown = min(max(value, low), high)
@@ -41,10 +41,14 @@ class Number(widgets.VBox):
         for part, width in ((label, 92), (self.slider, 210), (self.field, 88), (self, 420)):
             part.layout.width = f"{width}px"
         self.show()
-        dragged = (lambda value: float(f"{value:.2g}")) if logarithmic else float  # 180, and not 177.8279
-        self.slider.observe(lambda change: self._enter(dragged(change["new"]), by_slider=True), "value")
+        self.slider.observe(lambda change: self._drag(change["new"]), "value")
         self.field.observe(lambda change: self._enter(change["new"]), "value")
         self.observe(lambda change: self.show(), "value")
+
+    def _drag(self, place: float) -> None:
+        if not self._is_shown_at(place):
+            value = float(f"{place:.2g}") if self.logarithmic else float(place)  # 180, and not 177.8279
+            self._enter(value, by_slider=True)
 
     def _enter(self, value: float, by_slider: bool = False) -> None:
         if self._showing:
@@ -61,6 +65,11 @@ class Number(widgets.VBox):
             self.show()
         finally:
             self._dragged = False
+
+    def _is_shown_at(self, place: float) -> bool:
+        """Does a page show the present value there? It moves a slider to its nearest step, and reports that."""
+        far = abs(math.log10(place / self.value)) if self.logarithmic and self.value > 0 else abs(place - self.value)
+        return 0 < far < 0.51 * self.step and self.low <= self.value <= self.high
 
     def show(self) -> None:
         """Show the value, in place of a refused number; one beyond the slider's range puts the slider at its end."""

@@ -192,8 +192,8 @@ def forgotten(study: StudyResults) -> Claim:
         different(ours.of("demos"), ours.of("bootstrapped"), escaping),
         [
             "Withdrawn: that none keeps the way out. It held for the study's ten agents, and fell with the other ten.",
-            f"With drives by the stochastic rule {counted(clocks['1/4 updates, demonstrations by π̃'])} escape, with "
-            f"two updates for each decision, too, {counted(study.results['paper'])}.",
+            f"With drives by the stochastic rule {counted(clocks['1/4 updates, demonstrations by π̃'])} escape (alone, "
+            f"with both aids); with two updates for each decision as well {counted(study.results['paper'])}.",
         ],
     )  # fmt: skip
 

@@ -188,10 +188,10 @@ bc.show(charts.many(probes, title, "updates", asked, "healthy", limits=limits, l
 
 # %% [markdown]
 # **Explain.** For the road's rewards alone the limit is 1 / (1 − γ) = {{ 1 / (1 - SETTINGS.gamma) |
-# .0f }}. These critics also count entropy, KL and the demonstrations' bonus, so the healthy promise
-# may lie a little higher. With the bonus c = {{ SETTINGS.bonus | .0f }} in *every* second the limit
-# is {{ (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}. One agent's promise rises slowly past
-# 10; in another panel both seeds leave the axes for a time.
+# .0f }}. These critics also count entropy, KL and the demonstrations' bonus, so 5 does not bind
+# them: compare with healthy. With the bonus c = {{ SETTINGS.bonus | .0f }} in *every* second the
+# limit is {{ (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}. One agent's promise rises slowly
+# past 10; in another panel both seeds leave the axes for a time.
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} and
 #   (hunt().probe('F', 'promise').max(axis=1) > 20).all() and (hunt().probe('F', 'promise')[:, -1] <
 #   20).all() -->
@@ -275,7 +275,8 @@ check.diagnose(diagnose)
 # - **B**: no gradient passes through a draw among nine actions: the KL alone teaches the actor,
 #   towards the stochastic rule.
 # - **C**: only the pull is shifted; the demonstrations still show the action of now.
-# - **D** adds the value of a car that has just crashed. Q far below −10 says that it is negative.
+# - **D** adds the value of a car that has just crashed. It is negative here, so Q is below −10. (In
+#   lesson [[update_and_loop]] it was positive, and the pole fell.)
 # - **E**: with a bonus for all, demonstrations have no advantage. E does what the slow rule does in
 #   {{ 100 * as_the_rule('E') | .0f }} % of its seconds, the healthy agent in {{ 100 *
 #   as_the_rule('healthy') | .0f }} %. Is that why E earns more? This is not tested.
@@ -341,7 +342,7 @@ compare_predictions(
 # ## What you now know
 #
 # 1. A curve can look right although the code is wrong: four of six agents with a bug succeed; one
-#    earns more, and crashes more.
+#    earns far more.
 # 2. A probe asks one part of a learner something whose right answer is known. Compare with an agent
 #    you trust. A probe that looks right clears only what it asks.
 # 3. Ask the critic what an accident is worth, and how much it promises. Without a bonus a promise

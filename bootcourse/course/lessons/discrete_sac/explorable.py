@@ -48,7 +48,7 @@ def overestimated() -> Explorable:
     counts, limits = np.arange(1, MOST + 1), (-1.5, 4.0)
 
     def draw(actions: float, error: float) -> Drawing:
-        one, two = error * of_one, error * of_two
+        one, two = error * of_one, error * of_two + 0.0  # no −0
         seems, less = (float(np.interp(actions, counts, each)) for each in (one, two))
         named = {
             "one critic": Curve(one, style("sac").colour),
@@ -59,7 +59,7 @@ def overestimated() -> Explorable:
         return curves(says.replace("-", "−"), axes, counts, named, mark=actions)
 
     numbers = {
-        "actions": Number("actions", 2, 1, MOST, 1, "So many actions are worth the same."),
+        "actions": Number("actions", 2, 1, MOST, 1, "How many actions there are; all are worth 0."),
         "error": Number("error", 1, 0, 2, 0.1, "How much an estimate errs: the standard deviation."),
     }
     return Explorable("How good does the best-looking action seem to be?", draw, **numbers)

@@ -245,7 +245,7 @@ print(sac.critic_target(torch.ones(2), terminated, torch.tensor([50.0, 50.0]), 0
 # ### Two critics
 #
 # Suppose that all actions are worth 0, and that each estimate errs by chance, on its own. **Drag**
-# their number to nine. How high is the highest estimate with one critic? And with the smaller of
+# the number of actions to nine. How high is the highest estimate with one critic? And with the smaller of
 # two?
 
 # %%

@@ -200,7 +200,7 @@ check.mixed_batch(mixed_batch)
 predict(
     "learning_from_demonstrations.4",
     "By how much does c = 2 raise the lead over the best other action?",
-    ["by about five bonuses, 10", "by about one bonus, 2", "by less than 1, or not at all"],
+    ["by about five bonuses, 10", "by about one bonus, 2", "by less than 1, or it falls"],
 )
 
 # %%
@@ -324,8 +324,8 @@ table(measures.FOUND, measures.found_and_escaped(kinds), below)
 #   round(np.median(found('c = 0')) - np.median(found('margin')), -1) -->
 #
 # *That more escape in the end, or earn more, is not shown*: {{ in_all('none') }} escape with c = 2,
-# with c = 0 and without demonstrations; the margin's {{ in_all('margin') }} against
-# {{ escaped('soft') }} of the study's ten without can be chance. Without the KL few escape.
+# with c = 0 and without demonstrations; the margin's {{ in_all('margin') }} against {{
+# escaped('soft') }} of the study's ten without can be chance. Without the KL at most half do here.
 # <!-- claim: [alone(name, 0) for name in ('c = 2', 'c = 0', 'margin')] == ['0 of 10'] * 3 and
 #   alone('c = 2', 1) == '5 of 10' -->
 # <!-- claim: in_all('c = 2') == in_all('c = 0') == in_all('none') == '16 of 20' -->
@@ -384,7 +384,7 @@ bc.recording(drives, height=480, details=True)
 
 # %%
 raised = measures.raised(critics)
-size = "by less than 1, or not at all" if max(raised) < 1 else "by about one bonus, 2"
+size = "by less than 1, or it falls" if max(raised) < 1 else "by about one bonus, 2"
 compare_predictions(
     "learning_from_demonstrations",
     {1: "through the critics' Q", 2: "10", 3: "0.05"}
@@ -402,8 +402,8 @@ compare_predictions(
 #    paper's only where the demonstrated action comes first already.
 # 4. With the KL, agents with demonstrations find the way out after fewer episodes of their own. Once
 #    β has run out, it is not shown that more of them escape.
-# 5. From episode 300 to 600 the bonus holds the return back, at first near the rule's. Later most
-#    agents earn far more, and some lose the way out.
+# 5. In the study's ten the bonus held the return back from episode 300 to 600. Later most earned
+#    far more, and some lost the way out.
 
 # %% [markdown]
 # **Three questions to think about**

@@ -209,18 +209,19 @@ def d_of(learner: GAILLearner, row: int, drive: Rollout) -> np.ndarray:
 def judged(learner: GAILLearner) -> Figure:
     """What each agent's judge says in the last seconds before its crashes, and of the rule's drives."""
     found = seen_by_judge(learner)
-    named = {f"gail, seed {i}: {each.crashes}": each.before for i, each in enumerate(found) if each.crashes}
+    named = {f"gail, seed {i}": each.before for i, each in enumerate(found) if each.crashes}
     title = "What the judge says in the last seconds before a crash"
     if named and np.nanmin(list(named.values())) > 0.1:
         title = "Before a crash D is not near 0, so these seconds are paid"
-    marks = {"the rule's drives": float(np.mean([each.of_rule for each in found])), "a guess": 0.5}
+    marks = {f"the rule, by judge {i}": float(each.of_rule) for i, each in enumerate(found)} | {"a guess": 0.5}
     seconds = np.arange(1 - LAST, 1)
-    label = "mean D(s,a) in the drives that crash"
+    crashes = " and ".join(f"{each.crashes}" for each in found)
+    label = f"mean D(s,a) in the drives that crash: {crashes} of 100"
     alt = "; ".join(
         f"seed {i}, {each.crashes} of 100 drives crash, D in the last {LAST} seconds "
         f"{', '.join(f'{d:.2f}' for d in each.before)}, in all of its own {each.own:.2f}, "
         f"in the rule's {each.of_rule:.2f}"
         for i, each in enumerate(found)
     )
-    x_label = "seconds to the last one before a crash (right: crashes in 100 drives)"
+    x_label = "seconds, 0: the last one before the crash"
     return charts.lines(seconds, named, title, x_label, label, marks=marks, limits=(0, 1), alt=f"GAIL, {alt}.")

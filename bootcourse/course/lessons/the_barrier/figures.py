@@ -121,22 +121,24 @@ def expectations(agents: Sequence) -> Figure:
     more = less & (found[:, NOW + 2] > found[:, NOW])
     title = f"{less.sum()} of {len(agents)} agents expect less from {SPEEDS[NOW + 2]:g} m/s than from {SPEEDS[NOW]:g}; "
     title += f"for {more.sum()} of these it would be worth more"
-    figure, alt, everything = new_figure(2.75), [], [*expected.ravel(), *found.ravel()]
+    figure, alt, everything = new_figure(3.1), [], [*expected.ravel(), *found.ravel()]
     looks = {"its own Q": (SHADES[FAR], "-"), "what its drive is worth": (INK, (0, (4, 2)))}
     for k, lines in enumerate(zip(expected, found, strict=True)):
-        ax = axes_at(figure, 0.45 + 1.65 * k, 0.85, 1.45, 1.35)
+        ax = axes_at(figure, 0.45 + 1.65 * k, 1.0, 1.45, 1.35)
         plain_axes(ax, "")
+        ax.set_xlabel("speed mid-lane, m/s", fontsize=SMALL, color=QUIET, loc="left")
         for (name, (colour, dash)), values in zip(looks.items(), lines, strict=True):
             ax.plot(SPEEDS, values, color=colour, linestyle=dash, linewidth=1.8, label=name)
             alt.append(f"agent {k}, {name}: {', '.join(f'{value:.1f}' for value in values)}")
         ax.set(xlim=SPEEDS[[0, -1]], ylim=(min(everything) - 0.5, max(everything) + 0.5), xticks=SPEEDS[::2])
-        ahead = f"ahead on {100 * estimates.ahead(agents[k]):.0f} % of roads"
-        ax.set_title(ahead, fontsize=TEXT, color=INK, loc="left")
-        alt.append(ahead)
+        ahead = estimates.ahead(agents[k])
+        ends = f"{'escapes' if ahead >= ESCAPES else 'does not escape'} ({100 * ahead:.0f} %)"
+        ax.set_title(ends, fontsize=TEXT, color=INK, loc="left")
+        alt.append(ends)
         if k:
             ax.set_yticklabels([])
-    figure.axes[0].set_xlabel("speed mid-lane, m/s", fontsize=SMALL, color=QUIET, loc="left")
-    figure.axes[-1].legend(fontsize=SMALL, frameon=False, loc="upper right", bbox_to_anchor=(1.02, -0.14), ncols=2)
+    figure.axes[0].legend(fontsize=SMALL, frameon=False, loc="upper left", bbox_to_anchor=(-0.08, -0.32), ncols=2)
+    figure.text(0.012, 0.79, f"worth at γ = {agents[0].settings.gamma:g}", fontsize=TEXT, color=QUIET)
     return finish(figure, title, f"At {SPEEDS[0]:g} to {SPEEDS[-1]:g} m/s. {'; '.join(alt)}.")
 
 

@@ -81,14 +81,14 @@ def in_words(values: Iterable[float]) -> str:
 def along_falls(critics: Mapping[str, left_out.Learned]) -> Figure:
     """What critics expect with each push of a fall, see `left_out.along_falls`."""
     named = {words: left_out.along_falls(each.agents) for words, each in critics.items()}
-    title = "Where no fall is marked, these critics expect most of the fallen pole"
+    title = "Where no fall is marked, these critics value the fallen pole most"
     return charts.lines(np.arange(-left_out.BEFORE, 1), named, title, "pushes from the fall (0: the pole has fallen)",
                         "Q, mean of 40 falls, a line for each agent", looks=STRANGERS[1::-1])  # fmt: skip
 
 
 def estimates(critics: Mapping[str, left_out.Learned]) -> Figure:
     """What critics expect of the start while they learn."""
-    title = "With rows of fallen states the estimates stay low, with upright ones not"
+    title = "With rows of fallen states the estimates end below 100, with upright ones not"
     q = {words: each.q for words, each in critics.items()}
     updates = left_out.EVERY * np.arange(1, 1 + min(values.shape[1] for values in q.values()))
     return charts.lines(updates, q, title, "updates", "Q at the start, a line for each agent",

@@ -268,8 +268,8 @@ figures.until_the_fall(critics | controls)
 
 # %% [markdown]
 # **See.** With drawn pushes, agents without marks fall sooner than untrained: they are now sure of
-# wrong pushes, and an actor learns from its critics alone. But their rows all say "1 now, and then
-# the value of the next state", and one constant fits all (but for the entropy):
+# wrong pushes, and an actor learns from its critics alone. All their rows say "1 now, and then the
+# value of the next state": entropy apart, one constant fits all,
 # Q = 1 / (1 − γ) = {{ 1 / (1 - 0.99) | .0f }}.
 #
 # > **Predict.** What do their critics expect of a fallen pole, compared with a standing one?
@@ -299,9 +299,9 @@ figures.in_the_end(controls | critics)
 
 # %% [markdown]
 # **Explain.** Without rows of fallen states the estimates pass {{ 1 / (1 - 0.99) | .0f }} and still
-# rise when the run ends: as far as we look, the critic **diverges**. Rows of the upright state do not
-# help: here the missing rows are a cause. But rows of fallen states say that a fall pays on, and the
-# pole falls, too. One kind balances: its rows say where the rewards end.
+# rise when the run ends: as far as we look, the critic **diverges**. Rows of the upright state do
+# not help: here, with τ = 0.15, the missing rows are a cause. But rows of fallen states say that a
+# fall pays on, and the pole falls, too. One kind balances: its rows say where the rewards end.
 #
 # A network, estimates learned from estimates, and rows of older policies: with these three, the
 # *deadly triad* of Sutton and Barto, a critic *can* diverge, and need not. Your agent above has all
