@@ -1,7 +1,8 @@
-"""Compute jobs on this machine's cores, or on a dask cluster, through joblib."""
+"""Compute jobs on this machine's cores, through joblib, or on a dask cluster."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import joblib
@@ -17,6 +18,7 @@ from bootcourse.storage.work import locked, remove_empty
 
 BACKENDS = ("loky", "dask")
 CONNECT = 10.0  # s until a scheduler must answer
+Answers = Callable[[list, Path], Iterator[str]]  # runs jobs in a folder: what went wrong with each that ends, or ""
 
 
 def run_jobs(
@@ -50,34 +52,45 @@ def run_jobs(
         if waiting:
             print(time_needed(waiting, root, workers))
             write_json(root / "study.json", {"jobs": [job.name for job in jobs]})
-            with connected(backend, scheduler, workers):
-                problems = _compute(waiting, root.resolve())
+            with connected(backend, scheduler, workers) as answers:
+                problems = _compute(waiting, root.resolve(), answers)
             remove_empty(root / "unfinished")
         after(problems)
         return problems
 
 
-def _compute(waiting: list, root: Path) -> list[str]:
+def _compute(waiting: list, root: Path, answers: Answers) -> list[str]:
     from bootcourse.progress import progress_bar
 
-    calls = (joblib.delayed(run_job)(job, root) for job in waiting)
     try:
-        answers = joblib.Parallel(batch_size=1, pre_dispatch="all", return_as="generator_unordered")(calls)
-        bar = progress_bar(answers, total=len(waiting), unit="job", smoothing=0)
+        bar = progress_bar(answers(waiting, root), total=len(waiting), unit="job", smoothing=0)
         return [answer for answer in bar if answer]
     except joblib.externals.loky.process_executor.TerminatedWorkerError:
         return ["A process was killed, perhaps for lack of memory: start the same command again, with fewer --workers."]
 
 
 @contextmanager
-def connected(backend: str, scheduler: str | None, workers: int | None) -> Iterator[None]:
-    """joblib's processes: loky's on this machine, or those of a dask cluster."""
+def connected(backend: str, scheduler: str | None, workers: int | None) -> Iterator[Answers]:
+    """What runs jobs: loky's processes on this machine, or those of a dask cluster."""
     if backend == "loky":
         with joblib.parallel_config("loky", n_jobs=workers or usable_processors(), inner_max_num_threads=1):
-            yield
+            yield _by_loky
     else:
-        with _dask_client(scheduler, workers), joblib.parallel_config("dask", n_jobs=workers or -1):
-            yield
+        with _dask_client(scheduler, workers) as client:
+            yield partial(_by_dask, client)
+
+
+def _by_loky(waiting: list, root: Path) -> Iterator[str]:
+    calls = (joblib.delayed(run_job)(job, root) for job in waiting)
+    return joblib.Parallel(batch_size=1, pre_dispatch="all", return_as="generator_unordered")(calls)
+
+
+def _by_dask(client, waiting: list, root: Path) -> Iterator[str]:
+    """Tasks that hold their jobs: after a worker's death another one runs them, whatever else the dead one kept."""
+    from distributed import as_completed
+
+    for future in as_completed([client.submit(run_job, job, root, pure=False) for job in waiting]):
+        yield future.result()
 
 
 def _dask_client(scheduler: str | None, workers: int | None):
