@@ -408,7 +408,7 @@ compare_predictions(
 # %% [markdown]
 # **Three questions to think about**
 # - Which c would you choose for γ = 0.95, and by which argument?
-# - Where would you pay the bonus, so that it holds nobody back?
+# - Where would you pay the bonus, so that it does not hold an agent back?
 # - What would you plot to see when a critic has unlearned the bonus?
 #
 # **Read on**: [the next lesson](how_many_seeds.ipynb) asks what counts of ten agents are worth.

@@ -58,8 +58,10 @@ def begun_in_sight(floor: float, sight: float = 20.0) -> int:
 
 
 def first_changes(floor: float, sight: float = 20.0) -> tuple[np.ndarray, np.ndarray]:
-    """(completed, called off), each (roads,): whether the first lane change that a drive begins ends in the new lane
-    within four seconds; and whether it does not, and a second after its beginning the rule sees nobody ahead.
+    """Of the first lane change that each drive begins: (completed, called off), each (roads,).
+
+    Completed: it ends in the new lane within four seconds. Called off: it does not, and one second after it began the
+    rule sees nobody ahead.
     """
     reasons, _, cars, _ = decided(sight, floor=floor)
     changes, roads = reasons == Reason.CHANGE, np.arange(len(ROADS))
