@@ -1,6 +1,6 @@
 """Wrong answers made by machine: each solution is changed in one place, and the check must refuse it.
 
-    python -m tests.mutants critic_target paper_q_filter  # the changes to their solutions that pass: cases are missing
+    python -m tests.mutants critic_target mixed_batch  # the changes to their solutions that pass: cases are missing
 
 A change that gives the right answer for all arguments that the exercise allows is no mistake: it stands in
 the lesson's answers.py, with the reason, as `equivalent(exercise, change, why)`. Classes are left out, and exercises in

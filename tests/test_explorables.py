@@ -3,17 +3,22 @@
 import importlib
 import re
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import torch
 
 from bootcourse.course.lessons import COURSE, LESSONS
+from bootcourse.course.lessons.learning_from_demonstrations.explorable import nine_values
 from bootcourse.course.lessons.looking_ahead import explorable as futures
+from bootcourse.course.lessons.other_ways.explorable import TwoCounts
+from bootcourse.course.shipped import shipped_experiment
 from bootcourse.learn import sac
-from bootcourse.learn.bootstrap import regularised_policy
+from bootcourse.learn.bootstrap import large_margin_loss, regularised_policy
 from bootcourse.panels.explorable import Explorable
 from bootcourse.policies import idle_policy
+from bootcourse.research.equal_decisions import by_method
 from bootcourse.statistics import rate
 from tests.panels import at_its_ends, from_page, inside, raise_in_callbacks  # noqa: F401
 from tools.course.numbering import text_file
@@ -53,7 +58,7 @@ def test_each_core_lesson_has_something_to_drag_before_the_formula_of_its_round(
     place = next(i for i, cell in enumerate(cells) if cell.is_code and re.search(shows, cell.student, re.M))
     begins = max(i for i, cell in enumerate(cells[:place]) if re.search("^## ", cell.text, re.M))
     round_so_far = "\n".join(cell.text for cell in cells[begins:place])
-    assert lesson == "learning_from_demonstrations" or "$$" not in round_so_far
+    assert "$$" not in round_so_far
     assert re.search(r"\*\*Drag\*\*", cells[place - 1].text), "a question that the sliders answer"
 
 
@@ -80,9 +85,9 @@ def test_the_numbers_in_the_sentences_are_those_of_the_library():
     low, high = 100 * np.array(rate(np.arange(10) < 8)[1:])
     assert f"{low:.0f} to {high:.0f} %" in shown("how_many_seeds").svg.alt
     panel = shown("the_barrier")
-    for accidents, words in ((0, "pays"), (30, "does not pay")):
-        from_page(panel.numbers["accidents"].slider, value=accidents)
-        assert f"an attempt {words}" in panel.svg.alt
+    for share, words in ((0, "adds"), (50, "costs")):
+        from_page(panel.numbers["share"].slider, value=share)
+        assert f"one m/s more {words}" in panel.svg.alt
 
 
 def test_alpha_falls_for_ever_only_if_the_target_entropy_is_below_zero_and_rises_if_it_is_above_the_even_policy_s():
@@ -99,6 +104,29 @@ def test_the_futures_say_until_which_decision_a_drive_can_be_saved(crash):
     for decision, words in ((last, f"{safe[last - 1]} of nine futures have no accident"), (last + 1, "it is too late")):
         from_page(panel.numbers["decision"].field, value=decision)
         assert words in panel.svg.alt and "nan" not in panel.svg
+
+
+def test_the_distance_that_the_margin_is_dragged_to_is_the_large_margin_loss():
+    q = np.random.default_rng(1).normal(0, 1, (4, 9))
+    did = np.array([0, 8, 3, int(q[3].argmax())])
+    panel = nine_values(SimpleNamespace(q_values=lambda observations: q), SimpleNamespace(
+        observations=q, rule_actions=did), seconds=4)  # fmt: skip
+    for margin in (0.0, 1.0, 2.0):
+        from_page(panel.numbers["margin"].slider, value=margin)
+        for second, loss in enumerate(large_margin_loss(torch.tensor(q), torch.tensor(did), margin), 1):
+            from_page(panel.numbers["second"].field, value=second)
+            assert f"between the dashed lines: {loss:.1f}." in panel.svg.alt and "nan" not in panel.svg
+    assert "and has the largest Q" in panel.svg.alt
+
+
+def test_by_seconds_of_computing_the_last_learner_is_the_first_and_what_was_not_timed_is_left_out():
+    panel, pictures = TwoCounts(by_method(shipped_experiment("beyond")), 51.0), {}
+    for count in (1, 0):
+        from_page(panel.count, index=count)
+        pictures[count] = panel.svg
+        assert panel.view.value == panel.svg and "nan" not in panel.svg
+    assert "decisions PPO after cloning earns the least" in pictures[0].alt and "plain SAC" in pictures[0]
+    assert "computing PPO after cloning earns the most" in pictures[1].alt and "plain SAC" not in pictures[1]
 
 
 def test_a_move_is_answered_at_once():

@@ -175,14 +175,6 @@ def test_slopes_in_log_probabilities_are_taken_through_their_logits(exercise):
             assert isinstance(name, exercise_module.logits), f"{exercise.name}: mark {name} as logits"
 
 
-def categorical(log_pi, values, actions, old_log_pi, advantage, returns, clip, entropy_weight):
-    policy = torch.distributions.Categorical(logits=log_pi)
-    ratio = (policy.log_prob(actions) - old_log_pi).exp()
-    scaled = (advantage - advantage.mean()) / (advantage.std() + 1e-8)
-    gain = torch.minimum(ratio * scaled, ratio.clamp(1 - clip, 1 + clip) * scaled).mean()
-    return (values - returns).square().mean() / 2 - gain - entropy_weight * policy.entropy().mean()
-
-
 def categorical_entropy(log_pi, q, alpha):
     policy = torch.distributions.Categorical(logits=log_pi)
     return -((policy.probs * q.detach()).sum(-1) + alpha * policy.entropy()).mean()
@@ -198,7 +190,7 @@ def categorical_kl(log_pi, rule_action, p):
     return torch.distributions.kl_divergence(*policies)
 
 
-CATEGORICAL = {"ppo_loss": categorical, "actor_loss": categorical_entropy, "cloning_loss": categorical_log_prob,
+CATEGORICAL = {"actor_loss": categorical_entropy, "cloning_loss": categorical_log_prob,
                "soft_constraint": categorical_kl}  # fmt: skip
 
 

@@ -98,5 +98,8 @@ def test_the_study_learns_anew_in_each_round_from_all_drives_and_its_control_fro
     assert (first < second).all() and (agents.measured["rows"] > first).all()
     assert learned_model.per_thousand(agents, FORMS[0]).shape == (2, 2)
     assert learned_model.per_thousand(agents, "shield", control=True).shape == (2, 1)
+    monkeypatch.setattr(learned_model, "RANDOM", (0.5,))
+    tried["random 0.5 agent 1"] = learned_model.learned_ahead(1, tests=3, share=0.5)
+    assert len(learned_model.together(tried, 0.5).agents) == 1
     headings, rows = learned_model.rows(tried, {})
-    assert len(rows) == 2 * len(FORMS) and {len(row) for row in rows} == {len(headings)}
+    assert len(rows) == 3 * len(FORMS) and {len(row) for row in rows} == {len(headings)}

@@ -21,8 +21,8 @@ FOLDER = Path("answers")  # beside the notebooks
 PARTS = (  # the exercises whose answers train the agent: see own_code.py
     "soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "ReplayBuffer",
     "update", "train",
-    "soft_constraint", "constrained_loss", "constrained_target", "mixed_batch", "margin_loss",
-    "discriminator_loss", "imitation_reward", "offline_loss", "advantages", "clipped_loss", "ppo_loss",
+    "soft_constraint", "constrained_loss", "constrained_target", "mixed_batch",
+    "imitation_reward", "offline_loss", "advantages", "clipped_loss",
     "rollout_values", "shield", "smallest_of", "better_of_two", "guide_shrinks",
 )  # fmt: skip
 CONSTANTS = (bool, int, float, str, type(None))

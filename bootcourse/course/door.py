@@ -11,6 +11,7 @@ COMMANDS = {name: f"{_HERE}.classroom.commands:{name}" for name in ("handout", "
 EXPERIMENTS = {  # of the lessons
     "bug-hunt": f"{_HERE}.lessons.bug_hunt.bugs",
     "students": f"{_HERE}.lessons.your_teacher.taught_agents",
+    "crashes": f"{_HERE}.lessons.your_teacher.crashes",
     "second-trap": f"{_HERE}.lessons.the_second_trap.ppo_kinds",
     "easier": f"{_HERE}.lessons.the_barrier.easier",
     "reachable-entropy": f"{_HERE}.lessons.recorded_drives.reachable_entropy",

@@ -30,7 +30,7 @@ from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.learn.training import Training
 
 COMPARED = ("soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "soft_constraint",
-            "constrained_loss", "constrained_target", "margin_loss")  # parts of SAC's update  # fmt: skip
+            "constrained_loss", "constrained_target")  # parts of SAC's update  # fmt: skip
 NONE = "No part is yours yet: agents train with the library's own."
 TOLERANCE = 1e-3  # relative difference of a loss or a gradient; rounding gives about 1e-6
 _own: dict[str, Callable] = {}  # the student's parts in this kernel

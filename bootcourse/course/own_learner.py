@@ -20,7 +20,7 @@ from bootcourse.learn.ibrl import IBRLLearner
 from bootcourse.learn.jsrl import JSRLLearner
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import mlp
-from bootcourse.learn.ppo import Minibatch, PPOLearner
+from bootcourse.learn.ppo import PPOLearner
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.rlpd import RLPDLearner
 from bootcourse.learn.settings import Settings
@@ -31,7 +31,7 @@ LATER = {"constrained_target": ("soft_value", "critic_target"), "constrained_los
 BUFFER = ("ReplayBuffer", "mixed_batch")
 ALONE = {  # the parts of a method that shares none with SAC's exercises
     "cql": ["offline_loss"],
-    "gail": ["discriminator_loss", "imitation_reward"],
+    "gail": ["imitation_reward"],
     "rlpd": ["smallest_of"],
     "ibrl": ["better_of_two"],
     "jsrl": ["guide_shrinks"],
@@ -52,7 +52,7 @@ def parts_of(settings: Sequence[Settings], own: Parts) -> list[str]:
     if method in ALONE:
         return ALONE[method]
     if METHODS[method].on_policy:
-        return ["advantages", "ppo_loss" if "ppo_loss" in own else "clipped_loss"]
+        return ["advantages", "clipped_loss"]
     names = ["soft_value", "critic_target", "critic_loss", "actor_loss", "temperature_loss", "ReplayBuffer"]
     if any(s.asks_teacher for s in settings):
         names.append("soft_constraint")
@@ -61,8 +61,6 @@ def parts_of(settings: Sequence[Settings], own: Parts) -> list[str]:
                 names = [later if name == earlier[-1] else name for name in names if name not in earlier[:-1]]
     if any(s.needs_demonstrations for s in settings):
         names.append("mixed_batch")
-    if any(s.margin > 0 for s in settings):
-        names.append("margin_loss")
     return names
 
 
@@ -84,11 +82,6 @@ class Own:
 
 class OwnSAC(Own, SACLearner):
     """SAC with the paper's additions."""
-
-    def __init__(self, own: Parts, *arguments):
-        super().__init__(own, *arguments)
-        if "margin_loss" in own and (self.margin * (1 - self.paper_q_filter)).any():
-            raise BootcourseError("Your `margin_loss` has the paper's Q-filter: leave paper_q_filter at True.")
 
     def change(self, settings: Sequence[Settings], names: Sequence[str]) -> None:
         if "bonus" in names and any(name in self.own for name in BUFFER):
@@ -121,12 +114,6 @@ class OwnSAC(Own, SACLearner):
     def squared_error(self, q_pair: Tensor, actions: Tensor, target: Tensor) -> Tensor:
         loss = self.part("critic_loss")
         return self.each(lambda i: loss(q_pair[:, i], actions[i], target[i]))
-
-    def margin_loss(self, q_pair: Tensor, log_pi: Tensor, batch: Batch) -> Tensor:
-        if "margin_loss" not in self.own:
-            return super().margin_loss(q_pair, log_pi, batch)
-        loss = self.own["margin_loss"]
-        return self.each(lambda i: loss(q_pair[:, i], batch.actions[i], batch.is_demonstration[i]))
 
     def actor_loss(self, log_pi: Tensor, q: Tensor, kl: Tensor) -> Tensor:
         def loss(i: int) -> Tensor:
@@ -163,18 +150,14 @@ class OwnCQL(Own, CQLLearner):
 
 
 class OwnGAIL(Own, GAILLearner):
-    """GAIL: the discriminator's loss, and the reward."""
-
-    def discriminator_loss(self, expert_logits: Tensor, own_logits: Tensor) -> Tensor:
-        loss = self.part("discriminator_loss")
-        return self.each(lambda i: loss(expert_logits[i], own_logits[i]))
+    """GAIL: the reward."""
 
     def imitation_reward(self, own_logits: Tensor) -> Tensor:
         return self.each(lambda i: self.part("imitation_reward")(own_logits[i]))
 
 
 class OwnPPO(Own, PPOLearner):
-    """PPO: the advantages, and the clipped objective or the whole loss, which contains it."""
+    """PPO: the advantages, and the clipped objective."""
 
     def advantages(self, *columns: Tensor) -> Tensor:
         compute, lam = self.part("advantages"), self.settings[0].gae_lambda
@@ -184,15 +167,6 @@ class OwnPPO(Own, PPOLearner):
     def clipped_loss(self, ratio: Tensor, advantage: Tensor) -> Tensor:
         loss, clip = self.part("clipped_loss"), self.settings[0].clip
         return self.each(lambda i: loss(ratio[i], advantage[i], clip))
-
-    def losses(self, batch: Minibatch) -> dict[str, Tensor]:
-        if "ppo_loss" not in self.own:
-            return super().losses(batch)
-        log_pi, values = sac.log_policy(mlp(self.actor, batch.states)), mlp(self.value, batch.states)[..., 0]
-        rows = log_pi, values, batch.actions, batch.log_pi, batch.advantages, batch.returns
-        loss, shared = self.own["ppo_loss"], self.settings[0]
-        total = self.each(lambda i: loss(*(row[i] for row in rows), shared.clip, shared.entropy_weight))
-        return {"actor_loss": total, "value_loss": torch.zeros_like(total), "entropy": sac.entropy(log_pi).mean(-1)}
 
 
 class OwnRLPD(Own, RLPDLearner):

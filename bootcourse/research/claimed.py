@@ -261,6 +261,9 @@ def ends(study: StudyResults) -> Claim:
         each = [losing(study.experiments["clocks"][f"{updates} updates, demonstrations by {by}"]) for by in ("μ", "π̃")]
         return f"{sum(agents.sum() for agents in each)} of {sum(map(len, each))}"
 
+    def unpaid(cell: str) -> str:
+        return f"{losing(changed[cell]).sum()} of {len(losing(changed[cell]))}"
+
     at_the_end = {m: (missing(ours, lasting, m), missing(*others(m), m)) for m in ("bootstrapped", "demos")}
     return Claim(
         "ends",
@@ -275,7 +278,8 @@ def ends(study: StudyResults) -> Claim:
         different(ours, lasting, losing),
         [
             f"Lost: after {HAD} of {IN_A_ROW} training episodes in a row ahead, {LOST} of {IN_A_ROW} or fewer.",
-            "It takes the bonus: without it {}.".format(against(changed["c = 0"], changed["β for ever, c = 0"])[1]),
+            f"It takes the bonus: with c = 0, {unpaid('c = 0')} lose it if they run out by episode 1,000, "
+            f"{unpaid('β for ever, c = 0')} if they stay.",
             f"With two updates for each decision and demonstrations that run out {with_updates(2)} lose it by episode "
             f"1,200, with four {with_updates(4)}.",
             "Withdrawn: that fewer have it at the end. Of those that found it {} do not keep it; of the other agents "
@@ -294,8 +298,8 @@ def clocks(study: StudyResults) -> Claim:
     few, many = ({m: share(each, m) for m, each in group.items()} for group in (quarter, two))
     return Claim(
         "clocks",
-        "Which aid alone gets more agents out depends on the updates for each decision and who demonstrates, changed "
-        "together.",
+        "Which aid alone gets more agents out depends on the updates for each decision, the roads at a time and who "
+        "demonstrates, changed together.",
         f"soft against demonstrations: {10 * few['soft']:.0f} and {10 * few['demos']:.0f} of ten with one update for "
         f"four decisions and the rule, {10 * many['soft']:.0f} and {10 * many['demos']:.0f} with two for each and the "
         "stochastic rule",
@@ -404,10 +408,11 @@ def margin(study: StudyResults) -> Claim:
 
     return Claim(
         "margin",
-        "With the large-margin loss and the KL most agents escape, without the KL hardly any.", both(ours)[1],
+        "With the large-margin loss most agents escape with the soft constraint, and hardly any without it.",
+        both(ours)[1],
         {words: both(study.results[name]) for words, name in others.items()},
         different(ours.of("margin_soft"), ours.of("margin"), escaping),
-        [f"The KL without the margin: {told(ours, 'soft')}."],
+        [f"The soft constraint without the margin: {told(ours, 'soft')}."],
     )  # fmt: skip
 
 

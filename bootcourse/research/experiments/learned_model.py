@@ -17,6 +17,7 @@ import numpy as np
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.road_model import FORMS, ImaginedAhead, Transitions, learned_from, transitions_of
+from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research.cells import results_of
 from bootcourse.research.experiment import Computed, Experiment
 from bootcourse.research.experiments.lookahead import NAME as LOOK_AHEAD
@@ -24,36 +25,68 @@ from bootcourse.research.experiments.lookahead import Cell, agents_of, measured
 from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned
 from bootcourse.research.results import Results, agent_entries, join
 from bootcourse.research.tables import markdown
+from bootcourse.scenario import N_ACTIONS
 
 NAME, BASE, AGENTS, ROUNDS = "learned-model", "bootstrapped", 10, 4
 DRIVES, BLOCK, BLOCK_OF_CONTROL = 200, 41, 51  # roads of a round; the first held-out blocks that they are from
 TESTS = 100  # held-out roads of each test, the first of the look-ahead's
+RANDOM = (0.1, 0.3)  # shares of random actions in the drives of the further controls
 KEPT = ("roads", "accidents", "returns", "success", "overruled", "decisions")  # see `lookahead.measured`
 
 
 def cells(seeds: int = AGENTS, tests: int = TESTS) -> dict[str, dict]:
-    """One cell for each agent."""
-    return {f"agent {seed}": {"seed": seed, "tests": tests} for seed in range(seeds)}
+    """One cell for each agent, and one for each share of random actions."""
+    alone = {cell_of(seed): {"seed": seed, "tests": tests} for seed in range(seeds)}
+    shares = product(RANDOM, range(seeds))
+    return alone | {cell_of(seed, share): {"seed": seed, "tests": tests, "share": share} for share, seed in shares}
 
 
-def learned_ahead(seed: int, tests: int) -> Results:
+def cell_of(seed: int, share: float | None = None) -> str:
+    """The name of an agent's cell."""
+    return f"agent {seed}" if share is None else f"random {share:g} agent {seed}"
+
+
+def learned_ahead(seed: int, tests: int, share: float | None = None) -> Results:
     """Rounds of learning and driving, of one agent of the paper's method.
 
     Notes, (1, rounds), named "FORM, MEASURE": `KEPT` of the test drives in each of `FORMS`; and rows, how many
-    decisions the model learned from. Measured, (1,): the same of the control, which has one round.
+    decisions the model learned from. Measured, (1,): the same of the control, which has one round. With a share of
+    random actions: of that control alone.
     """
     agent = agents_of(BASE, AGENTS, Path())[seed]
+    if share is not None:
+        rng = np.random.default_rng([seed, round(1000 * share)])
+        drives = transitions_of(partly_random(agent.as_policy(), share, rng), roads_of_control())
+        return _results(agent, _tested(agent, drives, tests))
     driver, drives, rounds = agent.as_policy(), None, []
     for block in range(BLOCK, BLOCK + ROUNDS):
         new = transitions_of(driver, held_out_seeds(block, DRIVES))
         drives = new if drives is None else drives.and_also(new)
         rounds.append(_tested(agent, drives, tests))
         driver = rounds[-1].pop("driver")
-    alone = transitions_of(agent.as_policy(), held_out_seeds(BLOCK_OF_CONTROL, ROUNDS * DRIVES))
-    control = _tested(agent, alone, tests)
-    notes = {name: np.array([[one[name] for one in rounds]]) for name in rounds[0]}
-    of_control = {name: np.array([control[name]]) for name in rounds[0]}
-    return Results(agent_entries([agent.settings]), np.array([-1]), notes=notes, measured=of_control)
+    control = _tested(agent, transitions_of(agent.as_policy(), roads_of_control()), tests)
+    return _results(agent, control, {name: np.array([[one[name] for one in rounds]]) for name in rounds[0]})
+
+
+def roads_of_control() -> range:
+    """As many roads as in all rounds together."""
+    return held_out_seeds(BLOCK_OF_CONTROL, ROUNDS * DRIVES)
+
+
+def partly_random(policy: Policy, share: float, rng: np.random.Generator) -> Policy:
+    """The policy, with a share of its actions drawn again, each of the nine with the same probability."""
+
+    def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        actions = np.array(policy(observations, cars).actions)
+        drawn = rng.integers(N_ACTIONS, size=len(actions))
+        return PolicyOutput(np.where(rng.random(len(actions)) < share, drawn, actions))
+
+    return drive
+
+
+def _results(agent: Agent, control: dict, notes: dict | None = None) -> Results:
+    measured = {name: np.array([value]) for name, value in control.items() if name != "driver"}
+    return Results(agent_entries([agent.settings]), np.array([-1]), notes=notes or {}, measured=measured)
 
 
 def _tested(agent: Agent, drives: Transitions, tests: int) -> dict:
@@ -67,9 +100,9 @@ def _tested(agent: Agent, drives: Transitions, tests: int) -> dict:
     return found | {"driver": ImaginedAhead(agent, model)}
 
 
-def together(tried: Computed) -> Results:
-    """All agents that were computed, by their seed."""
-    return join([tried[name] for name in sorted(tried, key=lambda name: int(name.split()[-1]))])
+def together(tried: Computed, share: float | None = None) -> Results:
+    """All agents that were computed, by their seed: those with a share of random actions, if one is given."""
+    return join([tried[name] for seed in range(len(tried)) if (name := cell_of(seed, share)) in tried])
 
 
 def per_thousand(agents: Results, form: str, control: bool = False) -> np.ndarray:
@@ -94,6 +127,10 @@ def rows(tried: Computed, look_ahead: Computed) -> tuple[list[str], list[list[st
         of = per_thousand(agents, form, control), returns
         words = [", ".join(f"{mean:.0f}" for mean in each.mean(0)) for each in of]
         lines.append([f"{form}, control" if control else form, *words])
+    for share, form in product(RANDOM, FORMS):
+        agents = together(tried, share)
+        of = per_thousand(agents, form, control=True), agents.measured[f"{form}, returns"]
+        lines.append([f"{form}, {share:.0%} of the actions random", *(f"{each.mean():.0f}" for each in of)])
     return ["looking ahead", "accidents in 1,000, after each round", "return, after each round"], lines
 
 
@@ -104,8 +141,8 @@ def section(computed: dict[str, Computed], folder: Path) -> list[str]:
 
 
 LEARNED = f"""Agents of the paper's method look ahead in a model that each of them learned from its own drives, of
-{DRIVES} roads in each of {ROUNDS} rounds; the control from {ROUNDS * DRIVES} drives without a look-ahead. Means over
-agents, on {TESTS} held-out roads.
+{DRIVES} roads in each of {ROUNDS} rounds; the controls from {ROUNDS * DRIVES} drives without a look-ahead, with a
+share of the actions drawn at random where the row says so. Means over agents, on {TESTS} held-out roads.
 """
 
 EXPERIMENT = Experiment(NAME, cells, results_of(learned_ahead), section=section)

@@ -1,3 +1,3 @@
-"""You will collect them in three ways, clone a driver, see why that is not enough, let the clone drive and the rule
-correct it.
+"""You will drive one yourself, clone it and other drivers, see why agreeing with a driver is not enough, let the clone
+drive and the rule correct it.
 """

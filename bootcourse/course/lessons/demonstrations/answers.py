@@ -1,6 +1,5 @@
 """Answers to the exercises of the lesson on demonstrations and behaviour cloning."""
 
-import numpy as np
 import torch
 
 from bootcourse.course.lessons.demonstrations.cloning import ACTION, RULE_ACTION
@@ -9,30 +8,6 @@ from tests.answers import equivalent, right, right_lines, wrong_lines
 PICKED = "log_pi.gather(-1, expert_actions.unsqueeze(-1)).squeeze(-1)"
 equivalent("cloning_loss", f"{PICKED}.mean(-1)  ->  {PICKED}.mean(0)", "the batch is the only axis left")
 
-
-def rows(observations, actions, rewards, terminated):
-    return np.concatenate([observations[:-1], observations[1:], np.stack([actions, rewards, terminated], 1)], axis=1)
-
-
-right_lines("""transitions
-    by comparison: ended = (np.arange(len(actions)) == len(actions) - 1) & (accident != 0)
-        rows(observations, actions, rewards, ended)
-    row by row: found = []
-        for t in range(len(actions)):
-            ended = 1.0 if accident and t == len(actions) - 1 else 0.0
-            found.append([*observations[t], *observations[t + 1], actions[t], rewards[t], ended])
-        found
-""")
-
-wrong_lines("""transitions
-    a low reward is an end: rows(observations, actions, rewards, rewards <= -10)
-    collisions alone: rows(observations, actions, rewards, [0] * (len(actions) - 1) + [accident % 2])
-    nothing after the end: found = solution(observations, actions, rewards, accident)
-        found[found[:, -1] > 0, observations.shape[1] : 2 * observations.shape[1]] = 0
-        found
-    without the end: rows(observations, actions, rewards, [0] * len(actions))[:, :-1]  # shape
-    reward before action: rows(observations, rewards, actions, [0] * (len(actions) - 1) + [accident > 0])
-""")
 
 right_lines("""cloning_loss
     by index: -log_pi[torch.arange(len(log_pi)), expert_actions].mean()

@@ -2,78 +2,54 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import cache
 from itertools import islice
 
 import numpy as np
 import torch
 from torch import Tensor, nn
 
-from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
+from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.bc import BCLearner, cloning_loss
-from bootcourse.learn.demonstrations import collect
+from bootcourse.learn.demonstrations import collect, demonstrate
 from bootcourse.learn.networks import mlp
-from bootcourse.learn.replay_buffer import REWARD, Batch, decode_transitions
 from bootcourse.learn.sac import log_policy
-from bootcourse.learn.settings import Settings, settings_for
-from bootcourse.policies import Policy, PolicyOutput, rule_policy
+from bootcourse.learn.settings import settings_for
+from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.state import EGO, LANE, SPEED
 from bootcourse.scenario import DEFAULT
 
 SIZE = DEFAULT.observation_size
-ACTION, TERMINATED, RULE_ACTION = 2 * SIZE, 2 * SIZE + 2, 2 * SIZE + 3  # columns of a transition
+ACTION, RULE_ACTION = 2 * SIZE, 2 * SIZE + 3  # columns of a transition
 UPDATES, ROADS = 1500, held_out_seeds(6, 100)  # of a clone's training, and where it is measured
-
-
-class Cloner(BCLearner):
-    """Clones, trained with the loss that is given: (batch, actions) and (batch,) -> a mean."""
-
-    def __init__(self, settings: Sequence[Settings], loss: Callable[[Tensor, Tensor], Tensor]):
-        super().__init__(settings, SIZE)
-        self.loss = loss
-
-    def losses(self, batch: Batch) -> dict[str, Tensor]:
-        """The sum of all clones' losses, in one call: each has as many rows."""
-        log_pi = log_policy(mlp(self.actor, batch.states))  # (clones, batch, 9)
-        return {"actor_loss": self.agents * self.loss(log_pi.flatten(0, 1), self.labels(batch).flatten())}
 
 
 def side_by_side(tables: Sequence[Tensor], seeds: Sequence[Sequence[int]], loss=cloning_loss) -> list[list[Agent]]:
     """For each table of transitions its clones, one for each of its seeds; all of them are trained together."""
     settings = [replace(settings_for("bc"), seed=seed) for of_one in seeds for seed in of_one]
-    cloner, table = Cloner(settings, loss), torch.cat([*tables])
+    learner, table = BCLearner(settings, SIZE), torch.cat([*tables])
+    states, actions = table[:, :SIZE], table[:, ACTION].long()
     clones, sizes = [len(of_one) for of_one in seeds], [len(rows) for rows in tables]
     first = np.repeat(np.cumsum([0, *sizes[:-1]]), clones)[:, None]  # of each clone's rows
-    size, marks = np.repeat(sizes, clones)[:, None], torch.ones(len(settings), 64)
-    generators = [np.random.default_rng(each.seed) for each in settings]
-    for _ in range(UPDATES):
-        draws = np.stack([generator.random(64) for generator in generators])  # for each clone 64 demonstrations
-        rows = table[torch.from_numpy(first + (draws * size).astype(np.int64))]
-        cloner.update(decode_transitions(rows, SIZE, marks))
+    draws = np.stack([np.random.default_rng(each.seed).random((UPDATES, 64)) for each in settings], axis=1)
+    rows = first + (draws * np.repeat(sizes, clones)[:, None]).astype(np.int64)  # (updates, clones, 64)
+    for batch in torch.from_numpy(rows):
+        log_pi = log_policy(mlp(learner.actor, states[batch]))  # (clones, 64, 9)
+        learner.optimiser.zero_grad()
+        (len(settings) * loss(log_pi.flatten(0, 1), actions[batch].flatten())).backward()  # the sum of all clones'
+        learner.optimiser.step()
     agents = (
-        Agent(each, [layer.detach()[i : i + 1] for layer in cloner.actor], [], alpha=0.0)
+        Agent(each, [layer.detach()[i : i + 1] for layer in learner.actor], [], alpha=0.0)
         for i, each in enumerate(settings)
     )
     return [list(islice(agents, each)) for each in clones]
 
 
-def clone(rows: Tensor, loss=cloning_loss, seed: int = 0) -> Agent:
-    """A clone of what is in the rows (transitions, row), trained with this loss."""
-    return side_by_side([rows], [[seed]], loss)[0][0]
-
-
-def clones(data: dict[str, Tensor], loss=cloning_loss, seeds: Sequence[int] = range(8)) -> dict[str, list[Agent]]:
+def clones(data: dict[str, Tensor], loss=cloning_loss, seeds: Sequence[int] = range(5)) -> dict[str, list[Agent]]:
     """Clones of each data set, by its name, with these seeds."""
     return dict(zip(data, side_by_side([*data.values()], [seeds] * len(data), loss), strict=True))
-
-
-@cache
-def rule_s_drives() -> Episodes:
-    """The rule, where the clones are measured."""
-    return drive_episodes(rule_policy(DEFAULT), ROADS)
 
 
 def all_at_once(agents: Sequence[Agent]) -> Policy:
@@ -89,53 +65,25 @@ def all_at_once(agents: Sequence[Agent]) -> Policy:
 
 
 def measure(agents: Sequence[Agent], rows: Tensor) -> np.ndarray:
-    """Of each clone: agreement with its data, success, accidents (shares) and return on held-out roads, (clones, 4)."""
-    roads = [*ROADS] * len(agents)
-    driven = drive_episodes(all_at_once(agents), roads, together=len(roads))
+    """Of each clone: agreement with the actions in these rows, and with the rule in its own states, accidents (all of
+    them shares) and return on held-out roads, (clones, 4).
+    """
     states, actions = rows[:, :SIZE].numpy(), rows[:, ACTION].numpy()
-    agreement = [(agent.probabilities(states).argmax(1) == actions).mean() for agent in agents]
-    scores = driven.success, driven.accident > 0, driven.returns
-    return np.column_stack([agreement, *(each.reshape(len(agents), -1).mean(1) for each in scores)])
-
-
-def compared(agents: Sequence[Agent], rows: Tensor) -> np.ndarray:
-    """Of each clone: agreement with the rule in these rows and in its own states, accidents and return, (clones, 4)."""
-    return np.array([_compared(agent, rows) for agent in agents])
-
-
-def _compared(agent: Agent, rows: Tensor) -> tuple[float, ...]:
-    own = collect(len(ROADS), policy=agent.as_policy(), first_seed=ROADS[0])
-    agrees = agent.probabilities(rows[:, :SIZE].numpy()).argmax(1) == rows[:, RULE_ACTION].numpy()
-    in_its_own = (own[:, ACTION] == own[:, RULE_ACTION]).float().mean()
-    accidents, returns = own[:, TERMINATED].sum() / len(ROADS), own[:, REWARD].sum() / len(ROADS)
-    return agrees.mean(), float(in_its_own), float(accidents), float(returns)
-
-
-class RuleBetween:
-    """A policy: the rule decides from one second to another, the clone before and after."""
-
-    def __init__(self, agent: Agent, first: int, last: int):
-        self.rule, self.clone, self.decided = rule_policy(DEFAULT), agent.as_policy(), 0
-        self.first, self.last = first, last
-
-    def reset(self, roads: int) -> None:
-        """Begin anew."""
-        self.decided = 0
-
-    def __call__(self, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-        driver = self.rule if self.first <= self.decided < self.last else self.clone
-        self.decided += 1
-        return PolicyOutput(driver(observations, cars).actions)
-
-
-def with_the_rule(agents: Sequence[Agent], first: int, last: int) -> list[Rollout]:
-    """All the clones' drives on 20 roads, in which the rule decides from one second to another."""
-    return [each for agent in agents for each in record(RuleBetween(agent, first, last), range(20))]
+    driven = demonstrate(len(ROADS) * len(agents), policy=all_at_once(agents), first_seed=ROADS[0])
+    found = []
+    for k, agent in enumerate(agents):
+        first, *_, last = driven.drives[k * len(ROADS) : (k + 1) * len(ROADS)]
+        own = slice(first.start, last.stop)
+        agrees = (agent.probabilities(states).argmax(1) == actions).mean()
+        in_its_own = (driven.actions[own] == driven.rule_actions[own]).mean()
+        ended, paid = driven.terminated[own].sum() / len(ROADS), driven.rewards[own].sum() / len(ROADS)
+        found.append((agrees, in_its_own, ended, paid))
+    return np.array(found)
 
 
 def alone(agents: Sequence[Agent]) -> list[Rollout]:
-    """All the clones' own drives on 60 roads."""
-    return [each for agent in agents for each in record(agent.as_policy(), range(60))]
+    """All the clones' own drives, each on the same 20 roads."""
+    return record(all_at_once(agents), [*range(20)] * len(agents))
 
 
 def unlike_the_rule(drives: Sequence[Rollout]) -> np.ndarray:
@@ -145,20 +93,22 @@ def unlike_the_rule(drives: Sequence[Rollout]) -> np.ndarray:
     return np.array([np.pad(each, (0, longest - len(each)), constant_values=np.nan) for each in wrong])
 
 
-def slow_seconds(drives: Sequence[Rollout]) -> float:
-    """How many seconds of a drive the car is in the free lane at 9 m/s or less, on average, up to the drive's end."""
+def slow(drives: Sequence[Rollout]) -> tuple[float, float]:
+    """How many seconds of a drive the car is in the free lane at 9 m/s or less, on average, up to the drive's end; and
+    in what share of these seconds its driver differs from the rule.
+    """
     cars = [each.states[:: each.scenario.clock.steps][: len(each.actions), EGO] for each in drives]
-    return float(np.mean([((car[:, LANE] == 0) & (car[:, SPEED] < 9.5)).sum() for car in cars]))
+    is_slow = [(car[:, LANE] == 0) & (car[:, SPEED] < 9.5) for car in cars]
+    wrong = [(each.actions != each.rule_actions)[some] for each, some in zip(drives, is_slow, strict=True)]
+    return sum(map(np.sum, is_slow)) / len(drives), float(np.concatenate(wrong).mean())
 
 
 def slowness(of_rule: Sequence[Rollout], of_clones: Sequence[Rollout]) -> str:
-    """How long both are slow in the free lane, and how often the clones keep a speed that the rule would raise."""
-    pairs = [(each.actions[10:40] // 3, each.rule_actions[10:40] // 3) for each in of_clones]
-    kept = np.concatenate([(wanted == 2) & (did == 1) for did, wanted in pairs]).mean()
-    seconds = f"the rule {slow_seconds(of_rule):.0f} s of a drive, the clones {slow_seconds(of_clones):.0f} s"
+    """A sentence: how long both are slow in the free lane, and how often the clones err there."""
+    (rule, _), (clones, wrong) = slow(of_rule), slow(of_clones)
     return (
-        f"In the free lane at 9 m/s or less: {seconds}.\n"
-        f"From 10 to 40 s: in {100 * kept:.0f} % the rule would accelerate, and the clone keeps its speed."
+        f"In the free lane at 9 m/s or less: the rule {rule:.0f} s of a drive, the clones {clones:.0f} s.\n"
+        f"In {100 * wrong:.0f} % of these seconds the clones err."
     )
 
 

@@ -3,54 +3,11 @@
 import numpy as np
 import torch
 
-from bootcourse.course.exercise import MANY_ROWS, NotAsAsked, exercise, logits, refuse
+from bootcourse.course.exercise import NotAsAsked, exercise, logits, refuse
 from bootcourse.course.lessons.demonstrations import cloning
 from bootcourse.course.lessons.demonstrations.cloning import ACTION, RULE_ACTION
 from bootcourse.course.lessons.discrete_sac.exercises import OF_NOTHING
 from bootcourse.learn import bc
-
-
-def transitions_cases(rng):
-    """Each ending, a drive of one decision; then 30 at random."""
-    for k, accident in enumerate([0, 1, 2, 3, *rng.integers(0, 4, 30)]):
-        decisions = 1 if k == 4 else rng.integers(2, 6)
-        observations = rng.normal(size=(decisions + 1, rng.integers(2, 4)))
-        yield observations, rng.integers(0, 9, decisions), rng.normal(size=decisions), accident
-    yield rng.normal(0, 50, (MANY_ROWS + 1, 2)), rng.integers(0, 9, MANY_ROWS), rng.normal(0, 50, MANY_ROWS), 1
-
-
-@exercise(
-    "(s, a, r, s'), Section IV-B, and whether the episode ended there",
-    minutes=6, difficulty=2, cases=transitions_cases,
-    worked=[
-        ((np.array([[1.0], [2.0], [3.0]]), np.array([4, 7]), np.array([0.5, -10.0]), 2),
-         np.array([[1, 2, 4, 0.5, 0], [2, 3, 7, -10.0, 1]])),
-        ((np.array([[1.0], [2.0]]), np.array([4]), np.array([0.5]), 0), np.array([[1, 2, 4, 0.5, 0]])),
-    ],
-    hints=(
-        "There is one observation more than there are actions. Which ones are s, and which are s'?",
-        "`observations[:-1]` and `observations[1:]`; the last column is zero but for an accident in the last row.",
-    ),
-    mistakes={
-        "accident > 0 -> 1":
-            "You mark an end in every drive. A drive whose time ran out was not terminated: its last state has a "
-            "future.",
-        "terminated[-1] -> terminated[:]":
-            "You mark every row of the drive. Only the transition with the accident is terminated.",
-        "accident > 0 -> 0":
-            "You mark no end. Nothing follows an accident, so the last row must hold 1.",
-        "accident > 0 -> accident":
-            "Your mark is the accident's number, 0 to 3. It has to be 0 or 1, because the critic multiplies by it.",
-        "observations[:-1], observations[1:] -> observations[1:], observations[:-1]":
-            "Your s and s' are swapped: the action leads from the earlier observation to the later one.",
-        "observations[1:] -> observations[:-1]":
-            "Your s' equals s: the next observation is one row further down.",
-    },
-)  # fmt: skip
-def transitions(observations, actions, rewards, accident):
-    terminated = np.zeros(len(actions))
-    terminated[-1] = accident > 0
-    return np.column_stack([observations[:-1], observations[1:], actions, rewards, terminated])
 
 
 def cloning_cases(rng):

@@ -1,4 +1,4 @@
-"""To drag in this lesson: how often a copy errs, and how long it stays where its teacher has been."""
+"""To drag in this lesson: how many decisions are wrong if errors lead to errors, and if they do not."""
 
 import numpy as np
 
@@ -8,18 +8,29 @@ from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing
 from bootcourse.scenario import DEFAULT
 
-AXES = Axes("second of the drive", "% of drives that have followed the teacher in every second", (0.0, 100.0))
+WHOLE = DEFAULT.clock.decisions
+AXES = Axes("seconds of the drive, a decision in each", "expected errors so far", (0.0, float(WHOLE)))
 
 
 def compounding() -> Explorable:
-    """The share of drives without a single error, (1 − ε)^t, while ε moves."""
-    times = np.arange(DEFAULT.clock.decisions + 1)
+    """The worst case, Σ min(1, ε t), and errors that stay alone, ε t, while ε moves."""
+    times = np.arange(WHOLE + 1)
 
     def draw(errors: float) -> Drawing:
-        kept = 100 * (1 - errors / 100) ** times
-        named = {f"a copy that errs in {errors:g} of 100 decisions": Curve(kept, style("bc").colour)}
-        says = f"After 30 s {kept[30]:.0f} % are where the teacher would be, at the end {kept[-1]:.0f} %."
-        return curves(says, AXES, times, named, mark=30)
+        worst = np.cumsum(np.minimum(1, errors / 100 * times))
+        half, whole = worst[WHOLE // 2], worst[WHOLE]
+        says = (
+            f"Worst case: {half:.1f} errors in {WHOLE // 2} s, {whole:.1f} in {WHOLE} s: "
+            f"{whole / half:.1f} times as many."
+        )
+        named = {
+            "after the first error each decision is one": Curve(worst, style("bc").colour),
+            "errors stay alone": Curve(errors / 100 * times, style("rule").colour, "--"),
+        }
+        return curves(says, AXES, times, named, mark=WHOLE // 2)
 
-    errors = Number("errors", 20, 0, 25, 0.1, "Of a hundred decisions, so many differ from the teacher's.")
-    return Explorable("The copy agrees with its teacher on 80 of 100 decisions. Is that much?", draw, errors=errors)
+    help = "Of a hundred decisions in the teacher's states, so many are errors."
+    errors = Number("ε", 20, 0.1, 25, 0.05, help, unit="%", logarithmic=True)
+    return Explorable(
+        "The copy agrees with its teacher on 80 of 100 decisions. What can the others cost?", draw, errors=errors
+    )

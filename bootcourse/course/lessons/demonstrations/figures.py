@@ -11,9 +11,9 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.methods import style
 from bootcourse.plots.canvas import MplAxes
-from bootcourse.plots.figure import INK, TEXT, finish, new_figure, plain_axes
+from bootcourse.plots.figure import INK, TEXT, finish, label_ends, new_figure, plain_axes
 from bootcourse.plots.road import draw_road, edges_of
-from bootcourse.road.state import EGO, TRAP_1, Accident, X, Y
+from bootcourse.road.state import EGO, TRAP_1, X, Y
 
 UNSURE = "#6CC3A0"  # the stochastic rule: the rule's green, lighter
 
@@ -31,7 +31,8 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
             path = np.column_stack([states[:, EGO, X] - states[:, TRAP_1, X], states[:, EGO, Y]])
             ax.plot(*path.T, color=style("rule").colour if k == 0 else UNSURE, linewidth=0.8, alpha=0.45)
             places.append(path)
-        plain_axes(ax, name, grid="")
+        ended = sum(drive.accident > 0 for drive in some)
+        plain_axes(ax, f"{name}: {ended} of {len(some)} drives end in an accident", grid="")
         lanes, (top, edge) = range(scenario.road.lanes), edges_of(scenario.road)
         ax.set_yticks(np.array(lanes) * scenario.road.lane_width, [f"lane {lane}" for lane in lanes])
         ax.set(xlim=(-60, 15), ylim=(edge + 0.6, top - 0.6))
@@ -41,93 +42,82 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
             ax.set_xlabel("distance ahead of trap 1 (m)", fontsize=TEXT, color=INK)
         all_places = np.concatenate(places)
         cells = len(np.unique(np.round(all_places / [2.0, 0.5]), axis=0))
-        alt_parts.append(f"{name}: {len(some)} drives pass through {cells} squares of 2 by 0.5 m")
+        alt_parts.append(
+            f"{name}: {len(some)} drives, {ended} with an accident, pass through {cells} squares of 2 by 0.5 m"
+        )
     return finish(
         figure, title, f"The ego's paths seen from trap 1 in the first {seconds:g} s. {'; '.join(alt_parts)}."
     )
 
 
 def clones(measured: dict[str, np.ndarray]) -> Figure:
-    """How clones drive: name -> (seeds, 4), shares of agreement, success and accidents, and the return.
-
-    A dot for each seed, and a line for the rule's return. Those of the rule's drives come first.
-    """
-    of_rule = cloning.rule_s_drives().returns.mean()
-    (agrees, _, crash, _), *others = (values.mean(0) for values in measured.values())
-    title = "The data sets, and how their clones drive"
-    if all(agrees > other[0] and crash > other[2] for other in others):
-        title = "Clones of the rule's drives agree most with their data, and crash most"
-    figure = new_figure(1.3 + 0.55 * len(measured))
+    """How clones drive: name -> (seeds, 4) of `cloning.measure`. A dot for each seed, a bar for the mean."""
+    agrees, crash = (np.array([values[:, k].mean() for values in measured.values()]) for k in (0, 2))
+    title = "Agreement with the data, and accidents"
+    if agrees.argmax() == crash.argmax() and (agrees[1], crash[1]) == (agrees[1:].max(), crash[1:].max()):
+        title = "The clones that agree most with their data crash most"
+    figure = new_figure(1.0 + 0.5 * len(measured))
     alt_parts = {name: [] for name in measured}
     height = figure.get_figheight()
-    for k, label in enumerate(("agree with\ntheir data (%)", "success (%)", "have an\naccident (%)", "return")):
-        ax = figure.add_axes((0.25 + 0.19 * k, 0.4 / height, 0.165, 1 - 1.4 / height))
-        unit = "" if label == "return" else " %"
+    for place, (k, label) in enumerate(((0, "agree with their data (%)"), (2, "have an accident (%)"))):
+        ax = figure.add_axes((0.27 + 0.37 * place, 0.3 / height, 0.34, 1 - 0.95 / height))
         for row, (name, values) in enumerate(measured.items()):
-            shown = (100 if unit else 1) * values[:, k]
+            shown = 100 * values[:, k]
             ax.plot(shown, np.full(len(shown), row), "o", color=style("bc").colour, markersize=5, alpha=0.55)
             ax.plot(shown.mean(), row, "|", color=INK, markersize=15, markeredgewidth=2)
             ax.text(shown.mean(), row - 0.32, f"{shown.mean():.0f}", fontsize=TEXT, color=INK, ha="center")
-            alt_parts[name].append(f"{' '.join(label.replace(' (%)', '').split())} {shown.mean():.0f}{unit}")
+            alt_parts[name].append(f"{label.removesuffix(' (%)')} {shown.mean():.0f} %")
         plain_axes(ax, label, grid="x")
-        names = [name.replace(", ", ",\n").replace("stochastic ", "stochastic\n") for name in measured]
-        ax.set_yticks(range(len(measured)), names if k == 0 else [""] * len(measured))
+        names = [name.replace(", ", ",\n") for name in measured]
+        ax.set_yticks(range(len(measured)), names if place == 0 else [""] * len(measured))
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-        ax.set_ylim(len(measured) - 0.5, -0.6)
-        if unit:
-            ax.set_xlim(-6, 106)
-    ax.axvline(of_rule, color=style("rule").colour, linewidth=1.5)
-    ax.text(of_rule, len(measured) - 0.55, "the rule ", fontsize=TEXT, color=style("rule").colour, ha="right")
+        ax.set(xlim=(-4, 104), ylim=(len(measured) - 0.5, -0.7))
     words = "; ".join(f"clones of {name}: on average {', '.join(parts)}" for name, parts in alt_parts.items())
-    ending = f"A dot for each clone, a bar for their mean. {words}. The rule's return is {of_rule:.0f}."
-    return finish(figure, title, ending)
+    return finish(figure, title, f"A dot for each clone, a bar for their mean. {words}.")
 
 
-def differing(agents: Sequence[Agent], of_rule: Sequence[Rollout], own: Sequence[Rollout]) -> Figure:
-    """In which seconds the clones differ from the rule: in their own drives, and in the states of the rule's."""
+def errors(agents: Sequence[Agent], of_rule: Sequence[Rollout], own: Sequence[Rollout]) -> Figure:
+    """In which seconds the clones decide unlike the rule: in their own drives, and in the states of the rule's."""
     theirs = np.mean([cloning.unlike(agent, of_rule) for agent in agents], axis=(0, 1))
     unlike = cloning.unlike_the_rule(own)
     mine, here = np.nanmean(unlike, axis=0), f"{100 * np.nanmean(unlike[:, 10:40]):.0f} %"
     there = f"{100 * theirs[10:40].mean():.0f} %"
-    title = f"First they differ in both; from 10 to 40 s in {here} of their own states, in {there} of the rule's"
+    title = f"From 10 to 40 s the clones err in {here} of their own states, in {there} of the rule's"
     named = {"in their own states": 100 * mine, "in the rule's states": 100 * theirs}
     looks = [charts.Style(style(method).colour) for method in ("bc", "rule")]
-    return charts.lines(np.arange(len(mine)), named, title, "time (s)", "differ (%)", looks=looks)
+    return charts.lines(np.arange(len(mine)), named, title, "time (s)", "errors (%)", limits=(0, 100), looks=looks)
 
 
-def of_tests(tests: dict[str, Sequence[Rollout]]) -> tuple[list[str], list[list[str]], str]:
-    """A table's columns, rows and last line: what the rule drives -> the clones' drives."""
-    columns = ["the rule drives", "the clones differ, 40 to 60 s", "slow in the free lane"]
-    columns += ["an accident by 15 s", "15 to 40 s", "after 40 s", "return"]
-    rows = []
-    for name, drives in tests.items():
-        differ = np.nanmean(cloning.unlike_the_rule(drives)[:, 40:60])
-        ended = np.array([len(each.actions) if each.accident else np.inf for each in drives])
-        counts, _ = np.histogram(ended, [0, 15.5, 40.5, 1e6])  # drives without an accident are in none
-        shares = [f"{100 * each / len(drives):.0f} %" for each in counts]
-        back = np.mean([each.rewards.sum() for each in drives])
-        rows.append([name, f"{100 * differ:.0f} %", f"{cloning.slow_seconds(drives):.0f} s", *shares, f"{back:.0f}"])
-    ends = [each.accident for drives in tests.values() for each in drives if each.accident]
-    left = sum(each == Accident.ROAD_DEPARTURE for each in ends)
-    clones = len(drives) // len({each.seed for each in drives})
-    return columns, rows, f"{clones} clones, 20 roads each. In {left} of the {len(ends)} accidents they leave the road."
+def taught(trainings: np.ndarray, of_rule: np.ndarray) -> Figure:
+    """What DAgger changes: (trainings, rounds + 1, 4) of `cloning.measure`, and (clones, 4) of the rule's 200 drives.
 
-
-def of_trainings(trainings: Sequence[np.ndarray], of_rule: np.ndarray) -> tuple[list[str], list[list[str]], str]:
-    """A table's columns, rows and last line: each driver of each training (rounds + 1, 4) as `cloning.compared` has it,
-    clones of the rule as `cloning.measure` has them, and the rule.
+    Left the agreement with the rule, right the accidents: a thin line for each training, a thick one for their mean.
     """
-    columns = ["trained on", "agrees in the rule's states", "in its own", "has an accident, each training", "return"]
-    rows = []
-    for number, drivers in enumerate(np.swapaxes(trainings, 0, 1)):
-        there, own, _, back = drivers.mean(0)
-        accidents = ", ".join(f"{100 * each:.0f}" for each in drivers[:, 2])
-        texts = f"{100 * there:.0f} %", f"{100 * own:.0f} %", f"{accidents} %", f"{back:.0f}"
-        rows.append([f"and {20 * number} own" if number else "20 drives of the rule", *texts])
-    agrees, _, crash, back = of_rule.mean(0)
-    rows.append(["200 drives of the rule", f"{100 * agrees:.0f} %", "", f"{100 * crash:.0f} %", f"{back:.0f}"])
-    drives = cloning.rule_s_drives()
-    crash, back = (drives.accident > 0).mean(), drives.returns.mean()
-    rows.append(["(the rule itself)", "100 %", "100 %", f"{100 * crash:.0f} %", f"{back:.0f}"])
-    clones = f"in the row with 200 drives all are means of {len(of_rule)} clones"
-    return columns, rows, f"Agreement and return are means of the trainings; {clones}."
+    trainings = np.asarray(trainings)
+    drives, mean = 20 * np.arange(1, trainings.shape[1] + 1), 100 * trainings.mean(axis=0)
+    title = "Agreement and accidents, while the clone's own drives are added"
+    if mean[-1, 0] < mean[0, 0] and mean[-1, 2] < mean[0, 2]:
+        title = "The clones agree less in the rule's states, and crash less"
+    figure = new_figure(3.2)
+    lines = {0: ("in the rule's states", style("rule").colour), 1: ("in its own states", style("bc").colour)}
+    for left, label, some in (
+        (0.075, "agrees with the rule (%)", lines),
+        (0.59, "has an accident (%)", {2: ("", style("bc").colour)}),
+    ):
+        ax = figure.add_axes((left, 0.16, 0.28, 0.6))
+        plain_axes(ax, label)
+        for k, (_, colour) in some.items():
+            ax.plot(drives, 100 * trainings[:, :, k].T, color=colour, linewidth=0.8, alpha=0.7)
+            ax.plot(drives, mean[:, k], color=colour, linewidth=2.2, marker="o", markersize=4)
+        ax.set(xlim=(drives[0] - 2, drives[-1] + 2), ylim=(-3, 103))
+        ax.set_xticks(drives, ["20 of\nthe rule", *(f"+ {each}\nown" for each in drives[:-1])])
+        ends = [(mean[-1, k], *some[k]) for k in some if some[k][0]]
+        if 2 in some:
+            crash = 100 * of_rule[:, 2].mean()
+            ax.axhline(crash, color=style("rule").colour, linewidth=1.2, linestyle=(0, (4, 2)))
+            ends = [(crash, "clones of 200 drives of the rule", style("rule").colour)]
+        label_ends(ax, ends, wrap=14)
+    words = [f"{name} {', '.join(f'{each:.0f}' for each in mean[:, k])} %" for k, (name, _) in lines.items()]
+    each = "; ".join(", ".join(f"{100 * x:.0f}" for x in crash) for crash in trainings[:, :, 2].T)
+    alt = f"On average the clone agrees {', '.join(words)}. Accidents of each training (%): {each}."
+    return finish(figure, title, alt)

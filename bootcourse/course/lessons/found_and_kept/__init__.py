@@ -1,3 +1,3 @@
-"""You will count who finds the way out and who keeps it, watch two aids fade by two clocks, compute how likely a
+"""You will count who finds the way out and who keeps it, see what an aid that never ends costs, compute how likely a
 table of single agents is.
 """

@@ -1,55 +1,104 @@
-"""To drag in this lesson: the updates for each decision, and how fast two aids fade with them."""
+"""To drag in this lesson: when a way out counts as lost, in four groups of agents: β ends early, late or never; or it
+never ends, and no bonus is paid.
+"""
 
 import numpy as np
 
-from bootcourse.course.shipped import shipped_experiment
-from bootcourse.learn.bootstrap import demonstration_share
-from bootcourse.learn.settings import Settings
+from bootcourse.colours import INK, QUIET
+from bootcourse.course.shipped import shipped_experiment, shipped_results
 from bootcourse.methods import style
-from bootcourse.panels.explorable import Axes, Curve, Explorable, curves
-from bootcourse.panels.number import Number
-from bootcourse.plots.svg import Drawing
-from bootcourse.research.experiments.clocks import choices
+from bootcourse.panels.explorable import WIDTH, Explorable
+from bootcourse.panels.number import Number, whole_number
+from bootcourse.plots.svg import Drawing, SvgAxes, drawing, line, rect, text, ticks
+from bootcourse.research.results import Results
+from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost
 
-EPISODES = np.arange(0, 1201, 10)
-AXES = Axes("training episode", "% of its start that is left", (0.0, 100.0))
-MEASURED = {"1/4": 0.25, "1": 1.0, "2": 2.0, "4": 4.0}  # updates for each decision
-LEAST = 1e-9  # so small a part of ξ counts as nothing
-
-
-class Fading:
-    """How ξ = 200 α fades, from the agents that were trained with the soft constraint alone."""
-
-    def __init__(self):
-        cells = choices(shipped_experiment("clocks"))
-        xi = [cells[name, "π̃"].of("soft").curves["xi"] for name in MEASURED]
-        self.logs = np.log([np.maximum(np.median(each / each[:, :1], axis=0), LEAST) for each in xi])
-
-    def left(self, updates: float) -> np.ndarray:
-        """The part of ξ that is left after each of `EPISODES`, the median agent.
-
-        Between two measured numbers of updates log ξ lies on a line over log updates.
-        """
-        at, numbers = np.log(updates), np.log(list(MEASURED.values()))
-        logs = np.array([np.interp(at, numbers, each) for each in self.logs.T])
-        return np.exp(np.interp(EPISODES, np.arange(1, len(logs) + 1), logs))
+LEFT, RIGHT, TOP = 124, 536, 84  # pixels: of the bars
+ROW, TALL, APART = 7, 70, 24  # pixels: a row, a group, the space between two groups
+LOSE, KEEP, EARN = 574, 636, 710  # pixels: the middles of the three columns at the right
 
 
-def clocks() -> Explorable:
-    """What is left of ξ = 200 α and of β over the episodes, while the updates for each decision change."""
-    settings, fading = Settings(), Fading()
+def groups() -> dict[str, Results]:
+    """The agents with both aids, ten in each group: {words: results}."""
+    changed = shipped_experiment("ablations")
+    of = {
+        "β ends by 300": changed["β over 300 episodes"],
+        "β ends by 1,000": shipped_results(),
+        "β never ends": changed["β for ever"],
+        "β never ends, no bonus": changed["β for ever, c = 0"],
+    }
+    return {words: results.of("bootstrapped") for words, results in of.items()}
 
-    def draw(updates: float) -> Drawing:
-        xi = 100 * fading.left(updates)
-        beta = 100 * np.array([demonstration_share(e, 1.0, settings.beta_episodes) for e in EPISODES])
-        first = [EPISODES[np.argmax(left < 1)] if (left < 1).any() else None for left in (xi, beta)]
-        when = f"ξ has fallen to 1 % by episode {first[0]:,}" if first[0] is not None else "ξ keeps more than 1 %"
-        named = {
-            "ξ, which fades by updates": Curve(xi, style("soft").colour),
-            "β, which fades by episodes": Curve(beta, style("demos").colour, "--"),
-        }
-        return curves(f"{when}, β by episode {first[1]:,}.", AXES, EPISODES, named)
 
-    help = "Updates of the networks for each decision. Agents were trained with ¼, 1, 2 and 4."
-    updates = Number("updates", 0.25, 0.25, 4, 0.05, help, logarithmic=True)
-    return Explorable("Two aids, two clocks: which one is gone first?", draw, updates=updates)
+def losing() -> Explorable:
+    """When each agent has the way out; how many lose it, by a limit to choose; who keeps it, and earns how much."""
+    shown = groups()
+    episodes, bottom = shipped_results().curves["success"].shape[1], TOP + len(shown) * (TALL + APART) - APART
+    axes = SvgAxes(LEFT, TOP, RIGHT - LEFT, bottom - TOP, (0.0, float(episodes)), (0.0, 1.0))
+    still = [text((LEFT + RIGHT) / 2, bottom + 31, "training episode", "middle", QUIET, 11)]
+    for tick in ticks(0, episodes, 4):
+        across, _ = axes.at(tick, 0)
+        still += [line(across, TOP, across, bottom + 3), text(across, bottom + 15, f"{tick:,.0f}", "middle", QUIET, 11)]
+    columns = (LOSE, "lose it"), (KEEP, "keep it"), (EARN, "their return")
+    still += [text(x, TOP - 22, word, "middle", bold=True) for x, word in columns]
+
+    kept, ends = {}, {}
+    for place, (words, results) in enumerate(shown.items()):
+        keep = results.found_and_kept("bootstrapped")[1]
+        earned = f"{results.scores('returns')[keep].mean():.0f}"
+        kept[words] = f"{keep.sum()} keep it, return {earned}"
+        top = TOP + place * (TALL + APART)
+        still += _named(words, top) + [text(KEEP, _middle(top), f"{keep.sum()} of {len(keep)}", "middle")]
+        still.append(text(EARN, _middle(top), earned, "middle"))
+        ends[words] = _end_of_beta(axes, top, results)  # over the bars
+
+    def draw(limit: float) -> Drawing:
+        parts, losers = [], {}
+        for place, (words, results) in enumerate(shown.items()):
+            top, success = TOP + place * (TALL + APART), results.curves["success"]
+            losers[words] = int(lost(success, int(limit)).sum())
+            parts += _bars(axes, top, success, limit) + ends[words]
+            parts.append(text(LOSE, _middle(top), f"{losers[words]} of {len(success)}", "middle"))
+        *some, last = losers.values()
+        says = f"Lost at {limit:.0f} of {IN_A_ROW} or fewer: {', '.join(map(str, some))} and {last} of ten lose it."
+        parts.append(text(4, 20, says, size=14, bold=True))
+        parts.append(text(LEFT, TOP - 22, f"bar: more than {limit:.0f} of the last {IN_A_ROW} ahead", bold=True))
+        in_all = "; ".join(f"{words}: {count} lose it, {kept[words]}" for words, count in losers.items())
+        return drawing(WIDTH, bottom + 38, still + parts, f"{says} {in_all}.")
+
+    help = f"After {HAD} of {IN_A_ROW} ahead, so few count as lost."
+    number = Number("limit", LOST, 5, 35, 1, help, check=whole_number("limit", 5, 35))
+    return Explorable("Both aids, four groups of ten: who loses the way out?", draw, limit=number)
+
+
+def _middle(top: float) -> float:
+    """The base line of words at the middle of a group's bars."""
+    return top + TALL / 2 + 4
+
+
+def _named(words: str, top: float) -> list[str]:
+    """A group's words beside its bars, a line for each part."""
+    parts = words.split(", ")
+    first = _middle(top) - 8 * (len(parts) - 1)
+    return [text(LEFT - 8, first + 16 * i, part, "end", bold=True) for i, part in enumerate(parts)]
+
+
+def _bars(axes: SvgAxes, top: float, success: np.ndarray, limit: float) -> list[str]:
+    """For each agent a bar from window to window with more than `limit` ahead: 0/1 (agents, episodes)."""
+    parts, ahead = [], np.lib.stride_tricks.sliding_window_view(success, IN_A_ROW, axis=1).sum(axis=-1)
+    for row, good in enumerate(ahead > limit):
+        edges = IN_A_ROW + np.flatnonzero(np.diff(np.concatenate([[0], good, [0]])))
+        for first, after in edges.reshape(-1, 2):
+            begin, end = axes.at(np.array([first, after]), 0)[0]
+            parts.append(rect(begin, top + row * ROW, end - begin, ROW - 1.5, style("bootstrapped").colour))
+    return parts
+
+
+def _end_of_beta(axes: SvgAxes, top: float, results: Results) -> list[str]:
+    """A dashed line where a group's β is 0, if it ends."""
+    ends = results.agents[0]["beta_episodes"]
+    if ends is None:
+        return []
+    across, _ = axes.at(ends, 0)
+    dashed = line(across, top - 4, across, top + TALL + 2, INK, 1.2, 'stroke-dasharray="4 3"')
+    return [dashed, text(across + 4, top - 4, "β is 0 from here on", fill=QUIET, size=10.5)]

@@ -1,4 +1,4 @@
-"""Figures of the lesson on finding and keeping: one agent's success, when ten have the way out, who found and kept."""
+"""Figures of the lesson on finding and keeping: one agent's success, and who found and kept the way out."""
 
 from collections.abc import Mapping
 
@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from bootcourse.colours import Style
 from bootcourse.course.charts import lines
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import GRID, INK, QUIET, TEXT, WIDTH, axes_at, finish, new_figure, one_axes
+from bootcourse.plots.figure import INK, QUIET, TEXT, WIDTH, axes_at, finish, new_figure
 from bootcourse.research.cells import VARIED
 from bootcourse.research.results import Results
 from bootcourse.statistics import IN_A_ROW, rolling_means
@@ -42,31 +42,6 @@ def one_agent(results: Results, which: int, title: str) -> Figure:
         f" More than half of a window for the first time at {at[good[0]]:.0f}, the last at {at[good[-1]]:.0f}."
     )
     return figure
-
-
-def agent_by_agent(results: Results, method: str, title: str) -> Figure:
-    """When each of a method's agents has the way out in training, a row for each, and where β ends."""
-    figure, ax = one_axes(4.0, title, "training episode", f"bar: the last {IN_A_ROW} episodes are a good window")
-    success, seeds = results.of(method).curves["success"], []
-    shares = np.lib.stride_tricks.sliding_window_view(success, IN_A_ROW, axis=1).mean(axis=-1)
-    for row, share in enumerate(shares):
-        edges = IN_A_ROW + np.flatnonzero(np.diff(np.concatenate([[0], share > 0.5, [0]])))
-        ax.plot([0, success.shape[1]], [row, row], color=GRID, linewidth=0.8, zorder=1)
-        ax.broken_barh([(a, b - a) for a, b in edges.reshape(-1, 2)], (row - 0.33, 0.66), color=style(method).colour)
-        seeds.append(f"seed {results.of(method).agents[row]['seed']} {_spans(edges)}")
-    mark = results.of(method).agents[0]["beta_episodes"]
-    ax.axvline(mark, color=INK, linewidth=1, linestyle=(0, (2, 2)), zorder=3)
-    ax.annotate("β is 0 from here on", (mark, 1.03), xycoords=("data", "axes fraction"), xytext=(5, 0), va="bottom",
-                textcoords="offset points", fontsize=TEXT, color=QUIET)  # fmt: skip
-    ax.grid(False)
-    ax.set(xlim=(0, success.shape[1]), ylim=(len(shares) - 0.4, -0.6))
-    ax.set_yticks(range(len(shares)), [f"seed {agent['seed']}" for agent in results.of(method).agents])
-    return finish(figure, title, f"When each agent has the way out, {display_name(method)}: {'; '.join(seeds)}.")
-
-
-def _spans(edges: np.ndarray) -> str:
-    """ "206 to 900 and 990 to 1,200", of (first, one after the last) of each bar."""
-    return " and ".join(f"{a:,} to {b - 1:,}" for a, b in edges.reshape(-1, 2)) or "never"
 
 
 def found_and_kept(panels: Mapping[str, Results], title: str) -> Figure:

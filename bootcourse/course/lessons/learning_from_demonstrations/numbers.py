@@ -6,7 +6,7 @@ import numpy as np
 
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.research.results import Results
-from bootcourse.statistics import ESCAPES, rolling_means
+from bootcourse.statistics import rolling_means
 from tools.course.known import shipped_experiment, shipped_results
 
 
@@ -17,13 +17,20 @@ def kinds() -> measures.Kinds:
 
 
 def _with(name: str) -> tuple[list[Results], list[Results]]:
-    """One of `kinds`, by its last word: "c = 2", "c = 0", "margin" or "none"."""
+    """One of `kinds`, by its last word: "c = 2", "c = 0" or "none"; or the study's ten with the "margin"."""
+    if name == "margin":
+        return [shipped_results().of("margin_soft")], [shipped_results().of("margin")]
     return kinds()["no demonstrations" if name == "none" else f"demonstrations, {name}"]
 
 
 def in_all(name: str) -> str:
     """ "16 of 20": how many agents with the soft constraint and these demonstrations escape."""
     return measures.escape(_with(name)[0])
+
+
+def alone(name: str) -> str:
+    """How many escape with these demonstrations and without the soft constraint."""
+    return measures.escape(_with(name)[1])
 
 
 def found(name: str) -> np.ndarray:
@@ -34,17 +41,6 @@ def found(name: str) -> np.ndarray:
 def earned(name: str) -> np.ndarray:
     """The returns of the agents with the soft constraint and these demonstrations, (agents,)."""
     return np.concatenate([each.scores("returns") for each in _with(name)[0]])
-
-
-def alone(name: str, which: int) -> str:
-    """How many escape without the soft constraint: of the study's ten agents (0), or of the ten others (1)."""
-    return measures.escape([_with(name)[1][which]])
-
-
-def escapers_earn() -> np.ndarray:
-    """The mean return of each of the study's agents with both aids that escapes, (agents that do,)."""
-    agents = shipped_results().of("bootstrapped")
-    return agents.scores("returns")[agents.scores("success") >= ESCAPES]
 
 
 def passes(earned: float) -> int:

@@ -1,3 +1,1 @@
-"""You will write what RLPD, IBRL and jump-start RL take from a teacher, train with it, compare them at equal
-decisions.
-"""
+"""You will write what RLPD, IBRL and jump-start RL take from a teacher, and compare them at equal decisions."""

@@ -1,91 +1,108 @@
-"""To drag in this lesson: how long a decision takes, and what five learners earn in the same time."""
+"""To drag in this lesson: when the rule's action is taken, and how learners earn, by two counts."""
 
-from functools import cache
+from collections.abc import Mapping
 
+import ipywidgets as widgets
 import numpy as np
+import torch
 
-from bootcourse.colours import INK, QUIET
+from bootcourse.colours import QUIET
 from bootcourse.course.lessons.other_ways.figures import TAKES
-from bootcourse.course.shipped import shipped_experiment
+from bootcourse.learn.ibrl import better_of_two
 from bootcourse.methods import display_name, style
-from bootcourse.panels.explorable import HEIGHT, WIDTH, Explorable
+from bootcourse.panels.explorable import HEIGHT, WIDTH, Axes, Curve, Explorable, bars, legend
 from bootcourse.panels.number import Number
-from bootcourse.plots.svg import Drawing, SvgAxes, drawing, text
+from bootcourse.panels.panel import Panel
+from bootcourse.plots.svg import Drawing, SvgAxes, drawing, over, text
 from bootcourse.research import equal_decisions
-from bootcourse.research.beyond import WINDOW, lengths
+from bootcourse.research.beyond import WINDOW, at_budget
+from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import iqm
 
-PACE = "bootstrapped"  # all have as long as this learner needs for as many decisions as it makes in `SECONDS`
+EARLY, LATER = 36_000, equal_decisions.BUDGETS[0]  # decisions that the picture marks
+DECISIONS, SECONDS = "decisions", "seconds of computing"
+LONGEST = {DECISIONS: 150_000, SECONDS: 15}  # the ends of the picture's axis
+MARKED = {DECISIONS: (EARLY, LATER), SECONDS: (equal_decisions.SECONDS,)}
+POINTS = 60  # of each curve
+NAMED = {  # words beside a curve: at which share of the axis, and how many pixels from there
+    "sac": ("plain SAC, no teacher", {DECISIONS: (0.5, 0, -6)}),
+    "ppo": ("PPO, no teacher", {DECISIONS: (0.5, 0, 16), SECONDS: (0.25, 18, 16)}),
+    "rlpd": ("RLPD", {DECISIONS: (0.1, -22, 0), SECONDS: (0.5, 14, 16)}),
+}
 
 
-class Learners:
-    """Ten agents of one method: how they earned in training, and what a decision took of one core."""
+def which_of_two() -> Explorable:
+    """How the better of two actions is distributed, while Q of the rule's action rises."""
+    pi, rule, axes = torch.tensor([0.5, 0.3, 0.2]), torch.tensor(1), Axes("", "probability", (0.0, 1.0))
 
-    def __init__(self, method: str):
-        results = equal_decisions.by_method(shipped_experiment("beyond"))[method]
-        first = equal_decisions.BUDGETS[0]
-        self.seconds = results.measured[f"seconds_{first}"] / first  # for a decision, (agents,)
-        self.ends, self.means = [], []  # of each agent: decisions when an episode ended, mean return of the last ones
-        for spent, returns in zip(lengths(results.curves), results.curves["return"], strict=True):
-            driven = np.isfinite(spent)
-            self.ends.append(np.cumsum(spent[driven], dtype=float)[WINDOW - 1 :])
-            self.means.append(np.convolve(returns[driven], np.full(WINDOW, 1 / WINDOW), "valid"))
+    def draw(q_rule: float) -> Drawing:
+        chosen = better_of_two(pi, torch.tensor([1.0, q_rule, 3.0]), rule)
+        labels = ["brake Q=1", f"hold Q={q_rule:g} (rule's)", "accelerate Q=3"]
+        named = {"π, the agent's own": Curve(pi, QUIET), "the better of two": Curve(chosen, style("ibrl").colour)}
+        return bars(f"The rule's action is taken with probability {chosen[rule]:.1f}.", axes, labels, named)
 
-    def decisions(self, time: float, road: float) -> float:
-        """How many the median agent makes in so many seconds if each takes `road` seconds beside the computing."""
-        return float(np.median(time / (self.seconds + road)))
-
-    def earned(self, time: float, road: float) -> float:
-        """The agents' interquartile mean of the mean return of their last `WINDOW` training episodes by then."""
-        made = time / (self.seconds + road)
-        each = zip(self.ends, self.means, made, strict=True)
-        return float(iqm(np.array([m[np.searchsorted(ends, by, side="right") - 1] for ends, m, by in each])))
+    help = "Q of the rule's action. The other actions keep theirs."
+    return Explorable("Which of the two is taken?", draw, q_rule=Number("Q", 0.0, 0.0, 4.0, 0.1, help))
 
 
-@cache
-def learners() -> dict[str, Learners]:
-    """Those of the five methods."""
-    return {method: Learners(method) for method in TAKES}
+def seconds_per_decision(results: Results) -> np.ndarray:
+    """Of one core, in the training of each agent up to the first budget: (agents,)."""
+    return results.measured[f"seconds_{LATER}"] / LATER
 
 
-def time_for(road: float) -> float:
-    """The seconds that all have if a decision takes `road` seconds beside the computing; 5 if it takes none."""
-    return equal_decisions.SECONDS * (1 + road / float(np.median(learners()[PACE].seconds)))
+def in_training(results: Results, spent: float, count: str) -> np.ndarray:
+    """The mean return of each agent's last `WINDOW` training episodes after so many decisions or seconds."""
+    return at_budget(results.curves, spent if count == DECISIONS else spent / seconds_per_decision(results))
 
 
-def earned(road: float) -> dict[str, float]:
-    """{method: return in training} in that time."""
-    return {method: each.earned(time_for(road), road) for method, each in learners().items()}
+def learning_curve(results: Results, count: str) -> np.ndarray:
+    """The interquartile mean of the agents at `POINTS` places of the axis, NaN where one of them has no value."""
+    each = [in_training(results, spent, count) for spent in np.linspace(0, LONGEST[count], POINTS + 1)[1:]]
+    return np.array([iqm(of) if np.isfinite(of).all() else np.nan for of in each])
 
 
-def in_words(seconds: float) -> str:
-    """ "5 s", "7 min", "10 h"."""
-    for unit, size in (("s", 1), ("min", 60)):
-        if seconds < 100 * size:
-            return f"{seconds / size:.0f} {unit}"
-    return f"{seconds / 3600:.0f} h"
+class TwoCounts(Panel):
+    """The learning curves of several methods over the decisions, or over the seconds that they took; a switch."""
+
+    def __init__(self, compared: Mapping[str, Results], rule: float):
+        """compared: see `equal_decisions.by_method`; rule: what the rule earns, a line."""
+        self.drawings = {count: _curves(compared, rule, count) for count in LONGEST}
+        self.count = widgets.RadioButtons(options=list(LONGEST), tooltip="What is counted", layout={"width": "auto"})
+        self.view = widgets.HTML()
+        super().__init__("What do you count?", self.count, self.view)
+        self.update_with(self.count)
+
+    def update(self, change=None) -> None:
+        """Show the picture of the present count."""
+        self.svg = self.view.value = self.drawings[self.count.value]
 
 
-def same_time() -> Explorable:
-    """What each of the five earns in the same time, while a decision takes longer."""
-
-    def draw(road: float) -> Drawing:
-        road, returns = road / 1000, earned(road / 1000)
-        best, least = max(returns, key=returns.get), min(returns, key=returns.get)
-        says = f"In {in_words(time_for(road))} {display_name(best)} earns the most, {display_name(least)} the least."
-        chart = SvgAxes(52, 60, 690, 180, (0.0, float(len(returns))), (0.0, 140.0))
-        chart.scale(f"return in the last {WINDOW} training episodes (jump-start RL's may begin with the rule)")
-        words = []
-        for place, (method, value) in enumerate(returns.items()):
-            sides = [place + 0.2, place + 0.8]
-            chart.fill([*sides, *sides[::-1]], [0, 0, max(value, 0), max(value, 0)], style(method).colour)
-            (x, top), (_, foot) = chart.at(place + 0.5, max(value, 0)), chart.at(0, 0)
-            made = float(f"{learners()[method].decisions(time_for(road), road):.2g}")
-            below = {18: (display_name(method), INK), 34: (f"{made:,.0f} decisions", QUIET)}
-            words += [text(x, top - 5, f"{value:.0f}", "middle", bold=True)]
-            words += [text(x, foot + down, said, "middle", colour) for down, (said, colour) in below.items()]
-        return drawing(WIDTH, HEIGHT, [text(4, 20, says, size=14, bold=True), *chart.parts, *words], says)
-
-    help = "What a decision takes beside the computing. On a road: 1,000 ms."
-    road = Number("drive", 0.001, 0.001, 1000, 0.25, help, unit="ms", logarithmic=True)
-    return Explorable("What does a decision cost?", draw, road=road)
+def _curves(compared: Mapping[str, Results], rule: float, count: str) -> Drawing:
+    end, spent, by_decisions = LONGEST[count], MARKED[count][-1], count == DECISIONS
+    unit = 1000 if by_decisions else 1
+    chart = SvgAxes(52, 84, 690, 170, (0.0, end / unit), (-20.0, 140.0))
+    title = f"return in the last {WINDOW} training episodes (interquartile mean of ten agents)"
+    chart.frame(title, "thousand decisions" if by_decisions else count)
+    chart.line(chart.x, [rule, rule], style("rule").colour, 1.2)
+    words = [over(text(738, chart.at(0, rule)[1] - 4, "the rule", "end", style("rule").colour))]
+    for mark in MARKED[count]:
+        chart.line([mark / unit] * 2, chart.y, QUIET, 0.8, "--")
+        says = f"{mark:,}: {mark / DEFAULT.clock.decision_rate / 3600:.0f} h on a road" if by_decisions else f"{mark} s"
+        words.append(over(text(chart.at(mark / unit, 0)[0] + 5, chart.at(0, -17)[1], says, fill=QUIET)))
+    x, earned = np.linspace(0, end / unit, POINTS + 1)[1:], {}
+    for method in reversed([m for m in compared if by_decisions or m not in equal_decisions.UNTIMED]):
+        look, values = style(method), learning_curve(compared[method], count)
+        chart.line(x, values, look.colour, look.width, look.line)
+        if method in TAKES:
+            earned[display_name(method)] = iqm(in_training(compared[method], spent, count))
+        if method in NAMED:
+            says, (share, right, below) = NAMED[method][0], NAMED[method][1][count]
+            across, down = chart.at(x[round(share * POINTS) - 1], values[round(share * POINTS) - 1])
+            words.append(over(text(across + right, down + below, says, "middle", look.colour)))
+    best, least = max(earned, key=earned.get), min(earned, key=earned.get)
+    says = f"After {spent:,} decisions {least} earns the least of the five."
+    if not by_decisions:
+        says = f"After {spent} seconds of computing {best} earns the most of the five, {least} the least."
+    named = {display_name(m): Curve((), style(m).colour, style(m).line) for m in TAKES}
+    return drawing(WIDTH, HEIGHT, [text(4, 20, says, size=14, bold=True), *legend(named), *chart.parts, *words], says)

@@ -6,16 +6,10 @@ from itertools import combinations
 import numpy as np
 
 from bootcourse.course.lessons.other_ways import explorable, figures
-from bootcourse.course.lessons.other_ways.figures import after_seconds  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
-from bootcourse.episodes.evaluate import held_out_seeds
-from bootcourse.episodes.record import record
-from bootcourse.episodes.words import overtaken
 from bootcourse.learn.settings import settings_for
-from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
-from bootcourse.research.beyond import at_budget
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
@@ -24,7 +18,6 @@ from tools.course.known import shipped_experiment
 
 FIRST, SECOND, _ = BUDGETS
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
-QUICK, SLOWER = 0.00005, 0.0001  # seconds that a decision takes beside the computing
 APART = {"method", "seed", "bonus"}  # SAC has no demonstrations that a bonus could reward
 
 
@@ -48,13 +41,6 @@ def taught_by(method: str) -> set[str]:
 def at(method: str, measure: str, budget: int = FIRST) -> np.ndarray:
     """Each agent's mean return, success or accidents after so many decisions, or its seconds until then: (agents,)."""
     return equal_decisions.at(later(method), measure, budget)
-
-
-@cache
-def rule_ahead_by(seconds: float) -> float:
-    """On what share of 200 held-out roads the rule is ahead of trap 1 by then, and stays ahead."""
-    times = [overtaken(drive) for drive in record(rule_policy(DEFAULT), held_out_seeds(1, 200), label="rule")]
-    return float(np.mean([time is not None and time <= seconds for time in times]))
 
 
 def score_at(method: str, budget: int = FIRST) -> Estimate:
@@ -81,11 +67,6 @@ def at_edge() -> set[str]:
     return {method for method, place in places.items() if place != 1}
 
 
-def lowest() -> str:
-    """The method with a teacher that earns the least after the first budget."""
-    return min(TAUGHT, key=lambda method: at(method, "returns").mean())
-
-
 def search(method: str) -> dict[str, float]:
     """{what was tried: mean return} of the search."""
     return tried(shipped_experiment("beyond-search")[method])
@@ -105,23 +86,28 @@ def decisions_per_update(method: str) -> float:
     return agent["envs_per_agent"] / agent["updates"]
 
 
-def order(road: float) -> list[str]:
-    """The five methods by what they earn in the same time where a decision takes `road` seconds, the best first."""
-    returns = explorable.earned(road)
-    return sorted(returns, key=returns.get, reverse=True)
+def on_road(decisions: float) -> float:
+    """The hours that so many decisions take on a road."""
+    return decisions / DEFAULT.clock.decision_rate / 3600
 
 
-def returns_on_the_road(method: str) -> np.ndarray:
-    """The return in training of each agent in the time of the picture, where a decision takes a second."""
-    decisions = explorable.time_for(1.0) / (1.0 + explorable.learners()[method].seconds)
-    return at_budget(later(method).curves, decisions)
+def training_scores(spent: float, count: str) -> dict[str, Estimate]:
+    """{method with a teacher: the interquartile mean of its returns in training by then}."""
+    return {method: interval(explorable.in_training(later(method), spent, count)) for method in TAUGHT}
 
 
-def on_the_road(method: str) -> Estimate:
-    """Their interquartile mean, with its interval."""
-    return interval(returns_on_the_road(method))
+def below_all_others(method: str, spent: float, count: str) -> bool:
+    """Whether rank tests, corrected for all pairs of the five, show that it earns less in training than each other."""
+    returns = {one: explorable.in_training(later(one), spent, count) for one in TAUGHT}
+    of = list(combinations(TAUGHT, 2))
+    p = dict(zip(of, holm([p_value(returns[a], returns[b]) for a, b in of]), strict=True))
+    scores = training_scores(spent, count)
+    differ = all(each < 0.05 for pair, each in p.items() if method in pair)
+    return differ and method == min(scores, key=lambda one: scores[one].value)
 
 
-def first_may_be_chance() -> bool:
-    """Whether a rank test shows no difference between the first and the second on the road."""
-    return p_value(*(returns_on_the_road(method) for method in order(1.0)[:2])) > 0.05
+def first_may_be_chance(spent: float, count: str) -> bool:
+    """Whether a rank test shows no difference in training between the first and the second of the five."""
+    scores = training_scores(spent, count)
+    first = sorted(scores, key=lambda one: -scores[one].value)[:2]
+    return p_value(*(explorable.in_training(later(method), spent, count) for method in first)) > 0.05

@@ -1,9 +1,8 @@
-"""Exercises of the lesson on learning from recorded drives: GAIL's two halves, and CQL's loss."""
+"""Exercises of the lesson on learning from recorded drives: GAIL's reward, and CQL's loss."""
 
 import math
 
 import torch
-import torch.nn.functional as F
 
 from bootcourse.course.exercise import MANY_ROWS, exercise
 from bootcourse.learn import gail, sac
@@ -12,54 +11,6 @@ FLOAT32 = (
     "This is right on paper, but not in float32: e²⁰⁰ is infinite and e⁻²⁰⁰ is 0. `q.logsumexp(-1)` takes the largest "
     "Q out of the sum first."
 )
-
-
-def judged_cases(rng):
-    """D near 1/2, right and wrong, very certain, batches of two lengths; then 30 at random, and one as in training."""
-    yield torch.tensor([0.01, -0.01]), torch.tensor([0.01, 0.0, -0.01])
-    yield torch.tensor([3.0, 1.0]), torch.tensor([-2.0, -4.0])
-    yield torch.tensor([-3.0, -1.0]), torch.tensor([2.0, 4.0])
-    yield torch.tensor([60.0, -60.0]), torch.tensor([-60.0, 60.0, 0.0])
-    yield torch.tensor([100.0, -100.0]), torch.tensor([-100.0, 100.0, 0.0])  # e^100 is infinite
-    for _ in range(30):
-        yield tuple(torch.tensor(rng.normal(0, 3, n)) for n in rng.integers(1, 8, 2))
-    yield tuple(torch.tensor(rng.normal(0, 300, n)) for n in (MANY_ROWS, 70))
-
-
-@exercise(
-    "-E_rule[log D] - E_own[log (1 - D)], Ho & Ermon, arXiv 1606.03476, Equation 17, with D for 1 - D",
-    minutes=15, difficulty=3, cases=judged_cases, slopes=["rule_logits", "own_logits"],
-    worked=[
-        # D = 3/4 for the rule, 1/4 for the agent: twice -log 3/4; the slopes are D - 1 and D
-        ((torch.tensor([math.log(3)]), torch.tensor([-math.log(3)])),
-         (torch.tensor(2 * math.log(4 / 3)), torch.tensor([-0.25]), torch.tensor([0.25]))),
-        # the rule's D are 3/4 and 1/4, the agent's 1/4; each term is a mean over its batch
-        ((torch.tensor([math.log(3), -math.log(3)]), torch.tensor([-math.log(3)])),
-         (torch.tensor((math.log(4 / 3) + math.log(4)) / 2 + math.log(4 / 3)),
-          torch.tensor([-1 / 8, -3 / 8]), torch.tensor([1 / 4]))),
-    ],
-    hints=(
-        "With D = σ(x): log D = -log (1 + e⁻ˣ), and log (1 - D) = -log (1 + eˣ).",
-        "`torch.nn.functional.softplus(x)` is log (1 + eˣ), safe for every x. Mind the sign of each x.",
-    ),
-    mistakes={
-        "return F.softplus(-own_logits).mean() + F.softplus(rule_logits).mean()":
-            "You have taken the two batches for each other: this discriminator learns to give the *agent* a high D.",
-        "return -F.softplus(-rule_logits).mean() - F.softplus(own_logits).mean()":
-            "Your sign is wrong: gradient descent on this makes the discriminator take each for the other.",
-        "return -torch.log(torch.sigmoid(rule_logits)).mean() - torch.log(1 - torch.sigmoid(own_logits)).mean()":
-            "This is right on paper, but infinite where the discriminator is certain and wrong: in floating point "
-            "σ(100) is exactly 1. -log σ(x) is log (1 + e⁻ˣ), which is called softplus.",
-        "return torch.log(1 + torch.exp(-rule_logits)).mean() + torch.log(1 + torch.exp(own_logits)).mean()":
-            "e¹⁰⁰ is too large for a float32, so your loss is infinite there. `softplus` computes log (1 + eˣ) safely.",
-        "mean -> sum [2 times]":
-            "Both terms are expectations: take the mean over each batch, so that a longer batch does not count more.",
-        "F.softplus(-rule_logits).mean() + ->":
-            "The rule's half is missing: nothing keeps D high where the rule drives, so D = 0 everywhere is the best.",
-    },
-)  # fmt: skip
-def discriminator_loss(rule_logits, own_logits):
-    return F.softplus(-rule_logits).mean() + F.softplus(own_logits).mean()
 
 
 def own_cases(rng):

@@ -22,19 +22,19 @@ def of_paper(method: str) -> Results:
 
 @cache
 def overlap_of(which: int) -> float:
-    """In which share of the recorded seconds one of `choosing.AGENTS` would do what was done."""
+    """In which share of the recorded seconds the first agent of one of `choosing.METHODS` would do what was done."""
     return choosing.overlap(list(choosing.agents().values())[which], choosing.recorded())
 
 
 @cache
 def estimated() -> np.ndarray:
-    """What each of the lesson's seven agents is worth by each of eight fits, (fits, agents), as in its notebook."""
-    return choosing.fits(choosing.agents().values(), choosing.recorded(), times=8)
+    """What each of the lesson's six agents is worth by each of four fits, (fits, agents), as in its notebook."""
+    return choosing.fits(choosing.agents().values(), choosing.recorded(), times=4)
 
 
 @cache
 def truth() -> np.ndarray:
-    """What each of the seven is worth on the road, (agents,)."""
+    """What each of the six is worth on the road, (agents,)."""
     return np.array([choosing.worth(agent, range(100), 0.8) for agent in choosing.agents().values()])
 
 
@@ -44,16 +44,16 @@ def accidents_of_escapers() -> np.ndarray:
 
 
 def misses() -> np.ndarray:
-    """By how much the worst fit misses what each of the seven is worth."""
+    """By how much the worst fit misses what each of the six is worth."""
     return np.abs(estimated() - truth()).max(axis=0)
 
 
 def largest() -> list[int]:
-    """Which of the seven has the largest estimate in each fit."""
+    """Which of the six has the largest estimate in each fit."""
     return estimated().argmax(axis=1).tolist()
 
 
 @cache
 def by_stochastic_rule() -> list[Rollout]:
-    """Drives of the stochastic rule, the second study's teacher, on 300 roads."""
-    return record(stochastic_rule_policy(DEFAULT, np.random.default_rng(0)), range(300))
+    """Drives of the stochastic rule, the second study's teacher, on 100 roads."""
+    return record(stochastic_rule_policy(DEFAULT, np.random.default_rng(0)), range(100))

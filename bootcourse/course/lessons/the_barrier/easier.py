@@ -11,18 +11,18 @@ has ten agents with the paper's γ and ten that look further ahead; they learn b
 first round do. Three kinds, which carry the lesson's verdict, are stressed: other seeds, and twice the updates.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 
-from bootcourse.course.lessons.the_barrier.attempts import ACCELERATE, PLAN, ThenAccelerate, drive, keep_lane
+from bootcourse.course.lessons.the_barrier.attempts import PLAN, drive, keep_lane
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.policies import PlanPolicy, Policy, idle_policy, random_policy
+from bootcourse.policies import idle_policy
 from bootcourse.research.cells import results_of, tested_results
 from bootcourse.research.experiment import Computed, Experiment
 from bootcourse.research.jobs import Interrupted, orphaned
@@ -111,26 +111,13 @@ KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the set
     BOTH: (costing(1.0, MidLaneStart), {}),
 }
 
-SHOWN = ("as it is", MIDDLE, CHEAP)  # the kinds whose agents the lesson shows
-
-LATER_DRIVES = {
-    "accelerates once, then nothing": PlanPolicy([ACCELERATE]),
-    "to 15 m/s, in its lane": ThenAccelerate([]),
+SHOWN = {  # the kinds whose agents the lesson shows, in its words
+    "the road as it is": "as it is",
+    "a lane keeper": "a lane keeper",
+    "accidents cost 1": CHEAP,
+    "mid-lane": MIDDLE,
+    "the last two together": BOTH,
 }
-WISHES = [3, *[1] * 8, *[5] * 6]  # of the lane keeper: slower for 1 s, to the left for 8 s, faster for 6 s
-
-
-def drivers(kind: str, seed: int = 0) -> Mapping[str, Policy]:
-    """Whom the lesson lets drive on the roads of a kind: who stays, who acts at random, who is skilled."""
-    ram = {"accelerates into trap 1": PlanPolicy([ACCELERATE] * DEFAULT.clock.decisions)}
-    skilled = {
-        "a lane keeper": {"one plan": PlanPolicy(WISHES)},
-        "a later start": LATER_DRIVES,
-        MIDDLE: LATER_DRIVES,
-        "free accidents": ram,
-        CHEAP: ram,
-    }
-    return {"stays": idle_policy, "at random": random_policy(np.random.default_rng(seed))} | skilled[kind]
 
 
 @cache

@@ -3,7 +3,7 @@
 import numpy as np
 import torch
 
-from bootcourse.course.exercise import MANY_ROWS, exercise, logits
+from bootcourse.course.exercise import MANY_ROWS, exercise
 from bootcourse.learn import ppo
 
 
@@ -136,86 +136,3 @@ clipped_loss = exercise(
             "Your value is right, but no gradient flows back to the ratio: nothing would be learned.",
     },
 )(ppo.clipped_loss)  # fmt: skip
-
-
-def loss_cases(rng):
-    """A policy that has not changed, no entropy, one that has changed much; then 20 at random.
-
-    At last policies that are sure: log π down to -250, also of actions that were taken, and returns of a training; and
-    130 rows with returns in the thousands.
-    """
-
-    def case(n, change, entropy_weight, spread=1.0, size=2.0):
-        log_pi = torch.tensor(rng.normal(0, spread, (n, 9))).log_softmax(-1)
-        actions = torch.tensor(rng.integers(0, 9, n))
-        old = log_pi.gather(-1, actions[:, None])[:, 0] + torch.tensor(rng.normal(0, change, n))
-        values, returns = (torch.tensor(rng.normal(0, size, n)) for _ in range(2))
-        advantage = torch.tensor(rng.normal(0, 1, n))
-        advantage = size * (advantage / advantage.std() + rng.normal())  # not near 0, where the 1e-8 would count
-        return log_pi, values, actions, old, advantage, returns, rng.choice([0.1, 0.2, 0.3]), entropy_weight
-
-    yield from (case(6, 0.0, 0.01), case(5, 0.3, 0.0), case(8, 1.0, 0.5))
-    yield from (case(rng.integers(3, 9), 0.3, rng.choice([0.0, 0.01, 0.2])) for _ in range(20))
-    yield from (case(6, 0.3, weight, spread, 30.0) for weight, spread in ((0.01, 20.0), (0.2, 60.0), (0.01, 1.0)))
-    yield case(MANY_ROWS, 0.3, 0.2, 1.0, 3000.0)
-
-
-EVEN = torch.full((2, 9), 1 / 9).log()
-
-
-@exercise(
-    "L + E[(V - R)²]/2 - c E[H], arXiv 1707.06347, Equation 9", minutes=10, difficulty=2, cases=loss_cases,
-    slopes=[logits("log_pi"), "values"],
-    worked=[
-        # nothing has changed: the scaled advantages have mean 0, so only (1² + 3²) / 2 / 2 is left
-        ((EVEN, rows(1.0, 0.0), torch.tensor([0, 1]), EVEN[:, 0], rows(1.0, 2.0), rows(2.0, 3.0), 0.2, 0.0), 2.5),
-        # and a tenth of the entropy ln 9 = 2.197 is subtracted
-        ((EVEN, rows(1.0, 0.0), torch.tensor([0, 1]), EVEN[:, 0], rows(1.0, 2.0), rows(2.0, 3.0), 0.2, 0.1), 2.2803),
-    ],
-    hints=(
-        "Three terms: the clipped loss of the scaled advantages, half the mean squared error of V, and minus the "
-        "weighted mean entropy.",
-        "`log_pi.gather(-1, actions[:, None])[:, 0]` is log π(a|s). The ratio is the exponential of its difference to "
-        "`old_log_pi`.",
-    ),
-    mistakes={
-        "(advantage - advantage.mean()) / (advantage.std() + 1e-8) -> advantage":
-            "You take the advantages as they are. Give those of the minibatch mean 0 and deviation 1, so that the size "
-            "of a step does not depend on the size of the rewards.",
-        "(advantage - advantage.mean()) / (advantage.std() + 1e-8) -> advantage - advantage.mean()":
-            "Your advantages have mean 0, and not yet deviation 1: divide them by their standard deviation.",
-        "advantage.std() -> advantage.std(correction=0)":
-            "Your deviation divides by n. That is as good, but this exercise asks for torch's `advantage.std()`, which "
-            "divides by n - 1.",
-        "(taken - old_log_pi).exp() -> taken - old_log_pi":
-            "This is the logarithm of the ratio: take its exponential.",
-        "(taken - old_log_pi).exp() -> (old_log_pi - taken).exp()":
-            "Your ratio is upside down: the new probability stands above the old one.",
-        "(taken - old_log_pi).exp() -> taken.exp() / old_log_pi.exp()":
-            "This is right on paper, but in float32 e⁻¹²⁰ is 0, and 0 / 0 is not a number. Subtract the logarithms "
-            "first: `(taken - old_log_pi).exp()`.",
-        "log_pi.exp() * log_pi -> log_pi.exp() * log_pi.exp().log()":
-            "This is right on paper, but in float32 e⁻¹²⁰ is 0, and its logarithm is infinite. Use `log_pi` itself "
-            "in the entropy.",
-        "-(log_pi.exp() * log_pi) -> torch.special.entr(log_pi.exp())":
-            "Your value is right, but the slope of p log p in p is log p, and in float32 e⁻¹²⁰ is 0: the gradient is "
-            "not a number. Use `log_pi` itself in the entropy: `log_pi.exp() * log_pi`.",
-        "- entropy_weight * entropy -> + entropy_weight * entropy":
-            "Your sign is wrong: this charges for entropy, and the policy stops trying. A loss falls, so subtract it.",
-        "- entropy_weight * entropy ->":
-            "The entropy is missing: subtract its mean, times its weight.",
-        ".square().mean() / 2 -> .square().mean()":
-            "The squared error of V counts half.",
-        "log_pi.gather(-1, actions[:, None])[:, 0] -> log_pi.amax(-1)":
-            "You take the most probable action. The ratio is that of the action that was taken.",
-        "values - returns -> values.detach() - returns":
-            "No gradient flows to V: it would learn nothing.",
-    },
-)  # fmt: skip
-def ppo_loss(log_pi, values, actions, old_log_pi, advantage, returns, clip, entropy_weight):
-    taken = log_pi.gather(-1, actions[:, None])[:, 0]
-    ratio = (taken - old_log_pi).exp()
-    scaled = (advantage - advantage.mean()) / (advantage.std() + 1e-8)
-    entropy = -(log_pi.exp() * log_pi).sum(-1).mean()
-    value_loss = (values - returns).square().mean() / 2
-    return ppo.clipped_loss(ratio, scaled, clip) + value_loss - entropy_weight * entropy

@@ -1,10 +1,11 @@
-"""To drag in this lesson: how far a speed swings around that of the traps, and how the reward is bent; what it pays."""
+"""To drag in this lesson: how far a speed swings around that of the traps, how the reward is bent, and λ."""
 
 from collections.abc import Callable
 
 import numpy as np
 
-from bootcourse.colours import GRID, INK
+from bootcourse.colours import GRID, INK, QUIET
+from bootcourse.learn.settings import settings_for
 from bootcourse.methods import style
 from bootcourse.panels.explorable import HEIGHT, WIDTH, Curve, Explorable, legend
 from bootcourse.panels.number import Number
@@ -59,6 +60,40 @@ def sprints() -> Explorable:
 
     swing = Number("swing", 1, 0, MOST, 0.5, "So far below and above 10 m/s the two speeds lie.", "m/s")
     return Explorable("What does changing pay?", draw, swing=swing)
+
+
+def surprises() -> np.ndarray:
+    """r_v of each second less that of a steady 10 m/s, while a car falls back and then sprints: (seconds,)."""
+    turn = [MEAN - MOST] * HALF + [MEAN + MOST] * HALF
+    return np.array([speed_reward(v) for v in turn]) - speed_reward(MEAN)
+
+
+def weighted(lam: float) -> np.ndarray:
+    """The terms of the first second's advantage, (seconds,), with PPO's γ."""
+    return surprises() * (settings_for("ppo").gamma * lam) ** np.arange(2 * HALF)
+
+
+def later() -> Explorable:
+    """What each later second adds to the advantage of falling back, while λ grows."""
+
+    def draw(lam: float) -> Drawing:
+        terms = weighted(lam)
+        looks = "better" if terms.sum() > 0 else "worse"
+        says = f"λ = {lam:g}: A = {terms.sum():.2f}. Falling back looks {looks} than a steady {MEAN:g} m/s."
+        chart = SvgAxes(52, 62, 690, 190, (0.0, 2.0 * HALF), (-0.25, 1.1))
+        chart.frame("surprise of a second: filled, as it counts; outlined, in full", "time, s")
+        for second, (term, full) in enumerate(zip(terms, surprises(), strict=True)):
+            x = [second + 0.12, second + 0.88, second + 0.88, second + 0.12]
+            chart.fill(x, [0, 0, full, full], "none", edge=QUIET)
+            chart.fill(x, [0, 0, term, term], style("ppo").colour if term > 0 else INK)
+        chart.line([0, 2 * HALF], [0, 0], INK, 0.8)
+        chart.words(HALF / 2, 0.12, f"falls back, {MEAN - MOST:g} m/s", INK, "middle", 8)
+        chart.words(HALF * 1.5, 0.97, f"sprints, {MEAN + MOST:g} m/s", INK, "middle", 8)
+        says = says.replace("-", "−")
+        return drawing(WIDTH, HEIGHT, [text(4, 20, says, size=14, bold=True), *chart.parts], says)
+
+    lam = Number("λ", 0, 0, 1, 0.05, "So much each second counts, compared with the one before it (times γ).")
+    return Explorable("How far does the first second look ahead?", draw, lam=lam)
 
 
 def bent(at_knee: float) -> Callable[[float], float]:

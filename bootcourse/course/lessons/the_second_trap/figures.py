@@ -1,6 +1,6 @@
-"""Return against success, the return in training, PPO's clipped loss, two drives' speeds, a table of three rewards."""
+"""PPO's clipped loss, two drives' speeds, and return against success."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 
 import numpy as np
 import torch
@@ -9,59 +9,41 @@ from torch import Tensor
 
 from bootcourse.colours import Style
 from bootcourse.course.charts import lines
-from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, Driven, Trained, agent_of, reference
+from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, compared
 from bootcourse.course.lessons.the_second_trap.second_trap import speeds
-from bootcourse.episodes.record import Rollout, record
+from bootcourse.episodes.record import Rollout
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
-from bootcourse.policies import idle_policy
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES
 
 RATIOS = np.linspace(0.3, 1.7, 141)
 POINTS = (0.5, 1.5)  # where a dot says what the gradient does
 
-AFTER_CLONING = "After cloning, PPO gets out and earns about twice what the rule earns"
 
+def plane(clone: tuple[float, float], trained: tuple[float, float]) -> Figure:
+    """Where the return of each agent that ships, and its share of roads ahead, put it: a dot for each.
 
-def plane(kinds: Mapping[str, Driven], title: str, own: Sequence[tuple[float, float]] = ()) -> Figure:
-    """Where each agent's return and its share of roads ahead put it: a dot for each.
-
-    own: (return, share ahead) of another agent before and after its training, joined by an arrow.
+    clone, trained: (return, share ahead) of your agent before and after its training, joined by an arrow.
     """
+    title = "After cloning, PPO gets out and earns about twice what the rule earns"
     roads = f"mean return of an agent on {len(ROADS)} roads"
     figure, ax = one_axes(3.5, title, roads, "roads on which it ends ahead of trap 1, %")
     ax.set(xlim=(0, 125), ylim=(-8, 108))
     looks, alt = {"the rule": style("rule").colour, "keeping straight": style("idle").colour}, []
-    for name, (returns, ahead) in kinds.items():
+    for name, (returns, ahead) in compared({"PPO alone": "alone", "PPO after cloning": "cloned"}).items():
         colour = looks.get(name, style("ppo").colour)
         ax.scatter(returns, 100 * ahead, s=34, color=colour, edgecolors="white", linewidths=0.6, zorder=3)
         x, y = float(np.mean(returns)), 100 * float(np.mean(ahead))
         look = {"textcoords": "offset points", "ha": "center", "fontsize": TEXT, "color": INK}
         ax.annotate(name, (x, y), (0, 9 if y < 50 else -17), **look)
         alt.append(f"{name}: {len(returns)} with a mean return of {x:.0f}, ahead on {y:.0f} %")
-    if own:
-        (x, y), (to_x, to_y) = ((returns, 100 * ahead) for returns, ahead in own)
-        ax.annotate("", (to_x, to_y), (x, y), arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.2})
-        ax.plot(x, y, "o", color="white", markeredgecolor=INK, ms=6, zorder=3)
-        ax.plot(to_x, to_y, "o", color=INK, ms=6, zorder=4)
-        ax.annotate("your clone", (x, y), (0, -15), textcoords="offset points", ha="center", fontsize=TEXT, color=INK)
-        alt.append(f"your clone: from return {x:.0f}, ahead on {y:.0f} %, to return {to_x:.0f}, ahead on {to_y:.0f} %")
+    (x, y), (to_x, to_y) = ((returns, 100 * ahead) for returns, ahead in (clone, trained))
+    ax.annotate("", (to_x, to_y), (x, y), arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.2})
+    ax.plot(x, y, "o", color="white", markeredgecolor=INK, ms=6, zorder=3)
+    ax.plot(to_x, to_y, "o", color=INK, ms=6, zorder=4)
+    ax.annotate("your clone", (x, y), (0, -15), textcoords="offset points", ha="center", fontsize=TEXT, color=INK)
+    alt.append(f"your clone: from return {x:.0f}, ahead on {y:.0f} %, to return {to_x:.0f}, ahead on {to_y:.0f} %")
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt)}.")
-
-
-def learning(yours: Trained, title: str) -> Figure:
-    """The return in training of the agents of PPO alone that ship, and of yours, over the decisions."""
-    ships, colour = reference()["alone"], style("ppo").colour
-    at, curves = ships["at"][0], ships["curve"]
-    own = np.full(len(at), np.nan)
-    own[: len(yours.returns)] = yours.returns[: len(at)]
-    named, looks = {"ten agents of PPO alone": curves, "yours": own}, (Style(colour), Style(INK))
-    marks = {"keeping straight": record(idle_policy, [0])[0].rewards.sum()}
-    early, late = (f"{each.min():.0f} to {each.max():.0f}" for each in (curves[:, 6], curves[:, -1]))
-    ends = f"The ten earn {early} after {at[6]:,.0f} decisions, in the end {late}; yours {yours.returns[-1]:.0f}."
-    labels = "thousand decisions", "return of the last 300 training episodes"
-    return lines(at / 1000, named, title, *labels, marks=marks, looks=looks, alt=ends)
 
 
 def hinges(clipped_loss: Callable[[Tensor, Tensor, float], Tensor], clip: float) -> Figure:
@@ -100,15 +82,3 @@ def two_speeds(drives: Mapping[str, Rollout]) -> Figure:
     seconds, looks = np.arange(1, 1 + max(map(len, named.values()))), (Style(style("ppo").colour), Style(QUIET))
     marks = {"the traps": DEFAULT.traps.speed}
     return lines(seconds, named, title, "time (s)", "speed (m/s)", marks=marks, looks=looks)
-
-
-def of_rewards(kinds: Mapping[str, str], road: int) -> tuple[list[str], list[list[str]], str]:
-    """A table's columns, rows and last line: how the agents drive that ship of {reward: kind}, and their speeds."""
-    columns, rows = ["trained with", "escape", "return, as the road pays", "fastest and slowest, from 20 s on"], []
-    for reward, kind in kinds.items():
-        ships = reference()[kind]
-        out, seeds = (ships["success"] >= ESCAPES).sum(), range(len(ships["success"]))
-        late = [speeds(record(agent_of(kind, seed).as_policy(), [road])[0])[20:] for seed in seeds]
-        ends = " and ".join(f"{np.mean([end(each) for each in late]):.0f}" for end in (np.max, np.min))
-        rows.append([reward, f"{out} of {len(seeds)}", f"{ships['returns'].mean():.0f}", f"{ends} m/s"])
-    return columns, rows, f"Speeds are means of the agents' drives on road {road}."

@@ -38,11 +38,6 @@ def speeds(drive: Rollout) -> np.ndarray:
     return drive.states[steps::steps, EGO, SPEED]
 
 
-def jensen_gap(speeds: np.ndarray) -> float:
-    """The mean of r_v at these speeds (seconds,), in m/s, less r_v at their mean."""
-    return float(np.mean([speed_reward(v) for v in speeds]) - speed_reward(np.mean(speeds)))
-
-
 def left_of(cars: np.ndarray) -> np.ndarray:
     """A potential Φ: `PER_LANE` for each lane that the ego has come to the left. (roads, ...) -> (roads,)."""
     road = DEFAULT.road

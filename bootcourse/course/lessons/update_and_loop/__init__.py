@@ -1,3 +1,3 @@
-"""You will write the buffer's draw, SAC's update and its loop, train your agent to balance a pole, see a critic
-diverge.
+"""You will write the buffer's draw, SAC's update and its loop, test them in worlds whose right Q you know, solve the
+pole.
 """

@@ -321,7 +321,7 @@ bc.show(diagrams.who_leaves(found))
 # that it did not make: it is **off-policy**, and so is the learner of the next lessons.
 
 # %% [markdown] tags=["instructor"] minutes=3
-# The question about the last decision separates two ideas that lesson [[demonstrations]] needs: an
+# The question about the last decision separates two ideas that lesson [[update_and_loop]] needs: an
 # accident *terminates* (nothing follows), the end of the time *truncates* (we stop looking). Ask in
 # which order the demonstration should be replayed so that one pass is enough (backwards, with step
 # 1).

@@ -1,7 +1,5 @@
 """Answers to the exercises of the lesson on a problem of one's own."""
 
-from scipy import stats
-
 from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
 
@@ -21,18 +19,6 @@ wrong_lines("""climb_rule
     nothing for the left: 2 if speed >= 0 else None  # returns nothing
     at random: int(np.random.default_rng().integers(3))  # asked again
     once up: 2 if position > -0.3 else 0
-""")
-
-
-@right("majority_right")
-def by_scipy(right, votes):
-    tie = stats.binom.pmf(votes / 2, votes, right) if votes % 2 == 0 else 0.0
-    return stats.binom.sf(votes // 2, votes, right) + 0.5 * tie
-
-
-wrong_lines("""majority_right
-    the normal approximation: stats.norm.sf(votes / 2, votes * right, np.sqrt(votes * right * (1 - right)) + 1e-9)
-    ties are lost: stats.binom.sf(votes // 2, votes, right)
 """)
 
 
@@ -65,10 +51,4 @@ wrong_lines("""climb_rule
 
 wrong_lines("""drowning_bonus
     capped: min(50.0, solution(reward, goal, decisions, gamma))
-""")
-
-wrong_lines("""majority_right
-    factorials in float64: f = lambda n: np.prod(np.arange(1.0, n + 1))
-        p = [f(votes) / f(k) / f(votes - k) * right**k * (1 - right) ** (votes - k) for k in range(votes + 1)]
-        sum(each * (0.5 + 0.5 * np.sign(2 * k - votes)) for k, each in enumerate(p))
 """)

@@ -6,7 +6,7 @@ from bootcourse.research.computed import experiment
 from bootcourse.research.elsewhere_claims import Cells
 
 THREE = ("mountain-car", "cartpole", "lander")
-FOUR = ("cloning", "soft", "demonstrations", "both")
+TWO = ("cloning", "soft")
 BONUSES = {f"c = {c}": f"both, c = {c}" for c in (0, 0.03, 0.1, 0.3, 1)} | {"c = 2": "both"}
 
 

@@ -1,4 +1,4 @@
-"""Exercises of the lesson on a problem of one's own: a rule, why cloning averages, and when a bonus drowns the goal."""
+"""Exercises of the lesson on a problem of one's own: a rule, and when a bonus drowns the goal."""
 
 from bootcourse.course.exercise import exercise
 from bootcourse.course.lessons.your_own_problem.loops import UP, climb, explain_climb
@@ -31,52 +31,6 @@ from bootcourse.course.lessons.your_own_problem.loops import UP, climb, explain_
 )  # fmt: skip
 def climb_rule(position, speed):
     return 2 if speed >= 0 else 0
-
-
-def majority_cases(rng):
-    """One vote, two, an even number, right in half, always right, systematic, many votes; then 30 at random."""
-    yield from ((0.7, 1), (0.7, 2), (0.6, 4), (0.5, 5), (1.0, 3), (0.0, 4), (0.2, 9), (0.7, 41), (0.52, 200))
-    for _ in range(30):
-        yield rng.uniform(0, 1), int(rng.integers(1, 30))
-
-
-@exercise(
-    "P(more than half of n labels are right), right in a share q each: Condorcet 1785",
-    minutes=10, difficulty=2, cases=majority_cases,
-    worked=[
-        ((0.7, 1), 0.7),
-        ((0.7, 3), 3 * 0.7**2 * 0.3 + 0.7**3),  # two of three, or all
-        ((0.6, 2), 0.6**2 + 0.5 * 2 * 0.6 * 0.4),  # both, or one of two and a coin
-    ],
-    hints=(
-        "The number of right labels is binomial: k of n with probability C(n, k) q^k (1 - q)^(n - k).",
-        "Add up these probabilities for 2 k > n, and half of the one for 2 k = n. `math.comb(n, k)` is C(n, k).",
-    ),
-    mistakes={
-        "comb(votes, k) * ->":
-            "You count one order of the right and wrong labels. There are C(n, k) orders with k right ones.",
-        "0.5 if 2 * k == votes -> 1.0 if 2 * k == votes":
-            "You count a tie as won. At a tie the clone has no reason for either action: count half of it.",
-        "0.5 if 2 * k == votes else 0.0 -> 0.0":
-            "You leave ties out. At a tie the clone takes the right action in half of the cases.",
-        "2 * k > votes -> 2 * k < votes":
-            "This is the probability that the majority is *wrong*.",
-        "return right":
-            "This is the probability of one label. The clone learns from all labels of alike states together.",
-        "return right**votes":
-            "This is the probability that *all* labels are right. More than half is enough.",
-        "return 1 - (1 - right)**votes":
-            "This is the probability that at least *one* label is right. The clone does what more than half say.",
-    },
-)  # fmt: skip
-def majority_right(right, votes):
-    from math import comb
-
-    total = 0.0
-    for k in range(votes + 1):
-        probability = comb(votes, k) * right**k * (1 - right) ** (votes - k)
-        total += probability * (1.0 if 2 * k > votes else 0.5 if 2 * k == votes else 0.0)
-    return total
 
 
 def bonus_cases(rng):

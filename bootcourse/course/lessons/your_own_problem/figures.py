@@ -1,6 +1,6 @@
 """Two drives of MountainCar, one of DoorKey, and what ships of the study on other problems (research/elsewhere.py)."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -10,14 +10,14 @@ from bootcourse.colours import ALARM, Style
 from bootcourse.course import charts
 from bootcourse.course.dots import dots
 from bootcourse.course.lessons.your_own_problem import loops
-from bootcourse.course.lessons.your_own_problem.cells import BONUSES, FOUR, THREE, cells
+from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, TWO, cells
 from bootcourse.learn.agent import Agent
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.problems import PROBLEMS
 
-LOOKS = {"cloning": "bc", "soft": "soft", "demonstrations": "demos", "both": "bootstrapped"}
-NAMES = {"cloning": "clone", "soft": "soft constraint", "demonstrations": "demonstrations", "both": "both aids"}
+LOOKS = {"cloning": "bc", "soft": "soft"}
+NAMES = {"cloning": "clone", "soft": "soft constraint"}
 
 
 def climbs() -> Figure:
@@ -63,10 +63,10 @@ def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
 def returns() -> Figure:
     """The mean return of each agent with a flawed teacher, a dot: a column for each problem, a row for each method."""
     title = "Clones outdo these random teachers, not the systematic ones"
-    figure, alt = new_figure(4.3), []
+    figure, alt = new_figure(3.5), []
     for row, teacher in enumerate(("random", "systematic")):
         for column, problem in enumerate(THREE):
-            ax = axes_at(figure, 1.15 + 1.95 * column, 0.95 + 1.75 * row, 1.75, 1.2)
+            ax = axes_at(figure, 1.15 + 1.95 * column, 0.95 + 1.35 * row, 1.75, 0.75)
             plain_axes(ax, PROBLEMS[problem].name, grid="x")
             lines = {"good teacher": style("rule").colour, "this teacher": ALARM, "plain SAC": style("sac").colour}
             good, this = (cells().mean(problem, kind, "the teacher") for kind in ("good", teacher))
@@ -74,15 +74,15 @@ def returns() -> Figure:
             for value, colour, line in zip((good, this, alone), lines.values(), ("-", "--", ":"), strict=True):
                 ax.axvline(value, color=colour, linestyle=line, linewidth=1.6, zorder=2)
             means = []
-            for place, method in enumerate(FOUR):
+            for place, method in enumerate(TWO):
                 scores = cells().scores(problem, teacher, method)
                 dots(ax, scores, place, style(LOOKS[method]).colour, size=11)
                 means.append(f"{NAMES[method]} {scores.mean():.0f}")
-            ax.set_yticks(range(len(FOUR)), NAMES.values() if column == 0 else [""] * len(FOUR))
-            ax.set_ylim(len(FOUR) - 0.5, -0.5)
+            ax.set_yticks(range(len(TWO)), NAMES.values() if column == 0 else [""] * len(TWO))
+            ax.set_ylim(len(TWO) - 0.5, -0.5)
             what = f"good teacher {good:.0f}, this teacher {this:.0f}, plain SAC {alone:.0f}"
             alt.append(f"{PROBLEMS[problem].name}, {teacher}: {what}, {', '.join(means)}.")
-        above = 1 - (0.75 + 1.75 * row) / 4.3
+        above = 1 - (0.75 + 1.35 * row) / 3.5
         figure.text(0.012, above, f"a {teacher}\nteacher", va="top", fontsize=TEXT, fontweight="bold", color=INK)
     x = 1.15
     for (words, colour), line in zip(lines.items(), ("-", "--", ":"), strict=True):
@@ -105,35 +105,44 @@ def bonuses() -> Figure:
         named[f"{teacher} teacher"] = 100 * np.array(scores)
     looks = [style("rule"), style("bootstrapped"), Style(ALARM, "--")]
     marks = {"plain SAC": 100 * cells().mean("doorkey", "none", "SAC", "drawn_success")}
-    over, of = "bonus c for each decision of a demonstration", "drives that reach the goal, %, of agents with both aids"
+    over = "bonus c for each decision of a demonstration"
+    of = "drives that reach the goal, %: agents with both aids, which draw their actions"
     figure = charts.lines(at, named, title, over, of, marks=marks, limits=(0, 103), looks=looks)
     figure.axes[0].set_xticks(at, [name.removeprefix("c = ") for name in BONUSES])
     return figure
 
 
-def edges(soft: Sequence[Agent], clones: Sequence[Agent], title: str) -> Figure:
-    """Where each agent on CartPole changes from left to right, by the pole's angle and speed; the cart rests."""
-    figure = new_figure(3.3)
-    ax = axes_at(figure, 0.7, 0.75, 4.0, 1.95)
-    plain_axes(ax, "speed of the pole, rad/s")
-    ax.set_xlabel("angle of the pole, rad (the cart rests in the middle)", fontsize=TEXT, color=INK)
+def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
+    """Where agents on CartPole change from left to right, by angle and speed of the pole, after so many decisions each.
+
+    tested: by decisions in training, the agents and what each earns. The cart rests in the middle.
+    """
+    title = "On their way to the teacher's rule they pass a better one"
+    figure, alt = new_figure(3.4), []
     angle, speed = np.linspace(-0.2, 0.2, 81), np.linspace(-1.5, 1.5, 81)
     at = np.zeros((81, 81, 4), dtype=np.float32)
     at[..., 2], at[..., 3] = np.meshgrid(angle, speed)
-    rule, changes = style("rule").colour, []
-    for agents, method in ((clones, "bc"), (soft, "soft")):
+    rule, soft = style("rule").colour, style("soft").colour
+    for column, (decisions, (agents, earned)) in enumerate(tested.items()):
+        ax = axes_at(figure, 0.5 + 2.2 * column, 1.05, 1.85, 1.6)
+        plain_axes(ax, f"{decisions:,} decisions: return {earned.mean():.0f}")
+        slopes = []
         for agent in agents:
             right = np.asarray(agent.probabilities(at.reshape(-1, 4)))[:, 1].reshape(81, 81)
-            ax.contour(angle, speed, right, levels=[0.5], colors=[style(method).colour], linewidths=1.6)
-            if method == "soft":
-                changes.append("/".join(f"{speed[(right[:, x] >= 0.5).argmax()]:.2f}" for x in (20, 60)))
-    ax.axvline(0, color=rule, linewidth=2.5, zorder=1)
-    ax.plot(angle, -angle, color=INK, linewidth=1.2, linestyle="--")
-    ax.text(-0.19, -1.4, "push left", fontsize=TEXT, color=INK)
-    ax.text(0.19, 1.3, "push right", ha="right", fontsize=TEXT, color=INK)
-    named = {f"{len(soft)} with the soft constraint": style("soft").colour, f"{len(clones)} clones": style("bc").colour}
-    for place, (words, look) in enumerate({"the rule": rule, **named, "dashes: angle + speed = 0": INK}.items()):
-        ax.text(1.04, 0.6 - 0.13 * place, words, transform=ax.transAxes, fontsize=TEXT, color=look)
-    alt = f"At {angle[20]:.1f}/{angle[60]:.1f} rad those with the soft constraint push right from these speeds on: "
-    alt += f"{', '.join(changes)} rad/s. The rule does so at each speed if the angle is above 0."
-    return finish(figure, title, alt)
+            ax.contour(angle, speed, right, levels=[0.5], colors=[soft], linewidths=1.6)
+            low, high = (speed[(right[:, x] >= 0.5).argmax()] for x in (30, 50))
+            slopes.append((low - high) / (angle[50] - angle[30]))
+        ax.axvline(0, color=rule, linewidth=2.5, zorder=1)
+        ax.plot(angle, -angle, color=INK, linewidth=1.2, linestyle="--")
+        ax.set_xticks([-0.2, 0, 0.2], ["−0.2", "0", "0.2"])
+        falls = f"edges fall by {min(slopes):.1f} to {max(slopes):.1f} rad/s a rad"
+        alt.append(f"after {decisions:,} decisions {falls}, mean return {earned.mean():.0f}")
+        if column == 0:
+            ax.text(-0.19, -1.4, "push left", fontsize=TEXT, color=INK)
+            ax.text(0.19, 1.2, "push right", ha="right", fontsize=TEXT, color=INK)
+    keys = {"five agents": soft, "the teacher": rule, "dashes: angle + speed = 0": INK}
+    for x, (words, colour) in zip((0.072, 0.23, 0.39), keys.items(), strict=True):
+        figure.text(x, 0.8, words, fontsize=TEXT, color=colour)
+    below = "across: angle of the pole, rad; up: its speed, rad/s; return: mean over the agents"
+    figure.text(0.5, 0.06, below, ha="center", fontsize=TEXT, color=INK)
+    return finish(figure, title, f"Edges between left and right: {'; '.join(alt)}. The teacher's edge is upright.")

@@ -1,7 +1,11 @@
-"""How a rule climbs the hill of MountainCar, and where a teacher turns in circles in DoorKey."""
+"""How a rule climbs the hill of MountainCar, where a teacher loops in DoorKey, and agents at several budgets."""
+
+from collections.abc import Callable
+from functools import cache
 
 import gymnasium as gym
 import numpy as np
+from gymnasium.vector import VectorEnv
 
 from bootcourse.course.lessons.your_teacher.driven_out import (
     NOT_SAME,
@@ -11,11 +15,18 @@ from bootcourse.course.lessons.your_teacher.driven_out import (
     no_action,
     same_action,
 )
-from bootcourse.learn.teachers import Rule
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.settings import Settings, with_seeds
+from bootcourse.learn.teachers import Rule, teacher_policy
+from bootcourse.learn.training import Training
 from bootcourse.research.problems import PROBLEMS, DoorKey
 
+MakeEnvs = Callable[[int], VectorEnv]
+MOST_EPISODES = 50_000  # of a training that ends after so many decisions
 UP = 1.0  # the flag was reached; any other result is the farthest position, the flag is at 0.5
 PUSHES = 3
+LOOP = 2  # the seed of a drive of the random teacher in DoorKey that ends in a loop
 
 
 def climb(answer, seed: int):
@@ -98,8 +109,26 @@ def rooms(teacher: Rule, seed: int) -> tuple[list[tuple[int, ...]], bool]:
     return states, reached
 
 
-def longest_loop() -> list[tuple[int, ...]]:
-    """The states of the drive of the random teacher, of 30, that misses the goal and sees the most cells before."""
-    teacher = PROBLEMS["doorkey"].teachers()["random"]
-    lost = [states for states, reached in (rooms(teacher, seed) for seed in range(30)) if not reached]
-    return max(lost, key=lambda states: len({state[:2] for state in states}))
+def drive_in_a_loop() -> list[tuple[int, ...]]:
+    """The states of a drive of the random teacher that passes the door and misses the goal."""
+    return rooms(PROBLEMS["doorkey"].teachers()["random"], LOOP)[0]
+
+
+def earns(rule: Rule, make_env: MakeEnvs) -> float:
+    """The mean return of a rule of one observation, in 50 episodes of an environment."""
+    policy = teacher_policy(rule, None, n_actions=int(make_env(1).single_action_space.n))
+    return drive_episodes(policy, range(50), make_env=make_env).returns.mean()
+
+
+@cache
+def tested_at(
+    budgets: tuple[int, ...], settings: Settings, make_env: MakeEnvs, teacher: Rule
+) -> dict[int, tuple[list[Agent], np.ndarray]]:
+    """After so many decisions of each of five agents in training: the agents, and what each earns in five episodes."""
+    training = Training(with_seeds(settings, 5), episodes=MOST_EPISODES, make_env=make_env, teacher=teacher)
+    tested, held_out = {}, held_out_seeds(1, 5)
+    for budget in budgets:
+        agents = training.run(False, stop=lambda most=budget * training.n_agents: training.decisions >= most).agents
+        drives = [drive_episodes(agent.as_policy(), held_out, make_env=make_env) for agent in agents]
+        tested[budget] = agents, np.array([each.returns.mean() for each in drives])
+    return tested

@@ -3,10 +3,9 @@
 import gymnasium as gym
 import numpy as np
 
-import bootcourse as bc
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import explorable, loops  # noqa: F401 (for the expressions)
-from bootcourse.course.lessons.your_own_problem.cells import BONUSES, FOUR, THREE, cells  # noqa: F401
+from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, TWO, cells  # noqa: F401
 from bootcourse.research import elsewhere_claims, equal_decisions  # noqa: F401
 from bootcourse.research.problems import PROBLEMS  # noqa: F401
 
@@ -26,19 +25,14 @@ def earned(teacher: str) -> float:
 
 def speed_rule_earns() -> float:
     """What the rule of CartPole earns that pushes to the side of angle + speed, as the picture of the edges has it."""
-    policy = bc.teacher_policy(lambda seen: int(seen[2] + seen[3] > 0), None, n_actions=2)
-    with_poles = {"make_env": lambda n: gym.make_vec("CartPole-v1", n, vectorization_mode="sync")}
-    return bc.drive_episodes(policy, range(50), **with_poles).returns.mean()
+    return loops.earns(
+        lambda seen: int(seen[2] + seen[3] > 0), lambda n: gym.make_vec("CartPole-v1", n, vectorization_mode="sync")
+    )
 
 
 def by_bonus(teacher: str) -> np.ndarray:
     """The success of both aids on DoorKey with each bonus that the table shows, by drawn actions."""
     return np.array([score("doorkey", teacher, name, "drawn_success") for name in BONUSES.values()])
-
-
-def majority_right(right: float, votes: int) -> float:
-    """The exercise's solution."""
-    return registry()["majority_right"](right, votes)
 
 
 def drowning_bonus(*arguments: float) -> float:

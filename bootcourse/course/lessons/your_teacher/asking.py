@@ -1,4 +1,4 @@
-"""Who asks the teacher when: a student that drives alone, when students disagree, or at random seconds."""
+"""Who asks the teacher when: a student that drives alone, when two students disagree, or at random seconds."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.teachers import Rule, teacher_policy
 from bootcourse.policies import Policy, PolicyOutput
 
-HEADINGS = ["the worst student drives, and asks", "seconds it asks in, %", "gets out, %", "accidents, %", "return"]
+HEADINGS = ["the worse student drives, and asks", "seconds it asks in, %", "gets out, %", "accidents, %", "return"]
 
 
 class Asks:
@@ -33,7 +33,7 @@ def compared(agents: list[Agent], teacher: Rule, seeds: list[int]) -> list[list[
     share, rows = 0.0, []
     ways = {
         "never": lambda own: np.zeros(own.shape[1], dtype=bool),
-        "when the students disagree": lambda own: (own != own[0]).any(axis=0),
+        "when the two disagree": lambda own: (own != own[0]).any(axis=0),
         "as often, at random": lambda own: rng.random(own.shape[1]) < share,
     }
     for name, when in ways.items():

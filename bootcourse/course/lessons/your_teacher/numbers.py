@@ -38,10 +38,11 @@ def slowest_in_queues() -> float:
 
 @cache
 def students(teacher: str) -> dict:
-    """What ships of the ten students of an example teacher, of the ten that learned "alone", or of `RACER_LONG`."""
+    """What ships of the ten students of an example teacher, or of the ten that learned "alone"."""
     return taught_agents.shipped(teacher)
 
 
+@cache
 def verdicts() -> dict:
     """Whether the teachers help, by success and by return."""
     return taught_agents.verdicts(taught_agents.reference())
@@ -85,6 +86,6 @@ def decisions(teacher: str, method: str) -> float:
 
 
 def budget() -> str:
-    """The same in words, from the pair of the two learners with the shortest training to the longest: "161 to 188"."""
+    """The same in words, from the shortest of the lesson's four trainings to the longest: "161 to 188"."""
     each = [decisions(*pair) for pair in taught_agents.of_two_learners()]
     return f"{min(each):.0f} to {max(each):.0f}"

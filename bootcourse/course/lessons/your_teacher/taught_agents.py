@@ -31,7 +31,7 @@ from bootcourse.research.results import Results, agent_entries
 from bootcourse.research.teachers import RULE
 from bootcourse.research.teachers import TEACHERS as STUDIED
 from bootcourse.scenario import Scenario
-from bootcourse.statistics import holm, improvement
+from bootcourse.statistics import holm
 
 SEEDS, UPDATES, EVERY = 10, 3500, 250  # students of each teacher; updates of each; updates between two notes
 ROADS = held_out_seeds(13, 200)  # that every student is tested on
@@ -46,6 +46,7 @@ def near_sighted(cars: np.ndarray, scenario: Scenario) -> np.ndarray:
 
 TEACHERS = {"the rule": course_rule, f"the rule, {NEAR:g} m": near_sighted}
 TEACHERS |= {teacher.__name__: teacher for teacher in (careful, timid, reckless, racer)}
+SHOWN = ("the rule", "careful", "timid", "racer")  # in the lesson; the experiment has them all
 ALONE = "alone"  # agents without a teacher, as plain SAC
 RACER_LONG, LONG = "racer, long", 40_000  # updates, after which both aids have faded
 
@@ -78,15 +79,19 @@ def teach(teacher: Rule, settings: list[Settings], updates: int = UPDATES, **opt
 
 
 def tested(agents: list[Agent]) -> dict[str, np.ndarray]:
-    """Each agent's share of escapes, by its most probable actions and by drawn ones; its return and accidents."""
+    """Each agent's share of escapes, by its most probable actions; its return and accidents."""
     greedy = [drive_episodes(agent.as_policy(), ROADS) for agent in agents]
-    drawn = [drive_episodes(agent.as_policy(np.random.default_rng(0)), ROADS) for agent in agents]
     return {
         "success": np.array([each.success.mean() for each in greedy]),
-        "drawn": np.array([each.success.mean() for each in drawn]),
         "returns": np.array([each.returns.mean() for each in greedy]),
         "accident": np.array([np.mean(each.accident > 0) for each in greedy]),
     }
+
+
+def drawn(agents: list[Agent]) -> np.ndarray:
+    """Each agent's share of escapes by actions that are drawn: (agents,)."""
+    drives = [drive_episodes(agent.as_policy(np.random.default_rng(0)), ROADS) for agent in agents]
+    return np.array([each.success.mean() for each in drives])
 
 
 def alike(agents: list[Agent], teacher: Rule, roads: int = 4) -> np.ndarray:
@@ -104,7 +109,8 @@ def train_group(group: str, seeds: int = SEEDS, updates: int = UPDATES) -> Resul
     teacher, method = TEACHERS.get(group, course_rule), "sac" if group == ALONE else "bootstrapped"
     settings = with_seeds(settings_for(method), seeds)
     taught = teach(teacher, settings, updates)
-    measured = tested(taught.agents) | {"beta": taught.beta, "xi": taught.xi, "alike": alike(taught.agents, teacher)}
+    measured = tested(taught.agents) | {"drawn": drawn(taught.agents), "alike": alike(taught.agents, teacher)}
+    measured |= {"beta": taught.beta, "xi": taught.xi}
     notes = {"updates": np.tile(taught.updates, (seeds, 1)), "escapes": taught.escapes}
     agents = agent_entries(settings, group if group in TEACHERS else RULE)
     return Results(agents, np.full(seeds, -1), notes=notes, measured=measured)
@@ -120,15 +126,15 @@ EXPERIMENT = Experiment("students", cells, results_of(train_group))
 
 
 def reference() -> dict[str, dict[str, np.ndarray]]:
-    """{teacher or "alone": what `tested` and `teach` say of its ten students}, as it ships.
+    """{one of `SHOWN` or "alone": what `tested` and `teach` say of its ten students}, as it ships.
 
     Raises BootcourseError if the students of a teacher are missing.
     """
-    return {name: shipped(name) for name in (ALONE, *TEACHERS)}
+    return {name: shipped(name) for name in (ALONE, *SHOWN)}
 
 
 def shipped(name: str) -> dict[str, np.ndarray]:
-    """The same of one group, also of `RACER_LONG`."""
+    """The same of one group of the experiment."""
     groups = experiment("students")
     if name not in groups:
         raise BootcourseError(f"No students of {name} ship: run `bootcourse study students --out DIR`.")
@@ -144,8 +150,8 @@ def verdicts(groups: dict[str, dict[str, np.ndarray]]) -> dict[str, dict[str, st
     pairs = [(name, score) for name in groups if name != ALONE for score in ("success", "returns")]
     both = [(groups[name][score], groups[ALONE][score]) for name, score in pairs]
     found = {name: {} for name in groups if name != ALONE}
-    for (name, score), each, p in zip(pairs, both, holm([p_value(*each) for each in both]), strict=True):
-        direction = "helps" if improvement(*each).value > 0.5 else "hurts"
+    for (name, score), (taught, alone), p in zip(pairs, both, holm([p_value(*each) for each in both]), strict=True):
+        direction = "helps" if np.sign(taught[:, None] - alone).mean() > 0 else "hurts"
         found[name][score] = direction if p < 0.05 else "not shown"
     return found
 
@@ -159,7 +165,7 @@ def demonstrated(teacher: str) -> list[Rollout]:
 
 def of_two_learners() -> Cells:
     """Ten agents each after the whole training: {(teacher, learner): agents} of the experiment `teachers`."""
-    teachers, learners = ("rule", "random-25", "random-50", "mirrored"), ("bootstrapped", "soft")
+    teachers, learners = ("rule", "random-50"), ("bootstrapped", "soft")
     return {
         (teacher, learner): agents
         for (teacher, learner), agents in shipped_teachers().items()

@@ -1,0 +1,55 @@
+"""To drag in this lesson: what a critic thinks of nine actions in each second of a demonstrated drive."""
+
+import numpy as np
+
+from bootcourse.colours import QUIET
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.settings import settings_for
+from bootcourse.methods import style
+from bootcourse.panels.explorable import CHART, HEIGHT, WIDTH, Curve, Explorable, legend
+from bootcourse.panels.number import Number
+from bootcourse.plots.svg import Drawing, SvgAxes, drawing, text
+from bootcourse.scenario import ACTION_NAMES
+
+OTHERS, EDGE = "#B8BEC6", "#5F6B77"  # the actions that were not demonstrated, and the margin on them
+LOWEST = -3.0  # bars below it are cut off
+HALF = 0.36  # of a bar's width; the bars stand 1 apart
+
+
+def nine_values(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
+    """The Q of the nine actions in each of a drive's first seconds, and above all but the rule's a margin to drag."""
+    q, did = agent.q_values(drive.observations[:seconds]), drive.rule_actions[:seconds]
+    y = (min(0.0, max(float(q.min()), LOWEST)), 1.08 * float(q.max()) + 2.0)
+
+    def draw(second: float, margin: float) -> Drawing:
+        values, mine = q[round(second) - 1], int(did[round(second) - 1])
+        others = np.arange(len(values)) != mine
+        levels = float(values[mine]), float((values + margin * others).max())
+        ahead = int(values.argmax())
+        says = f"Second {second:.0f}: {ACTION_NAMES[mine]} is demonstrated"
+        says += " and has the largest Q." if ahead == mine else f", {ACTION_NAMES[ahead]} has the largest Q."
+        apart = f"between the dashed lines: {levels[1] - levels[0]:.1f}"
+        chart = SvgAxes(*CHART, (0.0, float(len(values))), y)
+        chart.scale("Q" if q.min() > LOWEST else f"Q (bars are cut off at {LOWEST:g})".replace("-", "−"))
+        for place, value in enumerate(values):
+            sides = np.array([-HALF, HALF, HALF, -HALF]) + place + 0.5
+            low, high = np.clip([value, value + margin], *y)
+            chart.fill(sides, [0, 0, low, low], style("demos").colour if place == mine else OTHERS)
+            if margin and place != mine:
+                chart.fill(sides, [low, low, high, high], "none", edge=EDGE)
+        for level in levels:
+            chart.line([0, len(values)], [level, level], QUIET, 0.8, "--")
+        under = [
+            text(chart.at(place + 0.5, 0)[0], CHART[1] + CHART[3] + 16 + 13 * row, word, "middle", QUIET, 11)
+            for place, action in enumerate(ACTION_NAMES)
+            for row, word in enumerate(action.split())
+        ]
+        names = {"demonstrated": Curve([], style("demos").colour), "other actions": Curve([], OTHERS)}
+        names |= {"margin": Curve([], EDGE)} if margin else {}
+        head = [text(4, 20, says, size=14, bold=True), text(520, 46, apart), *legend(names)]
+        return drawing(WIDTH, HEIGHT, [*head, *chart.parts, *under], f"{says} Distance {apart}.")
+
+    second = Number("second", min(9, seconds), 1, seconds, 1, "Of the rule's drive.")
+    margin = Number("margin", 0, 0, 2, 0.1, f"On each other action; the paper's is {settings_for('margin').margin:g}.")
+    return Explorable("What a critic thinks of the nine actions", draw, second=second, margin=margin)

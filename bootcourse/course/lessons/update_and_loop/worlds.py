@@ -1,0 +1,129 @@
+"""Where an agent of the lesson learns besides the pole: small worlds whose right Q one can work out, and rows in which
+no fall is marked.
+"""
+
+from typing import NamedTuple
+
+import gymnasium as gym
+import numpy as np
+import torch
+from torch import Tensor
+
+from bootcourse.course.lessons.update_and_loop import by_hand
+from bootcourse.research.experiments import checks
+
+
+class World(NamedTuple):
+    """What a small world pays in each push, (left, right), whether it ends in a fall or by time, and what it shows."""
+
+    pays: tuple[tuple[int, int], ...]
+    falls: bool
+    right: str  # what Q should be at the start, γ = 0.8
+    shows: str  # a bug
+
+
+GAMMA = 0.8
+WORLDS = {
+    "A push pays 1, then the pole falls": World(((1, 1),), True, "1", "`terminated` is lost"),
+    "Two pushes pay 1 each, then it falls": World(((1, 1), (1, 1)), True, f"1 + γ = {1 + GAMMA:g}", "γ is lost"),
+    "Each push pays 1, then the time is up": World(
+        ((1, 1),), False, f"1 / (1 − γ) = {1 / (1 - GAMMA):.0f}", "the end of the time counts as a fall"
+    ),
+    "A push to the left pays 0, to the right 1, then it falls": World(
+        ((0, 1),), True, "0 and 1", "the two actions are exchanged"
+    ),
+}
+
+
+class Small(gym.Env):
+    """A small world. After the last push the state is a new one if the pole fell, and the same if the time is up."""
+
+    observation_space, action_space = gym.spaces.Box(0, 1, (4,), np.float32), gym.spaces.Discrete(2)
+
+    def __init__(self, world: World):
+        self.world = world
+
+    def state(self) -> np.ndarray:
+        return np.eye(4, dtype=np.float32)[self.push]
+
+    def reset(self, *, seed=None, options=None):
+        super().reset(seed=seed)
+        self.push = 0
+        return self.state(), {}
+
+    def step(self, action):
+        reward, last = float(self.world.pays[self.push][action]), self.push + 1 == len(self.world.pays)
+        self.push += self.world.falls or not last
+        return self.state(), reward, last and self.world.falls, last and not self.world.falls, {}
+
+
+class Learned(NamedTuple):
+    """What an agent has learned of the start of a small world: Q and π of a push to the left and to the right, (2,)."""
+
+    q: Tensor
+    pi: Tensor
+
+
+def learn(loop, update, buffer) -> dict[str, Learned]:
+    """What a new agent learns in each of the small worlds. loop, update, buffer: the exercises' answers."""
+    learned = {}
+    for words, world in WORLDS.items():
+        agent, env = by_hand.SAC(), Small(world)
+        agent.gamma, agent.tau = GAMMA, 0.5  # so that 75 updates are enough
+        loop(agent, env, buffer(1_000), update, 556, np.random.default_rng(0))
+        start = torch.from_numpy(env.reset()[0])[None]
+        with torch.no_grad():
+            learned[words] = Learned(agent.q(start).mean((0, 1)), agent.log_pi(start)[0].exp())
+    return learned
+
+
+class Unmarked:
+    """A buffer in whose rows no fall is marked: terminated is 0 in all."""
+
+    def __init__(self, buffer):
+        self.buffer = buffer
+
+    def add(self, row: Tensor) -> None:
+        self.buffer.add(torch.cat([row[:6], torch.zeros(1), row[7:]]))
+
+    def sample(self, batch: int, rng: np.random.Generator) -> Tensor:
+        return self.buffer.sample(batch, rng)
+
+
+# A fall, state by state ---------------------------------------------------------------------------------
+
+BEFORE = 8  # pushes before the fall from which a fall is shown
+
+
+def to_one_side() -> list[np.ndarray]:
+    """The states (T + 1, 4) of poles that are pushed to one side only until they fall, 20 to each side."""
+    found = []
+    for push in (0, 1):
+        for seed in range(20):
+            env, ended = checks.cartpole(), False
+            states = [env.reset(seed=seed)[0]]
+            while not ended:
+                state, _, ended, *_ = env.step(push)
+                states.append(state)
+            found.append(np.array(states, dtype=np.float32))
+    return found
+
+
+@torch.no_grad()
+def along_falls(agent: by_hand.SAC) -> np.ndarray:
+    """What an agent's critics expect in the last states of a fall, a mean of 40 falls and of both pushes: (9,)."""
+    states = torch.from_numpy(np.stack([states[-BEFORE - 1 :] for states in to_one_side()]))
+    return agent.q(states.flatten(0, 1)).mean((0, 2)).view(states.shape[:2]).mean(0).numpy()
+
+
+def still_paid(gamma: float) -> np.ndarray:
+    """What the falls still pay in the last states before them, discounted: (8,).
+
+    No Q of these states can be less: no other row of pushes lets one of these poles fall sooner (all were tried).
+    """
+    return (1 - gamma ** np.arange(BEFORE, 0, -1)) / (1 - gamma)
+
+
+def most_possible(agent: by_hand.SAC) -> float:
+    """More than this no Q can be: each push pays 1 and at most α log 2 for its entropy, without an end."""
+    return (1 + agent.log_alpha.exp().item() * float(np.log(2))) / (1 - agent.gamma)

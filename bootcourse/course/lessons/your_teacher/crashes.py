@@ -1,0 +1,99 @@
+"""What do drives that crash teach? Agents learn from the half-random teacher's, each time without one part.
+
+    bootcourse study crashes --out DIR
+
+Of the 200 drives that this teacher demonstrates, those that end ahead of trap 1 are taken out. Ten agents of each kind
+train as long as those of the experiment `teachers`.
+"""
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.demonstrations import demonstration_rows
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.learn.training import Training
+from bootcourse.research.cells import results_of, tested_results
+from bootcourse.research.experiment import Computed, Experiment
+from bootcourse.research.experiments.teacher_worth import TAUGHT
+from bootcourse.research.jobs import Interrupted, orphaned
+from bootcourse.research.results import Results
+from bootcourse.research.tables import bracketed, k_of_n, markdown
+from bootcourse.research.teachers import teacher_named
+from bootcourse.road.state import EGO, LANE
+from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import ESCAPES, interval
+
+NAME, TEACHER = "crashes", "random-50"
+KINDS = {  # cell: what the agents learn from, method and changed settings
+    "all": ("drives, bonus and labels", "bootstrapped", {}),
+    "no-labels": ("drives and bonus", "demos", {}),
+    "no-bonus": ("drives and labels", "bootstrapped", {"bonus": 0.0}),
+    "cut": ("the drives until the free lane, bonus and labels", "bootstrapped", {}),
+}
+
+
+def cells(seeds: int = 10, episodes: int = TAUGHT["bootstrapped"][1], tests: int = 200) -> dict[str, dict]:
+    """One for each kind."""
+    return {kind: {"kind": kind, "seeds": seeds, "episodes": episodes, "tests": tests} for kind in KINDS}
+
+
+def from_crashes(kind: str, seeds: int, episodes: int, tests: int) -> Results:
+    """Train and test the agents of one kind, with the compiled learner. Raises Interrupted."""
+    _, method, changes = KINDS[kind]
+    settings, rows = with_seeds(settings_for(method, **changes), seeds), rows_of_crashes(is_cut=kind == "cut")
+    training = Training(settings, episodes, DEFAULT, teacher_named(TEACHER), demonstrations=rows, learner="compiled")
+    result = training.run(progress=False, stop=orphaned)
+    if result.interrupted:
+        raise Interrupted(NAME)
+    return tested_results(result, tests, TEACHER)
+
+
+@cache
+def crashed() -> list[Rollout]:
+    """The teacher's drives that do not end ahead of trap 1."""
+    return [drive for drive in demonstrated(TEACHER) if not drive.success]
+
+
+def rows_of_crashes(is_cut: bool) -> Tensor:
+    """Their rows, (transitions, row); if they are cut, those before the first decision in the free lane."""
+    teacher, kept = teacher_named(TEACHER), []
+    for drive in crashed():
+        rows = demonstration_rows([drive], teacher)
+        kept.append(rows[: before_free_lane(drive)] if is_cut else rows)
+    return torch.cat(kept)
+
+
+def before_free_lane(drive: Rollout) -> int:
+    """How many of a drive's decisions are made before the car is in the free lane."""
+    at = np.arange(len(drive.actions)) * drive.scenario.clock.steps
+    arrived = drive.states[at, EGO, LANE] == 0
+    return int(arrived.argmax()) if arrived.any() else len(drive.actions)
+
+
+def rows_of(computed: Computed) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): what each kind reached."""
+    rows = []
+    for kind in [kind for kind in KINDS if kind in computed]:
+        agents = computed[kind]
+        accidents = interval(100 * agents.scores("accident"), np.mean)
+        escaping = k_of_n(agents.scores("success") >= ESCAPES)
+        rows.append([KINDS[kind][0], escaping, bracketed(interval(agents.scores("returns"))), bracketed(accidents)])
+    return ["agents learn from", "agents that escape", "return", "accidents (% of drives)"], rows
+
+
+def section(computed: dict[str, Computed], folder: Path) -> list[str]:
+    """What each kind reached."""
+    return ["### From drives that crash\n", ABOUT, markdown(*rows_of(computed[NAME]))]
+
+
+ABOUT = """The drives of the half-random teacher, without the few that end ahead of trap 1: each ends in an accident.
+Agents learn from all that is in them, or without one part.
+"""
+
+EXPERIMENT = Experiment(NAME, cells, results_of(from_crashes), ("success", "decisions"), section)
