@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import torch
 
+from bootcourse.course.lessons.your_teacher import crashes
 from bootcourse.course.lessons.your_teacher.example_teachers import examine
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError, RuleFailed
@@ -26,7 +27,7 @@ from bootcourse.learn.teachers import (
     with_name,
 )
 from bootcourse.learn.training import Training
-from bootcourse.road.state import EGO, TRAP_1, X
+from bootcourse.road.state import EGO, LANE, TRAP_1, X
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import rule
 from bootcourse.scenario import CALIBRATED, DEFAULT
@@ -198,3 +199,24 @@ def test_a_mark_makes_another_rule_and_leaves_the_function_as_it_was():
 def test_a_teacher_on_a_road_of_one_s_own_is_told_the_scenario_of_that_road():
     training = Training([settings_for("sac")], 1, make_env=lambda n: TrapVectorEnv(n, CALIBRATED))
     assert training.scenario == CALIBRATED and training.place.name == "Trap-v0"
+
+
+def test_a_crashing_drive_is_cut_at_the_first_decision_that_finds_the_car_in_the_free_lane():
+    kept = []
+    for drive in crashes.crashed():
+        n = crashes.before_free_lane(drive)
+        lanes = [drive.cars[decision, EGO, LANE] for decision in range(len(drive.actions))]
+        assert 0 not in lanes[:n] and (n == len(lanes) or lanes[n] == 0)
+        kept.append(n)
+    assert 0 < sum(kept) < sum(len(drive.actions) for drive in crashes.crashed())
+    whole, cut = crashes.rows_of_crashes(is_cut=False), crashes.rows_of_crashes(is_cut=True)
+    assert len(cut) == sum(kept)
+    first = crashes.crashed()[0]
+    assert torch.equal(cut[: kept[0]], whole[: kept[0]])
+    assert torch.equal(cut[kept[0]], whole[len(first.actions)])  # the second drive begins there
+
+
+def test_agents_learn_from_drives_that_crash_without_their_part_in_the_free_lane():
+    assert set(crashes.cells(1, 3, 2)) == set(crashes.KINDS)
+    result = crashes.from_crashes(**crashes.cells(1, 3, 2)["cut"])
+    assert result.scores("returns").shape == (1,) and result.curves["success"].shape == (1, 3)

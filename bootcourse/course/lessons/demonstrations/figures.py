@@ -118,6 +118,6 @@ def taught(trainings: np.ndarray, of_rule: np.ndarray) -> Figure:
             ends = [(crash, "clones of 200 drives of the rule", style("rule").colour)]
         label_ends(ax, ends, wrap=14)
     words = [f"{name} {', '.join(f'{each:.0f}' for each in mean[:, k])} %" for k, (name, _) in lines.items()]
-    each = "; ".join(", ".join(f"{100 * x:.0f}" for x in crash) for crash in trainings[:, :, 2].T)
-    alt = f"On average the clone agrees {', '.join(words)}. Accidents of each training (%): {each}."
+    each = "; then ".join(", ".join(f"{100 * x:.0f}" for x in crash) for crash in trainings[:, :, 2].T)
+    alt = f"On average the clone agrees {', '.join(words)}. Accidents of the three trainings (%): {each}."
     return finish(figure, title, alt)

@@ -123,8 +123,8 @@ bc.show(figures.clones(measured))
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
 #
 # The last data set has the rule's labels, as the second has, and fewer transitions. So here its
-# states help. We think it is **coverage**: the stochastic rule's drives contain states beside the
-# narrow path, and the labels there show how to return to it.
+# states help. Perhaps by **coverage**: labels beside the narrow path show how to return. Or its
+# drives end early, and more updates go to the way out.
 #
 # All this is after {{ UPDATES | , }} updates. The study's clones, with over 40 times as many, have
 # the other order: ten of the rule crash in {{ 100 * accidents('bc') | .1f }} % of their drives, ten
@@ -181,8 +181,9 @@ bc.show(figures.errors(rule_clones, driven["the rule"], alone))
 print(cloning.slowness(driven["the rule"], alone))
 
 # %% [markdown]
-# **See.** *Yes. The clones are the same in both lines; what they have done before makes the
-# difference.* Slowness feeds itself: the rule's drives hardly show a slow car in the free lane.
+# **See.** *Yes. The clones are the same in both lines; what they did before makes the
+# difference.* It is not the worst case: late in the drive the line falls again, as clones recover
+# or their drives end. Slowness feeds itself: the rule's drives hardly show a slow car in the free lane.
 # There the clones err most of the time, stay slow, and meet such a state again.
 
 # %% [markdown] tags=["instructor"] minutes=7

@@ -4,23 +4,22 @@ The last three take the results of the experiments `look-ahead` and `learned-mod
 bootcourse.research.experiments, say what was measured.
 """
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.lookahead import nine_drives
-from bootcourse.episodes.record import record
+from bootcourse.episodes.record import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.road_model import ImaginedAhead, RoadModel
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.experiments import learned_model
-from bootcourse.research.experiments.lookahead import CLOSELY, Cell, Score, score
+from bootcourse.research.experiments.lookahead import CLOSELY, Cell
 from bootcourse.research.results import Results
 from bootcourse.scenario import N_ACTIONS
 
@@ -32,11 +31,9 @@ MEANINGS = {  # of the wrong models that the lesson shows, for readers
     "the others a second late": "the others where they were a second ago, moved on at their speed",
     "everything a second late": "the whole road as it was a second ago, the ego included",
 }
-LEARNED_FORMS = {"the look-ahead": "mean of five", "the shield": "shield"}  # as the lesson calls two forms
-BASE = "bootstrapped"  # whose agents the lesson follows
+ERRORS = [f"{name}: {meaning}" for name, meaning in MEANINGS.items()]  # to choose from
+LEARNED_FORMS = {"look-ahead": "mean of five", "by the worst of five": "worst of five", "shield": "shield"}  # panels
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
-LOWEST = 120.0  # return: lower ones stand at the axis' left end as numbers
-MARKS = {"rollouts": "●", "shield": "□"}
 NAMES = {"rollouts": "look-ahead", "shield": "shield"}  # as the lesson calls the forms
 
 
@@ -48,48 +45,56 @@ def _accident_axis(axis_of: Axes, axis: str) -> None:
     getattr(axis_of, f"{axis}axis").set_minor_locator(NullLocator())
 
 
-def accidents(drives: Episodes) -> int:
+def accidents(drives: Sequence[Rollout]) -> int:
     """How many of the drives end in an accident."""
-    return int((drives.accident > 0).sum())
+    return sum(drive.accident > 0 for drive in drives)
 
 
-def compared(drives_of: Mapping[str, Episodes]) -> tuple[list[str], list[list]]:
+def compared(drives_of: Mapping[str, Sequence[Rollout]]) -> tuple[list[str], list[list]]:
     """A table of the same agent's drives, in each of some forms: its headings and rows."""
-    roads = len(next(iter(drives_of.values())).returns)
-    rows = [[name, accidents(drives), f"{drives.returns.mean():.1f}"] for name, drives in drives_of.items()]
+    roads = len(next(iter(drives_of.values())))
+    rows = [
+        [name, accidents(drives), f"{np.mean([drive.rewards.sum() for drive in drives]):.1f}"]
+        for name, drives in drives_of.items()
+    ]
     return ["the same agent", f"accidents in {roads}", "return"], rows
 
 
-def each_agent(cells: dict[str, Results], bases: Sequence[str]) -> Figure:
-    """Each agent's success and accidents, alone and with the look-ahead: a panel for each measure and base policy."""
+def per_thousand(cells: dict[str, Results], cell: Cell) -> np.ndarray:
+    """Accidents in 1,000 drives of each agent of a cell, (agents,)."""
+    of = cells[cell.name].measured
+    return 1000 * of["accidents"] / of["roads"]
+
+
+def each_agent(cells: dict[str, Results], base: str) -> Figure:
+    """Each agent's success and accidents, alone and with the look-ahead; dark: who then crashes more often."""
     title = "With the look-ahead some agents leave the trap, and some crash more often than alone"
-    figure, alt_parts, left, high = new_figure(2 * 2.1 + 0.7), [], 0.55, 2.1
-    width = (WIDTH - left - 0.1) / len(bases)
-    measures = {"ahead of trap 1 (%)": "success", "accidents in 1,000 drives (logarithmic above 1)": "accidents"}
-    for row, (words, measure) in enumerate(measures.items()):
-        place = 1 - (0.78 + row * high) / figure.get_figheight()
-        figure.text(0.012, place, words, fontsize=SMALL, color=QUIET)
-        for column, base in enumerate(bases):
-            ax = axes_at(figure, left + column * width, 1.12 + row * high, width - 0.35, 1.3)
-            pair = [cells[Cell(base, form).name].measured for form in ("alone", "rollouts")]
-            share = [of[measure] / of["roads"] if measure == "accidents" else of[measure] for of in pair]
-            values = np.array(share) * (1000 if measure == "accidents" else 100)  # (2, agents)
-            ax.plot([0, 1], values, color=style(base).colour, linewidth=1.1, marker="o", ms=3.5, clip_on=False)
-            plain_axes(ax, display_name(base))
-            ax.set(xlim=(-0.15, 1.15), ylim=(0, 100))
-            if measure == "accidents":
-                _accident_axis(ax, "y")
-            ax.set_xticks([0, 1], ["alone", "look-ahead"])
-            each = ", ".join(f"{alone:.0f} to {ahead:.0f}" for alone, ahead in values.T)
-            alt_parts.append(f"{display_name(base)}, {words}: {each}")
+    pair, figure = [Cell(base, form) for form in ("alone", "rollouts")], new_figure(3.2)
+    panels = {
+        "ahead of trap 1 (%)": np.array([100 * cells[cell.name].measured["success"] for cell in pair]),
+        "accidents in 1,000 drives (logarithmic above 1)": np.array([per_thousand(cells, cell) for cell in pair]),
+    }
+    alone, ahead = [*panels.values()][1]
+    worse, alt_parts = ahead > alone, []
+    for column, (words, values) in enumerate(panels.items()):
+        ax = axes_at(figure, 0.5 + column * 3.4, 1.05, 2.9, 1.55)
+        for of, colour, width in ((~worse, style(base).colour, 1.1), (worse, INK, 2.2)):
+            ax.plot([0, 1], values[:, of], color=colour, linewidth=width, marker="o", ms=4, clip_on=False)
+        plain_axes(ax, words)
+        ax.set(xlim=(-0.15, 1.15), ylim=(0, 100))
+        ax.set_xticks([0, 1], ["alone", "look-ahead"])
+        each = ", ".join(f"{before:.0f} to {after:.0f}" for before, after in values.T)
+        alt_parts.append(f"{words}: {each}")
+    _accident_axis(ax, "y")
+    words = f"a line for each agent of {display_name(base)}; dark: it crashes more often with the look-ahead"
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     return finish(figure, title, f"A line for each agent, from alone to with the look-ahead. {'; '.join(alt_parts)}.")
 
 
-def promised(agent: Agent, model: RoadModel, roads: Sequence[int]) -> tuple[list[str], list[list]]:
-    """A table of Q at each road's first decision, as a learned model has it, and as the true road has it."""
+def promised(agent: Agent, model: RoadModel, drives: Sequence[Rollout]) -> tuple[list[str], list[list]]:
+    """A table of Q at each drive's first decision, as a learned model has it, and as the true road has it."""
     policy = agent.as_policy()
-    begun = [(drive.observations[0], drive.cars[0]) for drive in record(policy, roads)]
-    observations, cars = (np.stack(each) for each in zip(*begun, strict=True))
+    observations, cars = (np.stack([each[0] for each in of]) for of in zip(*map(_seen, drives), strict=True))
     values, own = ImaginedAhead(agent, model)(observations, cars).q_values, policy(observations, cars).actions
     true, of_own = nine_drives(cars, policy).values, np.arange(N_ACTIONS) == own[:, None]
     taken = np.arange(N_ACTIONS) == values.argmax(1)[:, None]
@@ -98,101 +103,82 @@ def promised(agent: Agent, model: RoadModel, roads: Sequence[int]) -> tuple[list
     return ["action at the first decision", "Q̂ in the model", "Q̂ on the true road"], rows
 
 
+def _seen(drive: Rollout) -> tuple[np.ndarray, np.ndarray]:
+    return drive.observations, drive.cars
+
+
 def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
-    """Accidents of each agent with a model that it learned: a panel for each form, over the rounds; 0 is alone.
+    """Accidents of each agent in a model that it learned: a row for each way to drive for it, a panel for each form.
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
-    title = "Drives of the look-ahead help it in part; more drives of the agent do not"
-    figure, rounds, alt_parts = new_figure(3.7), learned_model.ROUNDS, []
-    agents, colour, left = learned_model.together(computed), style(learned_model.BASE).colour, 0.6
-    width = (WIDTH - left) / len(LEARNED_FORMS)
-    of_alone = cells[Cell(learned_model.BASE, "alone").name].measured
-    alone = 1000 * (of_alone["accidents"] / of_alone["roads"])[: len(agents)]
+    title = "Random actions in the drives help the look-ahead; its own drives help more"
+    agents, base, figure = learned_model.together(computed), learned_model.BASE, new_figure(3.5)
+    alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)], style(base).colour
+    shares = [learned_model.together(computed, share) for share in learned_model.RANDOM]
+    drivers = ["the agent", *(f"the agent, {100 * share:.0f} % random" for share in learned_model.RANDOM)]
+    sizes = [agents.measured["rows"], *(of.measured["rows"] for of in shares), agents.notes["rows"][:, -1]]
+    rows = [("no model: the agent alone", "")]
+    sizes = [f"{each.mean() / 1000:.0f}" for each in sizes]
+    rows += zip([*drivers, "the agent, then the look-ahead"], sizes, strict=True)
+    left, top, width, height, alt_parts = 2.6, 1.15, (WIDTH - 2.6) / len(LEARNED_FORMS), 1.6, []
     for column, (name, form) in enumerate(LEARNED_FORMS.items()):
-        ax = axes_at(figure, left + column * width, 1.2, width - 0.3, 1.7)
-        values = np.column_stack([alone, learned_model.per_thousand(agents, form)])
-        control = learned_model.per_thousand(agents, form, control=True)[:, 0]
-        ax.plot(range(rounds + 1), values.T, color=colour, linewidth=0.8, alpha=0.6)
-        ax.plot(range(rounds + 1), values.mean(0), color=colour, linewidth=2.4, marker="o", ms=4)
-        ax.plot([rounds + 0.8] * len(control), control, "s", color=QUIET, ms=3, alpha=0.6, clip_on=False)
-        ax.plot(rounds + 0.8, control.mean(), "s", color=INK, ms=6, clip_on=False)
-        plain_axes(ax, name)
-        ax.set(xlim=(-0.2, rounds + 1.1), ylim=(0, 1000))
-        drives = [str(learned_model.DRIVES * number) for number in range(1, rounds + 1)]
-        ax.set_xticks([*range(rounds + 1), rounds + 0.8], ["alone", *drives, "control"])
-        ax.set_xlabel("drives that the model learned from", fontsize=TEXT, color=INK)
-        means = ", ".join(f"{mean:.0f}" for mean in values.mean(0))
-        alt_parts.append(f"{name}: {means}; the control {control.mean():.0f}")
-    figure.text(0.012, 1 - 0.83 / figure.get_figheight(), "accidents in 1,000 drives", fontsize=SMALL, color=QUIET)
-    drives = rounds * learned_model.DRIVES
-    words = f"thin: each agent; thick: their mean; squares: the control, {drives} drives of the agent"
+        controls = [learned_model.per_thousand(of, form, control=True)[:, 0] for of in (agents, *shares)]
+        values = np.array([alone, *controls, learned_model.per_thousand(agents, form)[:, -1]])  # (rows, agents)
+        ax, at = axes_at(figure, left + column * width, top, width - 0.5, height), np.arange(len(values))
+        ax.plot(values, at, "o", color=colour, alpha=0.4, ms=4, mew=0, clip_on=False)
+        ax.plot(values.mean(1), at, "D", color=INK, ms=5, clip_on=False, zorder=4)
+        for row, mean in enumerate(values.mean(1)):
+            ax.text(1.1, row, f"{mean:,.0f}", transform=ax.get_yaxis_transform(), va="center", fontsize=TEXT, color=INK)
+        plain_axes(ax, name, grid="x")
+        ax.set(xlim=(0, 1000), ylim=(len(values) - 0.6, -0.4), yticks=[])
+        ax.set_xticks([0, 500, 1000], ["0", "500", "1,000"])
+        alt_parts.append(f"{name}: {', '.join(f'{mean:.0f}' for mean in values.mean(1))}")
+    at = [top + height * (row + 0.4) / (len(rows) - 0.2) for row in range(len(rows))]
+    lines = [*zip(at, rows, strict=True), (top - 0.11, ("who drives for the model", "decisions\n(thousand)"))]
+    for place, (words, size) in lines:
+        look = {"fontsize": TEXT, "color": INK} if place in at else {"fontsize": SMALL, "color": QUIET}
+        y = 1 - place / figure.get_figheight()
+        figure.text(0.012, y, words, va="center", **look)
+        figure.text((left - 0.2) / WIDTH, y, size, va="center", ha="right", **look)
+    words = "accidents in 1,000 drives: a dot for each agent; diamonds and numbers: their mean"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
-    return finish(figure, title, f"Mean accidents in 1,000 drives, alone and with each model. {'; '.join(alt_parts)}.")
-
-
-def _check_computed(there: Container, wanted: Sequence, base: str) -> None:
-    if missing := [str(one) for one in wanted if one not in there]:
-        raise BootcourseError(
-            f"These results of {base} lack {', '.join(missing)}: run `bootcourse study look-ahead --out DIR`."
-        )
+    drives = "; ".join(f"{words}{f', {size} thousand decisions' * bool(size)}" for words, size in rows)
+    alt = f"Mean accidents in 1,000 drives, by who drives for the model ({drives}). {'; '.join(alt_parts)}."
+    return finish(figure, title, alt)
 
 
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
-    """Accidents and return with each wrong model, as full rollouts and as a shield, and of the base policy alone.
+    """Accidents of each agent with each wrong model, with the look-ahead and with the shield, and alone.
 
     Raises BootcourseError if the base policy alone, or any of the two with a model, was not computed.
     """
     title = "With everything a second late, every drive with the look-ahead ends in an accident"
-    alone, names = score(cells, Cell(base, "alone")), ["exact", *MEANINGS]
-    models = [Cell(base, form, model=name).name for form in ("rollouts", "shield") for name in names]
-    _check_computed(cells, [Cell(base, "alone").name, *models], base)
-    row, colour = 0.4, style(base).colour
-    figure = new_figure(1.0 + row * len(names) + 0.8)
-    ax, earned = (axes_at(figure, left, 1.0, wide, row * len(names)) for left, wide in ((2.25, 2.6), (5.2, 1.6)))
-    words, scores_of = [], {}
-    for form, shift, fill in (("rollouts", -0.14, colour), ("shield", 0.14, "white")):
-        scores = {name: score(cells, Cell(base, form, model=name)) for name in names}
-        scores_of[form] = scores
-        at = np.arange(len(names)) + shift
-        look = {"fmt": "o" if form == "rollouts" else "s", "color": colour, "mfc": fill, "mec": colour, "mew": 1.5}
-        middle, low, high = 1000 * np.array([one.accident_rate for one in scores.values()]).T
-        ax.errorbar(middle, at, xerr=[middle - low, high - middle], **look, ms=6, lw=1.3, zorder=3)
-        middle, low, high = np.array([one.returns for one in scores.values()]).T
-        shown = middle > LOWEST
-        earned.errorbar(middle[shown], at[shown], xerr=[(middle - low)[shown], (high - middle)[shown]], **look, ms=6,
-                        lw=1.3, zorder=3)  # fmt: skip
-        for value, place in zip(middle[~shown], at[~shown], strict=True):
-            mark = f"◂ {MARKS[form]} {value:.0f}".replace("-", "−")
-            earned.text(LOWEST, place, mark, va="center", fontsize=SMALL, color=colour)
-        numbers = (
-            f"{name} {1000 * one.accident_rate.value:.1f} and {one.returns.value:.1f}" for name, one in scores.items()
+    names, alone, forms = ["exact", *MEANINGS], Cell(base, "alone"), {"rollouts": "o", "shield": "s"}
+    models = [Cell(base, form, model=name) for form in forms for name in names]
+    if missing := [cell.name for cell in (alone, *models) if cell.name not in cells]:
+        raise BootcourseError(
+            f"These results of {base} lack {', '.join(missing)}: run `bootcourse study look-ahead --out DIR`."
         )
-        words.append(f"{NAMES[form]}: {'; '.join(numbers)}.")
-    of_alone = {ax: 1000 * np.array(alone.accident_rate), earned: np.array(alone.returns)}
-    labels = {ax: "accidents in 1,000 drives\n(logarithmic above 1)", earned: "return"}
-    for panel, (value, low, high) in of_alone.items():
-        plain_axes(panel, "", grid="x")
-        panel.axvspan(low, high, color=QUIET, alpha=0.15, linewidth=0, zorder=0)
-        panel.axvline(value, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
-        panel.text(value, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
-        panel.set(ylim=(len(names) - 0.5, -0.5), yticks=[])
-        panel.set_xlabel(labels[panel], fontsize=TEXT, color=INK)
-        panel.spines["bottom"].set_color(GRID)
+    row, colour, of_alone = 0.36, style(base).colour, per_thousand(cells, alone).mean()
+    figure, alt_parts = new_figure(1.0 + row * len(names) + 0.8), []
+    ax = axes_at(figure, 2.4, 1.0, 4.3, row * len(names))
+    for (form, marker), shift, fill in zip(forms.items(), (-0.16, 0.16), (colour, "white"), strict=True):
+        each = [per_thousand(cells, Cell(base, form, model=name)) for name in names]
+        for place, values in enumerate(each):
+            look = {"color": colour, "mfc": fill, "marker": marker, "ls": "", "clip_on": False}
+            ax.plot(values, np.full(len(values), place + shift), **look, ms=3, mew=0.6, alpha=0.5)
+            ax.plot(values.mean(), place + shift, **look, ms=7, mew=1.6, zorder=4)
+        numbers = "; ".join(f"{name} {values.mean():.1f}" for name, values in zip(names, each, strict=True))
+        alt_parts.append(f"{NAMES[form]}: {numbers}.")
+    plain_axes(ax, "", grid="x")
+    ax.axvline(of_alone, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
+    ax.text(of_alone, -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
+    ax.set(ylim=(len(names) - 0.5, -0.5))
+    ax.set_xlabel("accidents in 1,000 drives (logarithmic above 1)", fontsize=TEXT, color=INK)
+    ax.spines["bottom"].set_color(GRID)
     _accident_axis(ax, "x")
-    earned.set_xlim(LOWEST, 140)
-    ax.set_yticks(range(len(names)), [name.replace(", ", ",\n") for name in names], fontsize=TEXT, color=INK)
-    legend = "    ".join(f"{MARKS[form]} {NAMES[form]}{_drives(of)}" for form, of in scores_of.items())
-    figure.text(0.012, 0.1 / figure.get_figheight(), legend, fontsize=SMALL, color=INK)
-    alt = (
-        f"For each model, accidents in 1,000 drives and the return. Alone: {1000 * alone.accident_rate.value:.1f} and "
-        f"{alone.returns.value:.1f}. {' '.join(words)}"
-    )
-    return finish(figure, title, alt)
-
-
-def _drives(scores: dict[str, Score]) -> str:
-    """ " (10 agents × 300 to 1,000 roads)", of all models."""
-    agents, roads = ({getattr(one, name) for one in scores.values()} for name in ("agents", "roads"))
-    agents, roads = (" to ".join(f"{n:,}" for n in sorted({min(each), max(each)})) for each in (agents, roads))
-    return f" ({agents} agents × {roads} roads)"
+    ax.set_yticks(range(len(names)), names, fontsize=TEXT, color=INK)
+    words = "● look-ahead    □ shield    large: the mean of the agents; small: each agent"
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
+    return finish(figure, title, f"Mean accidents in 1,000 drives. Alone: {of_alone:.1f}. {' '.join(alt_parts)}")

@@ -6,13 +6,12 @@ import numpy as np
 
 from bootcourse.course import shipped as course
 from bootcourse.course.lessons.looking_ahead import explorable
-from bootcourse.course.lessons.looking_ahead.figures import BASE, MEANINGS
+from bootcourse.course.lessons.looking_ahead.figures import MEANINGS
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.episodes.models import MODELS  # noqa: F401 (for the claims)
 from bootcourse.episodes.record import record
 from bootcourse.research.computed import experiment
 from bootcourse.research.experiments import learned_model
-from bootcourse.research.experiments.lookahead import Cell, Score, score
+from bootcourse.research.experiments.lookahead import Cell
 from bootcourse.research.results import Results
 from bootcourse.road.state import Accident
 
@@ -26,19 +25,24 @@ def shipped() -> dict:
     return experiment("look-ahead")
 
 
-def ahead(base: str, form: str = "rollouts", model: str = "exact") -> Score:
-    """What the agents of a base policy reached in one form."""
-    return score(shipped(), Cell(base, form, model=model))
+def each(base: str, form: str, measure: str, model: str = "exact") -> np.ndarray:
+    """The accidents, or another measure, of each agent of a base policy, (agents,)."""
+    return shipped()[Cell(base, form, model=model).name].measured[measure]
+
+
+def accidents(base: str, form: str = "rollouts", model: str = "exact") -> int:
+    """The accidents of all agents of a base policy in one form."""
+    return int(each(base, form, "accidents", model).sum())
+
+
+def drives(base: str, form: str = "rollouts", model: str = "exact") -> int:
+    """The drives of all these agents."""
+    return int(each(base, form, "roads", model).sum())
 
 
 def per_thousand(base: str, form: str = "rollouts", model: str = "exact") -> float:
     """Accidents in 1,000 drives."""
-    return 1000 * ahead(base, form, model).accident_rate.value
-
-
-def each(base: str, form: str, measure: str) -> np.ndarray:
-    """The accidents, or another measure, of each agent of a base policy, (agents,)."""
-    return shipped()[Cell(base, form).name].measured[measure]
+    return 1000 * accidents(base, form, model) / drives(base, form, model)
 
 
 def less_safe(base: str) -> np.ndarray:
@@ -46,39 +50,67 @@ def less_safe(base: str) -> np.ndarray:
     return each(base, "rollouts", "accidents") > each(base, "alone", "accidents")
 
 
+def outs(base: str, form: str = "rollouts") -> np.ndarray:
+    """The share of drives that end ahead of trap 1, of each agent of a base policy."""
+    return each(base, form, "success")
+
+
 def of_the_nine() -> np.ndarray:
     """How often plain SAC's agents get out with the look-ahead, those that stay behind alone: shares, (9,)."""
     return outs("sac")[outs("sac", "alone") < 0.01]
 
 
+def worse_than_alone(base: str, form: str) -> int:
+    """With how many of the lesson's wrong models a base policy crashes more often than alone."""
+    return sum(per_thousand(base, form, model) > per_thousand(base, "alone") for model in WRONG)
+
+
 @cache
-def learning() -> Results:
-    """The ten agents that learned a model of the road."""
-    return learned_model.together(experiment(learned_model.NAME))
+def learning(share: float | None = None) -> Results:
+    """The ten agents that learned a model of the road, from drives with a share of random actions if one is given."""
+    return learned_model.together(experiment(learned_model.NAME), share)
 
 
-def learned(form: str, measure: str = "accidents") -> np.ndarray:
-    """Accidents in 1,000 drives, or the return, the agents' mean after each round, (rounds,)."""
-    if measure == "returns":
-        return learning().notes[f"{form}, returns"].mean(0)
+def learned_drives() -> int:
+    """The test drives of these agents together."""
+    return len(learning()) * learned_model.TESTS
+
+
+def learned(form: str) -> np.ndarray:
+    """Accidents in 1,000 drives, the agents' mean after each round, (rounds,)."""
     return learned_model.per_thousand(learning(), form).mean(0)
 
 
-def further() -> int:
-    """The drives that each model gets after its first ones."""
-    return (learned_model.ROUNDS - 1) * learned_model.DRIVES
+def learned_without(form: str, share: float | None = None) -> float:
+    """The same of a control, whose model learned from drives without a look-ahead."""
+    return float(learned_model.per_thousand(learning(share), form, control=True).mean())
+
+
+def learned_returns() -> float:
+    """The mean return of the look-ahead in the models of the last round."""
+    return float(learning().notes["mean of five, returns"][:, -1].mean())
+
+
+def last_round() -> np.ndarray:
+    """Accidents in 1,000 drives with the look-ahead in the model of the last round, (agents,)."""
+    return learned_model.per_thousand(learning(), "mean of five")[:, -1]
 
 
 def still_worse() -> int:
-    """How many of the ten crash more often than alone, with the look-ahead in the model of the last round."""
-    return int((learned_model.per_thousand(learning(), "mean of five")[:, -1] > each(BASE, "alone", "accidents")).sum())
+    """How many of the ten then crash more often than alone."""
+    alone = 1000 * each("bootstrapped", "alone", "accidents") / each("bootstrapped", "alone", "roads")
+    return int((last_round() > alone).sum())
 
 
-def learned_without(form: str, measure: str = "accidents") -> float:
-    """The same of the control, whose model learned from drives without a look-ahead."""
-    if measure == "returns":
-        return float(learning().measured[f"{form}, returns"].mean())
-    return float(learned_model.per_thousand(learning(), form, control=True).mean())
+def own_better(share: float) -> int:
+    """How many of the ten crash less after drives of the look-ahead than after those with a share of random actions."""
+    control = learned_model.per_thousand(learning(share), "mean of five", control=True)[:, 0]
+    return int((last_round() < control).sum())
+
+
+def learned_rows(share: float | None = None) -> np.ndarray:
+    """The decisions that each model of the last round, or of a control with random actions, learned from, (agents,)."""
+    return learning().notes["rows"][:, -1] if share is None else learning(share).measured["rows"]
 
 
 @cache
@@ -93,29 +125,9 @@ def five_accidents() -> list[int]:
     return [int((ends > 0).sum()) for ends in how_five_end()]
 
 
-def outs(base: str, form: str = "rollouts") -> np.ndarray:
-    """The share of drives that end ahead of trap 1, of each agent of a base policy."""
-    return each(base, form, "success")
-
-
-def earned(base: str, form: str = "rollouts") -> np.ndarray:
-    """The mean return of each agent of a base policy."""
-    return each(base, form, "returns")
-
-
 @cache
 def ways_out() -> list[int]:
     """In the first agent's first collision, for each decision: how many of its nine futures have no accident."""
     agent, roads = course.shipped_agents("bootstrapped")[0].as_policy(), held_out_seeds(15, 40)
     drive = record(agent, [roads[int((how_five_end()[0] == Accident.COLLISION).argmax())]])[0]
     return explorable.ways_out(drive, agent).tolist()
-
-
-def worse_than_alone(base: str, form: str) -> int:
-    """With how many of the lesson's wrong models a base policy crashes more often than alone."""
-    return sum(per_thousand(base, form, model) > per_thousand(base, "alone") for model in WRONG)
-
-
-def fewer_rows() -> int:
-    """How many of the ten learned their last model from fewer decisions than that of the control."""
-    return int((learning().notes["rows"][:, -1] < learning().measured["rows"]).sum())

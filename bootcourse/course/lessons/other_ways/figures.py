@@ -1,4 +1,4 @@
-"""What each learner takes from a teacher, and how two trainings went."""
+"""What each learner takes from a teacher, how two trainings went, and what the agents of all earn in the test."""
 
 from collections.abc import Mapping, Sequence
 
@@ -7,10 +7,14 @@ from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, OTHER, Style
 from bootcourse.course import charts
+from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.other_ways.measures import Episodes
 from bootcourse.methods import display_name, style
 from bootcourse.plots.diagrams import Diagram, label
-from bootcourse.plots.figure import INK, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
+from bootcourse.research import equal_decisions
+from bootcourse.research.results import Results
+from bootcourse.statistics import iqm
 
 START, TRAINED, END = 210, 560, 690  # pixels: the training begins and ends, and the trained agent drives
 ROW, TOP, THICK = 52, 62, 18
@@ -21,6 +25,7 @@ TAKES = {  # learner: (what it takes, from, until, whether it fades)
     "rlpd": ("half of each batch", START, TRAINED, False),
     "ibrl": ("demonstrations at first, and a second action", START, END, False),
 }
+MEASURED = ("returns", "accident")  # of each agent in the test
 
 
 def what_is_taken() -> Diagram:
@@ -74,3 +79,29 @@ def handing_over(driven: Episodes) -> Figure:
     first = ", ".join(f"{seconds:g} s from {1 + np.argmax(h == seconds)}" for seconds in sorted(set(h), reverse=True))
     accidents = f"{driven.accident.sum()} of the {len(h)} end in an accident"
     return finish(figure, title, f"A column for each training episode. h: {first}; {accidents}.")
+
+
+def in_the_test(computed: Mapping[str, Results], rule: float) -> Figure:
+    """Each agent's return after the first budget as a dot, a row for each method; beside it what its agents have.
+
+    computed: see `equal_decisions.by_method`; rule: what the rule earns, the green line.
+    """
+    title = "Every agent that had a teacher earns more than the rule, and no agent without one"
+    row, names, alt_parts, green = 0.42, [], [], style("rule").colour
+    figure = new_figure(1.3 + row * len(computed))
+    ax = axes_at(figure, 1.75, 0.75, 3.3, row * len(computed))
+    ax.axvline(rule, color=green, linewidth=2, zorder=1.5)
+    for place, (method, results) in enumerate(computed.items()):
+        returns, accident = (equal_decisions.at(results, name, equal_decisions.BUDGETS[0]) for name in MEASURED)
+        taught, earned, accidents = method in TAKES, iqm(returns), f"{100 * accident.mean():.0f}"
+        names.append(display_name(method) + ", no teacher" * (not taught))
+        dots(ax, returns, place, style(method).colour, np.full(len(returns), taught), earned)
+        beside(ax, place, f"{earned:.0f}", accidents)
+        least, most = returns.min(), returns.max()
+        words = f"return {earned:.0f}, from {least:.0f} to {most:.0f}, accidents in {accidents} %"
+        alt_parts.append(f"{names[-1]}: {words}")
+    beside(ax, -0.75, "return", "accidents, %", colour=QUIET)
+    name_rows(ax, names, "return of an agent in the test; filled: it had a teacher; bar: interquartile mean")
+    ax.set_xlim(0, 140)
+    ax.text(rule + 2, len(names) - 1, "the rule", color=green, fontsize=SMALL, va="center")
+    return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}. The rule: {rule:.0f}.")

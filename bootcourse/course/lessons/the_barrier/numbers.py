@@ -105,6 +105,12 @@ def crash_on_most(kind: str) -> int:
     return int((easy(kind).scores("accident") > 0.5).sum())
 
 
+def escape_and_crash(kind: str) -> int:
+    """How many agents of a kind escape, and have an accident on most roads."""
+    agents = easy(kind)
+    return int(((agents.scores("accident") > 0.5) & (agents.scores("success") >= ESCAPES)).sum())
+
+
 def earn_and_crash() -> int:
     """How many of the agents that earn with both changes have an accident on most roads."""
     return figures.ends(easy(BOTH), easier.staying(BOTH)).count((figures.FAR, True))

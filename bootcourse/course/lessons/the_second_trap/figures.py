@@ -1,17 +1,17 @@
 """PPO's clipped loss, two drives' speeds, and return against success."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 import torch
 from matplotlib.figure import Figure
-from torch import Tensor
 
 from bootcourse.colours import Style
 from bootcourse.course.charts import lines
 from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, compared
 from bootcourse.course.lessons.the_second_trap.second_trap import speeds
 from bootcourse.episodes.record import Rollout
+from bootcourse.learn.ppo import clipped_loss
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
 from bootcourse.scenario import DEFAULT
@@ -46,8 +46,8 @@ def plane(clone: tuple[float, float], trained: tuple[float, float]) -> Figure:
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt)}.")
 
 
-def hinges(clipped_loss: Callable[[Tensor, Tensor, float], Tensor], clip: float) -> Figure:
-    """Two panels, for a decision that turned out well (A = 2) and one that turned out badly (A = −2)."""
+def hinges(clip: float) -> Figure:
+    """PPO's loss in two panels, for a decision that turned out well (A = 2) and one that turned out badly (A = −2)."""
     title = "A good action pushes until it is 20 % likelier, a bad one until it is 20 % rarer"
     figure, colour, alt_parts = new_figure(3.7), style("ppo").colour, []
     for left, advantage in zip((0.5, 4.0), (2.0, -2.0), strict=True):

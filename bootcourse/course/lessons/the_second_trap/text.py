@@ -27,7 +27,6 @@ import torch
 from bootcourse.course import check, compare_predictions, own_code, predict, predicted, progress
 from bootcourse.course.lessons.the_second_trap import explorable, figures, ppo_kinds, second_trap
 from bootcourse.course.shipped import beginning
-from bootcourse.learn import ppo
 
 progress("the_second_trap")
 
@@ -147,8 +146,8 @@ print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {s
 explorable.later()
 
 # %% [markdown]
-# **See.** With λ = 0 one second counts, and falling back looks bad. From 0.85 on, the sprint
-# outweighs it. PPO takes {{ settings_for('ppo').gae_lambda }}.
+# **See.** To a V that knows no sprints, falling back looks bad with λ = 0. From 0.85 on, it looks
+# good. PPO takes {{ settings_for('ppo').gae_lambda }}.
 # <!-- claim: [explorable.weighted(lam).sum() > 0 for lam in (0, 0.5, 0.8, 0.85, 0.95, 1)] ==
 #   [False] * 3 + [True] * 3 -->
 #
@@ -163,8 +162,8 @@ explorable.later()
 #
 # This is GAE, *generalised advantage estimation*.
 #
-# **Two endings need care.** After an accident nothing follows: V is 0. If the time is over,
-# the last state still has its value. At both the sum stops, as it does after the last row.
+# **Two endings need care.** After an accident nothing follows: V is 0. If the time is over, the
+# last state still has its value. At both the sum stops, as it does where the data end.
 #
 # **Exercise (15 min, ●●●).** Write the advantages, in torch.
 
@@ -204,7 +203,7 @@ predict("the_second_trap.3", "Does it still change the policy?", choices)
 
 # %%
 predicted("the_second_trap.3")
-bc.show(figures.hinges(ppo.clipped_loss, 0.2))
+bc.show(figures.hinges(0.2))
 
 # %% [markdown]
 # **See.** Where the line is flat, the decision has no gradient any more. Other decisions may still
@@ -315,13 +314,14 @@ bc.show(figures.plane(clone, ppo_kinds.driven(yours.as_policy())))
 # %% [markdown]
 # **See.** The arrow is yours, from the clone to the end of its training. The ten that ship had {{
 # ppo_kinds.KINDS['cloned'].decisions | , }} decisions; all ten escape. How does yours earn more
-# than the rule? Watch it beside PPO alone:
+# than the rule? Watch it beside the rule and PPO alone:
 # <!-- claim: ppo_escapes('cloned') == ppo_agents() and 1.8 < ppo('cloned')['returns'].mean() /
 #   of('rule').scores('returns')[0] < 2.4 -->
 
 # %% tags=["nbval-ignore-output"]
 fast = bc.record(yours.as_policy(), [ROAD], label="ppo_cloned")[0]
-bc.recording([beginning(drive, 40), beginning(fast, 40)], height=360)
+rule = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
+bc.recording([beginning(each, 40) for each in (drive, rule, fast)], height=480)
 
 # %% [markdown]
 # **Explain.** Getting out *and driving fast* pays over twice what sprinting pays. So the reward

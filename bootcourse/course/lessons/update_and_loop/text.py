@@ -242,8 +242,8 @@ bc.show(figures.tests_in_training(tests, BLOCK))
 # %% [markdown]
 # ## Round 4: what if no fall is marked?
 #
-# Take the mark out of each row, and nothing else. Entropy apart, Round 1's one value fits
-# all rows: 1 / (1 − γ) = {{ 1 / (1 - 0.99) | .0f }}. Will the critics find it?
+# Take the mark out of each row, and nothing else. Entropy apart, Round 1's value fits all rows: 1
+# / (1 − γ) = {{ 1 / (1 - 0.99) | .0f }}. Is it the only one? Will the critics find it?
 #
 # > **Predict.** What do such critics expect of a fallen pole, compared with a standing one?
 
@@ -263,7 +263,7 @@ print(f"Entropy of its policy, pole upright: {entropy.item():.2f} nats")
 
 # %% [markdown]
 # **Explain.** The band holds what Q can be. A push pays 1, and at most α log 2 for its entropy, so no Q
-# above (1 + α log 2) / (1 − γ) can be right (dotted). Nor can one below the curve that you dragged:
+# above (1 + α log 2) / (1 − γ) can be right (dotted). Nor can one below Round 1's curve, at γ = 0.99:
 # no pushes let these poles fall sooner.
 #
 # Your agent's critics err near the fall, too: one push before it 1 is right, and our {{ len(EARLY)
@@ -271,11 +271,11 @@ print(f"Entropy of its policy, pole upright: {entropy.item():.2f} nats")
 # len(EARLY) }} expect less with each push towards it.
 #
 # Without marks Q is above the band, and higher still for the fallen pole. An actor learns from its
-# critics alone: it is sure of its push, and the pole falls. So it was in {{ unmarked() }} of our {{
-# len(UNMARKED) }} agents. No error said so, but Q did.
+# critics alone: it is sure of its push, and the pole falls. In {{ unmarked() }} of our {{
+# len(UNMARKED) }} agents Q was so, and the pole fell. No error said so, but Q did.
 #
-# A fallen pole is in their rows as s' only, never as s. Its value enters targets, but no row corrects
-# it: the network makes it up.
+# A fallen pole is in their rows as s' only, never as s. Its value enters targets, but no row says
+# what it is: the network makes it up, and 100 is not the only one that fits.
 #
 # A network, estimates learned from estimates, and rows of older policies: with these three, the
 # *deadly triad* of Sutton and Barto, a critic *can* **diverge**, which means grow without limit, and
@@ -295,11 +295,11 @@ compare_predictions("update_and_loop", {1: course, 2: compared})
 # %% [markdown]
 # ## What you now know
 #
-# 1. A batch holds rows of earlier policies: SAC learns off-policy.
+# 1. A batch holds mostly rows of earlier policies: SAC learns off-policy.
 # 2. An update makes one step for the critics, the actor and the temperature. Then the critics'
 #    copies follow a little.
 # 3. `terminated` tells the critic where the rewards end. A time limit is no such end.
-# 4. In a small world you know the right Q, so a bug shows as a wrong number.
+# 4. In a small world you know the right Q, so a bug can show as a wrong number.
 # 5. Without marks these agents let the pole fall, and no error said so. Look whether Q can be right.
 
 # %% [markdown]
@@ -312,3 +312,9 @@ compare_predictions("update_and_loop", {1: course, 2: compared})
 # **Read on**: Mnih et al., *Human-level control through deep reinforcement learning* (Nature,
 # 2015), on buffers and slow copies; Sutton and Barto, *Reinforcement Learning*, chapter 11,
 # on what can diverge. The same algorithm for the road: `python -m bootcourse.learn.textbook`.
+
+# %% [markdown] tags=["instructor"]
+# **On the board.** Four boxes: memory, critics, actor, temperature; an arrow for each quantity that
+# one takes from another.
+#
+# **To discuss.** Which of the four boxes could you leave out and still have a learner?

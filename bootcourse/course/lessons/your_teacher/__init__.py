@@ -1,3 +1,3 @@
 """You will write a rule controller of your own, train from it and from worse ones, judge when a teacher helps, and
-which learner.
+what drives that crash teach.
 """

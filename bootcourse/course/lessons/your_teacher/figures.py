@@ -1,6 +1,6 @@
 """What teachers are worth: each of their students as a dot, and whether they help."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from IPython.display import Markdown
@@ -8,18 +8,21 @@ from matplotlib.figure import Figure
 
 from bootcourse.course import table
 from bootcourse.course.dots import beside, dots, name_rows
-from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents
-from bootcourse.episodes.rollout import Rollout
-from bootcourse.learn.teachers import course_rule, teacher_of
-from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure
-from bootcourse.research.experiments.teacher_worth import TAUGHT, Cells
+from bootcourse.course.lessons.your_teacher import crashes, example_teachers, taught_agents
+from bootcourse.methods import style
+from bootcourse.plots.figure import QUIET, axes_at, finish, new_figure
+from bootcourse.research.results import Results
 from bootcourse.road.state import LANE, SPEED, X, Y
 from bootcourse.statistics import ESCAPES
 
 HEAD, FOOT = 0.75, 0.55  # inches, above and below the rows of a figure
 MARKS = {"helps": "▲", "hurts": "▼"}
-WORDS = {"random-50": "half random", "rule": "the rule"}
+PARTS = {  # kind of the experiment `crashes`: the name of its row
+    "all": "all",
+    "no-labels": "no labels",
+    "no-bonus": "no bonus",
+    "cut": "no free lane",
+}
 
 
 def exam_of_all() -> Markdown:
@@ -42,22 +45,6 @@ def of_speeds() -> Markdown:
         words = f"{slow}" if slow == fast else f"{slow}, and {fast} in lane 0"
         rows.append([words, *(f"{share:.0f}" for share in shares), f"{driven.returns.mean():.0f}"])
     return table(["speed (m/s)", "gets out, %", "accidents, %", "return"], rows)
-
-
-def like_the_rule(drives: Sequence[Rollout]) -> float:
-    """In which share of the states of a teacher's drives its action is the rule's."""
-    cars, actions = (np.concatenate([getattr(drive, name) for drive in drives]) for name in ("cars", "actions"))
-    return float(np.mean(teacher_of(course_rule)(cars) == actions))
-
-
-def records() -> Markdown:
-    """A table of two teachers' demonstrations: how many of their labels are the rule's, and how they end."""
-    rows = []
-    for name, words in WORDS.items():
-        drives = taught_agents.demonstrated(name)
-        ends = [sum(bool(drive.success) for drive in drives), sum(drive.accident > 0 for drive in drives)]
-        rows.append([words, f"{100 * like_the_rule(drives):.0f}", *ends])
-    return table([f"{len(drives)} drives", "labels like the rule's, %", "end ahead of trap 1", "end by accident"], rows)
 
 
 def cars_in_rows(cars: np.ndarray, shown: int = 5) -> Markdown:
@@ -98,42 +85,24 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], verdicts: Mapping[s
     return finish(figure, title, f"A dot for each student. {'; '.join(alt_parts)}.")
 
 
-def learners(computed: Cells) -> Figure:
-    """Each agent's return as a dot, a row for each learner below its teacher, whose own return is a green line.
+def without_a_part(computed: Mapping[str, Results]) -> Figure:
+    """Each agent's return as a dot, a row for each kind of the experiment `crashes`.
 
-    computed: as `taught_agents.of_two_learners` returns them.
+    computed: {kind: agents}, as it ships.
     """
-    title = "All ten bootstrapped students of the half-random teacher escape; with labels alone, one"
-    row, heads, labels, place, alt_parts = 0.32, {}, {}, 0, []
-    for teacher in WORDS:
-        heads[place] = teacher
-        for method in (method for method in TAUGHT if (teacher, method) in computed):
-            place += 1
-            labels[place] = teacher, method
-        place += 1
-    figure = new_figure(HEAD + row * place + FOOT)
-    ax = axes_at(figure, 1.75, HEAD, 3.2, row * place)
-    for at, (teacher, method) in labels.items():
-        agents = computed[teacher, method]
+    title = "These crashing drives teach agents to earn; cut before the free lane, they do not"
+    row, alt_parts = 0.42, []
+    figure = new_figure(HEAD + row * len(PARTS) + FOOT)
+    ax = axes_at(figure, 1.75, HEAD, 2.8, row * len(PARTS))
+    for place, (kind, words) in enumerate(PARTS.items()):
+        agents = computed[kind]
         fills = agents.scores("success") >= ESCAPES
-        dots(ax, agents.scores("returns"), at, style(method).colour, fills, spread=0.42)
-        escape = f"{agents.escapers(method)} of {len(agents)}"
-        mean, accidents = agents.scores("returns").mean(), f"{100 * agents.scores('accident').mean():.0f}"
-        beside(ax, at, escape, accidents)
-        alt_parts.append(f"{WORDS[teacher]}, {display_name(method)}: {escape} escape, mean return {mean:.0f}, "
-                         f"accidents in {accidents} %")  # fmt: skip
-    beside(ax, -0.75, "escape", "accidents, %", colour=QUIET)
-    for at, teacher in heads.items():
-        last = at + sum(each == teacher for each, _ in labels.values())
-        ax.plot([own_return(teacher)] * 2, [at + 0.5, last + 0.5], color=style("rule").colour, linewidth=2.5, zorder=2)
-        ax.text(-0.4, at, WORDS[teacher], transform=ax.get_yaxis_transform(), fontsize=TEXT,
-                fontweight="bold", color=INK, va="center")  # fmt: skip
-    words = "return of an agent after training; filled: it escapes; green line: its teacher's own"
-    name_rows(ax, [display_name(method) for _, method in labels.values()], words, list(labels))
-    ax.set_ylim(place - 0.5, -0.5)
+        dots(ax, agents.scores("returns"), place, style(crashes.KINDS[kind][1]).colour, fills)
+        escape, mean = f"{fills.sum()} of {len(agents)}", f"{agents.scores('returns').mean():.0f}"
+        accidents = f"{100 * agents.scores('accident').mean():.0f}"
+        beside(ax, place, escape, mean, accidents)
+        alt_parts.append(f"{words}: {escape} escape, return {mean}, accidents in {accidents} %")
+    beside(ax, -0.75, "escape", "return", "accidents, %", colour=QUIET)
+    name_rows(ax, list(PARTS.values()), "return of an agent after training; filled: it escapes")
+    ax.set_xlim(0, None)
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
-
-
-def own_return(teacher: str) -> float:
-    """What a teacher earns in its demonstrations, the mean."""
-    return float(np.mean([drive.rewards.sum() for drive in taught_agents.demonstrated(teacher)]))

@@ -6,14 +6,15 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons import registry
-from bootcourse.course.lessons.your_teacher import example_teachers, figures, taught_agents  # noqa: F401
+from bootcourse.course.lessons.your_teacher import crashes, example_teachers, taught_agents
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.your_teacher.exercises import without_a_look
 from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
-from bootcourse.research.beyond import lengths
-from bootcourse.road.state import EGO, LANE, SPEED, TRAFFIC, Accident
-from bootcourse.statistics import ESCAPES
-from tools.course.known import shipped_teachers
+from bootcourse.learn.teachers import course_rule, teacher_of
+from bootcourse.research.experiments.teacher_worth import TAUGHT  # noqa: F401 (the text names it)
+from bootcourse.road.state import SPEED, TRAFFIC, Accident
+from bootcourse.statistics import ESCAPES, holm, significant  # noqa: F401 (the text names it)
+from tools.course.known import shipped_experiment, shipped_teachers
 
 COLLIDES = Accident.COLLISION
 
@@ -70,22 +71,41 @@ def gets_ahead(teacher: str) -> int:
     return sum(bool(drive.success) for drive in demonstrated(teacher))
 
 
-def reach_free_lane(teacher: str) -> int:
-    """How many of them come to the free lane."""
-    return sum(bool((drive.states[:, EGO, LANE] == 0).any()) for drive in demonstrated(teacher))
+def like_the_rule(teacher: str) -> float:
+    """In which share of the states of its drives a teacher's action is the rule's."""
+    drives = demonstrated(teacher)
+    cars, actions = (np.concatenate([getattr(drive, name) for drive in drives]) for name in ("cars", "actions"))
+    return float(np.mean(teacher_of(course_rule)(cars) == actions))
+
+
+def reach_free_lane() -> int:
+    """How many of the crashing drives come to the free lane."""
+    return sum(crashes.before_free_lane(drive) < len(drive.actions) for drive in crashes.crashed())
+
+
+def rows_left() -> float:
+    """The share of these drives' decisions that the cut leaves."""
+    cut, whole = (len(crashes.rows_of_crashes(is_cut)) for is_cut in (True, False))
+    return cut / whole
+
+
+def crash_returns(kind: str) -> np.ndarray:
+    """What the ten agents of one kind of the experiment `crashes` earn."""
+    return shipped_experiment("crashes")[kind].scores("returns")
+
+
+def crash_escapes(kind: str) -> int:
+    """How many of them escape."""
+    return int((shipped_experiment("crashes")[kind].scores("success") >= ESCAPES).sum())
+
+
+def crash_shown(kind: str) -> bool:
+    """Does a rank test tell their returns from those of the agents that learn from all, after Holm?"""
+    others = [other for other in crashes.KINDS if other != "all"]
+    p = holm([taught_agents.p_value(crash_returns("all"), crash_returns(other)) for other in others])
+    return bool(p[others.index(kind)] < 0.05)
 
 
 def worth() -> dict:
     """{(teacher, method): ten agents} of the experiment `teachers`."""
     return shipped_teachers()
-
-
-def decisions(teacher: str, method: str) -> float:
-    """The thousand decisions of the whole training of one of these agents, the mean over ten."""
-    return float(np.nansum(lengths(worth()[teacher, method].curves), axis=1, dtype=float).mean()) / 1000
-
-
-def budget() -> str:
-    """The same in words, from the shortest of the lesson's four trainings to the longest: "161 to 188"."""
-    each = [decisions(*pair) for pair in taught_agents.of_two_learners()]
-    return f"{min(each):.0f} to {max(each):.0f}"

@@ -13,7 +13,6 @@ import numpy as np
 import scipy
 
 from bootcourse.course.lessons.your_teacher.example_teachers import careful, racer, reckless, timid
-from bootcourse.course.shipped import shipped_teachers
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
@@ -26,7 +25,6 @@ from bootcourse.learn.training import Training
 from bootcourse.research.cells import results_of
 from bootcourse.research.computed import experiment
 from bootcourse.research.experiment import Experiment
-from bootcourse.research.experiments.teacher_worth import Cells
 from bootcourse.research.results import Results, agent_entries
 from bootcourse.research.teachers import RULE
 from bootcourse.research.teachers import TEACHERS as STUDIED
@@ -161,16 +159,6 @@ def demonstrated(teacher: str) -> list[Rollout]:
     """The drives that one of the study's teachers demonstrates."""
     roads = [FIRST_SEED + number for number in range(Settings.demonstration_episodes)]
     return record(teacher_policy(STUDIED[teacher].rule), roads)
-
-
-def of_two_learners() -> Cells:
-    """Ten agents each after the whole training: {(teacher, learner): agents} of the experiment `teachers`."""
-    teachers, learners = ("rule", "random-50"), ("bootstrapped", "soft")
-    return {
-        (teacher, learner): agents
-        for (teacher, learner), agents in shipped_teachers().items()
-        if teacher in teachers and learner in learners
-    }
 
 
 def p_value(taught: np.ndarray, alone: np.ndarray) -> float:
