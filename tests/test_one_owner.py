@@ -48,6 +48,21 @@ def test_the_second_takes_over_from_a_killed_one_at_once(tmp_path):
         assert time.monotonic() - began < work.LEASE / 2
 
 
+def test_a_process_that_was_killed_before_it_wrote_its_name_does_not_keep_the_folder(tmp_path):
+    (tmp_path / ".job.owner").touch()
+    began = time.monotonic()
+    with owned(tmp_path / "job") as is_lost:
+        assert time.monotonic() - began < work.LEASE / 2 and not is_lost()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_name_that_is_written_late_is_not_taken_away(tmp_path):
+    owner = tmp_path / ".job.owner"
+    owner.write_text("somebody")
+    work._take_away(owner)
+    assert owner.read_text() == "somebody" and list(tmp_path.iterdir()) == [owner]
+
+
 def test_who_waits_can_be_stopped(tmp_path):
     with other_owner(tmp_path / "job", 600) as first:
         with pytest.raises(InterruptedError), owned(tmp_path / "job", stop=lambda: True):

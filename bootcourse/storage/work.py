@@ -7,6 +7,7 @@ again that it is alive, because workers may outlive the process that started the
 """
 
 import time
+import uuid
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -20,6 +21,7 @@ from bootcourse.storage.checkpoint import save_checkpoint
 
 LOCK = ".lock"
 LEASE = 60.0  # s without a sign of life, after which an owner on another machine counts as dead
+PATIENCE = 3  # looks, a second apart, at an owner's file that stays empty, after which it is taken away
 
 
 @contextmanager
@@ -59,16 +61,44 @@ def owned(folder: Path, stop: Callable[[], bool] = lambda: False) -> Iterator[Ca
     because for `LEASE` this one showed no sign of life. Raises InterruptedError once stop() is true while it waits.
     """
     folder.parent.mkdir(parents=True, exist_ok=True)
-    lease = SoftFileLease(folder.with_name(f".{folder.name}.owner"), lease_duration=LEASE)
+    path, seen, looks = folder.with_name(f".{folder.name}.owner"), None, 0
+    lease = SoftFileLease(path, lease_duration=LEASE)
     while not lease.is_locked:
         if stop():
             raise InterruptedError(f"{folder}: stopped while another process had it.")
-        with suppress(Timeout):
+        try:
             lease.acquire(timeout=1)
+        except Timeout:
+            before, seen = seen, _unwritten(path)
+            looks = looks + 1 if seen and seen == before else 0
+            if looks >= PATIENCE:
+                _take_away(path)
     try:
         yield lambda: lease.compromise is not None
     finally:
         lease.release()
+
+
+def _unwritten(owner: Path) -> tuple[int, int] | None:
+    """Which file an owner's is if it is empty: its number and time of change.
+
+    An owner makes its file and then writes its name. If it is killed between, filelock lets the file stand for ever.
+    """
+    with suppress(OSError):
+        status = owner.stat()
+        return None if status.st_size else (status.st_ino, status.st_ctime_ns)
+    return None
+
+
+def _take_away(owner: Path) -> None:
+    """Remove an owner's empty file; if another owner has written one in this moment, put it back."""
+    aside = owner.with_name(f"{owner.name}.{uuid.uuid4().hex}")
+    with suppress(OSError):
+        owner.rename(aside)
+        if aside.stat().st_size:
+            aside.rename(owner)
+        else:
+            aside.unlink()
 
 
 def remove_empty(folder: Path) -> None:

@@ -20,11 +20,10 @@ def compounding() -> Explorable:
         worst = np.cumsum(np.minimum(1, errors / 100 * times))
         half, whole = worst[WHOLE // 2], worst[WHOLE]
         says = (
-            f"Worst case: {half:.1f} errors in {WHOLE // 2} s, {whole:.1f} in {WHOLE} s: "
-            f"{whole / half:.1f} times as many."
+            f"At most {half:.1f} errors in {WHOLE // 2} s, {whole:.1f} in {WHOLE} s: {whole / half:.1f} times as many."
         )
         named = {
-            "after the first error each decision is one": Curve(worst, style("bc").colour),
+            "at most, if each decision after the first error is one": Curve(worst, style("bc").colour),
             "errors stay alone": Curve(errors / 100 * times, style("rule").colour, "--"),
         }
         return curves(says, AXES, times, named, mark=WHOLE // 2)

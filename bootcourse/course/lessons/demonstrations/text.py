@@ -182,8 +182,8 @@ print(cloning.slowness(driven["the rule"], alone))
 
 # %% [markdown]
 # **See.** *Yes. The clones are the same in both lines; what they did before makes the
-# difference.* It is not the worst case: late in the drive the line falls again, as clones recover
-# or their drives end. Slowness feeds itself: the rule's drives hardly show a slow car in the free lane.
+# difference.* It is not the worst case: after half a minute the line falls again, as clones
+# recover or their drives end. Slowness feeds itself: the rule's drives hardly show a slow car in the free lane.
 # There the clones err most of the time, stay slow, and meet such a state again.
 
 # %% [markdown] tags=["instructor"] minutes=7

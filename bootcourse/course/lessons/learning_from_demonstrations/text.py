@@ -53,9 +53,10 @@ bc.panels.bonus_panel()
 
 # %% [markdown]
 # *At its start alone, and a small bonus is enough to change that.* The paper's c = {{
-# SETTINGS.bonus | g }} is more than thirty times the one in the title. Paid in each second, it adds
+# SETTINGS.bonus | g }} is more than thirty times the one in the title. If each second were paid, it would add
 # c + γ c + γ² c + … = c / (1 − γ) = {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} at γ = {{
-# SETTINGS.gamma }}, as much as an accident costs. What does so large a bonus do to a learner?
+# SETTINGS.gamma }}, as much as an accident costs. The learner's own seconds are not paid.
+# What does so large a bonus do to it?
 # <!-- claim: discounted(by_rule(), SETTINGS.gamma) < discounted(idle(), SETTINGS.gamma) -->
 # <!-- claim: SETTINGS.bonus > 30 * 0.06 -->
 # <!-- claim: math.isclose(SETTINGS.bonus / (1 - SETTINGS.gamma), -DEFAULT.reward.accident) -->
@@ -246,11 +247,11 @@ bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)
 # ## Round 4: is there another way than a bonus?
 #
 # The policy prefers the action that **comes first**: that with the largest Q. A demonstration shows
-# *one* action in its state. The Q of the other eight is a guess from other rows; its error is an
-# **extrapolation error**.
+# *one* action in its state. The Q of the other eight comes from other rows. Where none is like it, it
+# is a guess, and its error an **extrapolation error**.
 #
-# Train two learners with c = {{ SETTINGS.bonus | g }}, without the soft constraint and with β fixed,
-# and look at a critic of the first.
+# Train two learners with c = {{ SETTINGS.bonus | g }} and look at a critic of the first. No soft
+# constraint, so that only Q carries the rule's actions; β fixed, so that they stay.
 # <!-- claim: settings_for('demos').xi_multiplier == 0 and settings_for('demos').xi_fixed is None
 #   and settings_for('demos').bonus == SETTINGS.bonus -->
 

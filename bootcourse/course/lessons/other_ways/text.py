@@ -267,7 +267,8 @@ explorable.TwoCounts(compared, by_rule.returns.mean())
 #   and max(of, key=lambda m: of[m].value) == 'rlpd')(training_scores(explorable.EARLY,
 #   explorable.DECISIONS)) and first_may_be_chance(explorable.EARLY, explorable.DECISIONS) -->
 #
-# **Explain.** PPO's decisions are cheap, but it throws its drives away. So early in training the
+# **Explain.** PPO's decisions are cheap; that it throws its drives away may be why it needs more of
+# them. So early in training the
 # way does matter, and what is scarce decides: computing time, or seconds on the road (without the
 # rule's {{ drives_before('rlpd') * DEFAULT.clock.decisions / 3600 | .0f }} hours).
 
@@ -330,8 +331,8 @@ compare_predictions(
 # ## What you now know
 #
 # 1. A teacher can give data, a start, a second opinion, the first seconds or a pull.
-# 2. In 500 updates from the rule's drives alone, RLPD's ensemble let Q out of bounds; with layer
-#    normalisation it stayed in.
+# 2. In 500 updates from the rule's drives alone, at ten times RLPD's τ, an ensemble let Q out of
+#    bounds; with layer normalisation it stayed in.
 # 3. IBRL's critics choose between the teacher's action and the agent's. Jump-start RL hands over
 #    where the return is about its best.
 # 4. In the test after {{ FIRST | , }} decisions all five earn over twice what the rule earns,

@@ -96,7 +96,7 @@ bc.show(figures.returns(study))
 # }} % of its drives: *a success rate that counts who is ahead hides later accidents.*
 # <!-- claim: escaped('gail') == len(accidents_of_escapers()) == 6 -->
 #
-# The paper reports no success for CQL, and does not print its form. Ours takes the action with the
+# The paper's CQL has 0 % success; its form is not printed. Ours takes the action with the
 # highest Q. Of ten with SAC's actor and entropy none escapes: *the form matters.*
 # <!-- claim: escaped('cql_sac') == 0 and len(of('cql_sac')) == 10 -->
 # <!-- claim: PRINTED['cql']['success'].mean == 0 and of('cql_sac').scores('success').max() == 0 -->
@@ -257,7 +257,8 @@ table(["reward at D = ½", "crash after 5 s", "drive of 150 s"], rows)
 
 # %% [markdown]
 # **Explain.** *The sign decides.* −log (1 − D) is above 0 for each D, so it pays to go on. log D is
-# below 0: each second costs, and an early crash is cheapest.
+# below 0: each second costs, and at equal D an early
+# crash is cheapest.
 #
 # With ours a crash costs only the pay of the seconds that it cuts off. The road charges extra
 # for an accident, and GAIL is not told. Whether that is why it often leaves the road, is open.
@@ -333,9 +334,9 @@ compare_predictions(
 # 2. A success rate that counts who is ahead hides later accidents.
 # 3. Without driving, Q-learning trusts its guesses: our two agents promised a gain and crashed.
 #    CQL adds the cloning loss of softmax(Q); with it they earned about what they promised.
-# 4. GAIL is paid by its discriminator; the reward's sign decides whether going on pays.
-# 5. An estimate without a simulator rests on seconds in which the agent acts as the data do. More
-#    fits show its scatter, not its bias. And worth at γ = 0.8 is not escape.
+# 4. GAIL is paid by its discriminator; with a reward above 0 going on pays, with one below 0 it costs.
+# 5. FQE's estimate is checked by data only where the agent acts as the data do; elsewhere it may be
+#    near or far. More fits show its scatter, not its bias. And worth at γ = 0.8 is not escape.
 #
 # **Three questions to think about**
 # - Why does GAIL often leave the road, and how would you find out?

@@ -123,7 +123,7 @@ table(["drive", "worth at γ = 0.8"], rows, below=below)
 # %% [markdown]
 # **Explain.** *Staying is not best, even at γ = 0.8.* The planner knows the future, but
 # that is not needed: {{ len(helped_better()) }} of ten agents that the rule helped while they learned
-# (lessons [[demonstrations]] and [[soft_constraint]]) earn a larger sum than staying, too.
+# (lessons [[soft_constraint]] and [[learning_from_demonstrations]]) earn a larger sum than staying, too.
 # <!-- claim: searched().best.value > 2 * searched().keep_lane.value -->
 # <!-- claim: searched().leaves.value == 1 and len(helped()) == 10 -->
 #
@@ -283,7 +283,8 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 # <!-- claim: freed_and_slower().min() > easier.staying(BOTH) -->
 # <!-- claim: max(second_pays(v) for v in np.arange(20, 26)) < second_pays(15) / 15 -->
 #
-# *Still open*: what of the start mid-lane counts, and whether the dip keeps agents in. The dip needs
+# *Still open*: what of the start mid-lane counts (a lane keeper with cheap accidents was not
+# tried), and whether the dip keeps agents in. The dip needs
 # random actions, and in the end the study's ten agents hardly take any (entropy {{ last_entropy() |
 # .2f }} nats or less).
 
@@ -313,9 +314,10 @@ compare_predictions(
 #    enough.
 # 3. Luck to end ahead *once* is not what most lack; luck to end ahead *often*, or *unhurt*, may be.
 # 4. An attempt costs now and pays later. A lane keeper frees no agent, cheap accidents or a start
-#    mid-lane few, both together most.
+#    mid-lane few, the last two together most.
 # 5. With the rule as a constraint and as data {{ escaped('bootstrapped') }} of the study's {{
-#    len(of('bootstrapped')) }} agents escape: lessons [[demonstrations]] and [[soft_constraint]].
+#    len(of('bootstrapped')) }} agents escape: lessons [[soft_constraint]] and
+#    [[learning_from_demonstrations]].
 # <!-- claim: escaped('bootstrapped') > len(of('bootstrapped')) / 2 > escaped('sac') == 1 -->
 #
 # **Three questions to think about**

@@ -275,8 +275,10 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 #
 # **Explain.** Getting out would still pay more: with the concave reward the rule's drive on this
 # road earns {{ paid_concavely(by_rule()) | .0f }}, this agent's {{
-# paid_concavely(ppo_drive('concave')) | .0f }}. The new reward took away the sprints. It did not
-# show the way out.
+# paid_concavely(ppo_drive('concave')) | .0f }}. The new reward took away the sprints. It
+# also pays less for getting out: of speed 15 m/s earns {{ 1 -
+# second_trap.concave_speed_reward(np.float64(10)) | .2f }} a second more than 10, not {{ 1 -
+# speed_reward(10) | .2f }}.
 # <!-- claim: paid_concavely(by_rule(), settings_for('ppo').gamma) >
 #   paid_concavely(ppo_drive('concave'), settings_for('ppo').gamma) and by_rule().success -->
 
@@ -358,7 +360,7 @@ compare_predictions(
 #    twice what keeping straight earns, and none gets out. So look at success, and at a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one.
 # 3. In PPO, a decision that went better than V expected pushes until its action is ε likelier.
-# 4. With a concave reward the ten agents no longer sprint on our road, and none gets out.
+# 4. With a concave reward the ten agents no longer sprint on our road, and none escapes.
 # 5. After cloning the rule ten of ten agents escape. They earn more than the rule, and crash more.
 #
 # **Three questions to think about**
