@@ -65,6 +65,11 @@ def worse_than_alone(base: str, form: str) -> int:
     return sum(per_thousand(base, form, model) > per_thousand(base, "alone") for model in WRONG)
 
 
+def earns(model: str) -> float:
+    """The mean return of PPO's agents with the look-ahead in one of the study's models."""
+    return float(each("ppo_cloned", "rollouts", "returns", model).mean())
+
+
 @cache
 def learning(share: float | None = None) -> Results:
     """The ten agents that learned a model of the road, from drives with a share of random actions if one is given."""
