@@ -17,7 +17,7 @@ import numpy as np
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.road_model import FORMS, ImaginedAhead, Transitions, learned_from, transitions_of
-from bootcourse.policies import Policy, PolicyOutput
+from bootcourse.policies import Policy, PolicyOutput, random_policy
 from bootcourse.research.cells import results_of
 from bootcourse.research.experiment import Computed, Experiment
 from bootcourse.research.experiments.lookahead import NAME as LOOK_AHEAD
@@ -25,7 +25,6 @@ from bootcourse.research.experiments.lookahead import Cell, agents_of, measured
 from bootcourse.research.jobs import HELD_OUT, Interrupted, orphaned
 from bootcourse.research.results import Results, agent_entries, join
 from bootcourse.research.tables import markdown
-from bootcourse.scenario import N_ACTIONS
 
 NAME, BASE, AGENTS, ROUNDS = "learned-model", "bootstrapped", 10, 4
 DRIVES, BLOCK, BLOCK_OF_CONTROL = 200, 41, 51  # roads of a round; the first held-out blocks that they are from
@@ -75,11 +74,11 @@ def roads_of_control() -> range:
 
 def partly_random(policy: Policy, share: float, rng: np.random.Generator) -> Policy:
     """The policy, with a share of its actions drawn again, each of the nine with the same probability."""
+    drawn = random_policy(rng)
 
     def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-        actions = np.array(policy(observations, cars).actions)
-        drawn = rng.integers(N_ACTIONS, size=len(actions))
-        return PolicyOutput(np.where(rng.random(len(actions)) < share, drawn, actions))
+        own, other = (each(observations, cars).actions for each in (policy, drawn))
+        return PolicyOutput(np.where(rng.random(len(own)) < share, other, own))
 
     return drive
 

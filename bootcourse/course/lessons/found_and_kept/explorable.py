@@ -11,7 +11,7 @@ from bootcourse.panels.explorable import WIDTH, Explorable
 from bootcourse.panels.number import Number, whole_number
 from bootcourse.plots.svg import Drawing, SvgAxes, drawing, line, rect, text, ticks
 from bootcourse.research.results import Results
-from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost
+from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost, rolling_means
 
 LEFT, RIGHT, TOP = 124, 536, 84  # pixels: of the bars
 ROW, TALL, APART = 7, 70, 24  # pixels: a row, a group, the space between two groups
@@ -85,9 +85,9 @@ def _named(words: str, top: float) -> list[str]:
 
 def _bars(axes: SvgAxes, top: float, success: np.ndarray, limit: float) -> list[str]:
     """For each agent a bar from window to window with more than `limit` ahead: 0/1 (agents, episodes)."""
-    parts, ahead = [], np.lib.stride_tricks.sliding_window_view(success, IN_A_ROW, axis=1).sum(axis=-1)
-    for row, good in enumerate(ahead > limit):
-        edges = IN_A_ROW + np.flatnonzero(np.diff(np.concatenate([[0], good, [0]])))
+    parts, (at, share) = [], rolling_means(success, IN_A_ROW, success.shape[1])
+    for row, good in enumerate(share > limit / IN_A_ROW):
+        edges = at[0] + np.flatnonzero(np.diff(np.concatenate([[0], good, [0]])))
         for first, after in edges.reshape(-1, 2):
             begin, end = axes.at(np.array([first, after]), 0)[0]
             parts.append(rect(begin, top + row * ROW, end - begin, ROW - 1.5, style("bootstrapped").colour))

@@ -11,7 +11,7 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
-from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost
+from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost  # noqa: F401 (the text names them)
 from tools.course.known import in_training, of, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
@@ -56,13 +56,10 @@ def group(ends: str) -> Group:
 
 def lost_least_if_never(low: int, high: int) -> bool:
     """Do fewer agents lose the way out if β never ends than in each other group, at each limit from low to high?"""
-    lowest = {}  # of each agent's windows after the first with `HAD` ahead
-    for words, agents in groups().items():
-        ahead = np.lib.stride_tricks.sliding_window_view(agents.curves["success"], IN_A_ROW, axis=1).sum(axis=-1)
-        lowest[words] = np.where(np.maximum.accumulate(ahead >= HAD, axis=1), ahead, IN_A_ROW + 1).min(axis=1)
-        assert np.array_equal(lowest[words] <= LOST, lost(agents.curves["success"]))
-    never = lowest.pop("β never ends")
-    return all((never <= at).sum() < (each <= at).sum() for at in range(low, high + 1) for each in lowest.values())
+    success = {words: agents.curves["success"] for words, agents in groups().items()}
+    never = success.pop("β never ends")
+    limits = range(low, high + 1)
+    return all(lost(never, at).sum() < min(lost(each, at).sum() for each in success.values()) for at in limits)
 
 
 def earns_less(never: Group, *others: Group) -> bool:

@@ -202,8 +202,8 @@ table(measures.FOUND, measures.found_and_escaped(kinds), below)
 #   -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Put the box on the wall. While the agents train, let somebody name for each of its six lines what
-# happens if it is left out; some of these are experiments of the study (lesson [[found_and_kept]]).
+# Put the box on the wall. While the agents train, ask of each of its six lines: what happens without
+# it? Some of these are experiments of the study (lesson [[found_and_kept]]).
 
 # %% [markdown]
 # ## Round 3: what does the bonus cost?

@@ -5,8 +5,7 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course import shipped as course
-from bootcourse.course.lessons.looking_ahead import explorable
-from bootcourse.course.lessons.looking_ahead.figures import MEANINGS
+from bootcourse.course.lessons.looking_ahead import explorable, figures
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.research.computed import experiment
@@ -16,7 +15,7 @@ from bootcourse.research.results import Results
 from bootcourse.road.state import Accident
 
 LATE = "everything a second late"
-WRONG = list(MEANINGS)  # of the study's models
+WRONG = list(figures.MEANINGS)  # of the study's models
 
 
 @cache
@@ -103,8 +102,7 @@ def last_round() -> np.ndarray:
 
 def still_worse() -> int:
     """How many of the ten then crash more often than alone."""
-    alone = 1000 * each("bootstrapped", "alone", "accidents") / each("bootstrapped", "alone", "roads")
-    return int((last_round() > alone).sum())
+    return int((last_round() > figures.per_thousand(shipped(), Cell("bootstrapped", "alone"))).sum())
 
 
 def own_better(share: float) -> int:

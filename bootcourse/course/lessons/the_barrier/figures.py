@@ -57,8 +57,8 @@ def while_they_learned(results: Results, chance: float) -> Figure:
 
     chance: that an agent would at least once, if all its actions were random.
     """
-    times, ends = times_ahead(results), results.scores("success")
-    escaping = ends >= ESCAPES
+    times, ahead = times_ahead(results), results.scores("success")
+    escaping = ahead >= ESCAPES
     title = f"{(times > 0).sum()} of {len(times)} agents ended ahead while they learned, "
     title += f"{(times == 1).sum()} of them once; {escaping.sum()} escapes"
     figure = new_figure(4.4)
@@ -71,8 +71,8 @@ def while_they_learned(results: Results, chance: float) -> Figure:
         ax.plot([0, np.isfinite(drives).sum()], [row, row], color=SHADES[SOME], linewidth=1.0)
         ax.plot(1 + np.flatnonzero(drives > 0), np.full(times[k], row), "|", color=SHADES[FAR], markersize=9)
         listed.append(f"{times[k]}")
-        if ends[k] >= 0.1:
-            label = f"{100 * ends[k]:.0f} %{': escapes' if escaping[k] else ''}"
+        if ahead[k] >= 0.1:
+            label = f"{100 * ahead[k]:.0f} %{': escapes' if escaping[k] else ''}"
             ax.text(np.isfinite(drives).sum() + 12, row, label, fontsize=TEXT, color=INK, va="center")
             listed[-1] += f" ({label})"
     ax.set(ylim=(len(times) - 0.3, -0.8), yticks=[])

@@ -6,6 +6,7 @@ import numpy as np
 
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
 from bootcourse.course.lessons.the_trap import numbers as the_trap
+from bootcourse.course.lessons.the_trap.exercises import bearable_risk
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.policies import PlanPolicy, random_policy
@@ -32,7 +33,7 @@ def bearable(gamma: float) -> float:
     """The share of crashes that lesson 1's table bears: on its road, like its plan, or a crash after 3 s."""
     crash = gamma ** np.arange(4) @ [*by_rule().rewards[:3], DEFAULT.reward.accident]
     stay, leave = discounted(idle(), gamma), discounted(the_trap.on_ten(), gamma)
-    return float((leave - stay) / (leave - crash))
+    return float(bearable_risk.solution(stay, leave, crash))
 
 
 def the_plan_crashes() -> float:
