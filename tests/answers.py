@@ -127,6 +127,12 @@ def here(exercise, answer, seconds, times=1, begin=None):
             setattr(*method)
 
 
+def in_this_process(monkeypatch, run: Callable = here) -> None:
+    """Answers run as `run` says, and no process is started, or asked whether it lives, for those that come next."""
+    monkeypatch.setattr(runner, "run", run)
+    monkeypatch.setattr(runner, "get_ready", lambda: None)
+
+
 def one_sentence(verdict) -> bool:
     """No line breaks, a full stop at the end, and HTML without a trace of Python's own noise."""
     html = verdict._repr_mimebundle_()["text/html"]

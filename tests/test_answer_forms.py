@@ -4,13 +4,13 @@ import msgspec
 import numpy as np
 import pytest
 
-from bootcourse.course import runner
 from bootcourse.course.answer_process import Report, decoder, encoder
 from bootcourse.course.classroom.answers import LONGEST, Answers, Clock, Notebook
 from bootcourse.course.judge import judge, outcomes
 from bootcourse.course.lessons import registry
 from bootcourse.course.values import Plain
 from bootcourse.errors import BootcourseError
+from tests.answers import in_this_process
 from tests.hostile.submissions import failures
 
 HEAD, LUCK = "def luck(good, decisions, tries):\n    ", "return 1 - (1 - (good / n) ** decisions) ** tries"
@@ -126,7 +126,7 @@ FORGED = [
 
 @pytest.mark.parametrize("report", FORGED)
 def test_an_answer_that_sends_its_own_report_stops_no_judge(report, monkeypatch):
-    monkeypatch.setattr(runner, "run", lambda *arguments, **more: decoder.decode(encoder.encode(report)))
+    in_this_process(monkeypatch, lambda *arguments, **more: decoder.decode(encoder.encode(report)))
     verdict = judge(registry()["critic_loss"], "def critic_loss(q_pair, action, target):\n    return 1\n")
     assert verdict.kind in ("wrong", "did_not_run")
     assert max(map(len, (verdict.sentence, *verdict.details))) <= 2000

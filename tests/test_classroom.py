@@ -30,7 +30,7 @@ from bootcourse.course.judge import judge
 from bootcourse.course.lessons import number, registry, stem
 from bootcourse.course.predictions import FILE
 from bootcourse.errors import BootcourseError
-from tests.answers import here
+from tests.answers import in_this_process
 from tools.course.products import solved_notebook, student_file
 from tools.course.source import lesson_of, sources
 
@@ -68,7 +68,7 @@ def answers_in(notebook: Notebook) -> dict[str, str]:
 
 @pytest.mark.parametrize("path", sources(), ids=lesson_of)
 def test_every_answer_of_a_solved_notebook_is_found_and_right_and_of_the_students_a_stub(path, monkeypatch):
-    monkeypatch.setattr(runner, "run", here)
+    in_this_process(monkeypatch)
     expected = {name for name, exercise in registry().items() if exercise.lesson == stem(lesson_of(path))}
     stubs = answers_in(read(json.loads(student_file(path).read_bytes())))
     solved = answers_in(read(solved_notebook(path) or notebook()))

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.course import check, runner, values
+from bootcourse.course import check, values
 from bootcourse.course import exercise as exercise_module
 from bootcourse.course.judge import judge, outcomes
 from bootcourse.course.lessons import registry
 from bootcourse.errors import BootcourseError
-from tests.answers import RIGHT, WRONG, here, one_sentence
+from tests.answers import RIGHT, WRONG, in_this_process, one_sentence
 
 EXERCISES = registry()
 TEXTS = Path(__file__).parents[1] / "bootcourse/course/lessons"
@@ -26,7 +26,7 @@ every_exercise = pytest.mark.parametrize("exercise", EXERCISES.values(), ids=lam
 @pytest.fixture(autouse=True)
 def fast(monkeypatch):
     """Answers run in this process; `test_lessons_guard.py` judges some in processes of their own."""
-    monkeypatch.setattr(runner, "run", here)
+    in_this_process(monkeypatch)
 
 
 # Every exercise -----------------------------------------------------------------------------------

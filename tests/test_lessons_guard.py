@@ -22,7 +22,7 @@ from bootcourse.course.judge import judge
 from bootcourse.course.lessons import registry
 from bootcourse.course.stopped import Stopped
 from bootcourse.learn import sac
-from tests.answers import here, one_sentence
+from tests.answers import in_this_process, one_sentence
 
 TARGET = registry()["critic_target"]
 cloudpickle.register_pickle_by_value(sys.modules[__name__])
@@ -174,7 +174,7 @@ TEXTS = [
 
 @pytest.mark.parametrize("text, kind, words", TEXTS)
 def test_a_text_is_judged_like_a_function(text, kind, words, monkeypatch):
-    monkeypatch.setattr(runner, "run", here)
+    in_this_process(monkeypatch)
     verdict = judge(TARGET, text)
     assert verdict.kind == kind and words in verdict.sentence and one_sentence(verdict), verdict
 

@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.course import answer_process, judge, runner
+from bootcourse.course import answer_process, judge
 from bootcourse.course.answer_process import Report
 from bootcourse.course.exercise import call_it
 from bootcourse.course.lessons import registry
 from bootcourse.course.values import NUMERIC, SEVERAL, Plain, plain
+from tests.answers import in_this_process
 
 EXERCISES = registry()
 every_exercise = pytest.mark.parametrize("exercise", EXERCISES.values(), ids=lambda exercise: exercise.name)
@@ -114,7 +115,7 @@ def answered(exercise, value, rights) -> Report:
 def judged(exercise, report, monkeypatch) -> tuple:
     """The kind, sentence and details of the verdict on this report, which is drawn, too."""
     twice = Report(report.answers * 2)
-    monkeypatch.setattr(runner, "run", lambda *_, times=1, **more: twice if times == 2 else report)
+    in_this_process(monkeypatch, lambda *_, times=1, **more: twice if times == 2 else report)
     verdict = judge.judge(exercise, call_it, 1.0)
     assert repr(verdict) and verdict._repr_mimebundle_()
     assert len(verdict.sentence) < 500, verdict.sentence

@@ -13,14 +13,14 @@ import torch
 
 import bootcourse
 from bootcourse import rule
-from bootcourse.course import check, runner
+from bootcourse.course import check
 from bootcourse.course.exercise import call_it
 from bootcourse.course.judge import judge, outcomes
 from bootcourse.course.lessons import registry, stem
 from bootcourse.course.library import LIBRARY, named
 from bootcourse.course.values import fitted, plain, same
 from bootcourse.learn import bootstrap, sac
-from tests.answers import here
+from tests.answers import in_this_process
 from tools.course.problems import shown_sources
 from tools.course.source import lesson_of, read, sources
 
@@ -29,7 +29,7 @@ EXERCISES = registry()
 
 @pytest.fixture(autouse=True)
 def fast(monkeypatch):
-    monkeypatch.setattr(runner, "run", here)
+    in_this_process(monkeypatch)
 
 
 @pytest.mark.parametrize("name", EXERCISES)

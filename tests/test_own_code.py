@@ -5,14 +5,14 @@ import linecache
 import pytest
 import torch
 
-from bootcourse.course import check, own_code, runner
+from bootcourse.course import check, own_code
 from bootcourse.course.lessons import registry
 from bootcourse.course.own_learner import LATER, own_learner
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.learner import learner_for
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.training import Training
-from tests.answers import here
+from tests.answers import in_this_process
 
 PARTS = [name for name in own_code.PARTS if name in registry()]
 
@@ -20,7 +20,7 @@ PARTS = [name for name in own_code.PARTS if name in registry()]
 @pytest.fixture(autouse=True)
 def nobody_wrote_anything(monkeypatch, tmp_path):
     monkeypatch.setattr(own_code, "_own", {})
-    monkeypatch.setattr(runner, "run", here)  # in this process: faster, and no answer here does harm
+    in_this_process(monkeypatch)  # in this process: faster, and no answer here does harm
     monkeypatch.chdir(tmp_path)
 
 

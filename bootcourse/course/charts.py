@@ -23,7 +23,6 @@ from bootcourse.plots.figure import (
     styles,
     wrapped,
 )
-from bootcourse.scenario import ACTION_NAMES
 
 HEIGHT, GAP, LEFT, FOOT = 1.15, 0.42, 0.5, 0.5  # inches, of the panels of `many`
 COLUMNS = 3
@@ -87,29 +86,6 @@ def _in_words(x: Sequence[float], named: Mapping[str, np.ndarray]) -> str:
         )
         sentences.append(f"{display_name(label)}: {first} at {x[0]:,g}, {last} at {x[-1]:,g}; at most {highest}.")
     return " ".join(sentences)
-
-
-def action_bars(named: Mapping[str, Sequence[float]], title: str, looks: Sequence[Style]) -> Figure:
-    """The probabilities of the nine actions, a bar for each name: {name: (9,)}; 0.05 and more as a number, too."""
-    figure = new_figure(3.3)
-    ax = figure.add_axes((0.08, 0.22, 0.9, 0.5 - 0.05 * wrapped(title).count("\n")))
-    width, places = 0.8 / len(named), np.arange(len(ACTION_NAMES))
-    for row, (label, values) in enumerate(named.items()):
-        at = places + (row - (len(named) - 1) / 2) * width
-        drawn = ax.bar(at, values, width=0.92 * width, color=looks[row].colour, label=label)
-        ax.bar_label(
-            drawn, [f"{v:.2f}" if v >= 0.05 else "" for v in values], fontsize=SMALL - 1, color=QUIET, padding=1.5
-        )
-    ax.axhline(0, color=QUIET, linewidth=0.8)
-    plain_axes(ax, "probability")
-    ax.margins(y=0.12)
-    ax.set_xticks(places, [action.replace(" ", "\n") for action in ACTION_NAMES], fontsize=SMALL)
-    ax.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=len(named), frameon=False, fontsize=TEXT)
-    listed = (
-        f"{label}: {', '.join(f'{a} {v:.2f}' for a, v in zip(ACTION_NAMES, values, strict=True))}"
-        for label, values in named.items()
-    )
-    return finish(figure, title, f"Bars of the probability of the nine actions. {'; '.join(listed)}.")
 
 
 def histogram(values: np.ndarray, label: str, title: str) -> Figure:

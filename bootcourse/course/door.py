@@ -15,4 +15,5 @@ EXPERIMENTS = {  # of the lessons
     "second-trap": f"{_HERE}.lessons.the_second_trap.ppo_kinds",
     "easier": f"{_HERE}.lessons.the_barrier.easier",
     "reachable-entropy": f"{_HERE}.lessons.recorded_drives.reachable_entropy",
+    "pole": f"{_HERE}.lessons.update_and_loop.pole",
 }

@@ -96,7 +96,7 @@ def compared(exercise: Exercise, answer: Callable | str, report: Report, seconds
     mine = [fitted(each, right) for each, right in zip(report.answers, rights, strict=True)]
     if all_same(mine, rights, exercise.tolerance):
         return right_or_the_library_s(exercise, report)
-    values, right_values = (value_part(exercise, each) for each in (mine, rights))
+    values, right_values = (list(value_part(exercise, each)) for each in (mine, rights))
     fails = [case for case in range(len(cases)) if not same(values[case], right_values[case], exercise.tolerance)]
     if mistake := known_mistake(exercise, mine, rights, values if fails else None):
         return Verdict("wrong", mistake.says, mistake=mistake)
@@ -133,7 +133,7 @@ def known_mistake(
     """The exercise's mistake that gives the same answers. values: if they are wrong; they count alone, too."""
     for is_whole in (True, False) if values is not None else (True,):
         for mistake in exercise.mistakes:
-            theirs = list(map(fitted, outcomes(exercise, mistake.answer), rights))
+            theirs = map(fitted, outcomes(exercise, mistake.answer), rights)  # case by case: most differ in the first
             pair = (mine, theirs) if is_whole else (values, value_part(exercise, theirs))
             if all_same(*pair, exercise.tolerance):
                 return mistake
@@ -154,9 +154,9 @@ def answers_anew(exercise: Exercise, answer: Callable | str, seconds: float) -> 
     return len(twice) == 2 * count and not all_same(twice[:count], twice[count:], exercise.tolerance)
 
 
-def value_part(exercise: Exercise, answers: list[Plain]) -> list[Plain]:
+def value_part(exercise: Exercise, answers: Iterable[Plain]) -> Iterable[Plain]:
     """The answers without the slopes that follow a loss's value."""
-    return [each.parts[0] for each in answers] if exercise.slopes else answers
+    return (each.parts[0] for each in answers) if exercise.slopes else answers
 
 
 def all_same(answers: Iterable[Plain], others: Iterable[Plain], tolerance: float) -> bool:

@@ -16,48 +16,60 @@ from bootcourse.scenario import DEFAULT, Scenario
 
 
 class EpisodeRecorder:
-    """The recording of an episode in progress; cars (vehicles, 10), observation (observation_size,): its start."""
+    """One episode in progress on each road; cars (roads, vehicles, 10), observations (roads, observation_size): starts.
 
-    def __init__(self, cars: np.ndarray, observation: np.ndarray):
-        self.states, self.observations = [cars.copy()], [observation.copy()]
+    Each list has an entry for each decision, of all roads; a road's first `decisions[road]` entries are its own.
+    """
+
+    def __init__(self, cars: np.ndarray, observations: np.ndarray):
+        self.states, self.observations = [cars[:, None].copy()], [observations.copy()]
         self.actions, self.rewards, self.terms = [], [], []
         self.policy, self.q_values = [], []  # empty for policies without π or Q
+        self.decisions, self.accidents = np.zeros((2, len(cars)), dtype=np.int64)
 
-    def add(self, output: PolicyOutput, states, observation, reward, terms, road: int) -> None:
-        """Record a policy's decision on a road, and its outcome.
+    def add(self, output: PolicyOutput, env: TrapVectorEnv, observations, rewards, infos, running) -> None:
+        """Record a policy's decision on all roads, what the environment's `step` returned, and its trace.
 
-        The outcome: the state after each simulation step, the next observation, r, and (r_v, r_y, r_θ).
+        running (roads,) bool: the episode was not over.
         """
-        self.actions.append(output.actions[road])
-        if output.policy is not None:
-            self.policy.append(output.policy[road])
-        if output.q_values is not None:
-            self.q_values.append(output.q_values[road])
-        self.states.extend(np.array(state) for state in states)
-        self.observations.append(np.array(observation, dtype=np.float32))
-        self.rewards.append(reward)
-        self.terms.append(terms)
+        self.actions.append(np.array(output.actions, dtype=np.int64))
+        for kept, values in ((self.policy, output.policy), (self.q_values, output.q_values)):
+            if values is not None:
+                kept.append(values)
+        self.states.append(env.trace.copy())
+        self.observations.append(np.array(observations, dtype=np.float32))
+        self.rewards.append(rewards)
+        self.terms.append(np.stack([infos[name] for name in ("r_v", "r_y", "r_theta")], axis=1))
+        self.decisions += running
+        self.accidents[running] = infos["accident"][running]
 
-    def rollout(self, scenario: Scenario, label: str, seed: int, accident: int) -> Rollout:
-        """The episode so far as a `Rollout`, with what the rule would have done in its place."""
-        states = np.array(self.states)
-        decided = states[:: scenario.clock.steps][: len(self.actions)]
-        by_rule = rule(np.ascontiguousarray(decided), scenario)
-        return Rollout(
-            scenario=scenario,
-            label=label,
-            seed=int(seed),
-            states=states,
-            observations=np.array(self.observations),
-            actions=np.array(self.actions, dtype=np.int64),
-            rewards=np.array(self.rewards),
-            terms=np.array(self.terms),
-            accident=int(accident),
-            policy=np.array(self.policy) if self.policy else None,
-            q_values=np.array(self.q_values) if self.q_values else None,
-            provenance=provenance(),
-            **{f"rule_{name}": values for name, values in vars(by_rule).items()},
-        )
+    def driven(self, road: int) -> np.ndarray:
+        """The states on a road so far, (S + 1, vehicles, 10)."""
+        states = np.concatenate([part[road] for part in self.states[: self.decisions[road] + 1]])
+        return states[: len(states) - repeats(self.states[self.decisions[road]][road]) * bool(self.accidents[road])]
+
+    def rollouts(self, scenario: Scenario, label: str, seeds: Sequence[int]) -> list[Rollout]:
+        """The episodes so far, with what the rule would have done in the driver's place. seeds: of the roads."""
+        states = [self.driven(road) for road in range(len(seeds))]
+        decided = [each[:: scenario.clock.steps][:n] for each, n in zip(states, self.decisions, strict=True)]
+        by_rule = rule(np.concatenate(decided), scenario)
+        of_road = np.cumsum(self.decisions)[:-1]
+        each_rule = [np.split(values, of_road) for values in vars(by_rule).values()]
+        kept = {name: np.stack(getattr(self, name)) for name in ("observations", "actions", "rewards", "terms")}
+        kept |= {name: np.stack(getattr(self, name)) for name in ("policy", "q_values") if getattr(self, name)}
+        return [
+            Rollout(
+                scenario=scenario,
+                label=label,
+                seed=int(seed),
+                states=states[road],
+                accident=int(self.accidents[road]),
+                provenance=provenance(),
+                **{name: values[: n + (name == "observations"), road].copy() for name, values in kept.items()},
+                **{f"rule_{name}": values[road] for name, values in zip(vars(by_rule), each_rule, strict=True)},
+            )
+            for road, (seed, n) in enumerate(zip(seeds, self.decisions, strict=True))
+        ]
 
 
 def record(
@@ -72,23 +84,13 @@ def record(
     """
     seeds = [whole(seed, "seed") for seed in (seeds if np.iterable(seeds) else [seeds])]
     env = TrapVectorEnv(len(seeds), scenario, AutoresetMode.DISABLED, record=True)
-    recorders, accidents = [], np.zeros(len(seeds), dtype=np.int64)
+    recorder = None
     for step in steps(policy, env, seeds):
-        if not recorders:
-            recorders = [EpisodeRecorder(*start) for start in zip(step.cars, step.observations, strict=True)]
-        terms = np.stack([step.infos[name] for name in ("r_v", "r_y", "r_theta")], axis=1)
-        for road in map(int, np.flatnonzero(step.running)):
-            accidents[road] = step.infos["accident"][road]
-            states = driven(env.trace[road], accidents[road])
-            outcome = states, step.next_observations[road], step.rewards[road], terms[road]
-            recorders[road].add(step.output, *outcome, road)
-    each = zip(recorders, seeds, accidents, strict=True)
-    return [recorder.rollout(scenario, label, seed, int(accident)) for recorder, seed, accident in each]
+        recorder = recorder or EpisodeRecorder(step.cars, step.observations)
+        recorder.add(step.output, env, step.next_observations, step.rewards, step.infos, step.running)
+    return recorder.rollouts(scenario, label, seeds)
 
 
-def driven(trace: np.ndarray, accident: int) -> np.ndarray:
-    """A decision's trace (steps, vehicles, 10) without the repeated last states after an accident."""
-    if not accident:
-        return trace
-    repeats = [bool((trace[step] == trace[step - 1]).all()) for step in range(1, len(trace))]
-    return trace[: len(trace) - sum(repeats)]
+def repeats(trace: np.ndarray) -> int:
+    """How many states of a decision's trace (steps, vehicles, 10) repeat the one before: those after an accident."""
+    return int((trace[1:] == trace[:-1]).all(axis=(1, 2)).sum())

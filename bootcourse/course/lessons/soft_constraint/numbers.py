@@ -1,8 +1,10 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 import math
+import re
 from collections.abc import Callable
 
+from bootcourse.course.lessons.soft_constraint import explorable
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.panels.compromise import Ways
@@ -88,3 +90,10 @@ def accidents_of_the_panel(xi: float) -> list[str]:
     helped = shipped_agents("soft")[0]
     drive = record(helped.as_policy(with_q=True), [10])[0]
     return [name for name, way in Ways(drive, helped).at(0, 0.9, xi, 0.01).items() if way.accident]
+
+
+def thermostat_says(eta: float) -> str:
+    """What the panel says that ξ does with this target entropy."""
+    panel = explorable.thermostat()
+    panel.numbers["target"].value = eta
+    return re.search(r", ξ ([a-z ]+):", panel.svg.alt)[1]

@@ -30,7 +30,7 @@ def by_chance():
 
 
 def bearable(gamma: float) -> float:
-    """The share of crashes that lesson 1's table bears: on its road, like its plan, or a crash after 3 s."""
+    """The share of crashes that lesson 1 bears: on its road, like its plan, or a crash after 3 s."""
     crash = gamma ** np.arange(4) @ [*by_rule().rewards[:3], DEFAULT.reward.accident]
     stay, leave = discounted(idle(), gamma), discounted(the_trap.on_ten(), gamma)
     return float(bearable_risk.solution(stay, leave, crash))

@@ -15,7 +15,7 @@ AXES = Axes("faster than the car in the new lane by (m/s)", "gap (m)", (0.0, 35.
 
 
 def gap() -> Explorable:
-    """The gap that the rule wants over the closing speed, and the way on which the car brakes, while t_safe moves."""
+    """The gap that the rule wants over the closing speed, and the way in which the car brakes, while t_safe moves."""
     brakes = SPEEDS**2 / (2 * DEFAULT.ego.acceleration)
 
     def draw(t_safe: float) -> Drawing:
@@ -23,7 +23,7 @@ def gap() -> Explorable:
         safe = SPEEDS[np.maximum.accumulate(brakes > wanted) == 0][-1]
         named = {
             "the gap that the rule wants": Curve(wanted, style("rule").colour),
-            f"the way on which it brakes, at {DEFAULT.ego.acceleration:g} m/s²": Curve(brakes, ALARM, "--"),
+            f"the distance in which it brakes, at {DEFAULT.ego.acceleration:g} m/s²": Curve(brakes, ALARM, "--"),
         }
         says = f"t_safe = {t_safe:g} s: up to {safe:.1f} m/s the gap is long enough to brake in it."
         return curves(says, AXES, SPEEDS, named, mark=float(safe))

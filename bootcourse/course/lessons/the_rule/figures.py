@@ -1,4 +1,4 @@
-"""Figures of the rule: when it changes lane, its reasons, and why it is slow."""
+"""Figures of the rule: its speed, when it changes lane, and what its sight does."""
 
 from collections.abc import Sequence
 
@@ -9,11 +9,11 @@ from bootcourse.colours import ALARM, Style
 from bootcourse.course.charts import lines
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.episodes.words import sentence
+from bootcourse.episodes.words import overtaken
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import INK, QUIET, TEXT, finish, one_axes
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
-from bootcourse.rule import SENTENCES, Reason, safety_distance
+from bootcourse.rule import safety_distance
 
 
 def when_to_change(drive: Rollout) -> Figure:
@@ -46,28 +46,22 @@ def when_to_change(drive: Rollout) -> Figure:
     return figure
 
 
-def reasons_over_time(rollout: Rollout, title: str, enlarged: float = 15.0) -> Figure:
-    """What the rule gives as its reason at each decision; the first seconds are drawn wider than the others."""
-    rate, reasons = rollout.scenario.clock.decision_rate, rollout.rule_reasons
-    used = [Reason(reason) for reason in dict.fromkeys(reasons.tolist())]  # in the order in which they come
-    height = 0.3 * len(used)
-    figure = new_figure(height + 1.2)
-    for left, first, last, part, step in (
-        (2.45, 0, enlarged, f"the first {enlarged:g} s", 5),
-        (4.75, enlarged, rollout.times[-1], "the rest", 45),
-    ):
-        ax = axes_at(figure, left, 0.65, 2.1, height)
-        for row, reason in enumerate(used):
-            bars = [(k / rate, 1 / rate) for k in np.flatnonzero(reasons == reason)]
-            ax.broken_barh(bars, (row - 0.35, 0.7), color=style("rule").colour)
-        ax.set_yticks(range(len(used)), [sentence(SENTENCES[reason]) for reason in used] if first == 0 else [])
-        ax.set(xlim=(first, last), ylim=(len(used) - 0.5, -0.5))
-        plain_axes(ax, "", grid="x")
-        ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-        ax.set_xticks(np.arange(first, last + 1, step))
-        ax.set_xlabel(f"time (s): {part}", fontsize=TEXT, color=INK)
-    shares = ", ".join(f"{SENTENCES[r]} {np.mean(reasons == r):.0%}" for r in used)
-    return finish(figure, title, f"Share of the decisions: {shares}.")
+def speed_over_time(drive: Rollout, title: str) -> Figure:
+    """The rule's speed over a drive, with the traps' speed, and the time from which it is ahead of trap 1."""
+    ahead, traps = overtaken(drive), drive.states[0, TRAP_1, SPEED]
+    figure, ax = one_axes(2.4, title, "time (s)", "the rule's speed (m/s)")
+    ax.plot(drive.times, drive.states[:, EGO, SPEED], color=style("rule").colour, linewidth=1.8)
+    ax.axhline(traps, color=ALARM, linewidth=1, linestyle=(0, (4, 2)))
+    ax.axvline(ahead, color=QUIET, linewidth=1, linestyle=(0, (4, 2)))
+    ax.set(xlim=(0, drive.times[-1]), ylim=(7, 16), yticks=(8, 10, 12, 14))
+    ax.text(drive.times[-1], traps - 0.2, "the traps' speed", fontsize=TEXT, color=ALARM, ha="right", va="top")
+    ax.text(ahead + 1, 8.2, f"ahead of trap 1 after {ahead:.0f} s", fontsize=TEXT, color=QUIET, va="center")
+    speeds = drive.states[drive.times > ahead, EGO, SPEED]
+    return finish(
+        figure, title, f"It falls to {drive.states[:, EGO, SPEED].min():g} m/s behind the traps, which drive {traps:g} "
+        f"m/s. From {ahead:.0f} s on, ahead of trap 1, it rises and falls between {speeds.min():g} and "
+        f"{speeds.max():g} m/s, again and again.",
+    )  # fmt: skip
 
 
 def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure:
@@ -89,28 +83,3 @@ def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure
             ax.annotate(ends, (x, y), (10, -18), color=ALARM, **words)
     listed = (f"{x:g} m: {y:.0f}, {share:.0%}" for x, y, share in zip(sights, returns, crashed, strict=True))
     return finish(figure, title, f"Sight, return and share of roads with an accident: {'; '.join(listed)}.")
-
-
-def speed_and_distance(drive: Rollout, title: str, first: int = 30) -> Figure:
-    """From a second on: the rule's speed, and the next car ahead in its lane, with a line where its sight ends."""
-    sight, steps = drive.scenario.sight.distance, drive.scenario.clock.steps
-    states = drive.states[first * drive.scenario.clock.decision_rate * steps :: steps]
-    seconds, distances = first + np.arange(len(states)) / drive.scenario.clock.decision_rate, []
-    for cars in states:
-        ahead = cars[(cars[:, LANE] == cars[EGO, LANE]) & (cars[:, X] > cars[EGO, X]), X]
-        distances.append(ahead.min() - cars[EGO, X] if len(ahead) else np.nan)
-    figure, colour = new_figure(4.0), style("rule").colour
-    speed, distance = axes_at(figure, 0.6, 0.75, 6.2, 1.1), axes_at(figure, 0.6, 2.3, 6.2, 1.2)
-    for ax, label, values in (
-        (speed, "speed (m/s)", states[:, EGO, SPEED]),
-        (distance, "next car ahead (m)", distances),
-    ):
-        ax.plot(seconds, values, color=colour, linewidth=1.8)
-        plain_axes(ax, label)
-        ax.set_xlim(first, seconds[-1])
-    distance.set_ylim(0.93 * sight, 1.05 * sight)
-    distance.axhline(sight, color=QUIET, linewidth=1, linestyle=(0, (4, 2)))
-    distance.text(seconds[-1], 1.03 * sight, f"its sight ends, {sight:g} m", fontsize=TEXT, color=QUIET, ha="right")
-    distance.set_xlabel("time (s)", fontsize=TEXT, color=INK)
-    seen = np.nanmedian(distances)
-    return finish(figure, title, f"From {first} s on the next car is at a median distance of {seen:.0f} m.")

@@ -8,8 +8,8 @@ import numpy as np
 from bootcourse.course.lessons.the_rule.rules import ROADS, with_numbers
 from bootcourse.course.lessons.the_rule.rules import driven as driven
 from bootcourse.episodes.evaluate import Episodes, drive_episodes
-from bootcourse.episodes.record import record
-from bootcourse.policies import PolicyOutput, rule_policy
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.policies import PolicyOutput
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SETTLED as SETTLED
 from bootcourse.rule import Reason, rule
@@ -70,9 +70,17 @@ def first_changes(floor: float, sight: float = 20.0) -> tuple[np.ndarray, np.nda
     return completed, changes.any(0) & ~completed & (reasons[began + 1, roads] == Reason.FREE)
 
 
-@cache
 def apart() -> tuple[float, float]:
     """The smallest and the largest distance (m) from trap 2 to trap 1 at the start, over the lesson's roads."""
-    starts = [drive.states[0] for drive in record(rule_policy(DEFAULT), ROADS)]
-    distances = [cars[TRAP_1, X] - cars[TRAP_2, X] for cars in starts]
-    return min(distances), max(distances)
+    starts = decided(20.0)[2][0]
+    distances = starts[:, TRAP_1, X] - starts[:, TRAP_2, X]
+    return distances.min(), distances.max()
+
+
+def followed(drive: Rollout, first: int) -> np.ndarray:
+    """From a second on: how far ahead (m) the car is that the rule follows, at each decision to follow one."""
+    steps = drive.scenario.clock.steps
+    at = [k for k in range(first, len(drive.rule_reasons)) if drive.rule_reasons[k] == Reason.LEFTMOST]
+    cars = drive.states[np.array(at) * steps]
+    ahead = cars[..., X] - cars[:, [EGO], X]
+    return np.where((cars[..., LANE] == cars[:, [EGO], LANE]) & (ahead > 0), ahead, np.inf).min(axis=1)

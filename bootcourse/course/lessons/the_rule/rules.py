@@ -1,16 +1,16 @@
 """The rule with other numbers, on the lesson's roads: a sight (m), n speeds, t_safe (s), a floor (m)."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cache
 
 import numpy as np
 
 from bootcourse.course import table
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
-from bootcourse.episodes.record import record
-from bootcourse.episodes.words import overtaken
-from bootcourse.policies import rule_policy
+from bootcourse.policies import PolicyOutput, rule_policy
+from bootcourse.road.state import EGO, TRAP_1, X
+from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, Scenario
 
 ROADS = held_out_seeds(1, 200)
@@ -28,27 +28,27 @@ def driven(sight: float = DEFAULT.sight.distance, **numbers) -> Episodes:
     return drive_episodes(rule_policy(with_numbers(sight, **numbers)), ROADS)
 
 
-def ends(tried: Sequence[tuple[float, float, float]]):
-    """A table of how the drives end, for each sight, t_safe and floor."""
-    rows = []
-    for sight, t_safe, floor in tried:
-        drives = driven(sight, t_safe=t_safe, floor=floor)
-        out, crashed = drives.success.sum(), (drives.accident > 0).sum()
-        counts = f"{out}", f"{len(ROADS) - out - crashed}", f"{crashed}"
-        rows.append([f"{sight:g} m", f"{t_safe:g} s", f"{floor:g} m", *counts, f"{drives.returns.mean():.0f}"])
-    return table(["sight", "t_safe", "floor", "get out", "stay behind", "crash", "return"], rows)
+def timed(scenario: Scenario) -> tuple[Episodes, np.ndarray]:
+    """How the rule drives, and the decision (that is, the second) from which each drive that gets out is ahead."""
+    behind = []
+
+    def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        behind.append(cars[:, EGO, X] <= cars[:, TRAP_1, X])
+        return PolicyOutput(rule(cars, scenario).actions)
+
+    drives = drive_episodes(drive, ROADS, together=len(ROADS))
+    last = len(behind) - np.argmax(behind[::-1], axis=0)
+    return drives, last[drives.success]
 
 
 def ranked(rules: Mapping[str, Mapping[str, float]]):
     """A table of the rules with these numbers, the highest return first, with the time until they are ahead."""
     rows = []
     for name, numbers in rules.items():
-        drives = record(rule_policy(with_numbers(**numbers)), ROADS)
-        times = [time for time in map(overtaken, drives) if time is not None]
-        crashed = sum(drive.accident > 0 for drive in drives)
-        returned = np.mean([drive.rewards.sum() for drive in drives])
-        after = f"{np.median(times):.0f} s" if times else "–"
-        rows.append((returned, [name, f"{returned:.1f}", after, f"{len(times)}", f"{crashed}"]))
+        drives, times = timed(with_numbers(**numbers))
+        after = f"{np.median(times):.0f} s" if len(times) else "–"
+        counts = f"{drives.success.sum()}", f"{(drives.accident > 0).sum()}"
+        rows.append((drives.returns.mean(), [name, f"{drives.returns.mean():.1f}", after, *counts]))
     ordered = [row for _, row in sorted(rows, key=lambda row: -row[0])]
     columns = ["", "return", "ahead of trap 1 after", "get out, of 200", "crash"]
     return table(columns, ordered, below="The time is the median of the drives that get out.")

@@ -18,7 +18,7 @@
 # - test a printed condition by one example with numbers;
 # - find out by experiments why the rule is slow, and what makes it crash.
 #
-# **Time** 50 minutes. **It builds on** [lesson [[the_trap]]](the_trap.ipynb).
+# **Time** 45 minutes. **It builds on** [lesson [[the_trap]]](the_trap.ipynb).
 
 # %%
 import bootcourse as bc
@@ -49,28 +49,24 @@ drive = bc.record(bc.rule_policy(bc.DEFAULT), [ROAD], label="rule")[0]
 bc.recording([shipped.beginning(drive, 60)], height=360)
 
 # %%
-title = "The rule falls back, changes lane behind the traps, and then follows the traffic"
-bc.show(figures.reasons_over_time(drive, title))
+title = "The rule falls back, gets out, and then slows down again and again"
+bc.show(figures.speed_over_time(drive, title))
 
 # %% [markdown]
-# How slow does it drive, and when does it change lane?
+# How slow must it be behind the traps? When does it change lane? And why does it slow down later, on
+# a road that looks empty?
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Play the first ten seconds, and read the ten reasons aloud, one by one.
 
 # %% [markdown]
-# ## Round 1: how fast?
+# ## Round 1: how slow must it be?
 #
-# The **target speed** is the fastest of five speeds that is *slower* than both cars ahead: the one
-# in the rule's own lane, and the one in the lane that it wants. The five (§) lie evenly between {{
-# DEFAULT.rule.v_min | g }} and {{ DEFAULT.rule.v_max | g }} m/s. A § marks a choice of this course.
+# The rule has five speeds: 6, 8.25, 10.5, 12.75 and 15 m/s (§, a choice of this course). Its **target
+# speed** is the fastest of them that is *slower* than both cars ahead: the one in its own lane, and
+# the one in the lane that it wants. Behind the traps, which drive 10 m/s, this is 8.25 m/s.
+# <!-- claim: (np.linspace(DEFAULT.rule.v_min, DEFAULT.rule.v_max, 5) == [6, 8.25, 10.5, 12.75, 15]).all() -->
 #
-# > **Predict.** Both traps drive 10 m/s. Which of the five speeds does it take?
-
-# %%
-predict("the_rule.1", "Which of the five speeds does it take behind the traps?", unit="m/s")
-
-# %% [markdown]
 # **Exercise (6 min, ●○○).** Write the target speed. If none of the speeds is slower, take the
 # slowest.
 
@@ -88,8 +84,20 @@ def target_speed(v_current, v_new, v_min, v_max, n):
 check.target_speed(target_speed)
 
 # %% [markdown]
-# As a formula, $v_\text{target} = \max\{ v_i : v_i < \min(v_\text{current}, v_\text{new}) \}$. Now
-# give the rule another number of speeds, and let it drive 200 roads.
+# As a formula, $v_\text{target} = \max\{ v_i : v_i < \min(v_\text{current}, v_\text{new}) \}$.
+#
+# The **tracker** (`bootcourse.rule.track`, §) turns the target into actions. It ignores a difference
+# of {{ DEFAULT.ego.acceleration / 2 | g }} m/s or less, its *dead band*. That is why the picture
+# shows 8 m/s, not 8.25.
+# <!-- claim: np.isclose(by_rule().states[6:13, EGO, SPEED], 8).all() -->
+#
+# > **Predict.** The rule and both traps start at 10 m/s. Give the rule another number of speeds,
+# > evenly from 6 to 15 m/s. With which of these numbers does it stay behind?
+# <!-- claim: (by_rule().states[0, [EGO, TRAP_1, TRAP_2], SPEED] == 10).all() -->
+
+# %%
+choices = ["2 speeds", "6 speeds", "10 speeds", "none of these"]
+predict("the_rule.1", "With how many speeds does the rule stay behind?", choices)
 
 # %%
 predicted("the_rule.1")
@@ -101,16 +109,14 @@ below = "It gets out if it ends ahead of trap 1."
 table(["speeds", "target behind the traps", "gets out, of 200 roads"], rows, below=below)
 
 # %% [markdown]
-# **Explain.** With five speeds the rule drives slower than both traps, so the gap to them grows.
-# With six the target is slower, too, but all start at 10 m/s, and the **tracker** (§), which turns
-# the target into actions, ignores a difference of {{ DEFAULT.ego.acceleration / 2 | g }} m/s or
-# less. This *dead band* keeps the car at the traps' speed.
-# <!-- claim: (by_rule().states[0, [EGO, TRAP_1, TRAP_2], SPEED] == 10).all() -->
-# <!-- claim: not driven(n=6).success.any() and driven(n=5).success.all() -->
+# **Explain.** Six speeds are worse than two. Their target is only 0.4 m/s below the traps' speed, and
+# the tracker ignores that: the car stays at 10 m/s, and the gap does not grow.
+# <!-- claim: not driven(n=6).success.any() and driven(n=5).success.all() and driven(n=2).success.all() -->
+# <!-- claim: np.isclose(10 - target_speed(10.0, 10.0, 6.0, 15.0, 6), 0.4) -->
 # <!-- claim: 10 - target_speed(10.0, 10.0, 6.0, 15.0, 6) < DEFAULT.ego.acceleration / 2 <
 #   10 - target_speed(10.0, 10.0, 6.0, 15.0, 5) -->
 
-# %% [markdown] tags=["instructor"] minutes=5
+# %% [markdown] tags=["instructor"] minutes=4
 # Somebody will ask why not one speed just below the traps'. Five speeds are easy to explain and
 # to defend, and good enough to escape: that is how rules are made.
 
@@ -119,14 +125,13 @@ table(["speeds", "target behind the traps", "gets out, of 200 roads"], rows, bel
 #
 # Suppose that the car ahead in the new lane is slower than you. The rule wants a gap that lasts
 # t_safe seconds at this difference in speed, and never less than {{ DEFAULT.rule.floor | g }} m,
-# its *floor* (§). **Drag** t_safe: up to which difference in speed is that gap long enough to brake in?
+# its *floor* (§). The paper leaves t_safe open; we take {{ DEFAULT.rule.t_safe }} s (§). **Drag** it:
+# up to which difference in speed can the car brake within that gap?
 
 # %%
 explorable.gap()
 
 # %% [markdown]
-# The paper leaves t_safe open. We take {{ DEFAULT.rule.t_safe }} s (§).
-#
 # **Exercise (5 min, ●○○).** Write this gap, the **safety distance** $d_s$. It looks at the slower
 # of the two cars ahead.
 
@@ -144,10 +149,9 @@ check.safety_distance(safety_distance)
 
 # %% [markdown]
 # The paper has no floor: $d_s = (v_e - \min\{v_\text{current}, v_\text{new}\})\, t_\text{safe}$,
-# where $v_e$ is your speed. With Δx, the distances to the two cars ahead from centre to centre, its
-# Equation 13 is $d_{13} = d_s + \Delta x_\text{current} - \Delta x_\text{new}$. As we read Algorithm
-# 1, it changes lane when $d_{13} - \Delta x_\text{current} > 0$. So $\Delta x_\text{current}$ drops
-# out:
+# where $v_e$ is your speed. As we read its Equation 13 and Algorithm 1, it changes lane when $d_s +
+# \Delta x_\text{current} - \Delta x_\text{new} - \Delta x_\text{current} > 0$, with Δx the distances
+# to the two cars ahead, from centre to centre. So $\Delta x_\text{current}$ drops out:
 #
 # $$ (v_e - \min\{v_\text{current}, v_\text{new}\})\, t_\text{safe} > \Delta x_\text{new}. $$
 #
@@ -163,13 +167,11 @@ predicted("the_rule.2")
 bc.show(figures.when_to_change(drive))
 
 # %% [markdown]
-# **Explain.** While you are slower, the left side is negative. The condition would be true when you
-# close in fast on a near car, which is when a lane change is dangerous. So we take its sign for a
-# misprint. Turn it, and the condition is true at once, with trap 2 still beside you: Δx counts from
-# centre to centre. So our rule changes lane when the gap *from bumper to bumper* is **longer** than
-# the safety distance, and this has a floor.
+# **Explain.** While you are slower, the left side is negative. The printed condition would be true
+# when you close in fast on a near car, which is when a lane change is dangerous. So we take its sign
+# for a misprint. Our rule changes lane when the gap, *from bumper to bumper*, is **longer** than the
+# safety distance.
 # <!-- claim: (8.25 - 10) * DEFAULT.rule.t_safe < 0 < 12 -->
-# <!-- claim: (8.25 - 10) * DEFAULT.rule.t_safe < by_rule().states[0, TRAP_2, X] < DEFAULT.car.length -->
 #
 # Behind you, the roles change: the gap to the follower in the new lane must be longer than what
 # *it* closes in during t_safe, and longer than the floor.
@@ -189,7 +191,7 @@ def room_to_change(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor)
 
 check.room_to_change(room_to_change)
 
-# %% [markdown] tags=["instructor"] minutes=8
+# %% [markdown] tags=["instructor"] minutes=7
 # Do the misprint on the board: write $d_{13} - \Delta x_\text{current} > 0$ with the printed
 # $d_{13}$, and let them cancel $\Delta x_\text{current}$. Then ask what a reviewer could have done
 # to notice. (Work one example.)
@@ -203,10 +205,8 @@ check.room_to_change(room_to_change)
 # 4. a car behind in the new lane is too close: wait;
 # 5. else: change to the lane on the left.
 #
-# The tracker steers. Steering turns the car's heading, and the heading moves it sideways. So the
-# tracker tries all sequences of left, straight and right for three seconds, does the *first step* of
-# the one that stays closest to the middle of the wanted lane and straightest, and begins again: *model
-# predictive control*.
+# The tracker steers by *model predictive control*: it tries all sequences of left, straight and right
+# for three seconds on a model of the car, does the *first step* of the best, and begins again.
 #
 # <details><summary>How the car moves, in four equations</summary>
 #
@@ -221,38 +221,20 @@ check.room_to_change(room_to_change)
 #   1e-3 * 2 * 8 / 5 * np.sin(np.arctan(np.tan(0.2) / 2))) -->
 
 # %% [markdown]
-# ## Round 3: why is it slow?
+# ## Round 3: how far should it see?
 #
-# Now the rule drives 1,000 roads on which no agent was trained.
-
-# %%
-drives = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 1000))
-free = 150 * bc.formulas.weighted_reward(1.0, 1.0, 0.0, 1.5, 0.05, 0.05)
-rows = [["drives that get out", f"{drives.success.sum():,}"]]
-rows.append(["drives with an accident", f"{(drives.accident > 0).sum()}"])
-rows.append(["mean return", f"{drives.returns.mean():.0f}"])
-rows.append(["what 150 s at 15 m/s on a free road pay", f"{free:.0f}"])
-table(["the rule, 1,000 roads", ""], rows)
-
-# %% [markdown]
-# **See.** The rule gets out on each road without an accident, and earns about a third of what a
-# free road pays. Why so little? The rest of its drive on road {{ ROAD }}:
+# On {{ roads() | , }} roads the rule gets out each time without an accident, and earns about a third
+# of what a free road pays. Look at the picture at the top again: what slows it down there? A car of
+# its lane comes into **sight**, {{ DEFAULT.sight.distance | g }} m ahead. The rule slows down below
+# that car's speed, loses sight of it, and accelerates. With a shorter sight it would slow down later.
 # <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 -->
 # <!-- claim: 0.3 < of('rule').scores('returns').mean() / (150 * second_pays(15)) < 0.37 -->
-
-# %%
-title = "Each time a car comes into sight, the rule slows down"
-bc.show(figures.speed_and_distance(drive, title))
-
-# %% [markdown]
-# **See.** A car of the left lane comes into **sight**, {{ DEFAULT.sight.distance | g }} m away. The
-# rule slows down below that car's speed, loses sight of it and accelerates, and the cycle repeats.
-# With a shorter sight it would slow down later.
+# <!-- claim: 190 < followed(by_rule(), 35).min() and followed(by_rule(), 35).max() <= 200 -->
 #
-# > **Predict.** A lane change needs trap 2 more than
+# > **Predict.** A lane change begins when trap 2 is more than
 # > {{ DEFAULT.car.length + DEFAULT.rule.floor | g }} m ahead. Trap 1 is {{ apart()[0] | .0f }} to
-# > {{ apart()[1] | .0f }} m farther. When it is out of sight, the rule speeds up. Which is
-# > the shortest sight without an accident, with this floor?
+# > {{ apart()[1] | .0f }} m farther. When it is out of sight, the rule stays in its lane and speeds
+# > up. Which is the shortest sight without an accident?
 
 # %%
 choices = ["150 m", "100 m", "50 m", "30 m", "20 m"]
@@ -260,79 +242,64 @@ predict("the_rule.3", "What is the shortest sight without an accident?", choices
 
 # %% tags=["hide-input"]
 predicted("the_rule.3")
-sights = [20, 30, 50, 70, 100, 150, 200]
+sights = [20, 30, 50, 100, 150, 200]
 by_sight = [rules.driven(sight) for sight in sights]
 safe = [s for s, each in zip(sights, by_sight, strict=True) if not each.accident.any()]
 bc.show(figures.against_sight(sights, by_sight))
 
 # %% [markdown]
-# **Explain.** The sight of {{ DEFAULT.sight.distance | g }} m is our choice (§), and we keep it:
-# such a teacher, without accidents but **sub-optimal**, is what the paper is about. But remember:
-# **with a sight of 30 m the rule earns {{ rule_seeing(30.0).returns.mean() | .0f }} on the same {{
-# roads() | , }} roads, and gets out on each without an accident**. (Most of this gain is a gift of
-# the drivers ahead, who make way: see the end.) A later lesson that says "earns more than the rule"
-# compares with the rule that *we* made slow.
+# **Explain.** We keep the sight of {{ DEFAULT.sight.distance | g }} m (§): a teacher without
+# accidents but **sub-optimal** is what the paper is about. But remember: **with a sight of 30 m the
+# rule earns {{ rule_seeing(30.0).returns.mean() | .0f }} on the same {{ roads() | , }} roads, and
+# gets out on each without an accident**. (Most of this gain is a gift of the drivers ahead, who make
+# way: see the end.) A later lesson that says "earns more than the rule" means the rule that *we* made
+# slow.
 # <!-- claim: rule_seeing(30.0).success.all() and not rule_seeing(30.0).accident.any() -->
 # <!-- claim: rule_seeing(30.0).returns.mean() > 2 * of('rule').scores('returns').mean() -->
 # <!-- claim: driven(20.0).accident.any() and not driven(30.0).accident.any() -->
 #
-# **Try.** Write a better rule: change `mine`, and look where it ranks.
-
-# %%
-mine = {"sight": 30, "n": 10, "t_safe": 1.5, "floor": 3}
-rules.ranked({"the rule": {}, "a sight of 30 m": {"sight": 30}, "yours": mine})
-
-# %% [markdown] tags=["instructor"] minutes=7
-# Let the room find the cause before you scroll to the sights: each group gets one candidate,
-# changes one number of `mine`, and reports a return. Somebody will propose to change two numbers at
-# once. Say why not.
-
-# %% [markdown]
-# ## Round 4: what makes it crash?
-#
-# With a sight of 20 m some drives crash. Can the two safety numbers prevent it?
-#
-# > **Predict.** At 20 m and t_safe = 1.5 s, with which floor do most drives get out? Is trap 1
-# > still in sight when the lane change *ends*? If it is not, case 1 applies: the rule calls the
-# > change off and speeds up.
-
-# %%
-predict("the_rule.4", "With which floor do most drives get out?", ["0.5 m", "3 m", "6 m"])
-
-# %%
-predicted("the_rule.4")
-far = [(200, 1.5, 3), (200, 2, 0.5)]  # sight, t_safe, floor
-near = [(20, 1.5, 3), (20, 2, 3), (20, 1.5, 6), (20, 1.5, 0.5)]
-rules.ends(far + near)
-
-# %% [markdown]
-# **Explain.** At 200 m both settings drive alike. At 20 m the floor decides when the change begins.
-# With 6 m trap 1 is on most roads out of sight before there is room. With 3 m {{
-# begun_in_sight(3.0) }} drives begin in time, but a second later {{ first_changes(3.0)[1].sum() }}
-# have lost trap 1: they call the change off and speed up. All that crash are among these: they
-# change lane later, {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster than trap 2, and
-# t_safe = 1.5 s leaves just the gap to brake in, nothing to spare. With 2 s none crashes. With 0.5
-# m each drive completes its first change. *The floor is meant for safety; at this sight drives
-# crash with 3 m, not with 0.5 m.*
-# <!-- claim: begun_in_sight(6.0) < 60 and begun_in_sight(0.5) == 200 == first_changes(0.5)[0].sum() -->
-# <!-- claim: first_changes(3.0)[1][driven(20.0).accident > 0].all() and
-#   first_changes(3.0)[0].sum() + first_changes(3.0)[1].sum() == begun_in_sight(3.0) -->
-# <!-- claim: not driven(20.0, t_safe=2.0).accident.any() -->
-# <!-- claim: np.ptp([driven(200.0, floor=f).returns.mean() for f in (0.5, 3.0, 6.0)]) < 1 -->
-# <!-- claim: len(by_the_formula(200.0).speeds) == 0 and
-#   all((driven(200.0, t_safe=t).returns == driven(200.0).returns).all() for t in (0.5, 4.0)) -->
+# At 20 m t_safe begins to matter. Each drive that crashes lost trap 1 from sight during its first
+# lane change, called the change off, and sped up. Later it changes lane
+# {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster than trap 2. The panel of round 2 says
+# that t_safe = 1.5 s leaves just the gap to brake in, nothing to spare. At 200 m the floor decides
+# when to change lane, and t_safe changes nothing.
+# <!-- claim: first_changes(3.0)[1][driven(20.0).accident > 0].all() -->
 # <!-- claim: by_the_formula(20.0).crashed == (driven(20.0).accident > 0).sum() -->
 # <!-- claim: (abs(by_the_formula(20.0).faster - 3) < 0.1).all() -->
 # <!-- claim: 3.0 ** 2 / 2 / DEFAULT.ego.acceleration == DEFAULT.rule.t_safe * 3.0 -->
+# <!-- claim: len(by_the_formula(200.0).speeds) == 0 and
+#   all((driven(200.0, t_safe=t).returns == driven(200.0).returns).all() for t in (0.5, 4.0)) -->
+#
+# **Try.** Change `mine`, and look where your rule ranks. First keep the sight of 20 m, and
+# change *one* other number so that all {{ len(ROADS) }} drives get out. Then try to be first.
+
+# %%
+mine = {"sight": 20, "t_safe": 1.5, "floor": 3, "n": 5}
+others = {"the rule": {}, "30 m": {"sight": 30}, "20 m, t_safe = 2 s": {"sight": 20, "t_safe": 2}}
+rules.ranked({**others, "yours": mine})
+
+# %% [markdown]
+# <details><summary>One answer</summary>
+#
+# A *smaller* floor. With 0.5 m each drive begins its lane change while trap 1 is in sight, and
+# completes it. The floor is meant for safety; at this sight drives crash with 3 m, not with 0.5 m.
+#
+# </details>
+# <!-- claim: begun_in_sight(0.5) == 200 == first_changes(0.5)[0].sum() -->
+# <!-- claim: not driven(20.0, t_safe=2.0).accident.any() -->
 # <!-- claim: driven(20.0, floor=0.5).success.all() and
 #   not driven(20.0, floor=0.5).accident.any() -->
-# <!-- claim: max(driven(20.0, floor=f).success.mean() for f in (3.0, 6.0)) < 0.5 -->
-#
-# ### A rule that errs
+
+# %% [markdown] tags=["instructor"] minutes=7
+# Let each group change one number of `mine`, and report how its drives end. Somebody will propose to
+# change two numbers at once. Say why not.
+
+# %% [markdown]
+# ## Round 4: what if it errs?
 #
 # In lesson [[soft_constraint]] a learner is pulled towards the rule. For that each action needs a
-# probability above 0. So we let it err: it takes its own action with probability $p$ and each of
-# the other eight with probability $(1-p)/8$. This is the **stochastic rule**, $\tilde\pi$ ("pi
+# probability above 0. So we let the rule err: it takes its own action with probability $p$ and each
+# of the other eight with probability $(1-p)/8$. This is the **stochastic rule**, $\tilde\pi$ ("pi
 # tilde").
 # <!-- claim: N_ACTIONS - 1 == 8 -->
 #
@@ -342,12 +309,12 @@ rules.ends(far + near)
 
 # %%
 choices = ["about 95 %", "about 50 %", "about 10 %"]
-predict("the_rule.5", "In what share of the drives does it have no accident?", choices)
+predict("the_rule.4", "In what share of the drives does it have no accident?", choices)
 
 # %%
-predicted("the_rule.5")
+predicted("the_rule.4")
 rows = []
-for p in (0.5, 0.9, 0.99, 0.999):
+for p in (0.9, 0.99, 0.999):
     driver = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0), p)
     ends = bc.drive_episodes(driver, bc.held_out_seeds(2, 1000)).accident
     kinds = bc.Accident.NONE, bc.Accident.ROAD_DEPARTURE, bc.Accident.COLLISION
@@ -355,11 +322,11 @@ for p in (0.5, 0.9, 0.99, 0.999):
 table(["p, 1,000 roads each", "no accident", "leaves the road", "collides"], rows)
 
 # %% [markdown]
-# **Explain.** At p = 0.9 most drives leave the road. We let the rule itself drive most
-# demonstrations (lesson [[demonstrations]] tests this choice); $\tilde\pi$ is what the learner is
-# compared with.
+# **Explain.** Even with p = 0.99 about every fifth drive ends in an accident. So we let the rule
+# itself drive most demonstrations (lesson [[demonstrations]] tests this choice); $\tilde\pi$ is what
+# the learner is compared with.
 
-# %% [markdown] tags=["instructor"] minutes=5
+# %% [markdown] tags=["instructor"] minutes=4
 # Ask what a stochastic rule is good for if it drives so badly. (It does not have to drive: it gives
 # each action a probability, so that a policy can be compared with it. Lesson [[soft_constraint]].)
 
@@ -367,11 +334,10 @@ table(["p, 1,000 roads each", "no accident", "leaves the road", "collides"], row
 compare_predictions(
     "the_rule",
     {
-        1: drive.rule_speeds[0],
+        1: "6 speeds",
         2: "false as long as you are slower",
         3: f"{min(safe)} m",
-        4: "0.5 m",
-        5: "about 10 %",
+        4: "about 10 %",
     },
 )
 
@@ -379,17 +345,15 @@ compare_predictions(
 # ## What you now know
 #
 # 1. The rule is two formulas, five cases for the lane, and a tracker with a dead band.
-# 2. It drives slower than both traps until the gap is longer than the safety distance. The printed
-#    condition is false while the car is slower than the traps.
-# 3. The rule gets out on each of {{ roads() | , }} roads without an accident, and earns about a
-#    third of what a free road pays. Its sight of {{ DEFAULT.sight.distance | g }} m makes it slow:
-#    with 30 m it earns more than twice as much, without an accident.
-# <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 and
-#   0.3 < of('rule').scores('returns').mean() / (150 * second_pays(15)) < 0.37 -->
-# 4. With a sight of 20 m a floor of 3 m is worse than 0.5 m: most drives lose trap 1 from sight, and
-#    some of these crash.
-# 5. The stochastic rule gives each action a probability above 0, so a learner's can be compared.
-#    With p = 0.9 it has an accident in most drives.
+# 2. It falls back until the gap is longer than the safety distance. The printed condition is false
+#    while the car is slower than the traps.
+# 3. Its sight of {{ DEFAULT.sight.distance | g }} m makes it slow: with 30 m it earns more than twice
+#    as much, and neither has an accident on {{ roads() | , }} roads.
+# <!-- claim: accidents('rule') == 0 and not rule_seeing(30.0).accident.any() -->
+# 4. With 20 m some drives crash: they lose trap 1 from sight, speed up, and change lane faster than
+#    trap 2. With t_safe = 2 s none does.
+# 5. The stochastic rule gives each action a probability above 0. With p = 0.9 it has an accident in
+#    most drives.
 #
 # **Three questions to think about**
 # - How would you choose the sight for a car that carries people?
@@ -402,10 +366,10 @@ compare_predictions(
 # safety distance that grows with speed: Gipps, *A behavioural car-following model for computer
 # simulation* (1981).
 
-# %% [markdown] tags=["instructor"] minutes=5
+# %% [markdown] tags=["instructor"] minutes=3
 # *Model answers to the three questions:*
 #
-# - **The sight.** Not from this table. Zero accidents on 200 roads are compatible with a rate of up
+# - **The sight.** Not from this figure. Zero accidents on 200 roads are compatible with a rate of up
 #   to {{ 100 * (1 - 0.05 ** (1 / 200)) | .1f }} % (95 % confidence). Compute first
 #   how far it must see: at {{ DEFAULT.ego.acceleration | g }} m/s² it needs
 #   {{ (15 - 5) ** 2 / 2 / DEFAULT.ego.acceleration | .0f }} m to slow down from 15 m/s to a car at

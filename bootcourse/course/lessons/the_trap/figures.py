@@ -1,37 +1,23 @@
-"""Figures and tables of the trap: where each action leads, what pays, what an agent sees, how drives end."""
+"""Figures of the trap: where each action leads, what pays, how agents drive after training, which risk is bearable."""
+
+from functools import partial
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import OTHER
-from bootcourse.course import table
+from bootcourse.colours import ALARM, OTHER
 from bootcourse.episodes.evaluate import Episodes
-from bootcourse.episodes.rollout import Rollout
-from bootcourse.episodes.words import overtaken
 from bootcourse.methods import METHODS, style
 from bootcourse.plots.canvas import MplAxes
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, new_figure, one_axes
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, in_front, new_figure, one_axes
 from bootcourse.plots.road import draw_car, draw_road, edges_of
-from bootcourse.plots.top_view import top_view_over_time
-from bootcourse.research import report, tables
+from bootcourse.research import report
 from bootcourse.research.results import Results
-from bootcourse.road import observation
 from bootcourse.road.formulas import bicycle_step, speed_reward
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
+from bootcourse.statistics import ESCAPES
 
 RIGHT_FIRST = ("keep right", ("keep left", 4), ("keep right", 3))  # the quick way out on road 10, then accelerate
-MEANS = {  # an observation's numbers, of the ego and of another car
-    "presence": "1 for a car that is there",
-    "x": "place along the road",
-    "y": "place across the road, to the right; 0 is the middle of the left lane",
-    "v_lon": "speed along the road",
-    "v_lat": "speed to the right",
-    "d_e": "how far it is off the middle of its lane",
-    "dx": "how far it is ahead of the ego",
-    "dy": "how far it is to the right of the ego",
-    "dv_lon": "how much faster it is than the ego",
-    "dv_lat": "the same to the right",
-}
 SHADES = ("#8A939B", INK, "#5F6B77")  # brake, keep, accelerate
 
 
@@ -95,32 +81,26 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
     return finish(figure, f"In {seconds} s steering moves the car {least:.1f} to {most:.1f} m sideways", alt)
 
 
-def running_lead(lead: np.ndarray, behind: int) -> Figure:
-    """What the escape has earned so far, less what doing nothing has: (seconds,). behind: its last second below 0."""
-    seconds, best = np.arange(1, len(lead) + 1), lead[-1]
-    title = f"The rule's way out is behind for {behind} s, and {best:.0f} ahead in the end"
-    figure, ax = one_axes(3.4, title, "time (s)", "lead of the rule's way out (reward so far)")
-    look = style("rule")
-    ax.axhline(0, color=QUIET, linewidth=1)
-    ax.plot(seconds, lead, color=look.colour, linewidth=2)
-    ax.plot(behind, lead[behind - 1], "o", color=INK)
-    ax.annotate(f"still behind after {behind} s", (behind, 0), xytext=(-2, 6), textcoords="offset points",
-                ha="right", fontsize=TEXT, color=INK)  # fmt: skip
-    ax.text(92, 6, "it rises where the rule drives at 13 to 15 m/s", fontsize=SMALL, color=QUIET)
-    ax.text(148, 0.3, "doing nothing", ha="right", va="bottom", fontsize=SMALL, color=QUIET)
-    ax.set_xlim(0, len(lead))
-    near = ax.inset_axes((0.08, 0.5, 0.4, 0.42))
-    near.axhline(0, color=QUIET, linewidth=1)
-    near.plot(seconds[:50], lead[:50], color=look.colour, linewidth=2)
-    near.fill_between(seconds[:50], np.minimum(lead[:50], 0), 0, color=look.colour, alpha=0.25)
-    near.set_title("the first 50 s", fontsize=SMALL, color=INK)
-    near.set(xlim=(0, 50))
-    near.tick_params(labelsize=SMALL, labelcolor=QUIET, length=3)
-    alt = (
-        "The reward so far of the rule's way out, less that of doing nothing, over 150 s: below zero until second "
-        f"{behind}, at least {lead.min():.1f}, then rising in steps to {best:.1f}."
-    )
-    return finish(figure, title, alt)
+def bearable_risks(gammas: np.ndarray, risks: np.ndarray, crashes: float) -> Figure:
+    """The share of crashes that the rule's way and the plan bear at each γ, (gammas, 2); crashes: the plan's own."""
+    at = {gamma: 100 * risks[np.argmin(abs(gammas - gamma))] for gamma in (0.8, 0.95, 1.0)}
+    title = f"At γ = 0.8 the plan may crash in {at[0.8][1]:.0f} % of its attempts, and crashes in {100 * crashes:.0f} %"
+    figure, ax = one_axes(3.6, title, "γ, what a reward a second later is worth", "bearable risk of a crash (%)")
+    ax.axhline(100 * crashes, color=ALARM, linewidth=1.2, linestyle="--")
+    ax.text(0.702, 100 * crashes + 1.5, "so often the plan crashes, on 1,000 roads", fontsize=TEXT, color=ALARM)
+    ways = (("the rule's way", style("rule").colour, (0.928, 4)), ("the plan", INK, (0.93, 48)))
+    for (name, colour, place), risk in zip(ways, 100 * risks.T, strict=True):
+        ax.plot(gammas, risk, color=colour, linewidth=2, clip_on=False)
+        ax.text(*place, name, ha="right", fontsize=TEXT, color=colour)
+        for gamma in at:
+            value = risk[np.argmin(abs(gammas - gamma))]
+            ax.plot(gamma, value, "o", color=colour, markersize=5, clip_on=False)
+            if value > 0:
+                ax.annotate(f"{value:.0f} %", (gamma, value), xytext=(-6, 4), textcoords="offset points", ha="right",
+                            fontsize=TEXT, color=colour)  # fmt: skip
+    ax.set(xlim=(gammas[0], gammas[-1]), ylim=(0, 85))
+    each = [f"at γ = {gamma:g} the rule's way {a:.0f} %, the plan {b:.0f} %" for gamma, (a, b) in at.items()]
+    return finish(figure, title, f"The bearable risk of a crash grows with γ, {'; '.join(each)}.")
 
 
 def path_of(decoded: np.ndarray, seconds: int, scenario: Scenario = DEFAULT) -> np.ndarray:
@@ -133,40 +113,36 @@ def path_of(decoded: np.ndarray, seconds: int, scenario: Scenario = DEFAULT) -> 
     return np.array(places)
 
 
-def ending(drive: Rollout, who: str) -> Figure:
-    """A drive from above, at its start, after 3 s and where it passes trap 1 or ends; its title says how it ends."""
-    passed, crash = overtaken(drive), f"crashes after {drive.times[-1]:.0f} s"
-    end = f"is ahead of trap 1 after {passed:.0f} s" if passed else "stays behind"
-    end = (f"{end} and {crash}" if passed else crash) if drive.accident else end
-    return top_view_over_time(drive, times=[0, 3, passed or drive.times[-1]], title=f"{who}, it {end}")
-
-
-def observed(seen: np.ndarray, first: int):
-    """A table of the first numbers of an observation, and what they are."""
-    each = zip(observation.names(DEFAULT)[:first], seen, observation.scales(DEFAULT), strict=False)
-    rows = [
-        [f"`{name}`", f"{number:.3f}", f"{number * scale:.2f}", MEANS[name.removeprefix("car 1 ")]]
-        for name, number, scale in each
-    ]
-    return table(["number", "observed", "in m, m/s", "what it is"], rows, f"(the first {first} of {len(seen)})")
-
-
-def who_escapes(study: Results, plan: Episodes):
-    """A table of the study's agents without and with help, of the rule, and of a plan, on the same roads."""
-    rows = []
+def what_they_learned(study: Results, plan: Episodes) -> Figure:
+    """Each of the study's agents, without and with help, the rule, and a plan: return against accidents, same roads."""
+    title = f"Of plain SAC's ten agents most stay, and {study.escapers('sac')} escapes; "
+    title += f"with the rule's help {study.escapers('bootstrapped')} escape"
+    figure, ax = one_axes(4.2, title, "drives with an accident (%)", "return, the mean of 1,000 roads")
+    listed = []
     for method in ("sac", "bootstrapped"):
-        of = study.of(method)
-        each = " ".join(f"{earned:.0f}" for earned in sorted(of.scores("returns")))
-        rows.append([METHODS[method].name, f"{tables.escaped(study, method)} escape", each, share(of, "accident")])
+        of, colour = study.of(method), style(method).colour
+        crashes, earned = 100 * of.scores("accident"), of.scores("returns")
+        inside = np.where(of.scores("success") >= ESCAPES, colour, "white")
+        look = {"edgecolors": colour, "linewidths": 1.4, "zorder": in_front(method), "clip_on": False}
+        ax.scatter(crashes, earned, 42, inside, **look)
+        each = ", ".join(
+            f"{r:.0f} ({c:.0f} %)" for c, r in sorted(zip(crashes, earned, strict=True), key=lambda x: x[1])
+        )
+        listed.append(f"{METHODS[method].name} {each}")
     rule = report.rule_results(DEFAULT, study.sizes[0])
-    ahead = f"success on {share(rule, 'success')}"
-    rows.append(["the rule", ahead, f"{rule.episodes('returns').mean():.0f}", share(rule, "accident")])
-    crashes = f"{100 * (plan.accident > 0).mean():.0f} %"
-    ahead = f"success on {100 * plan.success.mean():.0f} %"
-    rows.append(["the plan of Round 1", ahead, f"{plan.returns.mean():.0f}", crashes])
-    return table(["", "who gets out", "return, of each agent", "drives with an accident"], rows)
-
-
-def share(of: Results, measure: str) -> str:
-    """In per cent, of all drives."""
-    return f"{100 * (of.episodes(measure) > 0).mean():.0f} %"
+    drivers = (("the rule", rule.episodes, style("rule").colour), ("the plan of Round 1", partial(getattr, plan), INK))
+    for name, of, colour in drivers:
+        crash, earned = 100 * (of("accident") > 0).mean(), of("returns").mean()
+        ax.plot(crash, earned, "s", color=colour, markersize=7, zorder=4, clip_on=False)
+        ax.annotate(name, (crash, earned), xytext=(8, -3), textcoords="offset points", fontsize=TEXT, color=colour)
+        listed.append(f"{name} {earned:.0f} ({crash:.0f} %)")
+    words = (
+        (14, 124, "with the rule's help: 7 agents escape", "bootstrapped"), (8, 20, "plain SAC: 8 agents stay", "sac"),
+        (42, 75, "plain SAC: 1 escapes", "sac"), (97, -10, "plain SAC: 1 always crashes", "sac"),
+        (97, 2, "with help: 3 crash on most roads", "bootstrapped"),
+    )  # fmt: skip
+    for x, y, text, method in words:
+        ax.text(x, y, text, fontsize=TEXT, color=style(method).colour, ha="right" if x > 90 else "left")
+    ax.text(100, 128, "filled: it escapes", fontsize=SMALL, color=QUIET, ha="right")
+    ax.set(xlim=(-2, 102), ylim=(-20, 140))
+    return finish(figure, title, f"Each one's return, and its drives with an accident. {'; '.join(listed)}.")

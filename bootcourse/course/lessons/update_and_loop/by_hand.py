@@ -46,7 +46,7 @@ class SAC:
     """An actor, two critics, their slow copies and log α, with an optimiser for each of the three.
 
     The settings are made for the pole: batches of 256, faster steps and copies than the road's. They were chosen on
-    the seeds 100 to 102; `numbers.FIVE` are trainings of the seeds 0 to 4. rates: of the critics, the actor and log α.
+    the seeds 100 to 102; `pole.py` trains the seeds 0 to 4. rates: of the critics, the actor and log α.
     """
 
     gamma, tau, target_entropy = 0.99, 0.1, 0.3 * float(np.log(2))

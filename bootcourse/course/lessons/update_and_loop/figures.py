@@ -37,7 +37,7 @@ def small_worlds(learned: Mapping[str, worlds.Learned]) -> Markdown:
 
 
 def tests_in_training(tests: Sequence[float], block: int) -> Figure:
-    """The tests of an agent, one before its training and one after each `block` of pushes, over `numbers.FIVE`."""
+    """The tests of an agent, one before its training and one after each `block` of pushes, over five of ours."""
     pushes, falls = np.arange(len(tests)) * block, int((np.diff(tests) < 0).sum())
     ended = "Solved after" if min(tests[-2:]) >= 475 else "Not solved in"
     worse = "test is" if falls == 1 else "tests are"
@@ -45,7 +45,7 @@ def tests_in_training(tests: Sequence[float], block: int) -> Figure:
     figure = charts.lines(pushes, {"your agent": np.array(tests)}, title, "pushes in training",
                           "pushes balanced (thin: five of ours)", looks=[OTHER._replace(marker="o")])  # fmt: skip
     (ax,) = figure.axes
-    for each in numbers.FIVE:
+    for each in numbers.tests():
         ax.plot(numbers.BLOCK * np.arange(len(each)), each, color=QUIET, linewidth=0.8, zorder=1)
     ax.set_xlim(0, max(pushes[-1], *numbers.pushes()))
     return figure

@@ -233,11 +233,12 @@ while min(tests[-2:]) < 475 and len(tests) <= 30:
 bc.show(figures.tests_in_training(tests, BLOCK))
 
 # %% [markdown]
-# **See.** Of our {{ len(FIVE) }} agents (seeds 0 to 4), whose settings were chosen on other seeds, {{
+# **See.** Of our {{ len(tests()) }} agents (seeds 0 to 4), whose settings were chosen on other seeds, {{
 # solved() }} solved the pole, after {{ min(pushes()) | , }} to {{ max(pushes()) | , }} pushes. Each then
-# balanced it for {{ min(AFTER) | .0f }} pushes, a mean of 100 episodes. But {{ with_setbacks() }} of them had
-# a setback. (Seed 2 was chosen because it is quick and has one.) A network that changes for one state
-# changes for others, too, so an update can make a policy worse; here that is not tested.
+# balanced it for {{ agents().measured['after'].min() | .0f }} pushes, a mean of 100 episodes. But {{
+# with_setbacks() }} of them had a setback. (Seed 2 was chosen because it is quick and has one.) A
+# network that changes for one state changes for others, too, so an update can make a policy worse;
+# here that is not tested.
 
 # %% [markdown]
 # ## Round 4: what if no fall is marked?
@@ -266,15 +267,15 @@ print(f"Entropy of its policy, pole upright: {entropy.item():.2f} nats")
 # above (1 + α log 2) / (1 − γ) can be right (dotted; its policy is too sure, so α has grown from
 # 0.01). Nor can one below Round 1's curve, at γ = 0.99: no pushes let these poles fall sooner.
 #
-# Your agent's critics err near the fall, too: one push before it 1 is right, and our {{ len(EARLY)
+# Your agent's critics err near the fall, too: one push before it 1 is right, and our {{ len(tests())
 # }} expect {{ min(last_push()) | .1f }} to {{ max(last_push()) | .1f }}. But {{ falling() }} of {{
-# len(EARLY) }} expect less with each push towards it.
+# len(tests()) }} expect less with each push towards it.
 #
 # Without marks Q is above the band, and higher still for the fallen pole. An actor learns from its
 # critics alone: it is sure of its push, and the pole falls. In {{ unmarked() }} of our {{
-# len(UNMARKED) }} agents Q was so, and the pole fell after {{
-# max(each[-1] for each in UNMARKED) | .0f }} pushes (with marks after {{ min(tests[1] for tests in
-# FIVE) | .0f }} to {{ max(tests[1] for tests in FIVE) | .0f }}). No error said so, but Q did.
+# len(agents('unmarked')) }} agents Q was so, and the pole fell after {{
+# after_a_block('unmarked').max() | .0f }} pushes (with marks after {{ after_a_block().min() | .0f }} to {{
+# after_a_block().max() | .0f }}). No error said so, but Q did.
 #
 # A fallen pole is in their rows as s' only, never as s. Its value enters targets, but no row says
 # what it is: the network makes it up, and 100 is not the only one that fits.
@@ -286,7 +287,7 @@ print(f"Entropy of its policy, pole upright: {entropy.item():.2f} nats")
 # %% [markdown] tags=["instructor"] minutes=4
 # A belief to name: "the critics would find the constant". Ask which rows would make them: none of the
 # rows that they have begins in a fallen state. Let them run the cell with `2 * BLOCK` pushes: Q rises
-# into the thousands, and α with it.
+# into the thousands, and α with it. `bootcourse study pole --out DIR` trains our agents again.
 
 # %%
 course = choices[2 if max(tests[:-2]) < 100 else int(min(np.diff(tests)) < 0)]

@@ -1,4 +1,4 @@
-"""Two drives of MountainCar, one of DoorKey, and what ships of the study on other problems (research/elsewhere.py)."""
+"""Drives of MountainCar and DoorKey, what ships of other problems (research/elsewhere.py), and a class's ranking."""
 
 from collections.abc import Mapping, Sequence
 
@@ -8,16 +8,17 @@ from matplotlib.patches import Arc, Rectangle
 
 from bootcourse.colours import ALARM, Style
 from bootcourse.course import charts
-from bootcourse.course.dots import dots
+from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.your_own_problem import loops
-from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, TWO, cells
+from bootcourse.course.lessons.your_own_problem.cells import AGENTS, BONUSES, THREE, cells, entries, places
+from bootcourse.course.shipped import shipped_results
 from bootcourse.learn.agent import Agent
-from bootcourse.methods import style
-from bootcourse.plots.figure import INK, TEXT, axes_at, finish, new_figure, plain_axes
+from bootcourse.methods import display_name, style
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.problems import PROBLEMS
+from bootcourse.statistics import iqm
 
-LOOKS = {"cloning": "bc", "soft": "soft"}
-NAMES = {"cloning": "clone", "soft": "soft constraint"}
+ALONE = ("ppo", "sac")  # the entries without a teacher
 
 
 def climbs() -> Figure:
@@ -60,39 +61,29 @@ def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
     return finish(figure, title, f"{alt}; the last {stays} change nothing.")
 
 
-def returns() -> Figure:
-    """The mean return of each agent with a flawed teacher, a dot: a column for each problem, a row for each method."""
+def clones() -> Figure:
+    """What the clones of a random and of a systematic teacher earn, a dot each; a column for each problem."""
     title = "Clones outdo these random teachers, not the systematic ones"
-    figure, alt = new_figure(3.5), []
-    for row, teacher in enumerate(("random", "systematic")):
-        for column, problem in enumerate(THREE):
-            ax = axes_at(figure, 1.15 + 1.95 * column, 0.95 + 1.35 * row, 1.75, 0.75)
-            plain_axes(ax, PROBLEMS[problem].name, grid="x")
-            lines = {"good teacher": style("rule").colour, "this teacher": ALARM, "plain SAC": style("sac").colour}
-            good, this = (cells().mean(problem, kind, "the teacher") for kind in ("good", teacher))
-            alone = cells().mean(problem, teacher, "SAC")
-            for value, colour, line in zip((good, this, alone), lines.values(), ("-", "--", ":"), strict=True):
-                ax.axvline(value, color=colour, linestyle=line, linewidth=1.6, zorder=2)
-            means = []
-            for place, method in enumerate(TWO):
-                scores = cells().scores(problem, teacher, method)
-                dots(ax, scores, place, style(LOOKS[method]).colour, size=11)
-                means.append(f"{NAMES[method]} {scores.mean():.0f}")
-            ax.set_yticks(range(len(TWO)), NAMES.values() if column == 0 else [""] * len(TWO))
-            ax.set_ylim(len(TWO) - 0.5, -0.5)
-            what = f"good teacher {good:.0f}, this teacher {this:.0f}, plain SAC {alone:.0f}"
-            alt.append(f"{PROBLEMS[problem].name}, {teacher}: {what}, {', '.join(means)}.")
-        above = 1 - (0.75 + 1.35 * row) / 3.5
-        figure.text(0.012, above, f"a {teacher}\nteacher", va="top", fontsize=TEXT, fontweight="bold", color=INK)
-    x = 1.15
-    for (words, colour), line in zip(lines.items(), ("-", "--", ":"), strict=True):
-        key = axes_at(figure, x, 0.56, 1.3, 0.12)
-        key.plot([0, 0.2], [0.5, 0.5], color=colour, linestyle=line, linewidth=1.6)
-        key.text(0.25, 0.45, words, va="center", fontsize=TEXT, color=INK)
-        key.set(xlim=(0, 1), ylim=(0, 1))
-        key.set_axis_off()
-        x += 1.3
-    figure.text(0.58, 0.02, "return; a dot for each of ten agents", ha="center", fontsize=TEXT, color=INK)
+    figure, alt, good_colour = new_figure(2.9), [], style("rule").colour
+    kinds = ("random", "systematic")
+    for column, problem in enumerate(THREE):
+        ax = axes_at(figure, 1.15 + 1.95 * column, 1.0, 1.75, 1.25)
+        plain_axes(ax, PROBLEMS[problem].name, grid="x")
+        good = cells().mean(problem, "good", "the teacher")
+        ax.axvline(good, color=good_colour, linewidth=2, zorder=2)
+        alt.append(f"{PROBLEMS[problem].name}: the good teacher {good:.0f}.")
+        for place, teacher in enumerate(kinds):
+            own, scores = cells().mean(problem, teacher, "the teacher"), cells().scores(problem, teacher, "cloning")
+            ax.plot([own] * 2, [place - 0.36, place + 0.36], color=ALARM, linewidth=3, zorder=2)
+            dots(ax, scores, place, style("bc").colour, size=13)
+            alt.append(f"The {teacher} teacher {own:.0f}, its clones {scores.mean():.0f}.")
+        ax.set_yticks(range(len(kinds)), [f"{kind}\nteacher" if column == 0 else "" for kind in kinds])
+        ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
+        ax.set_ylim(len(kinds) - 0.5, -0.5)
+    keys = {"this teacher": ALARM, "its ten clones": style("bc").colour, "the good teacher": good_colour}
+    for x, (words, colour) in zip((0.165, 0.34, 0.53), keys.items(), strict=True):
+        figure.text(x, 0.8, words, fontsize=TEXT, color=colour, fontweight="bold")
+    figure.text(0.58, 0.04, "return", ha="center", fontsize=TEXT, color=INK)
     return finish(figure, title, " ".join(alt))
 
 
@@ -146,3 +137,25 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
     below = "across: angle of the pole, rad; up: its speed, rad/s; return: mean over the agents"
     figure.text(0.5, 0.06, below, ha="center", fontsize=TEXT, color=INK)
     return finish(figure, title, f"Edges between left and right: {'; '.join(alt)}. The teacher's edge is upright.")
+
+
+def ranking() -> Figure:
+    """How a class is ranked: what five agents of each entry of the kit earn, a dot each, and its place beside it."""
+    by_method, place_of, row = entries(), places(), 0.36
+    first = sum(place == 1 for place in place_of.values())
+    title = f"{first} of these {len(by_method)} entries share the first place"
+    figure = new_figure(1.35 + row * len(by_method))
+    ax, names, alt = axes_at(figure, 1.9, 0.75, 3.4, row * len(by_method)), [], []
+    clone, look = float(iqm(shipped_results().of("bc").scores("returns"))), style("bc")
+    for at, (method, returns) in enumerate(by_method.items()):
+        place, earned = place_of[method], iqm(returns)
+        names.append(display_name(method) + ", no teacher" * (method in ALONE))
+        dots(ax, returns, at, style(method).colour, size=16)
+        beside(ax, at, f"{earned:.0f}", str(place))
+        alt.append(f"{names[-1]}: return {earned:.0f}, place {place}")
+    beside(ax, -0.8, "return", "place", colour=QUIET)
+    name_rows(ax, names, f"mean return on 1,000 held-out roads; a dot for each of {AGENTS} agents")
+    ax.axvline(clone, color=look.colour, linewidth=1.6, linestyle="--", zorder=1)
+    ax.text(clone + 2, 1, "the clone of\nthe course's rule", color=look.colour, fontsize=SMALL, va="center")
+    ax.set_xlim(0, 140)
+    return finish(figure, title, f"{'; '.join(alt)}. The clone of the course's rule: {clone:.0f}.")

@@ -1,4 +1,4 @@
-"""How a rule climbs the hill of MountainCar, where a teacher loops in DoorKey, and agents at several budgets."""
+"""How a rule climbs the hill of MountainCar, where a teacher loops in DoorKey, and agents that no reward teaches."""
 
 from collections.abc import Callable
 from functools import cache
@@ -6,6 +6,7 @@ from functools import cache
 import gymnasium as gym
 import numpy as np
 from gymnasium.vector import VectorEnv
+from gymnasium.wrappers.vector import TransformReward
 
 from bootcourse.course.lessons.your_teacher.driven_out import (
     NOT_SAME,
@@ -15,9 +16,10 @@ from bootcourse.course.lessons.your_teacher.driven_out import (
     no_action,
     same_action,
 )
+from bootcourse.episodes.driving import copies_of
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.settings import Settings, with_seeds
+from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import Rule, teacher_policy
 from bootcourse.learn.training import Training
 from bootcourse.research.problems import PROBLEMS, DoorKey
@@ -121,11 +123,19 @@ def earns(rule: Rule, make_env: MakeEnvs) -> float:
 
 
 @cache
-def tested_at(
-    budgets: tuple[int, ...], settings: Settings, make_env: MakeEnvs, teacher: Rule
+def without_reward(
+    budgets: tuple[int, ...], make_env: MakeEnvs, teacher: Rule
 ) -> dict[int, tuple[list[Agent], np.ndarray]]:
-    """After so many decisions of each of five agents in training: the agents, and what each earns in five episodes."""
-    training = Training(with_seeds(settings, 5), episodes=MOST_EPISODES, make_env=make_env, teacher=teacher)
+    """Five agents that have the soft constraint and no reward, after so many decisions each: (they, what they earn).
+
+    In training each reward is 0, and with γ = 0 they do not look ahead; the test counts the environment's reward.
+    """
+
+    def unpaid(n: int) -> VectorEnv:
+        return TransformReward(copies_of(make_env, n), np.zeros_like)
+
+    settings = with_seeds(settings_for("soft", gamma=0.0), 5)
+    training = Training(settings, episodes=MOST_EPISODES, make_env=unpaid, teacher=teacher)
     tested, held_out = {}, held_out_seeds(1, 5)
     for budget in budgets:
         agents = training.run(False, stop=lambda most=budget * training.n_agents: training.decisions >= most).agents

@@ -5,8 +5,9 @@ import numpy as np
 
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import explorable, loops  # noqa: F401 (for the expressions)
-from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, TWO, cells  # noqa: F401
-from bootcourse.research import elsewhere_claims, equal_decisions  # noqa: F401
+from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, cells, entries, places  # noqa: F401
+from bootcourse.research import elsewhere_claims  # noqa: F401
+from bootcourse.research.equal_decisions import BOARD  # noqa: F401
 from bootcourse.research.problems import PROBLEMS  # noqa: F401
 
 TEACHERS = ("good", "random", "systematic")
