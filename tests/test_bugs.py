@@ -7,10 +7,13 @@ import torch
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.bug_hunt import bugs
 from bootcourse.course.lessons.bug_hunt.bugs import BUGS, LETTERS, PROBES, Hunt
+from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.policies import stochastic_rule_policy
+from bootcourse.scenario import DEFAULT
 
 AGENTS, SIZE = 2, 16
 
@@ -46,6 +49,15 @@ def changed_parts(bug: str, given: Batch, **settings) -> set[str]:
 )  # fmt: skip
 def test_a_bug_changes_its_part_of_the_update_and_raises_nothing(bug, parts):
     assert changed_parts(bug, batch()) == parts
+
+
+@pytest.mark.parametrize("bug", bugs.LEARNERS)
+def test_labels_are_the_rule_s_before_the_step_unless_they_are_shifted(bug):
+    drive = record(stochastic_rule_policy(DEFAULT, np.random.default_rng(1)), [10])[0]
+    labels, right = bugs.labels(bug, drive), drive.rule_actions
+    shifted = bug == "shifted_labels"
+    assert len(labels) == len(right) and (labels == right).all() != shifted
+    assert (labels[:-1] == right[1:]).all() == shifted
 
 
 # What ships ------------------------------------------------------------------------------------------

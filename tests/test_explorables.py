@@ -13,6 +13,7 @@ from bootcourse.course.lessons import COURSE, LESSONS
 from bootcourse.course.lessons.learning_from_demonstrations.explorable import nine_values
 from bootcourse.course.lessons.looking_ahead import explorable as futures
 from bootcourse.course.lessons.other_ways.explorable import TwoCounts
+from bootcourse.course.lessons.the_barrier.numbers import bearable
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.learn import sac
 from bootcourse.learn.bootstrap import large_margin_loss, regularised_policy
@@ -80,14 +81,23 @@ def test_the_best_policy_of_two_numbers_is_the_one_of_the_learner_and_its_head_s
 def test_the_numbers_in_the_sentences_are_those_of_the_library():
     panel = shown("discrete_sac")
     q = torch.tensor([[0.9, 1.0, 0.5]], dtype=torch.float64)
-    log_pi = sac.log_policy(q / 0.2)
+    log_pi = sac.log_policy(q / 0.3)
     assert f"by {sac.entropy(log_pi).item():.2f} nats" in panel.svg.alt
     low, high = 100 * np.array(rate(np.arange(10) < 8)[1:])
     assert f"{low:.0f} to {high:.0f} %" in shown("how_many_seeds").svg.alt
     panel = shown("the_barrier")
-    for share, words in ((0, "adds"), (50, "costs")):
-        from_page(panel.numbers["share"].slider, value=share)
-        assert f"one m/s more {words}" in panel.svg.alt
+    for price, gamma in ((10, 0.8), (1, 0.8), (10, 0.95), (0, 0.95)):
+        for name, value in (("price", price), ("gamma", gamma)):
+            from_page(panel.numbers[name].slider, value=value)
+        assert f"no more than {100 * bearable(gamma, price):.0f} % crash" in panel.svg.alt
+
+
+def test_the_soft_target_is_the_plain_one_at_alpha_0_and_the_best_action_and_above_it_with_the_softmax():
+    panel = shown("discrete_sac", "backup")
+    for right, alpha, soft in ((0.5, 1, "3.42"), (0.88, 1, "3.81"), (1, 0, "3.70")):
+        from_page(panel.numbers["right_now"].field, value=right)
+        from_page(panel.numbers["alpha"].field, value=alpha)
+        assert f"The plain target is 3.70, the soft one {soft}." in panel.svg.alt
 
 
 def test_alpha_falls_for_ever_only_if_the_target_entropy_is_below_zero_and_rises_if_it_is_above_the_even_policy_s():

@@ -22,7 +22,6 @@ LIBRARY = {  # exercise -> the library's functions; the exercise's own solution 
     "soft_constraint": (f"{LEARN}.bootstrap.kl_to_rule",),
     "constrained_loss": (f"{LEARN}.sac.actor_loss",),
     "large_margin_loss": (f"{LEARN}.bootstrap.large_margin_loss",),
-    "exact_interval": ("bootcourse.statistics.rate",),
     "power": ("bootcourse.statistics.power",),
     "my_rule": (f"{COURSE}.lessons.your_teacher.example_teachers.watchful", f"{COURSE}.gap_rule.gap_rule"),
     "rollout_values": ("bootcourse.episodes.lookahead.rollout_values", "bootcourse.episodes.lookahead.nine_drives"),

@@ -1,1 +1,1 @@
-"""You will find six silent bugs from curves, probes and drives, write a probe, test a target without training."""
+"""You will tell six silent bugs apart by curves and probes, write a probe, test labels and targets without training."""

@@ -9,15 +9,18 @@ The results that ship hold curves, probes and weights; `Hunt` reads them and cal
 """
 
 import math
+from unittest.mock import patch
 
 import numpy as np
 import torch
 from torch import Tensor
 
 from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, check_known
 from bootcourse.learn import bootstrap, sac
 from bootcourse.learn.agent import Agent
+from bootcourse.learn.demonstrations import demonstration_rows
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.settings import settings_for, with_seeds
@@ -99,6 +102,19 @@ SEEDS, UPDATES, EVERY = 2, 10_000, 250  # agents with each bug; updates of each;
 ROADS = range(900, 908)  # whose drives by the rule give the states of the probes
 PROBES = ("kl", "entropy", "alike", "late", "rarest", "promise", "end")
 CURVES = ("success", "return", "accident", "alpha")
+
+# A test without training -----------------------------------------------------------------------------
+
+
+def labels(bug: str, drive: Rollout) -> np.ndarray:
+    """What an untrained learner with a bug, "none" for none, takes for the rule's action before each step: (T,)."""
+    learner = LEARNERS[bug]([settings_for("bootstrapped")], DEFAULT.observation_size)
+    rows = demonstration_rows([drive])[None]
+    batch = decode_transitions(rows, DEFAULT.observation_size, torch.zeros(rows.shape[:2]))
+    with patch.object(learner, "kl", wraps=learner.kl) as kl:
+        learner.losses(batch)
+    return kl.call_args.args[1][0].numpy()  # the last KL is the actor's, in s; the one before is the target's, in s'
+
 
 # Training them ---------------------------------------------------------------------------------------
 

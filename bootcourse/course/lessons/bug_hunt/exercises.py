@@ -69,34 +69,33 @@ def explain_hunt(cases, answers):
     if last == {agent: diagnose(agent) for agent in "ABCDEF"}:
         return "Your function answers the same question differently each time: it must not draw at random or remember."
     return (
-        "Not all six verdicts are right. Write beside each the picture that shows it; the one without a picture is the "
-        "one to doubt."
+        "Not all six verdicts are right. Write beside each the picture that decides it; only one agent may be left "
+        "without."
     )
 
 
 @exercise(
-    "six bugs, six agents", minutes=15, difficulty=3, explain=explain_hunt,
+    "six bugs, six agents", minutes=12, difficulty=3, explain=explain_hunt,
     cases=lambda rng: [(letter,) for _ in range(4) for letter in rng.permutation(list("ABCDEF")).tolist()],
     worked=[(("A",), "flipped_kl"), (("F",), "no_stop")],
     hints=(
-        "Begin with the two that drive badly, then look for a promise that is too high, then at where episodes end. "
-        "The last two drive like the healthy agent.",
-        "What each bug shows: without an end, Q is wrong by many points where episodes end; with a drawn value Q does "
-        "not reach the actor, so it stays undecided and fails when it draws; without the stop-gradient the promise "
-        "is for a time far beyond any return; a bonus for all adds about c / (1 - γ) to it. With shifted labels an "
-        "agent early agrees with the rule one second later nearly as often as now; a flipped KL keeps its rarest "
-        "action far likelier.",
+        "Begin with the two whose promise is too high, then look at the accidents, then at the rarest action. The last "
+        "agent follows the grey lines in these three pictures.",
+        "What each bug shows: without an end, Q is wrong by many points where episodes end. With a drawn action Q does "
+        "not reach the actor: its rarest action stays likely and its return low. A flipped KL keeps the rarest action "
+        "likelier, too. Without the stop-gradient the promise is for a time far beyond any return. A bonus for all "
+        "adds up to c / (1 - γ) = 10 to it. Shifted labels show in none of these.",
     ),
     mistakes={
         "return {**bugs, 'A': bugs['C'], 'C': bugs['A']}[agent]":
-            "You swapped the two agents whose bug concerns the rule. One starts slowly, between what the "
-            "rule does now and what it does one second later; the other keeps its rarest action far likelier.",
+            "You swapped the two agents whose bug concerns the rule. One follows the grey lines in the last three "
+            "pictures; the other keeps its rarest action far likelier.",
         "return {**bugs, 'D': bugs['E'], 'E': bugs['D']}[agent]":
             "You swapped two agents whose critics are wrong: one critic is wrong everywhere by about the "
             "same amount, the other only where episodes end.",
         "return {**bugs, 'B': bugs['F'], 'F': bugs['B']}[agent]":
             "You swapped the two that drive worst: for a time one promises more than any possible return; the other "
-            "has a modest promise, and fails when its actions are drawn.",
+            "has a modest promise, and keeps its rarest action likely.",
     },
 )  # fmt: skip
 def diagnose(agent):

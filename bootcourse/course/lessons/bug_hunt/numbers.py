@@ -4,26 +4,28 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons.bug_hunt import bugs, tables
-from tools.course.known import Episodes, held_out_seeds, record
+from bootcourse.course.lessons.bug_hunt import bugs
+from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.policies import stochastic_rule_policy
+from bootcourse.scenario import DEFAULT
 
 hunt = cache(bugs.Hunt)  # the agents of the bug hunt
 
 
-def early(name: str, what: str = "alike") -> float:
-    """How often an agent does as the rule now ("alike") or a second later ("late"), after 500 to 1,250 updates."""
-    return hunt().probe(name, what)[:, tables.EARLY].mean()
+@cache
+def agree(bug: str) -> np.ndarray:
+    """Where a learner's labels are the rule's action before the step, in the lesson's drive: (decisions,) bool."""
+    return bugs.labels(bug, labelled_drive()) == labelled_drive().rule_actions
 
 
 @cache
-def as_the_rule(name: str) -> float:
-    """In which share of its decisions on 100 roads an agent does what the rule does."""
-    drives = record(hunt().agent(name).as_policy(), held_out_seeds(12, 100))
-    alike = [np.asarray(drive.actions) == np.asarray(drive.rule_actions) for drive in drives]
-    return float(np.concatenate(alike).mean())
+def labelled_drive() -> Rollout:
+    """The drive whose labels the lesson compares."""
+    return record(stochastic_rule_policy(DEFAULT, np.random.default_rng(1)), [10])[0]
 
 
-@cache
-def driven(name: str, drawn: bool = False) -> Episodes:
-    """Round 1's 200 drives of an agent, by its most probable actions or by drawn ones."""
-    return tables.drives(hunt(), name, drawn)
+def ends(name: str) -> float:
+    """An agent's return in its last 30 training episodes, as a share of the healthy one's: the mean of two seeds."""
+    returns = hunt().at_the_end("return")
+    return returns[name].mean() / returns["healthy"].mean()

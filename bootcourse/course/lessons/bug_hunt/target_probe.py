@@ -63,11 +63,12 @@ def explain_probe(cases, answers):
 
 
 @exercise(
-    "y = r + c·1[demonstration] + γ (1 - terminated) V(s'), tested from outside", minutes=20, difficulty=3,
+    "y = r + c·1[demonstration] + γ (1 - terminated) V(s'), tested from outside", minutes=15, difficulty=3,
     cases=lambda rng: [(name,) for name in TARGETS] * 2, run=is_unmasked, explain=explain_probe,
     worked=[(("as it is printed",), False), (("no end",), True)],
     hints=(
-        "Work out y by hand for four transitions: the agent's own or a demonstration, going on or ended.",
+        "For the agent's own transition that goes on, y = r + γ V(s'); for a demonstration that has ended, y = r + c. "
+        "Work out the other two in the same way.",
         "Choose numbers that no mistake can hit by chance: a bonus that is not 2, a γ that is not 0.8, next values "
         "that differ, one of them negative. Compare with `np.allclose`.",
     ),

@@ -4,20 +4,6 @@ import numpy as np
 
 from tests.answers import equivalent, right_lines, wrong_lines
 
-right_lines("""exact_interval
-    with binomtest: found = stats.binomtest(k, n).proportion_ci(0.95, method="exact"); np.array([found.low, found.high])
-    by searching:
-        low = optimize.brentq(lambda rate: stats.binom.sf(k - 1, n, rate) - 0.025, 0, 1, xtol=1e-12) if k else 0.0
-        high = optimize.brentq(lambda rate: stats.binom.cdf(k, n, rate) - 0.025, 0, 1, xtol=1e-12) if k < n else 1.0
-        np.array([low, high])
-""")
-
-wrong_lines("""exact_interval
-    without the low end: [stats.beta.ppf(0.025, k, n - k + 1), stats.beta.ppf(0.975, k + 1, n - k) if k < n else 1.0]
-        # not a number (NaN) in this case
-    clipped normal: p = k / n; np.clip(p + 1.96 * np.sqrt(p * (1 - p) / n) * np.array([-1, 1]), 0, 1)
-""")
-
 right_lines("""power
     pair by pair: n = len(shown) - 1; k, j = stats.binom(n, first), stats.binom(n, second)
         sum(k.pmf(a) * j.pmf(b) for a in range(n + 1) for b in range(n + 1) if shown[a, b])

@@ -1,27 +1,10 @@
-"""Computed for the lesson's tables: the means of some seeds and of others, two groups of an ablation."""
-
-from collections.abc import Sequence
+"""Computed for the lesson: two groups of an ablation, and comparisons in which nothing was changed."""
 
 import numpy as np
 
-from bootcourse.methods import display_name
-from bootcourse.research.experiment import Computed
-from bootcourse.research.results import Results
-from bootcourse.statistics import bracketed, difference, interval, iqm
+from bootcourse.statistics import Estimate, all_resamples, bracketed, difference, iqm
 
-MEANS = ["mean of the return", "3 seeds", "10 seeds", "ten others (not only seeds)"]
 ABLATION = ["success, %", "IQM", "the agents, sorted"]
-
-
-def means(study: Results, others: Computed, methods: Sequence[str]) -> list[list[str]]:
-    """A row for each method, below `MEANS`: its mean return, with the interval, from ever more and from other seeds."""
-    rows = []
-    for method in methods:
-        earned = study.of(method).scores("returns")
-        groups = (earned[:3], earned, others[method].scores("returns"))
-        some = [interval(group, np.mean) for group in groups]
-        rows.append([display_name(method), *(f"{each.value:.0f} [{each.low:.0f}, {each.high:.0f}]" for each in some)])
-    return rows
 
 
 def ablation(success: dict[str, np.ndarray]) -> tuple[list[list[str]], str]:
@@ -30,5 +13,26 @@ def ablation(success: dict[str, np.ndarray]) -> tuple[list[list[str]], str]:
     rows = [[name, f"{iqm(each):.0f}", ", ".join(f"{one:.0f}" for one in each)] for name, each in groups.items()]
     unchanged, changed = groups.values()
     effect = difference(changed, unchanged)
-    holds = "holds 0" if effect.low <= 0 <= effect.high else "does not hold 0"
+    holds = "leaves out 0" if leaves_out_0(effect) else "holds 0"
     return rows, f"Changed less unchanged: {bracketed(effect)} points. The interval {holds}."
+
+
+def leaves_out_0(effect: Estimate) -> bool:
+    return not effect.low <= 0 <= effect.high
+
+
+def exact_difference(x: np.ndarray, y: np.ndarray) -> Estimate:
+    """`statistics.difference` of two small groups, (n,) each, from all their resamples instead of random ones."""
+    rows, chances = all_resamples(len(x))
+    resampled = np.subtract.outer(iqm(x[rows]), iqm(y[rows])).ravel()
+    order = np.argsort(resampled)
+    upward = np.outer(chances, chances).ravel()[order]
+    below, above = (np.searchsorted(np.cumsum(each), 0.025) for each in (upward, upward[::-1]))
+    return Estimate(float(iqm(x) - iqm(y)), *map(float, resampled[order[[below, -1 - above]]]))
+
+
+def random_halves(scores: np.ndarray, times: int = 20) -> list[Estimate]:
+    """One half of the scores less the other, split so many times at random, the lowest difference first."""
+    rng = np.random.default_rng(0)
+    splits = (np.split(rng.permutation(scores), 2) for _ in range(times))
+    return sorted(exact_difference(x, y) for x, y in splits)

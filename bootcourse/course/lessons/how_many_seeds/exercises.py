@@ -1,4 +1,4 @@
-"""Exercises of the lesson on seeds: intervals, power, and the difference of two groups."""
+"""Exercises of the lesson on seeds: power, an interval of a mean, and the difference of two groups."""
 
 import functools
 
@@ -8,46 +8,6 @@ import scipy
 from bootcourse.course.exercise import exercise
 from bootcourse.course.values import NUMERIC, plain
 from bootcourse.statistics import significant
-
-
-def count_cases(rng):
-    """None and all of few and of many; then 40 at random."""
-    yield from ((0, 10), (10, 10), (1, 10), (20, 20), (0, 1))
-    for _ in range(40):
-        n = rng.integers(2, 60)
-        yield rng.integers(0, n + 1), n
-
-
-@exercise(
-    "the exact (Clopper-Pearson) 95 % interval of k out of n", minutes=8, difficulty=2, cases=count_cases,
-    worked=[((1, 1), np.array([0.025, 1.0])), ((0, 1), np.array([0.0, 0.975]))],  # rate ** 1 = 0.025
-    hints=(
-        "The low end is the rate at which k or more of n has a chance of 2.5 %; at the high end, k or fewer has it.",
-        "`scipy.stats.beta.ppf(0.025, k, n - k + 1)` solves the first. For the second, 0.975 with k + 1 and n - k.",
-    ),
-    mistakes={
-        "return k / n + 1.96 * np.array([-1, 1]) * np.sqrt(k / n * (1 - k / n) / n)":
-            "This is the normal approximation. At 0 of 10 its interval has length 0, as if the rate were known "
-            "exactly.",
-        ("0.025 -> 0.05", "0.975 -> 0.95"):
-            "You leave 5 % at each end. Both ends together may miss in 5 % of the cases: 2.5 % each.",
-        "return np.array([1 - high, 1 - low])":
-            "This is the interval of the failures: k and n - k are swapped.",
-        "return scipy.stats.beta.ppf([0.025, 0.975], k + 1, n - k + 1)":
-            "You take both ends from one beta distribution, as in a Bayesian interval. The exact ends come from two "
-            "different ones.",
-        "return np.array(scipy.stats.binomtest(k, n).proportion_ci(method='wilson'))":
-            "This is Wilson's interval: it is shorter, and holds the true rate in about 95 % of the cases. The exact "
-            "one does so in at least 95 %.",
-        ("if k > 0 else 0.0 ->", "if k < n else 1.0 ->"):
-            "At k = 0 and at k = n one of your ends is not a number (NaN): a beta distribution has no parameter 0. "
-            "There the low end is 0, and the high end is 1.",
-    },
-)  # fmt: skip
-def exact_interval(k, n):
-    low = scipy.stats.beta.ppf(0.025, k, n - k + 1) if k > 0 else 0.0
-    high = scipy.stats.beta.ppf(0.975, k + 1, n - k) if k < n else 1.0
-    return np.array([low, high])
 
 
 def power_cases(rng):

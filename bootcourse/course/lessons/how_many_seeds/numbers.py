@@ -1,15 +1,14 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 from collections import Counter
-from collections.abc import Callable
-from itertools import combinations_with_replacement
+from functools import cache
+from itertools import combinations, combinations_with_replacement
 from math import factorial, prod
 
 import numpy as np
 
-from bootcourse.course.lessons.how_many_seeds import explorable  # noqa: F401 (for the expressions)
-from bootcourse.research.results import Results
-from bootcourse.statistics import Estimate, improvement, interval, power, rate, significant  # noqa: F401
+from bootcourse.course.lessons.how_many_seeds import counts, explorable  # noqa: F401 (for the expressions)
+from bootcourse.statistics import Estimate, interval, power, rate
 from tools.course.known import of
 
 
@@ -28,19 +27,6 @@ def enough(first: float, second: float, wanted: float = 0.8) -> int:
     return next(n for n in range(2, 100) if power(first, second, n) >= wanted)
 
 
-def better(agents: Callable[[str], Results]) -> Estimate:
-    """In how many per cent of the pairs the bootstrapped agent earns more than the one with the soft constraint."""
-    both, soft = (agents(method).scores("returns") for method in ("bootstrapped", "soft"))
-    return Estimate(*(100 * each for each in improvement(both, soft)))
-
-
-def first_three_hold(method: str) -> bool:
-    """Does the interval of our first three agents hold the mean return of all ten?"""
-    returns = of(method).scores("returns")
-    _, low, high = interval(returns[:3], np.mean)
-    return bool(low <= returns.mean() <= high)
-
-
 def held(method: str, seeds: int) -> float:
     """How often the interval of so many agents would hold the mean of ours, if ours were all the agents there are."""
     returns, share = of(method).scores("returns"), 0.0
@@ -49,3 +35,23 @@ def held(method: str, seeds: int) -> float:
         _, low, high = interval(returns[list(drawn)], np.mean)
         share += orders / len(returns) ** seeds * (low <= returns.mean() <= high)
     return share
+
+
+def halves() -> list[Estimate]:
+    """What the figure of random halves shows, the lowest difference first."""
+    return counts.random_halves(of("bootstrapped").scores("returns"))
+
+
+@cache
+def splits() -> list[tuple[int, Estimate]]:
+    """All splits of our ten bootstrapped agents, five against five: how many of the three worst are in the first."""
+    returns = np.sort(of("bootstrapped").scores("returns"))
+    first = [list(half) for half in combinations(range(10), 5)]
+    return [
+        (sum(i < 3 for i in half), counts.exact_difference(returns[half], np.delete(returns, half))) for half in first
+    ]
+
+
+def left_out() -> float:
+    """The share of all splits whose interval leaves out 0."""
+    return float(np.mean([counts.leaves_out_0(effect) for _, effect in splits()]))

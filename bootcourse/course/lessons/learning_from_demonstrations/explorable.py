@@ -50,6 +50,6 @@ def nine_values(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
         head = [text(4, 20, says, size=14, bold=True), text(520, 46, apart), *legend(names)]
         return drawing(WIDTH, HEIGHT, [*head, *chart.parts, *under], f"{says} Distance {apart}.")
 
-    second = Number("second", min(9, seconds), 1, seconds, 1, "Of the rule's drive.")
+    second = Number("second", min(6, seconds), 1, seconds, 1, "Of the rule's drive.")
     margin = Number("margin", 0, 0, 2, 0.1, f"On each other action; the paper's is {settings_for('margin').margin:g}.")
     return Explorable("What a critic thinks of the nine actions", draw, second=second, margin=margin)

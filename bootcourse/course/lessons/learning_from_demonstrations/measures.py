@@ -1,30 +1,12 @@
-"""Measured for the lesson: how often a critic prefers the demonstrated action, who finds the way out and escapes."""
+"""Measured for the lesson: who finds the way out, and who escapes."""
 
 from collections.abc import Sequence
 
 import numpy as np
 
-from bootcourse.episodes.rollout import Rollout
-from bootcourse.learn.agent import Agent
 from bootcourse.research.experiment import Computed
 from bootcourse.research.results import Results
 from bootcourse.statistics import found_after
-
-
-def first(agent: Agent, drives: Sequence[Rollout], seconds: int) -> float:
-    """The share of these drives' first seconds in which the agent's critic gives the rule's action the largest Q."""
-    states = np.concatenate([drive.observations[:seconds] for drive in drives])
-    did = np.concatenate([drive.rule_actions[:seconds] for drive in drives])
-    return float((agent.q_values(states).argmax(axis=1) == did).mean())
-
-
-FIRST = ["the demonstrated action comes first", "learner 1", "learner 2"]
-
-
-def in_percent(shares: dict[str, list[float]]) -> list[list[str]]:
-    """A row for each kind of learner, below `FIRST`."""
-    return [[name, *(f"{100 * share:.0f} %" for share in each)] for name, each in shares.items()]
-
 
 Kinds = dict[str, tuple[list[Results], list[Results]]]
 

@@ -28,6 +28,16 @@ def in_all(name: str) -> str:
     return measures.escape(_with(name)[0])
 
 
+def of_the_study(name: str) -> str:
+    """How many of the study's ten agents with the soft constraint and these demonstrations escape."""
+    return measures.escape(_with(name)[0][:1])
+
+
+def of_the_others(name: str) -> int:
+    """How many of the ten others."""
+    return sum(each.escapers(each.methods[0]) for each in _with(name)[0][1:])
+
+
 def alone(name: str) -> str:
     """How many escape with these demonstrations and without the soft constraint."""
     return measures.escape(_with(name)[1])

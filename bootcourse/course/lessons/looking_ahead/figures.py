@@ -1,7 +1,7 @@
 """The figures of this lesson: what looking ahead changes, and what a model costs that is wrong, or learned.
 
-The last three take the results of the experiments `look-ahead` and `learned-model`, {cell: agents}; their files, in
-bootcourse.research.experiments, say what was measured.
+`each_agent`, `learned` and `wrong_models` take the results of the experiments `look-ahead` and `learned-model`,
+{cell: agents}; their files, in bootcourse.research.experiments, say what was measured.
 """
 
 from collections.abc import Mapping, Sequence
@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
+from bootcourse.colours import ALARM
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import Rollout
 from bootcourse.errors import BootcourseError
@@ -21,7 +22,7 @@ from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, WIDTH, axes_a
 from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import CLOSELY, Cell
 from bootcourse.research.results import Results
-from bootcourse.scenario import N_ACTIONS
+from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
 MEANINGS = {  # of the wrong models that the lesson shows, for readers
     "others keep speed and lane": "nobody accelerates, brakes or changes lane",
@@ -32,7 +33,7 @@ MEANINGS = {  # of the wrong models that the lesson shows, for readers
     "everything a second late": "the whole road as it was a second ago, the ego included",
 }
 ERRORS = [f"{name}: {meaning}" for name, meaning in MEANINGS.items()]  # to choose from
-LEARNED_FORMS = {"look-ahead": "mean of five", "by the worst of five": "worst of five", "shield": "shield"}  # panels
+LEARNED_FORM = "mean of five"  # of the look-ahead in a learned model, as the lesson shows it
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
 NAMES = {"rollouts": "look-ahead", "shield": "shield"}  # as the lesson calls the forms
 
@@ -91,24 +92,45 @@ def each_agent(cells: dict[str, Results], base: str) -> Figure:
     return finish(figure, title, f"A line for each agent, from alone to with the look-ahead. {'; '.join(alt_parts)}.")
 
 
-def promised(agent: Agent, model: RoadModel, drives: Sequence[Rollout]) -> tuple[list[str], list[list]]:
-    """A table of Q at each drive's first decision, as a learned model has it, and as the true road has it."""
-    policy = agent.as_policy()
-    observations, cars = (np.stack([each[0] for each in of]) for of in zip(*map(_seen, drives), strict=True))
-    values, own = ImaginedAhead(agent, model)(observations, cars).q_values, policy(observations, cars).actions
-    true, of_own = nine_drives(cars, policy).values, np.arange(N_ACTIONS) == own[:, None]
-    taken = np.arange(N_ACTIONS) == values.argmax(1)[:, None]
-    which = {"the agent's own": of_own, "the other eight": ~of_own, "the one that the look-ahead takes": taken}
-    rows = [[name, f"{values[of].mean():.0f}", f"{true[of].mean():.0f}"] for name, of in which.items()]
-    return ["action at the first decision", "Q̂ in the model", "Q̂ on the true road"], rows
+def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
+    """The nine Q̂ in a learned model and on the true road, at one decision of a drive that the agent itself drove.
 
-
-def _seen(drive: Rollout) -> tuple[np.ndarray, np.ndarray]:
-    return drive.observations, drive.cars
+    It is the first at which the best of nine in the model ends in an accident and another action would not; without
+    one, the drive's first. The title says which it is.
+    """
+    values = ImaginedAhead(agent, model)(drive.observations[: len(drive.actions)], drive.cars).q_values
+    true, taken = nine_drives(drive.cars, agent.as_policy(), drive.scenario), values.argmax(1)
+    hurt = true.accidents > 0
+    misled = hurt[np.arange(len(taken)), taken] & ~hurt.all(1)
+    now, of = int(misled.argmax()), f"The model misleads at {misled.sum()} of the drive's {len(misled)} decisions."
+    title = (
+        f"The model's best of nine ends in an accident; {(~hurt[now]).sum()} of the other eight do not"
+        if misled.any()
+        else "The model's best of nine ends well"
+    )
+    figure, ends, best, alt_parts = new_figure(4.4), hurt[now], taken[now], []
+    ax, at = axes_at(figure, 1.35, 0.8, 4.0, 2.95), np.arange(N_ACTIONS)
+    colours = [ALARM if end else style("bootstrapped").colour for end in ends]
+    ax.barh(at - 0.19, values[now], 0.34, facecolor="white", edgecolor=INK, linewidth=0.9)
+    ax.barh(at + 0.19, true.values[now], 0.34, color=colours)
+    for row, name in enumerate(ACTION_NAMES):
+        pair = f"{values[now, row]:.0f} and {true.values[now, row]:.0f}".replace("-", "−")
+        words, bold = f"{pair}{'   ← taken' if row == best else ''}", "bold" if row == best else "normal"
+        ax.text(158, row, words, va="center", fontsize=TEXT, color=ALARM if ends[row] else INK, fontweight=bold)
+        alt_parts.append(f"{name}: {pair}{', taken' if row == best else ''}")
+    plain_axes(ax, "", grid="x")
+    ax.set(ylim=(N_ACTIONS - 0.5, -0.5), xlim=(-14, 155), xticks=[0, 50, 100, 150])
+    ax.set_yticks(at, ACTION_NAMES, fontsize=TEXT, color=INK)
+    ax.axvline(0, color=QUIET, linewidth=0.8)
+    ax.set_xlabel(f"Q̂ at decision {now + 1}", fontsize=TEXT, color=INK)
+    words = f"white: in the model; filled: on the true road, red with an accident. {of}"
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
+    alt = f"Decision {now + 1}, Q̂ in the model and on the true road. {'; '.join(alt_parts)}. {of}"
+    return finish(figure, title, alt)
 
 
 def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
-    """Accidents of each agent in a model that it learned: a row for each way to drive for it, a panel for each form.
+    """Accidents of each agent that looks ahead in a model that it learned: a row for each way to drive for the model.
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
@@ -116,36 +138,34 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
     agents, base, figure = learned_model.together(computed), learned_model.BASE, new_figure(3.5)
     alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)], style(base).colour
     shares = [learned_model.together(computed, share) for share in learned_model.RANDOM]
-    drivers = ["the agent", *(f"the agent, {100 * share:.0f} % random" for share in learned_model.RANDOM)]
+    controls = [learned_model.per_thousand(of, LEARNED_FORM, control=True)[:, 0] for of in (agents, *shares)]
+    values = np.array([alone, *controls, learned_model.per_thousand(agents, LEARNED_FORM)[:, -1]])  # (rows, agents)
     sizes = [agents.measured["rows"], *(of.measured["rows"] for of in shares), agents.notes["rows"][:, -1]]
-    rows = [("no model: the agent alone", "")]
+    drivers = ["the agent", *(f"the agent, {100 * share:.0f} % random" for share in learned_model.RANDOM)]
     sizes = [f"{each.mean() / 1000:.0f}" for each in sizes]
+    rows = [("no model: the agent alone", "")]
     rows += zip([*drivers, "the agent, then the look-ahead"], sizes, strict=True)
-    left, top, width, height, alt_parts = 2.6, 1.15, (WIDTH - 2.6) / len(LEARNED_FORMS), 1.6, []
-    for column, (name, form) in enumerate(LEARNED_FORMS.items()):
-        controls = [learned_model.per_thousand(of, form, control=True)[:, 0] for of in (agents, *shares)]
-        values = np.array([alone, *controls, learned_model.per_thousand(agents, form)[:, -1]])  # (rows, agents)
-        ax, at = axes_at(figure, left + column * width, top, width - 0.5, height), np.arange(len(values))
-        ax.plot(values, at, "o", color=colour, alpha=0.4, ms=4, mew=0, clip_on=False)
-        ax.plot(values.mean(1), at, "D", color=INK, ms=5, clip_on=False, zorder=4)
-        for row, mean in enumerate(values.mean(1)):
-            ax.text(1.1, row, f"{mean:,.0f}", transform=ax.get_yaxis_transform(), va="center", fontsize=TEXT, color=INK)
-        plain_axes(ax, name, grid="x")
-        ax.set(xlim=(0, 1000), ylim=(len(values) - 0.6, -0.4), yticks=[])
-        ax.set_xticks([0, 500, 1000], ["0", "500", "1,000"])
-        alt_parts.append(f"{name}: {', '.join(f'{mean:.0f}' for mean in values.mean(1))}")
+    left, top, height = 2.8, 1.15, 1.6
+    ax, at = axes_at(figure, left, top, 3.5, height), np.arange(len(values))
+    ax.plot(values, at, "o", color=colour, alpha=0.4, ms=4, mew=0, clip_on=False)
+    ax.plot(values.mean(1), at, "D", color=INK, ms=5, clip_on=False, zorder=4)
+    for row, mean in enumerate(values.mean(1)):
+        ax.text(1.05, row, f"{mean:,.0f}", transform=ax.get_yaxis_transform(), va="center", fontsize=TEXT, color=INK)
+    plain_axes(ax, "accidents in 1,000 drives", grid="x")
+    ax.set(xlim=(0, 1000), ylim=(len(values) - 0.6, -0.4), yticks=[])
+    ax.set_xticks([0, 500, 1000], ["0", "500", "1,000"])
     at = [top + height * (row + 0.4) / (len(rows) - 0.2) for row in range(len(rows))]
     lines = [*zip(at, rows, strict=True), (top - 0.11, ("who drives for the model", "decisions\n(thousand)"))]
     for place, (words, size) in lines:
         look = {"fontsize": TEXT, "color": INK} if place in at else {"fontsize": SMALL, "color": QUIET}
         y = 1 - place / figure.get_figheight()
         figure.text(0.012, y, words, va="center", **look)
-        figure.text((left - 0.2) / WIDTH, y, size, va="center", ha="right", **look)
-    words = "accidents in 1,000 drives: a dot for each agent; diamonds and numbers: their mean"
+        figure.text((left - 0.25) / WIDTH, y, size, va="center", ha="right", **look)
+    words = "a dot for each agent; diamonds and numbers: their mean"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     drives = "; ".join(f"{words}{f', {size} thousand decisions' * bool(size)}" for words, size in rows)
-    alt = f"Mean accidents in 1,000 drives, by who drives for the model ({drives}). {'; '.join(alt_parts)}."
-    return finish(figure, title, alt)
+    means = ", ".join(f"{mean:.0f}" for mean in values.mean(1))
+    return finish(figure, title, f"Mean accidents in 1,000 drives, by who drives for the model ({drives}): {means}.")
 
 
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:

@@ -1,18 +1,22 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 
 from bootcourse.course import shipped as course
-from bootcourse.course.lessons.looking_ahead import explorable, figures
+from bootcourse.course.lessons.looking_ahead import explorable, figures, imagined_road
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.settings import Settings
 from bootcourse.research.computed import experiment
 from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import Cell
 from bootcourse.research.results import Results
 from bootcourse.road.state import Accident
+from bootcourse.scenario import N_ACTIONS
 
 LATE = "everything a second late"
 WRONG = list(figures.MEANINGS)  # of the study's models
@@ -64,9 +68,47 @@ def worse_than_alone(base: str, form: str) -> int:
     return sum(per_thousand(base, form, model) > per_thousand(base, "alone") for model in WRONG)
 
 
-def earns(model: str) -> float:
-    """The mean return of PPO's agents with the look-ahead in one of the study's models."""
-    return float(each("ppo_cloned", "rollouts", "returns", model).mean())
+def earns(model: str, form: str = "rollouts") -> float:
+    """The mean return of PPO's agents with the look-ahead, or with the shield, in one of the study's models."""
+    return float(each("ppo_cloned", form, "returns", model).mean())
+
+
+def stuck_that_ship() -> list[Agent]:
+    """Plain SAC's agents that ship, of those that stay behind alone."""
+    agents = course.shipped_agents("sac")
+    return [agent for agent, out in zip(agents, outs("sac", "alone"), strict=False) if out < 0.01]
+
+
+def out_of_these() -> np.ndarray:
+    """How often they get out with the look-ahead in the study: shares."""
+    ship = len(course.shipped_agents("sac"))
+    return outs("sac")[:ship][outs("sac", "alone")[:ship] < 0.01]
+
+
+def _values_as_learned(cars: np.ndarray, policy: Callable, horizon: int) -> np.ndarray:
+    """The nine imagined returns as the agents of the study learned them: discounted, and without W."""
+    first = np.tile(np.arange(N_ACTIONS), len(cars))
+    imagined, values = cars.repeat(N_ACTIONS, axis=0), np.zeros(len(first))
+    alive = np.ones(len(first), dtype=bool)
+    for decision in range(horizon):
+        actions = first if decision == 0 else policy(imagined)
+        imagined, rewards, crashed = imagined_road.step(imagined, actions)
+        values += alive * Settings().gamma ** decision * rewards
+        alive &= ~crashed
+    return values.reshape(-1, N_ACTIONS)
+
+
+@cache
+def as_learned() -> list:
+    """The drives of the stuck agents that ship, with such a look-ahead, on the lesson's 40 roads."""
+    roads = held_out_seeds(15, 40)
+    drivers = [imagined_road.driver(_values_as_learned, agent.as_policy(), 10) for agent in stuck_that_ship()]
+    return [drive_episodes(driver, roads) for driver in drivers]
+
+
+def out_as_learned() -> np.ndarray:
+    """How often each of them then gets out: shares."""
+    return np.array([ends.success.mean() for ends in as_learned()])
 
 
 @cache
@@ -90,9 +132,15 @@ def learned_without(form: str, share: float | None = None) -> float:
     return float(learned_model.per_thousand(learning(share), form, control=True).mean())
 
 
-def learned_returns() -> float:
-    """The mean return of the look-ahead in the models of the last round."""
-    return float(learning().notes["mean of five, returns"][:, -1].mean())
+def learned_returns(form: str = "mean of five") -> float:
+    """The mean return in the models of the last round."""
+    return float(learning().notes[f"{form}, returns"][:, -1].mean())
+
+
+def shield_returns() -> list[float]:
+    """The mean return of the shield in the models of the last round, and in those of the controls."""
+    controls = [learning(share).measured["shield, returns"].mean() for share in (None, *learned_model.RANDOM)]
+    return [learned_returns("shield"), *map(float, controls)]
 
 
 def last_round() -> np.ndarray:

@@ -86,7 +86,8 @@ explorable.futures(drive, agent.as_policy())
 # The **horizon** h is the number of decisions in the drive: with h = 10 the agent decides nine more
 # times after the action a. An accident ends the sum. Otherwise $W(v)$ stands for what comes after
 # the horizon: the return of a whole episode on an empty road that starts with the last speed v. W is
-# so large that a drive without an accident is always worth more than one with an accident.
+# so large that a drive without an accident is always worth more than one with an accident. Unlike the
+# agent's own Q, $\hat Q$ has no γ, and W pays for speed.
 #
 # **Exercise (18 min, ●●●).** Write $\hat Q$ for all nine actions and many roads at once. You have
 # - `imagined_road.step(cars, actions)`: one decision. It returns the next cars, the rewards, and
@@ -184,6 +185,14 @@ bc.show(figures.each_agent(study, "sac"))
 # base policy's. If the base goes on where the first action leads, a rollout shows the way out. If it
 # steers back, each step towards the way out has to raise the imagined return by itself.
 #
+# The aim differs, too. With γ = 0.8, as in training, and without W, the four of the nine that ship get
+# out in {{ 100 * out_as_learned().mean() | .0f }} % of {{
+# sum(len(ends.success) for ends in as_learned()) }} drives instead of {{ 100 * out_of_these().mean() |
+# .0f }} % in the study (one of them more often). *Open*: is it γ or W?
+# <!-- claim: (out_as_learned() > out_of_these()).sum() == 1 -->
+# <!-- claim: all(agent.settings.gamma == 0.8 for agent in stuck_that_ship()) and
+#   len(stuck_that_ship()) == len(out_of_these()) == 4 -->
+#
 # If the rollouts went to the end of the episode, on the true road, the look-ahead would earn at least
 # what its base earns, from every state: this is **policy improvement**. It speaks of the return, not
 # of accidents, and ours stop after ten decisions.
@@ -234,8 +243,8 @@ table(*figures.compared(drives_of))
 # improves decisions that are safe.
 #
 # So far the imagined road was the true one, which a real car does not have. Now the *imagined* road
-# is wrong. Ten other agents of PPO after cloning than those of lesson [[the_second_trap]] (alone
-# {{ per_thousand('ppo_cloned', 'alone') / 10 | .1f }} % accidents) drive with each of six errors.
+# is wrong. Ten agents of PPO after cloning, not lesson [[the_second_trap]]'s, drive with each of six
+# errors; alone they crash in {{ per_thousand('ppo_cloned', 'alone') / 10 | .1f }} % of drives.
 #
 # > **Predict.** With one error every drive with the look-ahead ends in an accident. Which one?
 
@@ -248,16 +257,22 @@ bc.show(figures.wrong_models(study))
 
 # %% [markdown]
 # **See.** With the exact model these agents have no accident. With everything a second late each of
-# {{ drives('ppo_cloned', model=LATE) | , }} drives has one. With {{ worse_than_alone('ppo_cloned',
-# 'rollouts') }} of the six wrong models the look-ahead crashes more often than the agents alone, the
-# shield with {{ worse_than_alone('ppo_cloned', 'shield') }}; with five of the six it crashes less than
-# the look-ahead; with everything late it crashes in almost every drive, too. The returns agree: alone
-# {{ each('ppo_cloned', 'alone', 'returns').mean() | .0f }}; with the look-ahead {{
+# {{ drives('ppo_cloned', model=LATE) | , }} drives with the look-ahead has one, and with the shield almost
+# every drive. The look-ahead crashes more often than alone with {{ worse_than_alone('ppo_cloned', 'rollouts') }} of the
+# six, the shield with {{ worse_than_alone('ppo_cloned', 'shield') }} (places off, everything late).
+#
+# The look-ahead's mean return falls far with two errors only: {{
 # earns('places off by 1 m, speeds by 0.5 m/s') | .0f }} where places are off, {{ earns(LATE) | .0f }}
-# where everything is late, and {{ sorted(map(earns, WRONG))[2] | .0f }} or more with the other four.
+# where everything is late; alone {{ each('ppo_cloned', 'alone', 'returns').mean() | .0f }}, with the
+# other four {{ sorted(map(earns, WRONG))[2] | .0f }} to {{ max(map(earns, WRONG)) | .0f }}. The
+# shield returns {{ min(earns(m, 'shield') for m in WRONG if m != LATE) | .0f }} to {{
+# max(earns(m, 'shield') for m in WRONG) | .0f }} with five of them, and {{ earns(LATE, 'shield') |
+# .0f }} where everything is late.
 # <!-- claim: accidents('ppo_cloned') == accidents('ppo_cloned', 'shield') == 0 -->
 # <!-- claim: accidents('ppo_cloned', model=LATE) == drives('ppo_cloned', model=LATE) -->
-# <!-- claim: sorted(WRONG, key=earns)[:2] == [LATE, 'places off by 1 m, speeds by 0.5 m/s'] -->
+# <!-- claim: sorted(WRONG, key=earns)[:2] == [LATE, 'places off by 1 m, speeds by 0.5 m/s'] ==
+#   [m for m in reversed(WRONG) if per_thousand('ppo_cloned', 'shield', m) >
+#   per_thousand('ppo_cloned', 'alone')] -->
 # <!-- claim: all(per_thousand('ppo_cloned', 'shield', m) < per_thousand('ppo_cloned', model=m) for m
 #   in WRONG if m != LATE) and per_thousand('ppo_cloned', 'shield', LATE) > 990 and len(WRONG) == 6 and
 #   len(each('ppo_cloned', 'alone', 'roads')) == 10 -->
@@ -267,8 +282,7 @@ bc.show(figures.wrong_models(study))
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Which errors can a car measure while it drives? It can compare what it imagined a second ago with
-# what came. Ask how it should act when the two differ. And who checks the checker: a shield whose
-# model is late does not know that it is late.
+# what came. Ask how it should act when the two differ.
 
 # %% [markdown]
 # ## Round 4: a model that is learned
@@ -277,17 +291,18 @@ bc.show(figures.wrong_models(study))
 # learn what follows the agent's 26 numbers and an action: the next 26 numbers, the reward, and
 # whether an accident ends the drive. Each future is imagined in all five; the mean value counts.
 #
-# Our agent learns such a model from 200 of its own drives. What does it promise for the nine actions?
+# Our agent learns such a model from 200 of its own drives. The figure shows the first decision of
+# Round 1's drive at which the model misleads the look-ahead.
 
 # %% tags=["nbval-ignore-output"]
 own_drives = transitions_of(agent.as_policy(), bc.held_out_seeds(41, 200))
 learned = learned_from(own_drives, updates=500)
-table(*figures.promised(agent, learned, alone))
+bc.show(figures.promised(agent, learned, drive))
 
 # %% [markdown]
-# **See.** The model is about right for the agent's own action, and promises too much for the other
-# eight. The best of nine picks such errors, as a critic's target can (lesson [[recorded_drives]]).
-# (Your numbers can differ a little.)
+# **See.** The model does not expect the accidents in red. The best of nine takes the largest promise,
+# so it picks such errors, as a critic's target can (lesson [[recorded_drives]]). (Your numbers can
+# differ a little.)
 #
 # In the study ten agents look ahead, each in such a model. All their {{ learned_drives() | , }} drives
 # end in an accident.
@@ -316,25 +331,24 @@ bc.show(figures.learned(shipped_experiment("learned-model"), study))
 # more: against a tenth random in {{ own_better(0.1) }} of the ten agents, against three tenths in {{
 # own_better(0.3) }}. Yet {{ still_worse() }} of the ten still crash more than alone, and the mean return
 # is {{ learned_returns() | .0f }} instead of {{ each('bootstrapped', 'alone', 'returns').mean() | .0f
-# }}. It does not help to count the worst of the five networks.
+# }}.
 # <!-- claim: learned_without('mean of five') == 1000 and learned('mean of five')[-1] < 0.6 *
 #   learned_without('mean of five', share=0.1) and learned('mean of five')[-1] < 0.6 *
 #   learned_without('mean of five', share=0.3) and all(learned_without('mean of five', share=share) <
 #   800 for share in learned_model.RANDOM) -->
-# <!-- claim: learned_model.RANDOM == (0.1, 0.3) and learned('worst of five')[-1] > learned('mean of
-#   five')[-1] and all(learned_without('worst of five', share=share) >= learned_without('mean of five',
-#   share=share) for share in (None, *learned_model.RANDOM)) -->
+# <!-- claim: learned_model.RANDOM == (0.1, 0.3) -->
 #
 # **Explain.** It looks like the remedy of lesson [[demonstrations]]: learn where the driver's own
 # decisions lead. But the comparison is not equal: drives with random actions hold fewer decisions than
-# the look-ahead's, and its model is learned anew after each {{ learned_model.DRIVES }} drives. *Open*:
-# which would win with as many decisions? More of them are not enough: the agent's drives hold the most
-# on average.
+# the look-ahead's, and its model is learned anew after each {{ learned_model.DRIVES }} drives. More
+# decisions alone are not enough: the agent's drives hold the most on average.
 # <!-- claim: all((learned_rows() > learned_rows(share)).all() for share in learned_model.RANDOM) -->
 #
-# The shield crashes less on average than the agents alone, with each of these models.
+# The shield crashes less on average than the agents alone, with each of these models, and returns
+# more: {{ min(shield_returns()) | .0f }} to {{ max(shield_returns()) | .0f }} on average.
 # <!-- claim: max(learned_without('shield'), learned('shield')[-1], *(learned_without('shield',
 #   share=share) for share in learned_model.RANDOM)) < 0.8 * per_thousand('bootstrapped', 'alone') -->
+# <!-- claim: min(shield_returns()) > each('bootstrapped', 'alone', 'returns').mean() + 10 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what an honest learned model would have to say besides a number: how sure it is. Five networks
@@ -360,7 +374,7 @@ compare_predictions(
 # 3. A wrong model costs: with four of six the look-ahead crashes more often than PPO's agents alone.
 #    With five of them the shield crashes less than the look-ahead; if everything is late, it fails,
 #    too.
-# 4. A model of the agent's own drives promises too much for other actions, and the best of nine picks
+# 4. A model of the agent's own drives misses accidents after other actions, and the best of nine picks
 #    such errors.
 # 5. In these ten agents random actions in the drives help, and the look-ahead's own drives help more.
 # <!-- claim: worse_than_alone('ppo_cloned', 'rollouts') == 4 and len(WRONG) == 6 -->

@@ -1,23 +1,36 @@
-"""The pictures of the lesson on the soft constraint: ξ in a training, how twenty agents ended."""
+"""The pictures of the lesson on the soft constraint: a training without the value penalty, how twenty agents ended."""
 
 from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import INK, Style
+from bootcourse.colours import INK, QUIET
 from bootcourse.course import shipped
-from bootcourse.course.charts import lines
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.live_curves import LiveCurves
 from bootcourse.learn.training import Training
 from bootcourse.methods import style
-from bootcourse.plots.figure import finish, one_axes
-from bootcourse.statistics import lost
+from bootcourse.plots.figure import axes_at, finish, label_ends, new_figure, one_axes, plain_axes
+from bootcourse.statistics import IN_A_ROW, found_after, lost
+
+PENALTY = "with the value penalty", "without it"
 
 
-class LivePull(LiveCurves):
-    """ξ over the episodes of each agent of a training, named by its target entropy η, while they learn."""
+def ways_out() -> list[np.ndarray]:
+    """The episodes after which the study's agents found the way out, (10,): those with the value penalty, and without.
+
+    Each of them found it.
+    """
+    without = shipped.shipped_experiment("ablations")["KL in the actor only"]
+    return [found_after(each.of("soft").curves["success"]) for each in (shipped.shipped_results(), without)]
+
+
+class LivePenalty(LiveCurves):
+    """Of the last 50 episodes, how many two agents end ahead, while they learn; below, when the study's found the way.
+
+    The first agent has the value penalty, the second has not.
+    """
 
     def show(self, training: Training) -> None:
         if training.curves.finished.min() >= 2:  # a line has two points
@@ -25,12 +38,26 @@ class LivePull(LiveCurves):
 
     def draw(self, training: Training) -> Figure:
         done = min(int(training.curves.finished.min()), training.episodes)
-        xi = training.curves.values["xi"][:, :done]
-        targets = [f"η = {settings.target_entropy:g}".replace("-", "−") for settings in training.settings]
-        now = " and ".join(f"{last:.2g} with {eta}" for eta, last in zip(targets, xi[:, -1], strict=True))
-        looks = [Style(style("soft").colour), Style(INK)]
-        named, title = dict(zip(targets, xi, strict=True)), f"After {done} episodes ξ is {now}"
-        return lines(np.arange(1, done + 1), named, title, "episode", "ξ", logarithmic="y", looks=looks)
+        ahead = np.cumsum(training.curves.values["success"][:, :done], axis=1)
+        ahead[:, IN_A_ROW:] -= ahead[:, :-IN_A_ROW].copy()
+        title = f"Of the last {min(done, IN_A_ROW)} episodes {ahead[0, -1]:.0f} end ahead {PENALTY[0]}, "
+        title += f"{ahead[1, -1]:.0f} {PENALTY[1]}"
+        figure, looks = new_figure(4.0), (style("soft").colour, INK)
+        ax, below = axes_at(figure, 1.6, 0.9, 3.7, 1.4), axes_at(figure, 1.6, 2.65, 3.7, 0.7)
+        plain_axes(ax, f"of the last {IN_A_ROW} training episodes, ended ahead: one agent each")
+        for line, colour in zip(ahead, looks, strict=True):
+            ax.plot(np.arange(1, done + 1), line, color=colour, linewidth=2)
+        ax.axhline(IN_A_ROW / 2, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+        ax.set(xlim=(0, 400), ylim=(0, IN_A_ROW))
+        ends = [(line[-1], words, colour) for line, words, colour in zip(ahead, PENALTY, looks, strict=True)]
+        label_ends(ax, [*ends, (IN_A_ROW / 2, "above: it finds the way out", QUIET)])
+        for place, (episodes, colour) in enumerate(zip(ways_out(), looks, strict=True)):
+            dots(below, episodes, place, colour)
+        name_rows(below, PENALTY, "episode; a dot: one of the study's ten agents finds the way out")
+        below.set_xlim(0, 400)
+        found = (f"the study's ten agents {words} find the way out after {each.min()} to {each.max()} episodes"
+                 for words, each in zip(PENALTY, ways_out(), strict=True))  # fmt: skip
+        return finish(figure, title, f"Two lines over {done} episodes. Below, dots: {'; '.join(found)}.")
 
 
 FADING = "ξ falls towards 0"  # the study's own agents with the soft constraint; the other kinds have one change

@@ -4,16 +4,20 @@ import math
 import re
 from collections.abc import Callable
 
+import torch
+
 from bootcourse.course.lessons.soft_constraint import explorable
+from bootcourse.course.lessons.soft_constraint.figures import ways_out as ways_out
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
+from bootcourse.learn.bootstrap import regularised_policy
 from bootcourse.panels.compromise import Ways
 from bootcourse.research.results import Results
 from bootcourse.statistics import HAD as HAD
 from bootcourse.statistics import IN_A_ROW as IN_A_ROW
 from bootcourse.statistics import LOST as LOST
-from bootcourse.statistics import found_after, lost
-from tools.course.known import RULE_P, of, others, shipped_experiment
+from bootcourse.statistics import lost
+from tools.course.known import RULE_P, SETTINGS, of, others, shipped_experiment
 
 
 def stays(xi: float = 2.0) -> Results:
@@ -28,7 +32,7 @@ def actor_only() -> Results:
 
 def sooner_without() -> bool:
     """Does each agent without the KL in the target find the way before any agent with it?"""
-    first, then = (found_after(agents.curves["success"]) for agents in (actor_only(), of("soft")))
+    then, first = ways_out()
     return bool(0 < first.min() and first.max() < then.min())
 
 
@@ -75,9 +79,9 @@ def losing(agents: list[Results]) -> int:
 
 
 def returning_more() -> int:
-    """How many agents of `fading` return more than each agent of `floored`."""
+    """How many agents of `fading` that escape return more than each agent of `floored`."""
     most = max(each.scores("returns").max() for each in floored())
-    return sum(int((each.scores("returns") > most).sum()) for each in fading())
+    return sum(int((each.found_and_kept("soft")[1] & (each.scores("returns") > most)).sum()) for each in fading())
 
 
 def entropy_of_the_rule() -> float:
@@ -90,6 +94,13 @@ def accidents_of_the_panel(xi: float) -> list[str]:
     helped = shipped_agents("soft")[0]
     drive = record(helped.as_policy(with_q=True), [10])[0]
     return [name for name, way in Ways(drive, helped).at(0, 0.9, xi, 0.01).items() if way.accident]
+
+
+def entropy_at(alpha: float) -> float:
+    """The entropy of the best policy in the thermostat's state with ξ = 200 α, in nats."""
+    q, log_rule = explorable.one_state()
+    best = regularised_policy(q, log_rule, alpha, SETTINGS.xi_multiplier * alpha)
+    return torch.special.entr(best).sum().item()
 
 
 def thermostat_says(eta: float) -> str:

@@ -22,7 +22,7 @@ SHADES = {FAR: style("sac").colour, SOME: "#A9CFE6", NOT: "white"}
 
 def escapes(trained: Mapping[str, Results], kinds: Mapping[str, str]) -> Figure:
     """How the agents of each kind of road end. kinds: {the row's name: the kind}."""
-    title = "No change alone frees half of twenty agents, the last two together free most"
+    title = "Cheap accidents free most agents with a start mid-lane, and none with a lane keeper"
     rows = {name: ends(trained[kind], easier.staying(kind)) for name, kind in kinds.items()}
     return squares({"": rows}, title, AGENTS, "has an accident on most roads", counted=(FAR, SOME))
 

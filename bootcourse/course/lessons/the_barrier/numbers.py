@@ -14,7 +14,7 @@ from bootcourse.research.planner import Search, is_staying_optimal, plan_episode
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD, by_rule, discounted, idle, of, shipped_experiment
+from tools.course.known import ROAD, by_rule, discounted, idle, shipped_experiment
 
 
 @cache
@@ -29,16 +29,18 @@ def by_chance():
     return drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
 
 
-def bearable(gamma: float) -> float:
-    """The share of crashes that lesson 1 bears: on its road, like its plan, or a crash after 3 s."""
-    crash = gamma ** np.arange(4) @ [*by_rule().rewards[:3], DEFAULT.reward.accident]
+def bearable(gamma: float, price: float = -DEFAULT.reward.accident) -> float:
+    """The share of crashes that lesson 1 bears: on its road, like its plan, or a crash after 3 s that costs `price`."""
+    crash = gamma ** np.arange(4) @ [*by_rule().rewards[:3], -price]
     stay, leave = discounted(idle(), gamma), discounted(the_trap.on_ten(), gamma)
     return float(bearable_risk.solution(stay, leave, crash))
 
 
 def the_plan_crashes() -> float:
     """On which share of lesson 1's roads its plan ends in an accident."""
-    return float(np.mean(the_trap.blind_plan().accident > 0))
+    share = float(np.mean(the_trap.blind_plan().accident > 0))
+    assert share == explorable.the_plan_crashes()  # which the panel draws
+    return share
 
 
 def easy(kind: str) -> Results:
@@ -46,35 +48,8 @@ def easy(kind: str) -> Results:
     return shipped_experiment("easier")[kind]
 
 
-MIDDLE, CHEAP, BOTH = easier.MIDDLE, easier.CHEAP, easier.BOTH
+MIDDLE, CHEAP, KEPT, BOTH = easier.MIDDLE, easier.CHEAP, easier.KEPT, easier.BOTH
 stressed = easier.stressed
-
-
-def slope(share: float, price: float, gamma: float) -> tuple[float, float]:
-    """Mid-lane, with this share of random actions: what 11 m/s is worth more than 10; its standard error."""
-    values = explorable.at_price(explorable.rewards_from(share), price)
-    worth = values @ gamma ** np.arange(values.shape[-1])
-    more = worth[explorable.NOW + 1] - worth[explorable.NOW]
-    return float(more.mean()), float(more.std() / np.sqrt(len(more)))
-
-
-def costs(share: float, price: float, gamma: float) -> bool:
-    """Whether that is below 0 by more than two standard errors."""
-    return slope(share, price, gamma)[0] < -2 * slope(share, price, gamma)[1]
-
-
-def worths(share: float) -> np.ndarray:
-    """What each of the picture's speeds is worth at γ = 0.8, (speeds,)."""
-    rewards = explorable.rewards_from(share)
-    return (rewards @ 0.8 ** np.arange(rewards.shape[-1])).mean(axis=1)
-
-
-def ends_after(share: float) -> np.ndarray:
-    """After how many seconds a drive from each of the picture's speeds has its accident, on average."""
-    rewards = explorable.rewards_from(share)
-    crashed = rewards == DEFAULT.reward.accident
-    assert crashed.any(axis=-1).all()
-    return 1 + crashed.argmax(axis=-1).mean(axis=1)
 
 
 def _freed() -> tuple[np.ndarray, np.ndarray]:
@@ -96,11 +71,6 @@ def freed_and_slower() -> np.ndarray:
     return returns[~fast]
 
 
-def last_entropy() -> float:
-    """The largest entropy of one of the study's plain agents in its last 100 training episodes, nats."""
-    return float(of("sac").curves["entropy"][:, -100:].mean(axis=1).max())
-
-
 def crash_on_most(kind: str) -> int:
     """How many agents of a kind have an accident on most roads."""
     return int((easy(kind).scores("accident") > 0.5).sum())
@@ -112,9 +82,15 @@ def escape_and_crash(kind: str) -> int:
     return int(((agents.scores("accident") > 0.5) & (agents.scores("success") >= ESCAPES)).sum())
 
 
-def earn_and_crash() -> int:
-    """How many of the agents that earn with both changes have an accident on most roads."""
-    return figures.ends(easy(BOTH), easier.staying(BOTH)).count((figures.FAR, True))
+def earn_more(kind: str, longer: bool = False) -> int:
+    """How many agents of a kind earn more than by staying; longer: of the others, with twice the updates."""
+    agents = easy(stressed(kind)) if longer else easy(kind)
+    return int((agents.scores("returns") > easier.staying(kind)).sum())
+
+
+def earn_and(crash: bool) -> int:
+    """How many of the agents that escape and earn with both changes have an accident on most roads, or have not."""
+    return figures.ends(easy(BOTH), easier.staying(BOTH)).count((figures.FAR, crash))
 
 
 @cache
@@ -133,7 +109,7 @@ def one_acceleration() -> attempts.Outcome:
 def helped() -> np.ndarray:
     """What the drives of each shipped agent that the rule helped are worth at γ = 0.8, on 100 roads."""
     agents = [agent for method in ("soft", "bootstrapped") for agent in shipped_agents(method)]
-    return np.array([attempts.drive(agent.as_policy(), explorable.ROADS).values(0.8).mean() for agent in agents])
+    return np.array([attempts.drive(agent.as_policy(), held_out_seeds(7, 100)).values(0.8).mean() for agent in agents])
 
 
 def helped_better() -> np.ndarray:

@@ -1,0 +1,52 @@
+"""The pictures of the bug hunt: two drives, and a panel for each agent with a bug, the healthy one in grey."""
+
+from matplotlib.figure import Figure
+
+from bootcourse.course import charts, shipped
+from bootcourse.course.lessons.bug_hunt.bugs import Hunt
+from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.settings import settings_for
+
+DRIVERS = {"first agent": "healthy", "second agent": "E"}
+
+
+def most() -> float:
+    """What a critic may promise at most: a road that pays 1 a second and the bonus in every second, discounted."""
+    settings = settings_for("bootstrapped")
+    return (1 + settings.bonus) / (1 - settings.gamma)
+
+
+def two_drives(hunt: Hunt) -> list[Rollout]:
+    """The first 50 s of the healthy agent and of one with a bug, on the same road, under names that do not tell."""
+    drives = [record(hunt.agent(name).as_policy(), [10], label=label)[0] for label, name in DRIVERS.items()]
+    return [shipped.beginning(drive, 50) for drive in drives]
+
+
+def returns(hunt: Hunt) -> Figure:
+    """Mean return of the last 30 training episodes."""
+    title = "One agent with a bug earns more than the healthy one"
+    episode, what = "training episode (logarithmic)", "return, mean of 30 episodes"
+    return charts.many(hunt.curves("return"), title, episode, what, reference="healthy", x_scale="log")
+
+
+def accidents(hunt: Hunt) -> Figure:
+    """Q of the decisions that ended in an accident."""
+    title = "One agent values its own accidents far below −10"
+    what = "Q where an accident followed (dotted: −10)"
+    return charts.many(hunt.probes("end"), title, "updates", what, reference="healthy", level=-10)
+
+
+def promises(hunt: Hunt) -> Figure:
+    """Mean of Σ π Q in seconds that the rule drove."""
+    title = "Two agents promise far more than the healthy one"
+    what = f"promise Σ π Q, cut off at 20 (dotted: {most():.0f})"
+    probes, limits = hunt.probes("promise"), (-2, 20)
+    return charts.many(probes, title, "updates", what, reference="healthy", limits=limits, level=most())
+
+
+def rarest(hunt: Hunt) -> Figure:
+    """Mean log of the smallest of the nine probabilities in the same seconds."""
+    title = "Two agents keep their rarest action far likelier than the healthy one"
+    what = "log of the rarest action's probability"
+    return charts.many(hunt.probes("rarest"), title, "updates", what, reference="healthy")
