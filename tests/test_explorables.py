@@ -89,7 +89,7 @@ def test_the_numbers_in_the_sentences_are_those_of_the_library():
     for price, gamma in ((10, 0.8), (1, 0.8), (10, 0.95), (0, 0.95)):
         for name, value in (("price", price), ("gamma", gamma)):
             from_page(panel.numbers[name].slider, value=value)
-        assert f"no more than {100 * bearable(gamma, price):.0f} % crash" in panel.svg.alt
+        assert f"at most {100 * bearable(gamma, price):.0f} % crash early" in panel.svg.alt
 
 
 def test_the_soft_target_is_the_plain_one_at_alpha_0_and_the_best_action_and_above_it_with_the_softmax():

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from bootcourse.plots.diagrams import Diagram, arrow, box, label
 
 SAC_PARTS: Mapping[str, tuple] = {  # name -> left, top, lines, tint; each 140 wide and 64 high
-    "world": (8, 30, ("world", "road or pole"), "world"),
+    "world": (8, 30, ("world", "such as the road"), "world"),
     "actor": (230, 30, ("actor π", "chooses actions"), "learned"),
     "temperature": (452, 30, ("temperature α", "weight of entropy"), "learned"),
     "buffer": (8, 220, ("replay buffer", "what happened"), "stored"),
@@ -26,9 +26,9 @@ def sac_diagram() -> Diagram:
         arrow(300, 218, 300, 97), label(308, 200, "min Q", "start"),
         arrow(370, 50, 450, 50), label(411, 42, "entropy"),
         arrow(452, 76, 372, 76), label(411, 96, "α"),
-        arrow(452, 240, 372, 240), label(411, 232, "target y"),
-        arrow(370, 268, 450, 268, dashed=True), label(411, 290, "share τ"),
-        arrow(366, 96, 470, 218), label(426, 150, "π(·|s′), for V(s′)", "start"),
+        arrow(452, 240, 372, 240), label(411, 232, "targets"),
+        arrow(370, 268, 450, 268, dashed=True), label(411, 290, "copied"),
+        arrow(366, 96, 470, 218), label(426, 150, "π in s′", "start"),
         arrow(566, 96, 566, 218), label(574, 150, "α", "start"),
     ]  # fmt: skip
     alt = (

@@ -1,19 +1,21 @@
-"""To drag in this lesson: three values, the temperature and the policy that they make; how many estimates err; a target
-entropy.
+"""To drag in this lesson: three values, the temperature and the policy that they make; two targets; how many estimates
+err; a target entropy.
 """
+
+import math
 
 import numpy as np
 import torch
 
-from bootcourse.colours import OTHER
+from bootcourse.colours import INK, OTHER
 from bootcourse.learn import sac
 from bootcourse.methods import style
-from bootcourse.panels.explorable import Axes, Curve, Explorable, bars, curves
+from bootcourse.panels.explorable import WIDTH, Axes, Curve, Explorable, bars, curves, legend
 from bootcourse.panels.number import Number
-from bootcourse.plots.svg import Drawing
+from bootcourse.plots.svg import Drawing, SvgAxes, drawing, text
 
 ACTIONS = ("left", "straight", "right")
-START, ALPHA = (0.9, 1.0, 0.5), 0.2  # Q of these actions and α, as the panel opens
+START, ALPHA = (0.9, 1.0, 0.5), 0.3  # Q of these actions and α, as the panel opens
 AXES = Axes("", "probability of each action", (0.0, 1.0))
 
 
@@ -38,13 +40,47 @@ def undecided() -> Explorable:
     return Explorable("What does an agent do that is paid for being undecided?", draw, alpha=alpha, **values)
 
 
+NEXT, REWARD, GAMMA = (1.0, 3.0), 1.0, 0.9  # Q of two actions in s', the reward before it, the discount
+TARGETS = Axes("π(right) in s'", "target", (1.5, 4.5))
+
+
+def backup() -> Explorable:
+    """The target of a decision by the plain and by the soft Bellman equation, over the policies of the next state."""
+    right = np.linspace(0, 1, 101)
+    pi = torch.tensor(np.stack([1 - right, right], axis=-1))
+    log_pi, q = pi.clamp(min=1e-12).log(), torch.tensor(NEXT, dtype=torch.float64).expand(101, 2)
+    plain = REWARD + GAMMA * max(NEXT)
+
+    def draw(right_now: float, alpha: float) -> Drawing:
+        value = sac.soft_value(log_pi, q, torch.tensor(alpha, dtype=torch.float64))
+        soft = (REWARD + GAMMA * value).numpy()
+        named = {
+            "plain: r + γ max Q": Curve(np.full(101, plain), OTHER.colour, "--"),
+            "soft: r + γ V": Curve(soft, style("sac").colour),
+        }
+        says = f"The plain target is {plain:.2f}, the soft one {np.interp(right_now, right, soft):.2f}."
+        return curves(says, TARGETS, right, named, mark=right_now)
+
+    numbers = {
+        "right_now": Number("π(right)", 0.5, 0, 1, 0.01, "How probable going right is in s'. Its Q is 3, left's 1."),
+        "alpha": Number("α", 1, 0, 2, 0.1, "The temperature: what one nat of indecision is worth."),
+    }
+    return Explorable("What should the estimate have been? (r = 1, γ = 0.9)", draw, **numbers)
+
+
 MOST, DRAWS = 20, 4000  # actions, and states in which all of them are worth the same
+
+
+def highest_estimates() -> tuple[np.ndarray, np.ndarray]:
+    """The highest estimate of 1 to MOST actions, on average: of one critic, and of the smaller of two."""
+    errors = np.random.default_rng(0).normal(size=(2, DRAWS, MOST))
+    of_one, of_two = (np.maximum.accumulate(each, axis=-1).mean(0) for each in (errors[0], errors.min(0)))
+    return of_one, of_two
 
 
 def overestimated() -> Explorable:
     """The highest estimate of some actions that are all worth 0, by one critic and by the smaller of two."""
-    errors = np.random.default_rng(0).normal(size=(2, DRAWS, MOST))
-    of_one, of_two = (np.maximum.accumulate(each, axis=-1).mean(0) for each in (errors[0], errors.min(0)))
+    of_one, of_two = highest_estimates()
     counts, limits = np.arange(1, MOST + 1), (-1.5, 4.0)
 
     def draw(actions: float, error: float) -> Drawing:
@@ -66,22 +102,24 @@ def overestimated() -> Explorable:
 
 
 UPDATES, TURN = 400, 0.02  # of the thermostat; what each changes in log α
-NATS = Axes("update", "nats", (-1.6, 2.6))
+NATS, POWERS, TALL = (-1.6, 2.6), (-4.0, 4.0), 396  # the two charts' heights, and the picture's in pixels
+ABOVE, BELOW = (52, 74, 690, 150), (52, 266, 690, 90)  # left, top, width and height of the charts, pixels
 
 
 def thermostat() -> Explorable:
-    """The entropy of nine actions' best policy while α follows its loss, beside the target entropy that one drags.
+    """The entropy of nine actions' best policy beside the target entropy that one drags, and α, which follows its loss.
 
     Each update moves log α by one step down the loss, of a size that stays, much as Adam does.
     """
     q = torch.linspace(0, 1, 9, dtype=torch.float64)[None]
 
     def draw(target: float) -> Drawing:
-        log_alpha, entropies, falls = torch.zeros((), dtype=torch.float64), [], []
+        log_alpha, entropies, powers, falls = torch.zeros((), dtype=torch.float64), [], [], []
         for _ in range(UPDATES + 1):
             entropy = sac.entropy(sac.log_policy(q / log_alpha.exp()))
             slope = sac.temperature_loss(log_alpha, entropy, torch.tensor(target))  # the loss is its own slope in log α
             entropies.append(entropy.item())
+            powers.append(log_alpha.item() / math.log(10))
             falls.append(slope.item() > 0)
             log_alpha -= TURN * slope.sign()
         alpha = float(f"{log_alpha.exp().item():.2g}")
@@ -91,7 +129,15 @@ def thermostat() -> Explorable:
             "target entropy η": Curve(np.full(UPDATES + 1, target), OTHER.colour, "--"),
         }
         says = f"With η = {target:g}, α {course}: from 1 to {alpha:,g}.".replace("-", "−")
-        return curves(says, NATS, np.arange(UPDATES + 1), named)
+        nats, below = SvgAxes(*ABOVE, (0, UPDATES), NATS), SvgAxes(*BELOW, (0, UPDATES), POWERS)
+        updates = np.arange(UPDATES + 1)
+        nats.scale("nats", 5)
+        for curve in named.values():
+            nats.line(updates, curve.values, curve.colour, 1.6, curve.dash)
+        below.frame("log₁₀ α", "update", 4)
+        below.line(updates, powers, INK, 1.6)
+        parts = [text(4, 20, says, size=14, bold=True), *legend(named), *nats.parts, *below.parts]
+        return drawing(WIDTH, TALL, parts, says)
 
     help = "The target entropy. Each update moves α by 2 %; the policy is the best one for its α."
     target = Number("η", -1, -1.5, 2.5, 0.1, help)

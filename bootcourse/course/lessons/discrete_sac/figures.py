@@ -1,21 +1,27 @@
-"""Figures of discrete SAC: a pole as it is balanced, and soft values against the temperature."""
+"""Figures of discrete SAC: what the temperature does in the chain's trap; a pole on its cart, for the next lesson."""
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-import torch
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from bootcourse.course import charts
 from bootcourse.episodes.words import sentence
-from bootcourse.learn import sac
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, finish, new_figure
-from bootcourse.research.experiments.checks import CARTPOLE_SCALES
+from bootcourse.research.experiments import checks
 
 TRACK, POLE = 2.4, 1.8  # m: half the track; the pole as it is drawn
 PICTURES, STEP, ROW = 8, 5.4, 0.85  # in a strip; from one to the next (m); a strip's height (inches)
+
+
+def leaving(alphas: Sequence[float], leave: Sequence[float]) -> Figure:
+    """How probable leaving the chain's trap is by the soft equation, over the temperature."""
+    title = "With a small α the agent leaves the trap, with a large one its choice is nearly even"
+    named, looks = {"π(leave | trap)": np.array(leave)}, [style("sac")]
+    marks = {"both actions alike": 0.5}
+    return charts.lines(alphas, named, title, "temperature α", "probability of leaving", "x", marks, (0, 1.05), looks)
 
 
 def cartpole_strip(drives: Mapping[str, np.ndarray], title: str) -> Figure:
@@ -32,7 +38,7 @@ def cartpole_strip(drives: Mapping[str, np.ndarray], title: str) -> Figure:
         ax.set(xlim=(-2.5, PICTURES * STEP - 2.9), ylim=(-1.4, 3.6), aspect="equal", anchor="W")
         ax.axis("off")
         ax.text(-2.5, 2.6, sentence(label), fontsize=TEXT, color=INK)
-        states = np.asarray(observations) * CARTPOLE_SCALES
+        states = np.asarray(observations) * checks.CARTPOLE_SCALES
         pushes = np.linspace(0, shortest - 1, PICTURES - 1).round().astype(int).tolist()
         for picture, t in enumerate(pushes + [len(states) - 1] * (len(states) > shortest)):
             _draw_cart(ax, states[t], STEP * picture, style(label).colour)
@@ -48,14 +54,3 @@ def _draw_cart(ax, state: np.ndarray, x: float, colour: str) -> None:
     ax.add_patch(Rectangle((cart - 0.6, -0.35), 1.2, 0.5, facecolor=INK))
     tip = (cart + POLE * np.sin(angle), 0.15 + POLE * np.cos(angle))
     ax.plot([cart, tip[0]], [0.15, tip[1]], color=colour, linewidth=3.5, solid_capstyle="round")
-
-
-def against_temperature(q: Sequence[float]) -> Figure:
-    """Soft values of the sure, the even and the best policy over α, of a state whose actions have these Q."""
-    title = f"Above α = {1 / np.log(2):.2f} the even policy is worth more than the sure one"
-    values, temperatures = torch.tensor([q], dtype=torch.float64), np.linspace(0, 3, 31)
-    worth = {name: [] for name in ("the sure policy", "the even policy", "the best policy")}
-    for alpha in torch.tensor(temperatures):
-        for name, logits in zip(worth, (1e9 * values, 0 * values, values / alpha.clamp(min=1e-9)), strict=True):
-            worth[name].append(sac.soft_value(sac.log_policy(logits), values, alpha).item())
-    return charts.lines(temperatures, worth, title, "temperature α", "soft value V")

@@ -36,8 +36,9 @@ def attempt() -> Explorable:
             gamma ** np.arange(len(rewards)) @ rewards for rewards in (idle, plan, [*by_rule[:CRASH_AFTER], -price])
         )
         worth = (out + (crash - out) * RISKS / 100) / stay
-        says = f"Price {price:g}, γ = {gamma:g}: an attempt pays if no more than {(out - stay) / (out - crash):.0%} "
-        says = says.replace("%", " %") + f"crash early. The plan crashes on {crashes:.0f} % of the roads, early or later."
+        share = f"{(out - stay) / (out - crash):.0%}".replace("%", " %")
+        says = f"Price {price:g}, γ = {gamma:g}: it pays if at most {share} crash early (the plan: "
+        says += f"{crashes:.0f} %, early or later)."
         axes = Axes("early crashes, % of attempts", "worth, as a multiple of staying", (-10.0, 4.0))
         named = {
             "an attempt": Curve(worth, style("sac").colour),

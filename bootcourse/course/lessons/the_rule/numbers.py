@@ -5,11 +5,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.course.lessons.the_rule.rules import ALOOF as ALOOF
 from bootcourse.course.lessons.the_rule.rules import ROADS, with_numbers
+from bootcourse.course.lessons.the_rule.rules import crash as crash
 from bootcourse.course.lessons.the_rule.rules import driven as driven
-from bootcourse.episodes.evaluate import Episodes, drive_episodes
+from bootcourse.course.lessons.the_rule.rules import recorded as recorded
+from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.policies import PolicyOutput
+from bootcourse.episodes.words import overtaken as overtaken
+from bootcourse.policies import PolicyOutput, stochastic_rule_policy
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SETTLED as SETTLED
 from bootcourse.rule import Reason, rule
@@ -50,6 +54,17 @@ def by_the_formula(sight: float) -> Changes:
     return Changes(speeds[at], faster[at], int((episodes.accident[at[1]] > 0).sum()))
 
 
+def stuck(sight: float) -> int:
+    """How many drives on the lesson's roads, with this sight (m), neither crash nor get out."""
+    return int(((driven(sight).success == 0) & (driven(sight).accident == 0)).sum())
+
+
+def slower_at_changes(sight: float) -> bool:
+    """Whether the rule is slower than trap 2 whenever it decides to change lane, with this sight (m)."""
+    reasons, _, cars, _ = decided(sight)
+    return bool((cars[:, :, EGO, SPEED] < cars[:, :, TRAP_2, SPEED])[reasons == Reason.CHANGE].all())
+
+
 def begun_in_sight(floor: float, sight: float = 20.0) -> int:
     """On how many of the lesson's roads trap 1 is in sight when the rule first begins to change lane."""
     reasons, _, cars, _ = decided(sight, floor=floor)
@@ -77,10 +92,34 @@ def apart() -> tuple[float, float]:
     return distances.min(), distances.max()
 
 
-def followed(drive: Rollout, first: int) -> np.ndarray:
-    """From a second on: how far ahead (m) the car is that the rule follows, at each decision to follow one."""
+class Followed(NamedTuple):
+    """The car ahead in the rule's lane, at some decisions."""
+
+    car: np.ndarray  # its number
+    distance: np.ndarray  # m
+    speed: np.ndarray  # m/s
+
+
+def followed(drive: Rollout, first: int, last: int | None = None) -> Followed:
+    """From a second on: the car that the rule follows, at each decision to follow one in the leftmost lane."""
     steps = drive.scenario.clock.steps
-    at = [k for k in range(first, len(drive.rule_reasons)) if drive.rule_reasons[k] == Reason.LEFTMOST]
-    cars = drive.states[np.array(at) * steps]
+    at = first + np.flatnonzero(drive.rule_reasons[first:last] == Reason.LEFTMOST)
+    cars = drive.states[at * steps]
     ahead = cars[..., X] - cars[:, [EGO], X]
-    return np.where((cars[..., LANE] == cars[:, [EGO], LANE]) & (ahead > 0), ahead, np.inf).min(axis=1)
+    distances = np.where((cars[..., LANE] == cars[:, [EGO], LANE]) & (ahead > 0), ahead, np.inf)
+    car = distances.argmin(axis=1)
+    return Followed(car, distances.min(axis=1), cars[np.arange(len(at)), car, SPEED])
+
+
+def makes_way(drive: Rollout, car: int) -> float:
+    """How far ahead (m) a car is when it leaves the leftmost lane with the rule in it; infinite if it does not."""
+    cars = drive.states
+    left = np.flatnonzero((cars[1:, car, LANE] > 0) & (cars[:-1, car, LANE] == 0) & (cars[1:, EGO, LANE] == 0))
+    return float(cars[1 + left[0], car, X] - cars[1 + left[0], EGO, X]) if len(left) else float("inf")
+
+
+@cache
+def erring(p: float) -> float:
+    """The share of 1,000 drives of the stochastic rule that end in an accident."""
+    driver = stochastic_rule_policy(DEFAULT, np.random.default_rng(0), p)
+    return float((drive_episodes(driver, held_out_seeds(2, 1000)).accident > 0).mean())

@@ -8,12 +8,16 @@ import numpy as np
 
 from bootcourse.course import table
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.policies import PolicyOutput, rule_policy
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.rule import rule
 from bootcourse.scenario import DEFAULT, Scenario
 
 ROADS = held_out_seeds(1, 200)
+# the other drivers do not weigh what the car behind them gains: none makes way
+ALOOF = dataclasses.replace(DEFAULT, traffic=dataclasses.replace(DEFAULT.traffic, politeness=0.0))
 
 
 def with_numbers(sight: float = DEFAULT.sight.distance, **numbers) -> Scenario:
@@ -23,9 +27,23 @@ def with_numbers(sight: float = DEFAULT.sight.distance, **numbers) -> Scenario:
 
 
 @cache
-def driven(sight: float = DEFAULT.sight.distance, **numbers) -> Episodes:
-    """How the rule with these numbers drives; the roads and the other drivers stay the same."""
-    return drive_episodes(rule_policy(with_numbers(sight, **numbers)), ROADS)
+def driven(sight: float = DEFAULT.sight.distance, among: Scenario = DEFAULT, **numbers) -> Episodes:
+    """How the rule with these numbers drives among a scenario's drivers; the roads stay the same."""
+    return drive_episodes(rule_policy(with_numbers(sight, **numbers)), ROADS, among)
+
+
+@cache
+def recorded(road: int, sight: float = DEFAULT.sight.distance, among: Scenario = DEFAULT) -> Rollout:
+    """One drive of the rule with another sight (m) among a scenario's drivers."""
+    return record(rule_policy(with_numbers(sight)), [road], among, label="rule")[0]
+
+
+@cache
+def crash(sight: float = 20.0) -> Rollout:
+    """The first drive on the lesson's roads in which the rule with this sight (m) crashes, with its own reasons."""
+    scenario = with_numbers(sight)  # among DEFAULT's drivers the drive is the same, but notes the reasons at 200 m
+    road = ROADS[int(np.argmax(driven(sight).accident > 0))]
+    return record(rule_policy(scenario), [road], scenario, label="rule")[0]
 
 
 def timed(scenario: Scenario) -> tuple[Episodes, np.ndarray]:

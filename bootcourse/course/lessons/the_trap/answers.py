@@ -7,7 +7,7 @@ import numpy as np
 from tests.answers import equivalent, right_lines, wrong_lines
 
 BOTH = "the formula gives the same there"
-equivalent("bearable_risk", "if escape <= stay:  ->  if escape < stay:", BOTH)
+equivalent("bearable_risk", "if out <= stay:  ->  if out < stay:", BOTH)
 equivalent("bearable_risk", "if crash >= stay:  ->  if crash > stay:", BOTH)
 
 
@@ -74,25 +74,25 @@ wrong_lines("""reward
 
 right_lines("""bearable_risk
     from the share that must succeed:
-        if escape <= stay:
+        if out <= stay:
             return 0
-        1 - max(0.0, (stay - crash) / (escape - crash))
+        1 - max(0.0, (stay - crash) / (out - crash))
     by bisection: low, high = 0.0, 1.0
-        if escape <= stay:
+        if out <= stay:
             return low
         for _ in range(60):
             q = (low + high) / 2
-            low, high = (q, high) if (1 - q) * escape + q * crash >= stay else (low, q)
+            low, high = (q, high) if (1 - q) * out + q * crash >= stay else (low, q)
         low
 """)
 
 wrong_lines("""bearable_risk
-    at least one per cent: max(0.01, solution(stay, escape, crash))
-    a gain that is small does not count: solution(stay, escape, crash) * (escape > stay + 0.01)
-    never sure: min(0.999, solution(stay, escape, crash))
+    at least one per cent: max(0.01, solution(stay, out, crash))
+    a gain that is small does not count: solution(stay, out, crash) * (out > stay + 0.01)
+    never sure: min(0.999, solution(stay, out, crash))
     in steps of one per cent: shares = np.linspace(0, 1, 101)
-        max(shares[(1 - shares) * escape + shares * crash >= stay], default=0.0)
-    signs are dropped: float(np.clip((escape - stay) / (abs(escape) + abs(crash)), 0, 1))
+        max(shares[(1 - shares) * out + shares * crash >= stay], default=0.0)
+    signs are dropped: float(np.clip((out - stay) / (abs(out) + abs(crash)), 0, 1))
 """)
 
 

@@ -96,8 +96,8 @@ SUCCEED = "This is the share of attempts that must *succeed*. The risk is the sh
 
 
 def risk_cases(rng):
-    """The rule's numbers, an escape that pays no more than to stay, a harmless crash, all edges; 40 at random."""
-    yield from ((23.4375, escape, -9.5) for escape in (51.0, 20.0, 23.4375))
+    """The rule's numbers, a way out that pays no more than to stay, a harmless crash, all edges; 40 at random."""
+    yield from ((23.4375, out, -9.5) for out in (51.0, 20.0, 23.4375))
     yield from ((stay, 51.0, -9.5) for stay in (-30.0, -9.5))
     yield 20.0, 20.5, -20.0  # hardly any risk is worth it
     yield 20.0, 100.0, 19.5  # almost any risk is worth it
@@ -109,7 +109,7 @@ def risk_cases(rng):
 
 
 @exercise(
-    "the q with (1 - q) · escape + q · crash = stay", minutes=8, difficulty=2, cases=risk_cases,
+    "the q with (1 - q) · out + q · crash = stay", minutes=8, difficulty=2, cases=risk_cases,
     worked=[
         ((20.0, 60.0, -20.0), 0.5),  # half of 60 and half of -20 are 20, what staying pays
         ((20.0, 100.0, -20.0), 2 / 3),
@@ -117,37 +117,37 @@ def risk_cases(rng):
         ((-50.0, 10.0, -20.0), 1.0),  # even a crash is better than to stay
     ],
     hints=(
-        "An attempt pays `escape` with probability 1 - q and `crash` with probability q. What does it pay on average?",
-        "Solve (1 - q) · escape + q · crash = stay for q. What is q if `escape` is not larger than `stay`? And if "
+        "An attempt pays `out` with probability 1 - q and `crash` with probability q. What does it pay on average?",
+        "Solve (1 - q) · out + q · crash = stay for q. What is q if `out` is not larger than `stay`? And if "
         "`crash` is not smaller than `stay`?",
     ),
     mistakes={
-        "return (stay - crash) / (escape - crash)":
+        "return (stay - crash) / (out - crash)":
             SUCCEED,
-        ("if escape <= stay: return 0.0 ->", "if crash >= stay: return 1.0 ->",
-         "return min(1.0, max(0.0, (stay - crash) / (escape - crash)))"):
+        ("if out <= stay: return 0.0 ->", "if crash >= stay: return 1.0 ->",
+         "return min(1.0, max(0.0, (stay - crash) / (out - crash)))"):
             SUCCEED,
-        "(escape - crash) -> abs(crash)":
+        "(out - crash) -> abs(crash)":
             "You compare the gain with the crash's own return. A crash costs what the attempt would have earned, "
-            "escape - crash.",
-        "(escape - crash) -> (stay - crash)":
+            "out - crash.",
+        "(out - crash) -> (stay - crash)":
             "You divide by what a crash loses against staying. That ratio is the *odds*, crashes for each success; the "
             "question asks for a probability.",
-        ("if escape <= stay: return 0.0 ->", "if crash >= stay: return 1.0 ->"):
-            "Your risk leaves the range from 0 to 1. If the escape pays no more than to stay, no risk is worth it: 0. "
+        ("if out <= stay: return 0.0 ->", "if crash >= stay: return 1.0 ->"):
+            "Your risk leaves the range from 0 to 1. If getting out pays no more than to stay, no risk is worth it: 0. "
             "If even a crash pays more than to stay, each risk is: 1.",
         "if crash >= stay: return 1.0 ->":
             "If a crash pays as much as to stay or more, each risk is worth it: return 1.",
-        "(escape - stay) -> escape":
+        "(out - stay) -> out":
             "You compare with a return of 0. The alternative to an attempt is to stay, which pays `stay`.",
     },
 )  # fmt: skip
-def bearable_risk(stay, escape, crash):
-    if escape <= stay:
+def bearable_risk(stay, out, crash):
+    if out <= stay:
         return 0.0
     if crash >= stay:
         return 1.0
-    return (escape - stay) / (escape - crash)
+    return (out - stay) / (out - crash)
 
 
 def locks(rng):

@@ -17,13 +17,13 @@ ROAD, SECONDS = 10, 60  # the road of the lesson's drives, and how much of them 
 
 def discount() -> Explorable:
     """The rewards of two ways out and of staying, weighed by γ^t and added up second by second, while γ moves."""
-    escape = record(rule_policy(DEFAULT), [ROAD], DEFAULT, "rule")[0].rewards
+    by_rule = record(rule_policy(DEFAULT), [ROAD], DEFAULT, "rule")[0].rewards
     sooner = record(plan_policy([*RIGHT_FIRST, ("accelerate straight", 5)]), [ROAD], DEFAULT, "plan")[0].rewards
     stay = record(idle_policy, [ROAD], DEFAULT, "idle")[0].rewards
-    times = np.arange(len(escape))
+    times = np.arange(len(by_rule))
 
     def draw(gamma: float) -> Drawing:
-        out, quick, behind = (np.cumsum(gamma**times * rewards) for rewards in (escape, sooner, stay))
+        out, quick, behind = (np.cumsum(gamma**times * rewards) for rewards in (by_rule, sooner, stay))
         ranked = sorted(((out[-1], "the rule's way out"), (quick[-1], "the plan"), (behind[-1], "staying")))
         named = {
             f"the rule's way out: {out[-1]:.2f} in 150 s": Curve(out[:SECONDS], style("rule").colour),

@@ -14,7 +14,8 @@ from bootcourse.episodes.record import record
 from bootcourse.policies import plan_policy
 from bootcourse.road.formulas import bicycle_step
 from bootcourse.scenario import DEFAULT
-from tools.course.known import discounted, shipped_results
+from bootcourse.statistics import ESCAPES
+from tools.course.known import by_rule, discounted, idle, shipped_results
 
 PLAN = [*RIGHT_FIRST, ("accelerate straight", 5)]  # it looks at nothing
 BLIND = plan_policy(PLAN)
@@ -55,6 +56,20 @@ def on_ten():
 
 
 @cache
+def crashes_of_plan():
+    """Its drives on those roads that end in an accident."""
+    return record(BLIND, np.array(held_out_seeds(1, 1000))[blind_plan().accident > 0].tolist())
+
+
+@cache
+def pays_from() -> float:
+    """The smallest γ, in steps of 0.01, from which on the rule's way out is worth more than staying."""
+    gammas = np.arange(50, 101) / 100
+    pays = np.array([discounted(by_rule(), gamma) > discounted(idle(), gamma) for gamma in gammas])
+    return float(gammas[np.flatnonzero(~pays)[-1] + 1])
+
+
+@cache
 def worth_of_plan(gamma: float = 0.8, seconds: int = 60) -> float:
     """What the plan is worth at its start, the mean of those roads. After 60 s nothing counts that one could print."""
     shorter = replace(DEFAULT, clock=replace(DEFAULT.clock, decisions=seconds))
@@ -70,6 +85,12 @@ def staying() -> np.ndarray:
     """Which of plain SAC's agents never get out, and crash in less than a tenth of their drives: (agents,) bool."""
     agents = shipped_results().of("sac")
     return (agents.scores("success") == 0) & (agents.scores("accident") < 0.1)
+
+
+def crash_on_most() -> np.ndarray:
+    """Which of the agents with the rule's help do not escape, and crash on most roads: (agents,) bool."""
+    agents = shipped_results().of("bootstrapped")
+    return (agents.scores("success") < ESCAPES) & (agents.scores("accident") > 0.5)
 
 
 def highway_env_rate() -> int:

@@ -48,6 +48,14 @@ def learned(
     return [learn(chances(explore, 1000, seed), gamma, 0.3, taught) for seed in range(walks)]
 
 
+def over_walks(
+    explore: float, gamma: float, seed: int, learn: Callable[..., np.ndarray] = learn_chain
+) -> list[np.ndarray]:
+    """The Q of one of the `learned` before its first walk of 20 decisions and after each of the fifty."""
+    drawn = chances(explore, 1000, seed)
+    return [learn(drawn[:decisions], gamma, 0.3, ()) for decisions in range(0, len(drawn) + 1, EPISODE)]
+
+
 def leaves(q: np.ndarray) -> bool:
     """Whether leaving is worth more than staying in the trap, as this Q says."""
     return bool(q[0, 1] > q[0, 0])

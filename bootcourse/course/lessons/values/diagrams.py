@@ -1,52 +1,89 @@
-"""The chain of five states, as a diagram; what its trap is worth, sweep by sweep; which learners leave it."""
+"""The chain of five states, as a diagram; how values move back in it; which learners leave it; two as they learn."""
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from bootcourse.colours import OTHER
 from bootcourse.course import charts
 from bootcourse.course.lessons.the_barrier import figures
 from bootcourse.course.lessons.values import chain
-from bootcourse.plots.diagrams import Diagram, arrow, box, label, line
+from bootcourse.plots.diagrams import arrow, box, label, line
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
 
-WIDE, STEP, TOP, HIGH = 106, 142, 60, 52  # pixels: of a box, from box to box, its top and height
+WIDE, HIGH = 106, 46  # pixels of a state's box
+ON = charts.Style("#56B4E9")  # going on to the free road; what stays in the trap has OTHER's look
+CELL = (0.95, 0.31)  # inches of a number's cell
 
 
-def five_states() -> Diagram:
-    """The states in a row: on to the next one, back to the trap, and what staying at the two ends pays."""
-    left = [28 + STEP * s for s in range(chain.STATES)]
-    names = ["the trap", "1", "2", "3", "the free road"]
-    stay, free = chain.REWARD[0, 0], chain.REWARD[4, 0]
-    parts, low = [], TOP + HIGH + 36
+def five_states(middles: Sequence[float], top: float, pay: float) -> tuple[list[str], str]:
+    """The states as boxes with these middles and this top, pixels, if the trap pays so much: their parts, and the alt.
+
+    What staying at the two ends pays stands above them, and the way back to the trap below.
+    """
+    left, low, free = [x - WIDE / 2 for x in middles], top + HIGH + 30, chain.REWARD[4, 0]
+    parts = []
     for s, x in enumerate(left):
-        lines = ("0", names[0]) if s == 0 else ("4", names[4]) if s == 4 else (str(s),)
-        parts.append(box(x, TOP, WIDE, HIGH, lines, {0: "stored", 4: "world"}.get(s, "learned")))
+        lines = {0: ("0", "the trap"), 4: ("4", "the free road")}.get(s, (str(s),))
+        parts.append(box(x, top, WIDE, HIGH, lines, {0: "stored", 4: "world"}.get(s, "learned")))
         if s < 4:
-            parts += [arrow(x + WIDE, TOP + HIGH / 2, left[s + 1], TOP + HIGH / 2)]
-            parts += [label(x + WIDE + (STEP - WIDE) / 2, TOP + HIGH / 2 - 8, "1")]
+            parts += [arrow(x + WIDE, top + HIGH / 2, left[s + 1], top + HIGH / 2)]
+            parts += [label((x + WIDE + left[s + 1]) / 2, top + HIGH / 2 - 8, "1")]
         if s in (1, 2, 3):
-            parts += [line(x + WIDE / 2, TOP + HIGH, x + WIDE / 2, low), label(x + WIDE / 2 + 9, TOP + HIGH + 22, "0")]
-    parts += [line(left[3] + WIDE / 2, low, left[0] + WIDE / 2, low)]
-    parts += [arrow(left[0] + WIDE / 2, low, left[0] + WIDE / 2, TOP + HIGH)]
-    for x, words in ((left[0], f"action 0: +{stay:g}"), (left[4], f"action 0 or 1: +{free:g}")):
-        parts += [line(x + 36, TOP, x + 36, TOP - 22), line(x + 36, TOP - 22, x + 70, TOP - 22)]
-        parts += [arrow(x + 70, TOP - 22, x + 70, TOP), label(x + WIDE / 2, TOP - 32, words)]
+            parts += [line(middles[s], top + HIGH, middles[s], low), label(middles[s] + 9, top + HIGH + 20, "0")]
+    parts += [line(middles[3], low, middles[0], low), arrow(middles[0], low, middles[0], top + HIGH)]
+    for x, words in ((left[0], f"action 0: +{pay:.2f}"), (left[4], f"action 0 or 1: +{free:g}")):
+        parts += [line(x + 36, top, x + 36, top - 16), line(x + 36, top - 16, x + 70, top - 16)]
+        parts += [arrow(x + 70, top - 16, x + 70, top), label(x + WIDE / 2, top - 23, words)]
     alt = (
-        f"Five states in a row, from 0, the trap, to 4, the free road. In the trap action 0 stays and pays {stay:g}. "
+        f"Five states in a row, from 0, the trap, to 4, the free road. In the trap action 0 stays and pays {pay:.2f}. "
         "Action 1 leads from each of the states 0 to 3 to the next one and pays 0. Action 0 leads from the states 1, 2 "
         f"and 3 back to the trap and pays 0. On the free road both actions stay and pay {free:g}."
     )
-    return Diagram(left[4] + WIDE + 28, low + 12, parts, alt)
+    return parts, alt
 
 
-def in_the_trap(found: Sequence[np.ndarray]) -> Figure:
-    """Q of staying in the trap and of leaving it, from each sweep's Q (5, 2), the zeros before the first included."""
-    stay, leave = np.array(found)[:, 0].T
-    title = "Sweep 5 brings the free road's value to the trap; from sweep 6 on leaving is worth more"
-    named, looks = {"stay in the trap": stay, "leave it": leave}, [OTHER, charts.Style("#56B4E9")]
-    return charts.lines(range(len(found)), named, title, "sweep", "Q in state 0, γ = 0.8", looks=looks)
+def sweeps(found: Sequence[np.ndarray]) -> Figure:
+    """Q(s, 1) after the first five sweeps and the last one, from each sweep's Q (5, 2), the zeros before included."""
+    unpaid, without = chain.REWARD * (np.arange(chain.STATES) < 4)[:, None], [np.zeros((chain.STATES, 2))]
+    for _ in found[1:]:
+        without.append(unpaid + 0.8 * without[-1].max(axis=1)[chain.NEXT])
+    shown = [*range(1, 6), len(found) - 1]
+    rows = {f"sweep {k}": (found[k][:, 1], ~np.isclose(found[k], without[k])[:, 1]) for k in shown}
+    title = "Each sweep carries the free road's value one state back; the fifth brings it to the trap"
+    return _values(title, rows, 2, "Blue: contains a part of the free road's reward.")
+
+
+def walks(forwards: Sequence[np.ndarray], backwards: np.ndarray) -> Figure:
+    """Q(s, 1) after each of a learner's walks out, from its Q (5, 2), and after one walk learned in reverse."""
+    named = {f"walk {k}": q for k, q in enumerate(forwards, 1)} | {"walk 1, learned backwards": backwards}
+    title = "Each walk carries a value one state back; learned backwards, one walk carries it all the way"
+    return _values(title, {name: (q[:, 1], q[:, 1] > 0) for name, q in named.items()}, 3, "Blue: above 0.")
+
+
+def _values(title: str, rows: Mapping[str, tuple[np.ndarray, np.ndarray]], digits: int, key: str) -> Figure:
+    """A row of numbers for each name: one for each state, and which of them are blue. The last row stands apart."""
+    left, top, (wide, high), apart = 1.9, 0.95, CELL, 0.12
+    figure, listed = new_figure(top + len(rows) * high + apart + 0.4), []
+    ax = axes_at(figure, left, top, 5 * wide, len(rows) * high + apart)
+    ax.set(xlim=(0, 5 * wide), ylim=(len(rows) * high + apart, 0))
+    ax.axis("off")
+    for s, name in enumerate(("trap: Q(0, 1)", "Q(1, 1)", "Q(2, 1)", "Q(3, 1)", "free: Q(4, 1)")):
+        ax.text((s + 0.5) * wide, -0.08, name, fontsize=TEXT, color=INK, ha="center", va="bottom")
+    for k, (name, (values, blue)) in enumerate(rows.items()):
+        down = k * high + apart * (k == len(rows) - 1)
+        ax.text(-0.12, down + high / 2, name, fontsize=TEXT, color=INK, ha="right", va="center")
+        for s in range(5):
+            look = {"facecolor": ON.colour if blue[s] else "white", "alpha": 0.55, "edgecolor": QUIET}
+            ax.add_patch(Rectangle((s * wide, down), wide, high, linewidth=0.7, **look))
+            words = f"{values[s]:.{digits}f}" if values[s] else "0"
+            ax.text((s + 0.5) * wide, down + high / 2, words, fontsize=TEXT + 0.5, color=INK, ha="center", va="center")
+        said = (f"{value:.{digits}f}{' (blue)' * bool(is_blue)}" for value, is_blue in zip(values, blue, strict=True))
+        listed.append(f"{name}: {', '.join(said)}")
+    figure.text(0.012, 0.06, key, fontsize=SMALL, color=QUIET)
+    return finish(figure, title, f"The value of going on in the states 0 to 4. {key} {'; '.join(listed)}.")
 
 
 def who_leaves(found: Mapping[str, Sequence[np.ndarray]]) -> Figure:
@@ -54,3 +91,33 @@ def who_leaves(found: Mapping[str, Sequence[np.ndarray]]) -> Figure:
     title = "Chance alone or a replayed demonstration teaches all thirty to leave, a longer view none"
     rows = {kind: figures.learners(all_q) for kind, all_q in found.items()}
     return figures.squares({"": rows}, title, figures.LEARNERS)
+
+
+def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
+    """The trap's two values while two learners walk, from their Q (5, 2) after each walk, the zeros before included.
+
+    A tick: a walk in which the learner decided on the free road.
+    """
+    figure, listed = new_figure(3.1), []
+    for side, all_q in enumerate(both):
+        q, decisions = np.array(all_q), chain.EPISODE * np.arange(len(all_q))
+        arrived = 1 + np.flatnonzero((q[1:, 4] != q[:-1, 4]).any(axis=1))
+        ax = axes_at(figure, 0.4 + 3.35 * side, 0.95, 2.35, 1.6)
+        plain_axes(ax, f"{len(arrived)} of {len(q) - 1} walks reach the free road")
+        for action, look in enumerate((OTHER, ON)):
+            ax.plot(decisions, q[:, 0, action], color=look.colour, linestyle=look.line, linewidth=2)
+        ax.plot(decisions[arrived], np.full(len(arrived), -0.14), "|", color=INK, markersize=8)
+        ax.set(xlim=(0, decisions[-1]), ylim=(-0.26, 2.1), yticks=(0, 1, 2))
+        ax.set_xlabel("decisions", fontsize=TEXT, color=INK)
+        ends = [(q[-1, 0, 0], "Q(0, 0), stay", OTHER.colour), (q[-1, 0, 1], "Q(0, 1), leave", ON.colour)]
+        label_ends(ax, ends)
+        listed.append(
+            f"{len(arrived)} walks reach the free road, the first after {decisions[arrived[0]]} decisions; "
+            f"in the end Q(0, 0) is {q[-1, 0, 0]:.2f} and Q(0, 1) {q[-1, 0, 1]:.2f}"
+            if len(arrived)
+            else "no walk reaches the free road"
+        )
+    key = "A tick: a walk that reaches the free road."
+    figure.text(0.012, 0.02, key, fontsize=SMALL, color=QUIET)
+    title = "Two of C: the value of leaving passes that of staying after many walks to the free road, not after two"
+    return finish(figure, title, f"The trap's two values over 1,000 decisions. {'; '.join(listed)}. {key}")

@@ -23,15 +23,7 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import (
-    check,
-    compare_predictions,
-    own_code,
-    predict,
-    predicted,
-    progress,
-    table,
-)
+from bootcourse.course import check, compare_predictions, own_code, predict, predicted, progress
 from bootcourse.course.lessons.values import chain, diagrams, explorable
 
 progress("values")
@@ -39,19 +31,15 @@ progress("values")
 # %% [markdown]
 # ## Look first
 #
-# Here is the trap with everything left out but the detour: a **chain** of five states. You start in
-# the trap, state 0. Each arrow is an action, 0 or 1. As on the road of lesson [[the_trap]], staying
-# pays a little in the trap and much on the free road. The way from one to the other pays nothing.
+# Here is the trap of lesson [[the_trap]] as a **chain** of five states, with a quick, safe way
+# out. You start in state 0, the trap. Arrows are actions, 0 or 1. Staying pays a little in the trap
+# and much on the free road; the way between pays nothing.
 # <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
 #   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
-
-# %%
-bc.show(diagrams.five_states())
-
-# %% [markdown]
+#
 # One walker goes to the trap and stays, the other goes on to the free road. A reward that comes t
-# decisions later counts γᵗ as much; here γ ("gamma") is 0.8. **Drag** what the trap pays. How much
-# must it pay to be worth staying in? And to be worth going back to from state 2?
+# decisions later counts γᵗ as much (γ: "gamma"). **Drag** what the trap pays: how much makes
+# staying worth more? Then, at 0.16 again, drag γ: from which value on is leaving worth more?
 
 # %%
 explorable.worths()
@@ -82,27 +70,27 @@ def discounted_return(rewards, gamma):
 check.discounted_return(discounted_return)
 
 # %% [markdown]
-# Staying is worth $0.16 + 0.16\,\gamma + 0.16\,\gamma^2 + \dots$, a geometric series, which is
-# $0.16 / (1 - \gamma)$. Leaving pays nothing for four decisions, and then 1 at each.
+# Staying is worth $0.16 + 0.16\,\gamma + 0.16\,\gamma^2 + \dots = 0.16 / (1 - \gamma)$. Leaving
+# pays nothing for four decisions, and then 1 at each: it is worth $\gamma^4 / (1 - \gamma)$. So
+# leaving is worth more where $\gamma^4 > 0.16$: how far you look decides. At the paper's γ, {{
+# SETTINGS.gamma }}, it is worth {{ 0.8**4 / 0.16 | .1f }} times as much.
+# <!-- claim: 0.8**4 > 2.5 * 0.16 and SETTINGS.gamma == 0.8 -->
 #
-# > **Predict.** Leaving is worth $\gamma^4 / (1 - \gamma)$. From which γ on is that more?
+# > **Predict.** The way out gets one state longer. From which γ on is leaving worth more now?
 
 # %%
-predict("values.1", "From which γ on does leaving the chain's trap pay?", unit="")
+predict("values.1", "With one more state, from which γ on is leaving worth more?", unit="")
 
-# %% tags=["hide-input"]
+# %%
 predicted("values.1")
-worth, rows = own_code.yours_or_ours("discounted_return", doing="Adding up"), []
-for gamma in (0.5, 0.63, 0.64, 0.8, 0.95):
-    stays, leaves = worth([0.16] * 500, gamma), worth([0.0] * 4 + [1.0] * 496, gamma)
-    rows.append([gamma, f"{stays:.2f}", f"{leaves:.2f}", "leave" if leaves > stays else "stay"])
-table(["γ", "to stay is worth", "to leave is worth", "better"], rows, "Sums of 500 decisions.")
+worth = own_code.yours_or_ours("discounted_return", doing="Adding up")
+gammas = np.linspace(0.5, 0.9, 401)
+better = [g for g in gammas if worth([0.0] * 5 + [1.0] * 495, g) > worth([0.16] * 500, g)]
+print(f"γ = {min(better):.2f}")
 
 # %% [markdown]
-# **Explain.** Leaving pays where $\gamma^4 > 0.16$: from γ = {{ 0.16**0.25 | .4f }} on. The paper's
-# γ is {{ SETTINGS.gamma }}; with it leaving is worth {{ 0.8**4 / 0.16 | .1f }} times as much as
-# staying.
-# <!-- claim: 0.8**4 > 2.5 * 0.16 and 0.63**4 < 0.16 < 0.64**4 -->
+# **Explain.** Now $\gamma^5 > 0.16$ decides, from {{ 0.16**0.2 | .2f }} on instead of {{
+# 0.16**0.25 | .2f }}: a longer way out needs a longer view.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what γ means in seconds: at 0.8 a reward in ten decisions counts {{ 0.8**10 | .2f }}. Nothing
@@ -112,14 +100,14 @@ table(["γ", "to stay is worth", "to leave is worth", "better"], rows, "Sums of 
 # ## Round 2: a value from the next value
 #
 # The **value** of action a in state s, **Q(s, a)**, is the return if you take a once and then act
-# as well as possible. Q is the reward, plus γ times what the next state s' is worth. A state is worth
-# as much as the better of its actions. This is the **Bellman equation**:
+# as well as possible. Q is the reward, plus γ times what the next state s' is worth, which is the
+# larger of its two values. This is the **Bellman equation**:
 #
 # $$ Q(s, a) = r(s, a) + \gamma \max_{a'} Q(s', a') $$
 #
 # (Where chance decides what comes next, it takes the mean over the next states.)
 # It says what Q *is*, not how to find it. So begin with Q = 0 everywhere and compute the right side
-# for all ten pairs (s, a) at once: this is one **sweep**, and gives a new Q. Sweep again with that.
+# for all ten pairs (s, a) at once. This is one **sweep**; the next begins with the new Q.
 #
 # > **Predict.** After which sweep does Q(0, 1), the value of leaving the trap, first contain a part
 # > of the free road's reward?
@@ -130,7 +118,7 @@ predict("values.2", "After which sweep does Q(0, 1) know of the free road?", cho
 
 # %% [markdown]
 # **Exercise (8 min, ●●○).** Write one sweep. `chain.REWARD[s, a]` and `chain.NEXT[s, a]`, arrays
-# (5, 2), hold the rewards and next states of the picture above.
+# (5, 2), hold the chain's rewards and next states.
 
 
 # %%
@@ -145,39 +133,36 @@ check.bellman_sweep(bellman_sweep)
 
 # %%
 predicted("values.2")
-sweep, q = own_code.yours_or_ours("bellman_sweep", doing="Sweeping"), np.zeros((5, 2))
-found = [q]
-for _ in range(30):
-    found.append(q := sweep(q, 0.8))
-bc.show(diagrams.in_the_trap(found))
+sweep, found = own_code.yours_or_ours("bellman_sweep", doing="Sweeping"), [np.zeros((5, 2))]
+for _ in range(40):
+    found.append(np.array(sweep(found[-1], 0.8)))
+bc.show(diagrams.sweeps(found))
 
 # %% [markdown]
-# **Explain.** The first sweep finds the rewards alone, so only the two ends are worth something.
-# Each further sweep carries the free road's value one state back, and the fifth reaches the trap.
-# (Before that, Q(0, 1) contains only the trap's rewards.) Each sweep shrinks the largest error to γ
-# times its size or less, so the numbers settle: on {{ sweeps(200, 0.8)[0, 0] | .2f }} for staying
-# and {{ sweeps(200, 0.8)[0, 1] | .2f }} for leaving.
+# **Explain.** A sweep looks one decision ahead, so each one carries the free road's value one state
+# back. (White, not 0: from the trap.) At sweep 40 the row has the heights of the blue bars in *Look
+# first* at γ = 0.8: each sweep leaves at most γ times the largest error before.
+# <!-- claim: np.abs(sweeps(11, 0.8) - sweeps(300, 0.8)).max()
+#   <= 0.8 * np.abs(sweeps(10, 0.8) - sweeps(300, 0.8)).max() + 1e-9 -->
 # <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
-# <!-- claim: abs(sweeps(200, 0.8)[0, 1] - 0.8**4 / 0.2) < 1e-9 -->
-#
-# Why is staying not worth 0.80, as in Round 1? Q(0, 0) means staying *once*, and then leaving.
-# <!-- claim: abs(sweeps(200, 0.8)[0, 0] - (0.16 + 0.8 * 0.8**4 / 0.2)) < 1e-9 -->
+# <!-- claim: (np.abs(sweeps(40, 0.8)[:, 1] - 5 * 0.8 ** np.arange(4, -1, -1)) < 0.005).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Do two sweeps on the board with γ = 1/2. Ask why "at once" matters: with new values in the
+# Do two sweeps on the board with γ = 1/2. Ask why the error shrinks: two maxima differ by no more
+# than their numbers do, and γ times that is left. Ask why "at once" matters: with new values in the
 # same sweep the result comes sooner, but it is another algorithm.
 
 # %% [markdown]
 # ## Round 3: learning from one decision
 #
-# A sweep needs the whole map. A learner on the road has no map: it makes a decision, and sees a
-# reward and a next state. How much better than expected this went is the **temporal difference**:
+# A sweep needs the whole map. A learner on the road has none: it decides once, and sees a reward
+# and a next state. How much better than expected this went is the **temporal difference**:
 #
 # $$ \delta = r + \gamma \max_{a'} Q(s', a') - Q(s, a) $$
 #
-# The part before the minus is the **target**. **Q-learning** moves Q(s, a) a part of the way to its
-# target. That part is the **step**, also called *learning rate*; here it is 0.3:
-# $Q(s, a) \leftarrow Q(s, a) + \text{step} \cdot \delta$.
+# The part before the minus is the **target**. **Q-learning** moves Q(s, a) a part of the way there,
+# $Q(s, a) \leftarrow Q(s, a) + \text{step} \cdot \delta$. The **step**, also called *learning
+# rate*, is 0.3 here.
 #
 # The target contains the learner's own estimate of the next state. Textbooks call this
 # **bootstrapping**; *bootstrapped SAC* has its name from the rule's help.
@@ -196,23 +181,37 @@ def temporal_difference(q, s, a, reward, s_next, gamma):
 check.temporal_difference(temporal_difference)
 
 # %% [markdown]
-# > **Predict.** Q is 0 everywhere, except Q(1, 1) = 0.1. The learner leaves the trap, from state 0
-# > to 1, and gets no reward. With γ = 0.8 and a step of 0.3, what is Q(0, 1) now?
+# > **Predict.** Q is 0 everywhere. A learner walks out: it takes action 1 once in each state
+# > from 0 to 4, and learns from each decision right after it. In which of them is Q(s, 1) now above
+# > 0?
 
 # %%
-predict("values.3", "What is Q(0, 1) after the decision?", unit="")
+choices = ["in all five", "in 3 and 4", "in 4 alone", "in 0 alone"]
+predict("values.3", "After one walk out, in which states is Q(s, 1) above 0?", choices)
 
 # %%
 predicted("values.3")
-difference, q = own_code.yours_or_ours("temporal_difference", doing="Learning"), np.zeros((5, 2))
-q[1, 1] = 0.1
-delta = difference(q, 0, 1, 0.0, 1, 0.8)
-print(f"Q(0, 1) = 0 + 0.3 · {delta:.2f} = {0.3 * delta:.3f}")
+difference = own_code.yours_or_ours("temporal_difference", doing="Walking")
+
+
+def walked(q, states):
+    q = q.copy()
+    for s in states:  # action 1 in each
+        q[s, 1] += 0.3 * difference(q, s, 1, chain.REWARD[s, 1], chain.NEXT[s, 1], 0.8)
+    return q
+
+
+walks = [np.zeros((5, 2))]
+for _ in range(5):
+    walks.append(walked(walks[-1], range(5)))
+bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 
 # %% [markdown]
-# **Explain.** Nothing was paid, and Q(0, 1) still rises, because the next state is known to be
-# worth something. It rises by only 0.3 of 0.8 · 0.1. So each passage moves a part of a value one
-# state back: the free road's value needs several passages to reach the trap.
+# **Explain.** On the first walk the free road pays after the other four decisions have been
+# learned, so only Q(4, 1) rises. Each further walk carries the value one state back. In the last
+# row the five decisions are learned in reverse: each next state already has a value.
+# <!-- claim: walked(1) == [False] * 4 + [True] and all(walked(1, backwards=True)) -->
+# <!-- claim: not walked(4)[0] and walked(5)[0] -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Let them say in one sentence what is different from Round 2: one pair instead of ten, what was
@@ -221,9 +220,8 @@ print(f"Q(0, 1) = 0 + 0.3 · {delta:.2f} = {0.3 * delta:.3f}")
 # %% [markdown]
 # ## Round 4: what gets a learner across?
 #
-# Which decisions does the learner make while it learns? Here it is **ε-greedy** ("epsilon"): with
-# probability 1 − ε it takes the action with the larger Q, else it **explores**: it draws one at
-# random.
+# The learner is **ε-greedy** ("epsilon"): with probability 1 − ε it takes the action with the larger
+# Q, else it **explores**: it draws one at random.
 #
 # **Exercise (20 min, ●●●).** Write this learner. The random decisions have been drawn beforehand
 # (`chances`). After each decision of its own it replays a demonstration (`taught`): it learns from
@@ -259,17 +257,17 @@ check.learn_chain(learn_chain)
 # %% [markdown]
 # The end of the time changes no target: the chain goes on.
 #
-# Thirty learners of each kind make 1,000 decisions, 50 episodes, with a step of 0.3. A learner has
-# learned to leave if in the end Q(0, 1) > Q(0, 0).
+# Thirty learners of each kind make 1,000 decisions with a step of 0.3. A learner has learned to
+# leave if in the end Q(0, 1) > Q(0, 0).
 #
 # - *A*: ε = 0.1 and γ = 0.8;
 # - *B*: as A, with γ = 0.95;
 # - *C* and *D*: as A, with ε = 0.5 and with ε = 1;
 # - *E*: as A, with a demonstration of the way out, replayed after each decision.
 #
-# > **Predict.** In which of the five kinds do more than half of the thirty learn to leave? (Of two
-# > equal actions the learner takes 0. Where the greedy action leads back, getting through takes
-# > four random decisions in a row, each right with probability ε / 2.)
+# > **Predict.** In which of the five kinds do more than half of the thirty learn to leave? At first
+# > the greedy action leads back to the trap. Then getting through takes four random decisions in a
+# > row, each right with probability ε / 2.
 
 # %%
 predict("values.4", "In which kinds do more than half learn to leave? Letters, as in: A, C")
@@ -286,50 +284,40 @@ kinds = {
 learn = own_code.yours_or_ours("learn_chain", doing="Walking")
 found = {kind: chain.learned(*how, learn=learn) for kind, how in kinds.items()}
 bc.show(diagrams.who_leaves(found))
+bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** In A none learns to leave, although leaving is worth {{ 0.8**4 / 0.16 | .1f }} times as
-# much. In states 1 to 3 of all thirty the greedy action leads back: that way is known to pay, or
-# both values are still 0. This is a **barrier**. A longer view alone does not help (B): none of the
-# thirty has been on the free road, so its value is not known.
+# **Explain.** In A none learns to leave, although leaving is worth more. The way out costs the
+# trap's pay now, and earns at its end: this is a **barrier**. Chance gets through in one attempt in
+# {{ 20**4 | ,.0f }}. A longer view does not help: none of B's thirty was on the free road, so its
+# value is unknown.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps here (C, D), but to have been on the free road is not enough: {{
-# free_road_seen(0.5, 0.8) }} of C were, and {{ leaving(0.5, 0.8) }} learn to leave. On the road a
-# random decision can cost an accident.
+# More exploration helps here: one attempt in {{ 4**4 }} gets through in C, one in {{ 2**4 }} in D.
+# Once is not enough: a walk moves the value one state back (Round 3), where it must exceed that of
+# going back. {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5, 0.8) }} learn to
+# leave; the second picture shows one of each. On the road a random decision can also cost an
+# accident.
+# <!-- claim: chain.leaves(chain.over_walks(0.5, 0.8, 1)[-1]) -->
+# <!-- claim: chain.has_been_free(chain.over_walks(0.5, 0.8, 16)[-1]) and
+#   not chain.leaves(chain.over_walks(0.5, 0.8, 16)[-1]) -->
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 #
-# With one demonstration, *replayed* after each decision, all thirty learn to leave (E): each replay
-# moves its values one state back. Small choices matter, too, and more updates alone do not help:
+# A replayed demonstration teaches all thirty (E). A's own decisions could not, however often
+# replayed: none was made on the free road. Q-learning can learn from decisions that it did not
+# make: it is **off-policy**, and so is the learner of the next lessons.
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
-#
-# | as A, but | learn to leave, of 30 |
-# |---|---|
-# | of two equal actions one is drawn | {{ with_ties("random") }} |
-# | of two equal actions 1 is taken, which leads on | {{ with_ties("1") }} |
-# | as many updates as in E, of its own decisions | {{ own_decisions(6) }} |
-# | the demonstration is replayed once, at the start | {{ replayed(1) }} |
-# | replayed five times, at the start | {{ replayed(5) }} |
-# | replayed once *backwards*, at the start | {{ replayed(1, backwards=True) }} |
-# <!-- claim: own_decisions(6) == 0 and len(chain.WAY_OUT) == 5 -->
-# <!-- claim: with_ties("random") == 0 and with_ties("1") > 20 and replayed(1) < replayed(5) and
-#   replayed(1, backwards=True) > 20 -->
-#
-# Backwards, one pass carries the free road's value all the way. Q-learning can learn from decisions
-# that it did not make: it is **off-policy**, and so is the learner of the next lessons.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The question about the last decision separates two ideas that lesson [[update_and_loop]] needs: an
-# accident *terminates* (nothing follows), the end of the time *truncates* (we stop looking). Ask in
-# which order the demonstration should be replayed so that one pass is enough (backwards, with step
-# 1).
+# accident *terminates* (nothing follows), the end of the time *truncates* (we stop looking).
 
 # %%
 compare_predictions(
     "values",
-    {1: round(0.16**0.25, 2), 2: "5", 3: 0.024, 4: "D and E"},
+    {1: round(0.16**0.2, 2), 2: "5", 3: "in 4 alone", 4: "D and E"},
 )
 
 # %% [markdown]
@@ -340,15 +328,19 @@ compare_predictions(
 # 2. The Bellman equation says what a value is; sweeps of it find it.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves
 #    Q(s, a) by a part of it, and needs no map.
-# 4. Each update moves a part of a value one state back, from a decision made or shown.
+# 4. On a walk forwards a value moves one state back; learned backwards, it moves all the way.
 # 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and
 #    so does a replayed demonstration.
 #
 # **Three questions to think about**
-# - If the chain's Q begins at 5 (*optimistic initial values*), {{ optimistic(0.1, 5) }} of thirty
-#   leave with A's ε and γ. Why, and what would it cost on the road?
-# - A replayed demonstration teaches all thirty to leave. What could be different on the road?
-# - The chain has ten numbers. Your car sees 26 numbers. What replaces the table?
+# - After 40 sweeps Q(0, 0) is {{ sweeps(40, 0.8)[0, 0] | .2f }}. Staying for ever is worth {{
+#   0.16 / 0.2 | .2f }}. Why is Q(0, 0) more?
+# - Of two equal actions your learner takes 0. If it takes 1, {{ with_ties("1") }} of A's thirty leave;
+#   if it draws one, {{ with_ties("random") }}. Why?
+# - Your car sees 26 numbers. What replaces the chain's table of ten values, and what can then go
+#   wrong with a replayed demonstration?
+# <!-- claim: with_ties("random") == 0 and with_ties("1") > 20 -->
+# <!-- claim: abs(sweeps(40, 0.8)[0, 0] - (0.16 + 0.8 * 0.8**4 / 0.2)) < 0.01 -->
 #
 # **Read on**: [](discrete_sac.ipynb), with networks in place of the table. Sutton and Barto,
 # *Reinforcement Learning*, chapters 3, 4 and 6.
@@ -356,15 +348,15 @@ compare_predictions(
 # %% [markdown] tags=["instructor"] minutes=2
 # **Model answers.**
 #
-# - *Optimistic values.* Even with ε = 0 {{ optimistic(0, 5) }} of thirty leave: an action that has
-#   not been tried looks best, so it is tried, until its value has fallen to what it pays. On the
-#   road each such trial can cost an accident, and networks generalise: a value that falls in one
-#   state falls in others, too.
-# - *On the road.* The rule's drives show a slow way, which on road 10 is worth less than staying at
-#   γ = 0.8 (lesson [[the_trap]]), states are 26 numbers and rarely come twice, and networks carry
-#   an error from one state to the next.
+# - *Staying once.* Q(0, 0) means staying *once* and then acting as well as possible: the trap's
+#   pay, and then 0.8 times what leaving is worth.
+# - *Equal actions.* At first all values are equal, so a learner that takes 1 walks straight out,
+#   and does so again until the values have arrived. With a draw the first decision to stay is soon
+#   made. It pays, and from then on the greedy action is to stay.
 # - *The table.* A function with fewer numbers than states: a network. It answers for states that it
-#   has not seen, which is its use and its danger.
+#   has not seen, which is its use and its danger. States of 26 numbers rarely come twice, and a
+#   network carries an error from one state to the next. The rule's drives also show a slow way,
+#   which on road 10 is worth less than staying at γ = 0.8 (lesson [[the_trap]]).
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** Five boxes in a row, the two ends with what they pay; under each box what it is

@@ -62,21 +62,30 @@ def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
 
 
 def clones() -> Figure:
+    """What the clones of a random and of a systematic teacher earn, on three problems."""
+    return beside_teachers(THREE, "Clones outdo these random teachers, not the systematic ones")
+
+
+def clones_in_doorkey() -> Figure:
+    """The same on DoorKey."""
+    return beside_teachers(("doorkey",), "In DoorKey clones do not even outdo the random teacher")
+
+
+def beside_teachers(problems: Sequence[str], title: str) -> Figure:
     """What the clones of a random and of a systematic teacher earn, a dot each; a column for each problem."""
-    title = "Clones outdo these random teachers, not the systematic ones"
     figure, alt, good_colour = new_figure(2.9), [], style("rule").colour
-    kinds = ("random", "systematic")
-    for column, problem in enumerate(THREE):
-        ax = axes_at(figure, 1.15 + 1.95 * column, 1.0, 1.75, 1.25)
+    kinds, step = ("random", "systematic"), 5.85 / len(problems)
+    for column, problem in enumerate(problems):
+        ax = axes_at(figure, 1.15 + step * column, 1.0, step - 0.2, 1.25)
         plain_axes(ax, PROBLEMS[problem].name, grid="x")
         good = cells().mean(problem, "good", "the teacher")
         ax.axvline(good, color=good_colour, linewidth=2, zorder=2)
-        alt.append(f"{PROBLEMS[problem].name}: the good teacher {good:.0f}.")
+        alt.append(f"{PROBLEMS[problem].name}: the good teacher {good:.3g}.")
         for place, teacher in enumerate(kinds):
             own, scores = cells().mean(problem, teacher, "the teacher"), cells().scores(problem, teacher, "cloning")
             ax.plot([own] * 2, [place - 0.36, place + 0.36], color=ALARM, linewidth=3, zorder=2)
             dots(ax, scores, place, style("bc").colour, size=13)
-            alt.append(f"The {teacher} teacher {own:.0f}, its clones {scores.mean():.0f}.")
+            alt.append(f"The {teacher} teacher {own:.3g}, its clones {scores.mean():.3g}.")
         ax.set_yticks(range(len(kinds)), [f"{kind}\nteacher" if column == 0 else "" for kind in kinds])
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
         ax.set_ylim(len(kinds) - 0.5, -0.5)
@@ -152,9 +161,10 @@ def ranking() -> Figure:
         names.append(display_name(method) + ", no teacher" * (method in ALONE))
         dots(ax, returns, at, style(method).colour, size=16)
         beside(ax, at, f"{earned:.0f}", str(place))
-        alt.append(f"{names[-1]}: return {earned:.0f}, place {place}")
-    beside(ax, -0.8, "return", "place", colour=QUIET)
-    name_rows(ax, names, f"mean return on 1,000 held-out roads; a dot for each of {AGENTS} agents")
+        alt.append(f"{names[-1]}: interquartile mean {earned:.0f}, place {place}")
+    beside(ax, -0.8, "IQM", "place", colour=QUIET)
+    below = f"mean return on 1,000 held-out roads; a dot for each of {AGENTS} agents; IQM: interquartile mean"
+    name_rows(ax, names, below)
     ax.axvline(clone, color=look.colour, linewidth=1.6, linestyle="--", zorder=1)
     ax.text(clone + 2, 1, "the clone of\nthe course's rule", color=look.colour, fontsize=SMALL, va="center")
     ax.set_xlim(0, 140)
