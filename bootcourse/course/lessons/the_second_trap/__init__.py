@@ -1,3 +1,3 @@
-"""You will watch another learner, find out what pays for what it does, put PPO together, change the reward, clone the
+"""You will watch another learner, find out what pays for what it does, change the reward, put PPO together, clone the
 rule first.
 """

@@ -93,7 +93,7 @@ def later() -> Explorable:
         return drawing(WIDTH, HEIGHT, [text(4, 20, says, size=14, bold=True), *chart.parts], says)
 
     lam = Number("λ", 0, 0, 1, 0.05, "So much each second counts, compared with the one before it (times γ).")
-    return Explorable("How far does the first second look ahead?", draw, lam=lam)
+    return Explorable("Which later surprises count?", draw, lam=lam)
 
 
 def bent(at_knee: float) -> Callable[[float], float]:

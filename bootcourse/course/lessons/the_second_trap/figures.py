@@ -48,7 +48,7 @@ def plane(clone: tuple[float, float], trained: tuple[float, float]) -> Figure:
 
 def hinges(clip: float) -> Figure:
     """PPO's loss in two panels, for a decision that turned out well (A = 2) and one that turned out badly (A = −2)."""
-    title = "A good action pushes until it is 20 % likelier, a bad one until it is 20 % rarer"
+    title = "A good decision pushes until its action is 20 % likelier, a bad one until it is 20 % rarer"
     figure, colour, alt_parts = new_figure(3.7), style("ppo").colour, []
     for left, advantage in zip((0.5, 4.0), (2.0, -2.0), strict=True):
         ax = axes_at(figure, left, 1.0, 2.85, 1.9)

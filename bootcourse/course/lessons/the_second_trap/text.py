@@ -15,8 +15,8 @@
 #
 # **What you will be able to do**
 # - find out from a drive what its reward pays for;
-# - write PPO's advantages and its loss, and train an agent with them;
-# - bend a reward, and say what that does.
+# - bend a reward, and say what that does;
+# - write PPO's advantages and its loss, and train an agent with them.
 #
 # **Time** 45 minutes; running it takes about half a minute. **It builds on** the reward (lesson
 # [[the_trap]]) and demonstrations ([[demonstrations]]).
@@ -82,8 +82,8 @@ bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
 #   ppo_speeds().mean() < DEFAULT.traps.speed + 20 / DEFAULT.clock.decisions -->
 #
 # > **Predict.** The speed reward r_v is 0 up to 5 m/s, {{ speed_reward(12.5) | .1f }} at 12.5 and 1
-# > at 15, with straight lines between. Somebody drives 5 m/s half of the time and 15 m/s the other
-# > half. How much r_v does that earn, compared with a steady 10 m/s?
+# > at 15, with straight lines between. Somebody drives 5 and 15 m/s, half of the time each. How
+# > much r_v does that earn, compared with a steady 10 m/s?
 # <!-- claim: all(abs(speed_reward(v) - np.interp(v, [5, 12.5, 15], [0, 0.2, 1])) < 1e-9 for v in
 #   np.linspace(0, 15, 601)) -->
 
@@ -116,9 +116,9 @@ steady = bc.formulas.speed_reward(speeds.mean())
 print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {steady:.2f}")
 
 # %% [markdown]
-# **Explain.** The sprints pay, but late: the agent falls back first. With SAC's γ = {{
-# SETTINGS.gamma }} the whole drive is worth less than keeping straight; with PPO's {{
-# settings_for('ppo').gamma }} about twice as much. How does PPO learn what pays late?
+# **Explain.** The sprints pay, but late. First the agent falls back, to {{ ppo_speeds().min() | .0f
+# }} m/s: below 5, r_v is 0 anyway. With SAC's γ = {{ SETTINGS.gamma }} the whole drive is worth less
+# than keeping straight; with PPO's {{ settings_for('ppo').gamma }} about twice as much.
 # <!-- claim: np.mean([speed_reward(v) for v in ppo_speeds()]) > 2.2 * speed_reward(10) -->
 # <!-- claim: settings_for('ppo_cloned').gamma == settings_for('ppo').gamma and
 #   settings_for('sac').gamma == SETTINGS.gamma -->
@@ -129,14 +129,63 @@ print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {s
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask for everyday payments that are convex: bonuses above a threshold, overtime at a higher rate.
 # Who finds a way to earn them by irregular work? Then ask what a *concave* one would do, before
-# round 3 does it.
+# round 2 does it.
 
 # %% [markdown]
-# ## Round 2: build PPO
+# ## Round 2: change the reward
 #
-# PPO asks of each decision how much more came of it than was expected: its **advantage** A. How far
-# ahead should it look? Suppose that PPO expects what a steady 10 m/s pays. The car falls back for
-# ten seconds at 5 m/s, and then sprints for ten at 15.
+# The reward pays for sprints, so bend it. **Drag** what it pays at 12.5 m/s: from where on do
+# sprints pay nothing more?
+
+# %%
+explorable.bends()
+
+# %% [markdown]
+# From 0.75 on, where it is a straight line. Above, it is **concave**: of all drives from 5 to 15
+# m/s with the same mean speed, the steady one's speed pays most. Ten agents were trained with a
+# concave one, √((v − 5) / 10).
+# <!-- claim: (lambda sprints: abs(sprints(0.75)) < 1e-9 < sprints(0.7) and sprints(0.8) < 0)(lambda
+#   knee: np.subtract(*explorable.paid(explorable.bent(knee), 5))) -->
+# <!-- claim: [float(second_trap.concave_speed_reward(np.float64(v))) for v in (5, 15)] == [0, 1]
+#   and len(ppo('concave')['success']) == 10 -->
+#
+# > **Predict.** What does PPO alone do with this reward?
+
+# %%
+choices = ["it leaves", "it drives steadily behind trap 1", "it falls back and sprints as before"]
+predict("the_second_trap.3", "What does PPO do with the concave reward?", choices)
+
+# %%
+predicted("the_second_trap.3")
+concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD])[0]
+bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": concave}))
+
+# %% [markdown]
+# **See.** The sprints are gone, also in the other nine agents' drives on this road. But none of the
+# ten escapes: this is the first trap.
+# <!-- claim: ppo_escapes('concave') == 0 and abs(ppo('concave')['returns'].mean() /
+#   idle().rewards.sum() - 1) < 0.15 -->
+# <!-- claim: all(ppo_speeds('concave', i)[20:].std() < 0.3 * ppo_speeds()[20:].std() for i in
+#   range(ppo_agents())) -->
+#
+# **Explain.** Getting out would still pay more: with the concave reward the rule's drive on this
+# road earns {{ paid_concavely(by_rule()) | .0f }}, this agent's {{
+# paid_concavely(ppo_drive('concave')) | .0f }}. But the new reward pays less for it: r_v at 15 m/s
+# is now {{ 1 - second_trap.concave_speed_reward(np.float64(10)) | .2f }} above r_v at 10, not {{ 1 -
+# speed_reward(10) | .2f }}.
+# <!-- claim: paid_concavely(by_rule(), settings_for('ppo').gamma) >
+#   paid_concavely(ppo_drive('concave'), settings_for('ppo').gamma) and by_rule().success -->
+
+# %% [markdown] tags=["instructor"] minutes=3
+# Let them propose other rewards that need no sprints, and say for each what a driver who has never
+# been ahead learns from it about the way out.
+
+# %% [markdown]
+# ## Round 3: build PPO
+#
+# How does PPO learn what pays late? It asks of each decision how much more came of it than was
+# expected: its **advantage** A. Suppose that PPO expects what a steady 10 m/s pays. The car falls
+# back to 5 m/s for ten seconds, then sprints at 15 for ten.
 #
 # A bar is the *surprise* of one second: what it pays, less what was expected. A is the sum of the
 # filled bars. **Drag** λ, the weight of the later seconds: from where on does falling back look
@@ -146,8 +195,11 @@ print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {s
 explorable.later()
 
 # %% [markdown]
-# **See.** To a V that knows no sprints, falling back looks bad with λ = 0. From 0.85 on, it looks
-# good. PPO takes {{ settings_for('ppo').gae_lambda }}.
+# **See.** If V knows no sprints, falling back looks bad with λ = 0. From 0.85 on, it looks good; PPO
+# takes {{ settings_for('ppo').gae_lambda }}. If V knows them, λ is not needed; their worth
+# depends on γ. No agent here was trained with λ = 0.
+# <!-- claim: all(ppo_kinds.settings_of(kind).gae_lambda == settings_for('ppo').gae_lambda > 0 for
+#   kind in ppo_kinds.KINDS) -->
 # <!-- claim: [explorable.weighted(lam).sum() > 0 for lam in (0, 0.5, 0.8, 0.85, 0.95, 1)] ==
 #   [False] * 3 + [True] * 3 -->
 #
@@ -199,15 +251,15 @@ check.advantages(advantages)
 
 # %%
 choices = ["yes, it makes the action rarer", "yes, likelier", "no, it is clipped"]
-predict("the_second_trap.3", "Does it still change the policy?", choices)
+predict("the_second_trap.4", "Does it still change the policy?", choices)
 
 # %%
-predicted("the_second_trap.3")
+predicted("the_second_trap.4")
 bc.show(figures.hinges(0.2))
 
 # %% [markdown]
-# **See.** Where the line is flat, the decision has no gradient any more. Other decisions may still
-# push its action further. The loss is
+# **See.** Where the line is flat, the decision has no gradient. Other decisions may still push
+# its action further. The loss is
 #
 # $$ L = -\,\mathrm{mean}\big[\min(\rho A,\ \mathrm{clip}(\rho, 1 - ε, 1 + ε)\, A)\big] $$
 #
@@ -228,8 +280,7 @@ def clipped_loss(ratio, advantage, clip):
 check.clipped_loss(clipped_loss)
 
 # %% [markdown]
-# Beside L, V learns by squared error, and a little entropy is paid for. In round 4 your parts train
-# an agent.
+# Beside L, V learns by squared error, and a little entropy is paid for.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # The two endings are the hard part. Draw two rows, one that ends in an accident and one
@@ -237,61 +288,13 @@ check.clipped_loss(clipped_loss)
 # the policy? It takes the payment away, and other rows of the batch can push the policy further.
 
 # %% [markdown]
-# ## Round 3: change the reward
-#
-# The reward pays for sprints, so bend it. **Drag** what it pays at 12.5 m/s: from where on do
-# sprints pay nothing more?
-
-# %%
-explorable.bends()
-
-# %% [markdown]
-# From 0.75 on, where it is a straight line. Above, it is **concave**: of all drives from 5 to 15
-# m/s with the same mean speed, the steady one's speed pays most. Ten agents were trained with a
-# concave one, √((v − 5) / 10).
-# <!-- claim: (lambda sprints: abs(sprints(0.75)) < 1e-9 < sprints(0.7) and sprints(0.8) < 0)(lambda
-#   knee: np.subtract(*explorable.paid(explorable.bent(knee), 5))) -->
-# <!-- claim: [float(second_trap.concave_speed_reward(np.float64(v))) for v in (5, 15)] == [0, 1]
-#   and len(ppo('concave')['success']) == 10 -->
-#
-# > **Predict.** What does PPO alone do with this reward?
-
-# %%
-choices = ["it leaves", "it drives steadily behind trap 1", "it falls back and sprints as before"]
-predict("the_second_trap.4", "What does PPO do with the concave reward?", choices)
-
-# %%
-predicted("the_second_trap.4")
-concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD])[0]
-bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": concave}))
-
-# %% [markdown]
-# **See.** The sprints are gone, also in the other nine agents' drives on this road. But none of the
-# ten escapes: this is the first trap.
-# <!-- claim: ppo_escapes('concave') == 0 and abs(ppo('concave')['returns'].mean() /
-#   idle().rewards.sum() - 1) < 0.15 -->
-# <!-- claim: all(ppo_speeds('concave', i)[20:].std() < 0.3 * ppo_speeds()[20:].std() for i in
-#   range(ppo_agents())) -->
-#
-# **Explain.** Getting out would still pay more: with the concave reward the rule's drive on this
-# road earns {{ paid_concavely(by_rule()) | .0f }}, this agent's {{
-# paid_concavely(ppo_drive('concave')) | .0f }}. The new reward took away the sprints. It
-# also pays less for getting out: of speed 15 m/s earns {{ 1 -
-# second_trap.concave_speed_reward(np.float64(10)) | .2f }} a second more than 10, not {{ 1 -
-# speed_reward(10) | .2f }}.
-# <!-- claim: paid_concavely(by_rule(), settings_for('ppo').gamma) >
-#   paid_concavely(ppo_drive('concave'), settings_for('ppo').gamma) and by_rule().success -->
-
-# %% [markdown] tags=["instructor"] minutes=3
-# Let them propose other rewards that need no sprints, and say for each what a driver who has never
-# been ahead learns from it about the way out.
-
-# %% [markdown]
 # ## Round 4: start as a clone
 #
-# The rule knows a way out. It drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads,
-# stochastically, and the actor is *cloned* from it (lesson [[demonstrations]]). Then PPO begins,
-# with the road's own reward; the rule is not asked again.
+# So far no agent has escaped. The rule knows a way out. It drives {{
+# settings_for('ppo_cloned').demonstration_episodes }} roads, stochastically, and the actor is
+# *cloned* from it (lesson [[demonstrations]]). Then PPO begins, with the road's own reward; the
+# rule is not asked again.
+# <!-- claim: ppo_escapes('alone') == ppo_escapes('concave') == 0 -->
 # <!-- claim: settings_for('ppo_cloned').xi_multiplier == 0 ==
 #   settings_for('ppo_cloned').beta_start -->
 #
@@ -347,8 +350,8 @@ compare_predictions(
     {
         1: "on none",
         2: "almost four times as much",
-        3: "yes, it makes the action rarer",
-        4: "it drives steadily behind trap 1",
+        3: "it drives steadily behind trap 1",
+        4: "yes, it makes the action rarer",
         5: "it earns far more",
     },
 )
@@ -359,8 +362,8 @@ compare_predictions(
 # 1. After {{ ppo_kinds.KINDS['alone'].decisions | , }} decisions the ten agents of PPO alone earn
 #    twice what keeping straight earns, and none gets out. So look at success, and at a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one.
-# 3. In PPO, a decision that went better than V expected pushes until its action is ε likelier.
-# 4. With a concave reward the ten agents no longer sprint on our road, and none escapes.
+# 3. With a concave reward the ten agents no longer sprint on our road, and none escapes.
+# 4. In PPO, a decision that went better than V expected pushes until its action is ε likelier.
 # 5. After cloning the rule ten of ten agents escape. They earn more than the rule, and crash more.
 #
 # **Three questions to think about**
