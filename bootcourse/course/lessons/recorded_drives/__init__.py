@@ -1,3 +1,3 @@
-"""You will clone, CQL and GAIL on one data set: write the term that keeps a critic near its data, and GAIL's reward;
-choose an agent without a simulator.
+"""You will compare a clone and CQL on one data set, write the term that keeps a critic near its data, choose an agent
+without a simulator; further, GAIL's reward.
 """

@@ -1,11 +1,14 @@
 """The lesson on recorded drives: three agents' drives, returns, promises, and estimates."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import cache
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bootcourse.colours import INK, OTHER, QUIET
+from bootcourse.colours import OTHER, QUIET
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.shipped import beginning, shipped_agents
@@ -13,7 +16,8 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.learner import SACLearner
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import TEXT, finish, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import TEXT, finish, new_figure, one_axes
+from bootcourse.policies import rule_policy
 from bootcourse.research.report import rule_results
 from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
@@ -66,8 +70,16 @@ def earned(drive: Rollout, gamma: float) -> float:
     return float(np.mean([drive.rewards[t:] @ weights[: len(weights) - t] for t in seconds]))
 
 
+@cache
+def rule_on_its_way() -> float:
+    """What the rule's own drives on 100 roads earn, as in `earned`: the mean."""
+    short = replace(DEFAULT, clock=replace(DEFAULT.clock, decisions=SECONDS + choosing.SECONDS))
+    drives = record(rule_policy(short), range(100), short)
+    return float(np.mean([earned(drive, 0.8) for drive in drives]))
+
+
 def promises(learners: Mapping[str, SACLearner]) -> Figure:
-    """How agents drive 100 roads: the Q that they promise on the way out, a ring, and what that is worth, a dot.
+    """How agents drive 100 roads: the Q that they promise on the way out, and what that is worth.
 
     learners: by what they are called, such as `WITH`.
     """
@@ -85,49 +97,63 @@ def promises(learners: Mapping[str, SACLearner]) -> Figure:
         title = "These agents promise a gain, and crash on every road"
         if with_it and all(abs(promised - paid) < 0.5 and crashes < 50 for promised, paid, crashes in with_it):
             title = "With CQL's term agents earn about what they promise"
-    height = 1.23 + 0.39 * len(found)  # inches: rows between 0.56 below and 0.67 above
-    figure, ax = one_axes(height, title, "worth, mean of the first 20 s (γ = 0.8)", "")
-    ax.set_position((0.2, 0.56 / height, 0.6, 0.39 * len(found) / height))
-    plain_axes(ax, "", grid="x")
-    alt, names = [], [f"{name}, seed {seed}" for name, seed in found]
-    for row, ((name, _), (promised, paid, crashes)) in enumerate(found.items()):
-        colour = (style("cql") if name == WITH else OTHER).colour
-        ax.plot([promised, paid], [row, row], color=colour, linewidth=1.5, zorder=2)
-        ax.plot(promised, row, "o", markersize=11, color=colour, markerfacecolor="white", zorder=3)
-        ax.plot(paid, row, "o", markersize=7, color=colour, zorder=4)
-        words = f"{crashes} crash"
-        ax.text(1.03, row, words, transform=ax.get_yaxis_transform(), va="center", fontsize=TEXT, color=INK)
-        alt.append(f"{names[row]}: promises {promised:.1f}, is then worth {paid:.1f}, {words} on 100 roads")
-    key = "ring: the promise, Q of the actions taken · dot: what the drive is worth · right: of 100 drives"
-    ax.annotate(key, (0, 1), (0, 6), "axes fraction", textcoords="offset points", fontsize=TEXT, color=QUIET)
-    ax.set_yticks(range(len(names)), names)
-    ax.set_ylim(len(names) - 0.5, -0.5)
-    return finish(figure, title, f"{'; '.join(alt)}.")
+    names = [f"{name}, seed {seed}" for name, seed in found]
+    colours = [style("cql").colour if name == WITH else OTHER.colour for name, _ in found]
+    promised, paid, crashes = (np.array(each) for each in zip(*found.values(), strict=True))
+    label, ring = "worth, mean of the first 20 s (γ = 0.8)", "the promise, Q of the actions taken"
+    filled = np.zeros((1, len(names)), bool)
+    figure, ax = worths(names, promised[None], filled, paid, rule_on_its_way(), colours, label, ring)
+    for row, crashed in enumerate(crashes):
+        beside(ax, row, f"{crashed} % crash")
+    said = [
+        f"{names[row]}: promises {promised[row]:.1f}, is then worth {paid[row]:.1f}, {crashes[row]} crash on 100 roads"
+        for row in range(len(names))
+    ]
+    return finish(figure, title, f"{'; '.join(said)}. The rule is worth {rule_on_its_way():.1f}.")
 
 
 def estimates(names: Sequence[str], alike: Sequence[float], fits: np.ndarray, truth: Sequence[float]) -> Figure:
-    """What agents are worth: a dot for each fit, (fits, agents), filled if it is the largest of its fit, and a bar
-    for the truth. alike: how often each acts as the data do. A line: what the rule is worth.
+    """What agents are worth: a ring for each fit, (fits, agents), filled if it is the largest of its fit, and the
+    truth. alike: how often each acts as the data do.
     """
     largest, title = fits.argmax(1), "What is each agent worth? Estimates, and the truth"
     if (fits.max(1) > np.array(truth)[largest]).all():
         title = "In each fit the largest estimate is too large"
-    shares = [f"{100 * each:.0f} %" for each in alike]
-    figure = new_figure(1.2 + 0.48 * len(names))
-    height = figure.get_figheight()
-    ax = figure.add_axes((0.27, 0.5 / height, 0.58, 1 - 1.2 / height))
-    by_rule, alt = choosing.rule_worth(), []
-    ax.axvline(by_rule, color=style("rule").colour, linewidth=1.5, zorder=1)
+    shares, by_rule, alt = [f"{100 * each:.0f} %" for each in alike], choosing.rule_worth(), []
+    rows = [f"{name}\nas the data: {each}" for name, each in zip(names, shares, strict=True)]
+    filled, colours = largest[:, None] == range(len(names)), [OTHER.colour] * len(names)
+    label, ring = "worth from the start (γ = 0.8)", "an estimate · filled: the largest of its fit"
+    figure, ax = worths(rows, fits, filled, truth, by_rule, colours, label, ring)
     for row, guesses in enumerate(fits.T):
-        dots(ax, guesses, row, OTHER.colour, largest == row, bar=truth[row], size=24)
         words = f"largest in {(largest == row).sum()}" if row in largest else ""
         beside(ax, row, words, colour=OTHER.colour)
         said = f"{', '.join(f'{each:.2f}' for each in guesses)}{words and ', '}{words}; truth {truth[row]:.2f}"
         alt.append(f"{names[row]}, acts as the data do in {shares[row]}: {said}")
-    rows = [f"{name}\nas the data: {each}" for name, each in zip(names, shares, strict=True)]
-    name_rows(ax, rows, "worth from the start (γ = 0.8)")
-    every = np.append(fits, truth)
-    ax.set_xlim(every.min() - 0.08, every.max() + 0.08)
-    key = "dot: a fit · filled: the largest of its fit · bar: the truth on the road · green: the rule"
-    ax.text(0, 1.03, key, transform=ax.transAxes, fontsize=TEXT, color=QUIET)
     return finish(figure, title, f"{'. '.join(alt)}. The rule is worth {by_rule:.2f}.")
+
+
+def worths(
+    rows: Sequence[str],
+    claimed: np.ndarray,
+    filled: np.ndarray,
+    truth: Sequence[float],
+    by_rule: float,
+    colours: Sequence[str],
+    label: str,
+    ring: str,
+) -> tuple[Figure, Axes]:
+    """A row for each agent: what is claimed of its worth, (claims, agents), rings or filled; a bar for the truth.
+
+    by_rule: what the rule is worth, a line. label: of the axis. ring: what a ring is.
+    """
+    height = 1.1 + 0.48 * len(rows)  # inches
+    figure = new_figure(height)
+    ax = figure.add_axes((0.27, 0.5 / height, 0.58, 1 - 1.1 / height))
+    ax.axvline(by_rule, color=style("rule").colour, linewidth=1.5, zorder=1)
+    for row, values in enumerate(claimed.T):
+        dots(ax, values, row, colours[row], filled[:, row], bar=truth[row], size=30)
+    name_rows(ax, rows, label)
+    ax.margins(x=0.04)
+    key = f"ring: {ring} · bar: the truth on the road · green: the rule"
+    figure.text(0.012, 1 - 0.52 / height, key, fontsize=TEXT, color=QUIET)
+    return figure, ax
