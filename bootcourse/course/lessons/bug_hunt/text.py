@@ -34,9 +34,9 @@ progress("bug_hunt")
 # %% [markdown]
 # ## Look first
 #
-# Seven learners had a short training with the paper's method: {{ bugs.UPDATES | , }} updates, two
-# agents each. One is healthy. Each of the others, A to F, has one **silent bug**: a line
-# that is wrong, raises nothing and prints nothing. Both its agents have its letter.
+# Seven agents had a short training with the paper's method: {{ bugs.UPDATES | , }} updates, two
+# seeds each. One is healthy. Each of the others, A to F, has one **silent bug**: a line that is
+# wrong, raises nothing and prints nothing. Its letter stands for both seeds.
 # <!-- claim: len(bugs.LEARNERS) == 7 and bugs.SEEDS == 2 -->
 #
 # A healthy agent and one with a bug drive here on the same road. Which one has the bug?
@@ -145,11 +145,11 @@ predicted("bug_hunt.2")
 bc.show(figures.promises(hunt))
 
 # %% [markdown]
-# **Explain.** With a bonus in every second the limit is (1 + c) / (1 − γ) =
-# {{ (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}, the dotted line; without any it is
-# 1 / (1 − γ) = {{ 1 / (1 - SETTINGS.gamma) | .0f }} (grey ends higher: its demonstrations hold a
-# bonus). One agent rises past 10 and stays below the line. Another leaves the axes for a time with
-# both seeds: no rewards and bonuses add up to that.
+# **Explain.** With a bonus in every second the limit is (1 + c) / (1 − γ) = {{ (1 + SETTINGS.bonus)
+# / (1 - SETTINGS.gamma) | .0f }}, the dotted line; without any it is 1 / (1 − γ) = {{ 1 / (1 -
+# SETTINGS.gamma) | .0f }} (grey may end higher: its demonstrations hold a bonus). One agent rises
+# past 10 and stays below the line. Another leaves the axes for a time with both seeds: no rewards
+# and bonuses add up to that.
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} and
 #   hunt().probe('E', 'promise').max() < 15 and (hunt().probe('F', 'promise').max(axis=1) >
 #   20).all() and (hunt().probe('F', 'promise')[:, -1] < 20).all() -->
@@ -221,7 +221,7 @@ check.diagnose(diagnose)
 # | F | `no_stop` | promise beyond 15 | `q.detach()` |
 #
 # - **B**: no gradient passes through a draw among nine actions: the KL alone teaches the actor,
-#   towards the stochastic rule.
+#   towards a rule that crashes (lesson [[the_rule]]).
 # - **C**: *a probe clears only what it asks*, and none of the three asks for the labels.
 # - **D** adds the value of a car that has just crashed. It is negative here, so Q is below −10.
 # - **E**: why it earns more was not tested.
@@ -296,7 +296,7 @@ compare_predictions("bug_hunt", {1: "no_end", 2: limit, 3: "it drops it more slo
 # %% [markdown]
 # ## What you now know
 #
-# 1. A curve can look right although the code is wrong: of six learners with a bug, three earn about
+# 1. A curve can look right although the code is wrong: of six agents with a bug, three earn about
 #    as much as the healthy one, and one earns far more.
 # 2. A probe asks one part of a learner something whose right answer is known. Where only a healthy
 #    agent shows what is right, you need one.

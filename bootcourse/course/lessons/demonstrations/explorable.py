@@ -31,5 +31,5 @@ def compounding() -> Explorable:
     help = "Of a hundred decisions in the teacher's states, so many are errors."
     errors = Number("ε", 20, 0.1, 25, 0.05, help, unit="%", logarithmic=True)
     return Explorable(
-        "The copy agrees with its teacher on 80 of 100 decisions. What can the others cost?", draw, errors=errors
+        "The clone agrees with its teacher on 80 of 100 decisions. What can the others cost?", draw, errors=errors
     )

@@ -77,15 +77,15 @@ def clones(measured: dict[str, np.ndarray]) -> Figure:
 
 
 def errors(agents: Sequence[Agent], of_rule: Sequence[Rollout], own: Sequence[Rollout]) -> Figure:
-    """In which seconds the clones decide unlike the rule: in their own drives, and in the states of the rule's."""
-    theirs = np.mean([cloning.unlike(agent, of_rule) for agent in agents], axis=(0, 1))
-    unlike = cloning.unlike_the_rule(own)
-    mine, here = np.nanmean(unlike, axis=0), f"{100 * np.nanmean(unlike[:, 10:40]):.0f} %"
-    there = f"{100 * theirs[10:40].mean():.0f} %"
-    title = f"From 10 to 40 s the clones err in {here} of their own states, in {there} of the rule's"
-    named = {"in their own states": 100 * mine, "in the rule's states": 100 * theirs}
-    looks = [charts.Style(style(method).colour) for method in ("bc", "rule")]
-    return charts.lines(np.arange(len(mine)), named, title, "time (s)", "errors (%)", limits=(0, 100), looks=looks)
+    """How often the clones have decided unlike the rule so far: in their own drives, in the states of the rule's on the
+    same roads, and in the worst case, in which each decision after the first error is one.
+    """
+    alone = np.mean([cloning.unlike(agent, of_rule) for agent in agents], axis=(0, 1)).cumsum()
+    mine, worst = np.nan_to_num(cloning.unlike_the_rule(own)).mean(axis=0).cumsum(), np.minimum(1, alone).cumsum()
+    title = f"A clone makes {mine[-1]:.0f} errors in a drive of its own, {alone[-1]:.0f} in one of the rule's"
+    named = {"in the worst case": worst, "in their own states": mine, "in the rule's states": alone}
+    looks = [charts.Style(INK, "--"), *(charts.Style(style(method).colour) for method in ("bc", "rule"))]
+    return charts.lines(np.arange(1, len(mine) + 1), named, title, "time (s)", "errors so far", looks=looks)
 
 
 def taught(trainings: np.ndarray, of_rule: np.ndarray) -> Figure:

@@ -69,7 +69,7 @@ study = bc.shipped_results()
 bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 
 # %% [markdown]
-# An agent gets out nearly always or nearly never: yes or no says nearly all about it.
+# An agent gets out nearly always or nearly never: yes or no says nearly all about its success.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask how many of them have published or handed in a figure with one training behind each line.
@@ -81,14 +81,14 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # that escapes would be the *true rate*. It need not be 80 %.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
-# > **Predict.** How low may the true rate be, so that eight or more of ten still escape in 2.5 % of
-# > all studies? (Ten fair coins show eight or more heads in
-# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all throws.)
+# > **Predict.** At which true rate do eight or more of ten escape in only 2.5 % of all studies?
+# > (Ten fair coins show eight or more heads in {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of
+# > all throws.)
 
 # %%
 predict(
     "how_many_seeds.1",
-    "How low may the true rate be, so that 8 or more of 10 escape in 2.5 % of all studies?",
+    "At which true rate do 8 or more of 10 escape in only 2.5 % of all studies?",
     unit="%",
 )
 
@@ -271,8 +271,8 @@ check.bootstrap_interval(bootstrap_interval)
 # the way out early?
 #
 # The score of a group is its **interquartile mean** (IQM), the mean of the middle half: sort, and
-# leave out a quarter, rounded down, at each end. Of five the middle three remain: one lucky
-# agent barely moves the score, so one that alone learns early does not show.
+# leave out a quarter, rounded down, at each end. Of five the middle three remain: one lucky agent
+# barely moves the score, and if only one learns early, it does not show.
 
 # %%
 CHANGE = {"bonus": 0.0}  # yours

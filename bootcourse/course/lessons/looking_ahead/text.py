@@ -14,7 +14,7 @@
 # # Looking ahead
 #
 # **What you will be able to do**
-# - write a look-ahead that improves trained drivers without more training, and a shield;
+# - write a look-ahead that can improve trained drivers without more training, and a shield;
 # - say what one better decision at a time can do, and what it cannot;
 # - say what a wrong model costs, and what a learned model gets wrong.
 #
@@ -327,11 +327,11 @@ predicted("looking_ahead.4")
 bc.show(figures.learned(shipped_experiment("learned-model"), study))
 
 # %% [markdown]
-# **See.** More drives of the agent do not help. Random actions help. The look-ahead's own drives help
-# more: against a tenth random in {{ own_better(0.1) }} of the ten agents, against three tenths in {{
-# own_better(0.3) }}. Yet {{ still_worse() }} of the ten still crash more than alone, and the mean return
-# is {{ learned_returns() | .0f }} instead of {{ each('bootstrapped', 'alone', 'returns').mean() | .0f
-# }}.
+# **See.** In these ten agents more drives of their own do not help, random actions do, and the
+# look-ahead's drives do more: against a tenth random in {{ own_better(0.1) }} of the ten agents,
+# against three tenths in {{ own_better(0.3) }}. Yet {{ still_worse() }} of the ten still crash more
+# than alone, and the mean return is {{ learned_returns() | .0f }} instead of {{
+# each('bootstrapped', 'alone', 'returns').mean() | .0f }}.
 # <!-- claim: learned_without('mean of five') == 1000 and learned('mean of five')[-1] < 0.6 *
 #   learned_without('mean of five', share=0.1) and learned('mean of five')[-1] < 0.6 *
 #   learned_without('mean of five', share=0.3) and all(learned_without('mean of five', share=share) <
@@ -369,11 +369,10 @@ compare_predictions(
 # ## What you now know
 #
 # 1. A rollout takes one action, follows a policy, and adds an estimate of what comes after.
-# 2. The best of nine improves one decision, without training; the rest of each imagined drive is the
-#    base policy's. Of nine stuck agents some get out, and some do not.
-# 3. A wrong model costs: with four of six the look-ahead crashes more often than PPO's agents alone.
-#    With five of them the shield crashes less than the look-ahead; if everything is late, it fails,
-#    too.
+# 2. The best of nine improves one decision, without training; the rest of each imagined drive is
+#    the base policy's. Of nine stuck agents some get out, and some crash more.
+# 3. A wrong model costs: with four of six errors the look-ahead crashes more often than PPO's agents
+#    alone. With five errors the shield crashes less than it; if everything is late, both fail.
 # 4. A model of the agent's own drives misses accidents after other actions, and the best of nine picks
 #    such errors.
 # 5. In these ten agents random actions in the drives help, and the look-ahead's own drives help more.

@@ -9,6 +9,7 @@ from bootcourse.course.lessons.other_ways import explorable, figures
 from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
 from bootcourse.learn.settings import settings_for
+from bootcourse.methods import METHODS, display_name
 from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
@@ -18,6 +19,8 @@ from tools.course.known import shipped_experiment
 
 FIRST, SECOND, _ = BUDGETS
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
+VARIED = {"envs_per_agent": "roads at once", "target_entropy": "η"}  # in the search
+BY_HAND = {"bonus": "c", "beta_episodes": "episodes of β"}
 APART = {"method", "seed", "bonus"}  # SAC has no demonstrations that a bonus could reward
 
 
@@ -78,12 +81,36 @@ def drives_before(method: str) -> int:
     return settings.demonstration_episodes if settings.needs_demonstrations else 0
 
 
+def hours_before(method: str) -> float:
+    """The hours that these drives took."""
+    return drives_before(method) * DEFAULT.clock.decisions / 3600
+
+
+def not_equal() -> str:
+    """A table of what differs between the methods with a teacher, beside how they use it."""
+    head = ["", "rule's hours, not counted", "decisions per update", "rule in the test", "tuned (η: target entropy)"]
+    rows = [head, ["---", *[":---:"] * 3, "---"]]
+    for method in TAUGHT:
+        tuned = [VARIED[name] for name in equal_decisions.TRIES[method][0]]
+        by_hand = [words for name, words in BY_HAND.items() if name in equal_decisions.COMMON[method]]
+        tuned += [f"by hand {' and '.join(by_hand)}"] if by_hand else []
+        asked = "yes" if METHODS[method].learner_class().needs_teacher else "no"
+        numbers = f"{hours_before(method):.0f}", f"{decisions_per_update(method):.0f}"
+        rows.append([display_name(method), *numbers, asked, "; ".join(tuned)])
+    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+
+
 def decisions_per_update(method: str) -> float:
     """After how many decisions of their own these agents make an update, on average."""
     agent = later(method).agents[0]
     if "epochs" in agent:
         return agent["batch"] / agent["epochs"]
     return agent["envs_per_agent"] / agent["updates"]
+
+
+def updates_in(method: str, seconds: float) -> float:
+    """How many updates one of these agents makes in so many seconds of computing, on average."""
+    return seconds / explorable.seconds_per_decision(later(method)).mean() / decisions_per_update(method)
 
 
 def on_road(decisions: float) -> float:
@@ -104,6 +131,12 @@ def below_all_others(method: str, spent: float, count: str) -> bool:
     scores = training_scores(spent, count)
     differ = all(each < 0.05 for pair, each in p.items() if method in pair)
     return differ and method == min(scores, key=lambda one: scores[one].value)
+
+
+def left_of(method: str) -> float:
+    """The smallest share that a learning curve over the decisions keeps of its best until then."""
+    curve = explorable.learning_curve(later(method), explorable.DECISIONS)
+    return float(np.nanmin(curve / np.fmax.accumulate(curve)))
 
 
 def first_may_be_chance(spent: float, count: str) -> bool:

@@ -49,8 +49,7 @@ progress("other_ways")
 bc.show(figures.what_is_taken())
 
 # %% [markdown]
-# PPO (lesson [[the_second_trap]]) learns from its last drives, and then throws them away. Here it
-# starts as a clone of the rule (lesson [[demonstrations]]).
+# PPO here is that of lesson [[the_second_trap]], begun as a clone of the rule ([[demonstrations]]).
 #
 # **Does it matter how you use a teacher?**
 
@@ -62,8 +61,8 @@ bc.show(figures.what_is_taken())
 # ## Round 1: what keeps Q in bounds?
 #
 # RLPD (*reinforcement learning with prior data*) is SAC with half of each batch demonstrations,
-# without bonus, margin and KL. Lesson [[recorded_drives]] showed the danger: the target follows the
-# highest of nine guesses, and untried actions are guessed too high.
+# without bonus, margin and KL. Lesson [[recorded_drives]] showed the danger: untried actions may be
+# guessed too high. The policy follows the highest of nine guesses, and the target the policy.
 #
 # One remedy is an **ensemble**: {{ settings_for('rlpd').critics }} critics instead
 # of two. Each update draws {{ settings_for('rlpd').target_critics }} of them, and the target takes
@@ -84,8 +83,8 @@ def smallest_of(q, chosen):
 check.smallest_of(smallest_of)
 
 # %% [markdown]
-# Now these critics learn from the rule's drives alone, with targets that follow ten times as fast
-# as RLPD's (τ). With its γ no drive is worth more than
+# To show it in 500 updates, these critics learn from the rule's drives alone, with targets ten
+# times as fast as RLPD's (τ). With its γ no drive is worth more than
 # {{ worth_at_most(settings_for('rlpd').gamma) | .0f }}.
 # <!-- claim: 0.05 == 10 * settings_for('rlpd').tau -->
 #
@@ -109,7 +108,7 @@ bc.show(figures.believed(updates, values, measures.worth_at_most(settings.gamma)
 
 # %% [markdown]
 # **See.** (Yours will differ.) In 500 updates of one agent each, Q passes what any drive can earn
-# only without layer normalisation.
+# only without layer normalisation; with it, Q still rises.
 #
 # **Explain.** The smaller of two guesses is still too high if both are.
 
@@ -176,7 +175,7 @@ check.better_of_two(better_of_two)
 # In jump-start RL the rule makes the first h decisions of each episode, and then the agent takes
 # over, in a place that it seldom reaches alone. At first h is
 # {{ settings_for('jsrl').guide_decisions }}. As soon as the two together earn about as much as at
-# their best, h shrinks by a tenth of its first value.
+# their best, h shrinks by a tenth of its first value, down to 0.
 #
 # **Exercise (6 min, ●●○).** Write the judgement: does h shrink now?
 
@@ -198,9 +197,8 @@ training = own_code.training([bc.settings_for("jsrl", envs_per_agent=8)], 80)
 bc.show(figures.handing_over(measures.handed_over(training)))
 
 # %% [markdown]
-# **See.** (Yours will differ.) Each column is an episode. The rule's part shrinks in steps,
-# although most of these episodes end in an accident: the judgement compares with the best mean so
-# far, not with a goal.
+# **See.** (Yours will differ.) The rule's part shrinks in steps, although most of these episodes
+# end in an accident: the judgement compares with the best mean so far, not with a goal.
 #
 # **Explain.** A **curriculum** like this one begins with the end of the way and moves backwards.
 # The paper's β fades by the number of episodes, h by the *return*.
@@ -210,89 +208,41 @@ bc.show(figures.handing_over(measures.handed_over(training)))
 # seconds, and what it does if the teacher never gets out.
 
 # %% [markdown]
-# ## Round 4: what do you count?
+# ## Round 4: which of the five is best?
 #
 # A comparison needs the same number of decisions, the same search for settings and the same roads
 # in the test. The search matters: jump-start RL earns {{ min(search('jsrl').values()) | .0f }} with
-# one of its three settings, {{ max(search('jsrl').values()) | .0f }} with another. Here the best of
-# three settings of each method is trained again, with ten new agents.
+# one of its three settings, {{ max(search('jsrl').values()) | .0f }} with another. Here each method's
+# best of three is trained again, with ten new agents.
 # <!-- claim: {len(each) for each in equal_decisions.TRIES.values()} == {3} and
 #   {len(each) for each in compared().values()} == {10} and len({a['gamma'] for each in
 #   compared().values() for a in each.agents}) == 1 and all(set(one) == {'envs_per_agent' if
 #   'ppo' in m else 'target_entropy'} for m, t in equal_decisions.TRIES.items() for one in t) -->
 #
-# Not everything is equal. IBRL has the rule in the test, too. Bootstrapped SAC's c and episodes of
-# β were set by hand. All but jump-start RL begin with {{ drives_before('rlpd') }} drives of the
-# rule, {{ drives_before('rlpd') * DEFAULT.clock.decisions / 3600 | .0f }} hours that are not
-# counted.
+# Not everything is equal:
+#
+# {{ not_equal() }}
 # <!-- claim: drives_before('jsrl') == 0 and {drives_before(m) for m in TAUGHT if m != 'jsrl'} ==
 #   {200} and DEFAULT.clock.decision_rate == 1 and {m for m in TAUGHT if
 #   METHODS[m].learner_class().needs_teacher} == {'ibrl'} -->
-#
-# Nor do decisions cost the same computing. PPO makes one update for every
-# {{ decisions_per_update('ppo_cloned') | .0f }} of them, RLPD for every
-# {{ decisions_per_update('rlpd') | .0f }}, the others for every
-# {{ decisions_per_update('ibrl') | .0f }}.
-# <!-- claim: {decisions_per_update(m) for m in ('bootstrapped', 'jsrl', 'ibrl')} == {4} -->
-#
-# > **Predict.** One of the five earns the least in training after {{ FIRST | , }} decisions, and
-# > the most after {{ equal_decisions.SECONDS }} seconds of computing. Which one?
-
-# %%
-learners = [bc.display_name(method) for method in figures.TAKES]
-predict("other_ways.3", "Least by decisions, most by seconds?", learners)
-
-# %% [markdown]
-# **Switch** from decisions to seconds of computing, with our fast simulator. On a road a decision
-# takes a second, so decisions count its time. Which two curves change places? (PPO's cloning is
-# not counted; jump-start RL's training episodes may begin with the rule.)
-
-# %%
-predicted("other_ways.3")
-compared = equal_decisions.by_method(shipped.shipped_experiment("beyond"))
-by_rule = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 200))
-explorable.TwoCounts(compared, by_rule.returns.mean())
-
-# %% [markdown]
-# **See.** After {{ FIRST | , }} decisions PPO after cloning earns less in training than the other
-# four; in {{ equal_decisions.SECONDS }} s of computing it earns more, and RLPD least. In
-# {{ on_road(explorable.EARLY) | .0f }} h on a road PPO after cloning earns less than bootstrapped
-# SAC and IBRL; RLPD's lead there may be chance.
-# <!-- claim: below_all_others('ppo_cloned', FIRST, explorable.DECISIONS) and explorable.LATER ==
-#   FIRST -->
-# <!-- claim: (lambda of: of['ppo_cloned'].low > max(of[m].high for m in of if m != 'ppo_cloned')
-#   and of['rlpd'].high < min(of[m].low for m in of if m != 'rlpd'))(training_scores(
-#   equal_decisions.SECONDS, explorable.SECONDS)) and equal_decisions.SECONDS == 5 -->
-# <!-- claim: (lambda of: of['ppo_cloned'].high < min(of[m].low for m in ('bootstrapped', 'ibrl'))
-#   and max(of, key=lambda m: of[m].value) == 'rlpd')(training_scores(explorable.EARLY,
-#   explorable.DECISIONS)) and first_may_be_chance(explorable.EARLY, explorable.DECISIONS) -->
-#
-# **Explain.** PPO's decisions are cheap; that it throws its drives away may be why it needs more of
-# them. So early in training the
-# way does matter, and what is scarce decides: computing time, or seconds on the road (without the
-# rule's {{ drives_before('rlpd') * DEFAULT.clock.decisions / 3600 | .0f }} hours).
-
-# %% [markdown] tags=["instructor"] minutes=4
-# Ask who in the room has which clock: a simulator and one night, or a car and one day. A faster
-# computer makes the computing cheaper, and the road no faster: who gains?
-
-# %% [markdown]
-# ## Round 5: in the test
 #
 # > **Predict.** After {{ FIRST | , }} decisions each agent drives on {{ roads() | , }} held-out
 # > roads. Which of the five earns the most, or can ten agents of each not tell?
 
 # %%
-predict("other_ways.4", "Which earns the most in the test?", [*learners, "ten agents cannot tell"])
+learners = [bc.display_name(method) for method in figures.TAKES]
+predict("other_ways.3", "Which earns the most in the test?", [*learners, "ten agents cannot tell"])
 
 # %%
-predicted("other_ways.4")
+predicted("other_ways.3")
+compared = equal_decisions.by_method(shipped.shipped_experiment("beyond"))
+by_rule = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 200))
 bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 
 # %% [markdown]
-# **See.** In the test after {{ FIRST | , }} decisions having a teacher matters more than how it is
-# used: all five earn more than twice what the rule earns, PPO and plain SAC without a teacher less
-# than it. Return is not safety: all agents of the five have accidents.
+# **See.** Having a teacher matters more than how it is used: all five earn more than twice what the
+# rule earns, PPO and plain SAC without a teacher less than it. Return is not safety: all agents of
+# the five have accidents.
 # <!-- claim: min(map(middle, TAUGHT)) > 2 * of('rule').scores('returns').mean() > 2 *
 #   max(score_at(m).high for m in compared() if m not in TAUGHT) and all(at(m, 'accident').min() > 0
 #   for m in TAUGHT) -->
@@ -320,19 +270,62 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 # are in the papers, with drives on a disk and nothing to drive. What does the picture not show:
 # what it costs to ask the teacher, how much code it is, what three more settings would change.
 
+# %% [markdown]
+# ## Round 5: does the choice matter at all?
+#
+# > **Predict.** After {{ FIRST | , }} decisions PPO after cloning earns the least of the five in
+# > training. Which place does it take after {{ equal_decisions.SECONDS }} seconds of computing?
+# <!-- claim: below_all_others('ppo_cloned', FIRST, explorable.DECISIONS) and explorable.LATER ==
+#   FIRST -->
+
 # %%
-last_and_first = bc.display_name("ppo_cloned")
+predict("other_ways.4", "Where is PPO after cloning?", ["first", "in the middle", "last"])
+
+# %% [markdown]
+# **Switch** from decisions to seconds of computing, with our fast simulator. On a road a decision
+# takes a second, so decisions count its time. Which curve is on top after
+# {{ equal_decisions.SECONDS }} s, which at the bottom? (PPO's
+# {{ settings_for('ppo_cloned').cloning_updates }} updates of cloning are not counted; in this time it
+# makes about {{ round(updates_in('ppo_cloned', equal_decisions.SECONDS), -2) | ,.0f }}. Jump-start
+# RL's training episodes may begin with the rule.)
+
+# %%
+predicted("other_ways.4")
+explorable.TwoCounts(compared, by_rule.returns.mean())
+
+# %% [markdown]
+# **See.** In {{ equal_decisions.SECONDS }} s of computing PPO after cloning earns the most, RLPD the
+# least. In {{ on_road(explorable.EARLY) | .0f }} h on a road PPO after cloning earns less than
+# bootstrapped SAC and IBRL; RLPD's lead there may be chance. Jump-start RL falls by half on its way: *perhaps*
+# because the agent must now begin by itself.
+# <!-- claim: (lambda of: of['ppo_cloned'].low > max(of[m].high for m in of if m != 'ppo_cloned')
+#   and of['rlpd'].high < min(of[m].low for m in of if m != 'rlpd'))(training_scores(
+#   equal_decisions.SECONDS, explorable.SECONDS)) and equal_decisions.SECONDS == 5 -->
+# <!-- claim: (lambda of: of['ppo_cloned'].high < min(of[m].low for m in ('bootstrapped', 'ibrl'))
+#   and max(of, key=lambda m: of[m].value) == 'rlpd')(training_scores(explorable.EARLY,
+#   explorable.DECISIONS)) and first_may_be_chance(explorable.EARLY, explorable.DECISIONS) -->
+# <!-- claim: 0.4 < left_of('jsrl') < 0.6 -->
+#
+# **Explain.** PPO's decisions cost little computing. That it learns from its last drives alone may be
+# why it needs more of them. So early in training the way does matter, and what is scarce decides:
+# computing time, or seconds on the road.
+
+# %% [markdown] tags=["instructor"] minutes=4
+# Ask who in the room has which clock: a simulator and one night, or a car and one day. A faster
+# computer makes the computing cheaper, and the road no faster: who gains?
+
+# %%
 compare_predictions(
     "other_ways",
-    {1: "no", 2: "in two steps", 3: last_and_first, 4: "ten agents cannot tell"},
+    {1: "no", 2: "in two steps", 3: "ten agents cannot tell", 4: "first"},
 )
 
 # %% [markdown]
 # ## What you now know
 #
 # 1. A teacher can give data, a start, a second opinion, the first seconds or a pull.
-# 2. In 500 updates from the rule's drives alone, at ten times RLPD's τ, an ensemble let Q out of
-#    bounds; with layer normalisation it stayed in.
+# 2. From the rule's drives alone, at ten times RLPD's τ, an ensemble let Q out of bounds in 500
+#    updates; with layer normalisation it stayed in.
 # 3. IBRL's critics choose between the teacher's action and the agent's. Jump-start RL hands over
 #    where the return is about its best.
 # 4. In the test after {{ FIRST | , }} decisions all five earn over twice what the rule earns,

@@ -48,8 +48,9 @@ progress("soft_constraint")
 # <!-- claim: of('rule').scores('success').min() >= ESCAPES -->
 #
 # Below, π is a trained agent's policy, π̃ ("pi tilde") the stochastic rule's (lesson [[the_rule]]).
-# The *optimum* is the best compromise between Q and the rule; ξ ("xi") says how much the rule counts.
-# The thick line is its drive, red if it ends in an accident; the thin ones are the agent's and the rule's.
+# The *optimum* is the best compromise between Q and the rule; ξ ("xi") says how much the rule
+# counts. The thick line is the optimum's drive, red if it crashes; the thin ones are the agent's
+# and the rule's.
 #
 # **Drag** t to 1 s: does the agent follow the rule? Then, at t = 0, drag ξ: does each compromise get
 # past the traps unhurt?
@@ -375,16 +376,17 @@ bc.show(figures.twenty(kinds))
 
 # %% [markdown]
 # **See.**
-# - With ξ = 2 leaving the rule costs more than speed pays: all twenty stay near the rule's return,
-#   {{ of('rule').scores('returns').mean() | .0f }}.
+# - With ξ = 2 leaving the rule costs more than speed pays: none of the twenty is fast (the rule
+#   returns {{ of('rule').scores('returns').mean() | .0f }}), and {{ 20 - in_all(kept, 2) }} do not
+#   escape.
 # - With 0.1 throughout those that escape are fast, but seven do not find the way out.
 # - If ξ falls towards 0, all find it, {{ losing(fading()) }} lose it at least once, and four do not
 #   escape.
 #
-# *A pull that is strong first, then weak but not gone, finds the way out, keeps it, and returns more
-# than twice as much as the rule*, in twenty of twenty agents. Its price: where ξ falls towards 0,
-# {{ returning_more() }} of the {{ in_all(kept) }} that escape return more than each of these. The floor
-# also holds α + ξ: which of the two helps is open.
+# *A pull that is strong first, then weak but not gone, finds the way out, keeps it, and returns
+# more than twice as much as the rule*, in twenty of twenty agents. What it costs: where ξ falls
+# towards 0, {{ returning_more() }} of the {{ in_all(kept) }} that escape return more than each of
+# these. The floor also keeps the temperature α + ξ up: whether that or the pull helps is open.
 # <!-- claim: in_all(kept) / 2 < returning_more() < in_all(kept) -->
 # <!-- claim: losing(floored()) == 0 -->
 # <!-- claim: (in_all(found, 0.1), in_all(found), twenty(found)) == (13, 20, 20) == (in_all(kept, 0.1),

@@ -200,8 +200,8 @@ by_chance = chance_of(9 * tried.success.mean(), 1, 400)  # one decision: right s
 bc.show(figures.while_they_learned(trained["as it is"], by_chance))
 
 # %% [markdown]
-# **Explain.** *Most agents had the luck to end ahead at least once, and one escapes.* So most do not
-# lack the luck to end ahead *once*. (All {{ by_chance().success.sum() }} random drives that ended
+# **Explain.** *Most agents had the luck to end ahead at least once, and one escapes.* So one such
+# drive does not free most agents. (All {{ by_chance().success.sum() }} random drives that ended
 # ahead crashed, too. Whether the agents' did is not recorded.)
 # <!-- claim: abs(20 * (1 - np.exp(-400 * by_chance().success.mean())) -
 #   (times_ahead() > 0).sum()) < 3 -->
@@ -279,11 +279,11 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 # earn_and(crash=True) }} of these crash on most roads); the {{ too_fast() }} others drive faster than
 # 20 m/s, which pays little.
 #
-# And an agent can earn without escaping. With cheap accidents and a lane keeper {{ earn_more(KEPT) }}
-# agents earn more than by staying. Of twenty other agents with twice the updates {{ earn_more(KEPT,
-# longer=True) }} do (with cheap accidents alone {{ earn_more(CHEAP, longer=True) }}), and none escapes.
-# *So price and steering are a part of the barrier, not all of it*: a start mid-lane also spares the
-# wait and the risk before the free lane.
+# And an agent can earn without escaping. With cheap accidents and a lane keeper {{ earn_more(KEPT)
+# }} agents earn more than by staying. Of twenty other agents with twice the updates {{
+# earn_more(KEPT, longer=True) }} do (with cheap accidents alone {{ earn_more(CHEAP, longer=True)
+# }}), and none escapes. *So the price counts for escaping, steering for earning, and neither is all
+# of it*: a start mid-lane also spares the wait and the risk before the free lane.
 # <!-- claim: easy(stressed(KEPT)).escapers('sac') == 0 and stats.fisher_exact([[earn_more(kind,
 #   longer=True), 20 - earn_more(kind, longer=True)] for kind in (KEPT, CHEAP)]).pvalue < 0.001 -->
 # <!-- claim: freed_and_slower().min() > easier.staying(BOTH) -->
@@ -310,7 +310,8 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. Plain SAC seldom escapes: {{ escaped('sac') }} of the study's {{ len(of('sac')) }} agents does.
+# 1. Plain SAC seldom escapes: 1 of the twenty agents above, {{ escaped('sac') }} of the study's {{
+#    len(of('sac')) }}.
 # 2. Staying is not best: at γ = 0.8 quick and safe driving is worth more. A larger γ alone is not
 #    enough.
 # 3. Luck to end ahead *once* is not what most lack; luck to end ahead *often*, or *unhurt*, may be.
