@@ -156,3 +156,12 @@ def test_a_move_is_answered_at_once():
             from_page(number.slider, value=float(value))
             best = min(best, time.process_time() - begun)
         assert best < 0.1, (lesson, name)
+
+
+def test_the_untrained_pole_falls_at_the_push_that_ends_its_episode_and_the_rules_stands():
+    panel = shown("update_and_loop", "two_poles")
+    from_page(panel.numbers["push"].field, value=30)
+    last = int(re.search(r"agent's pole has fallen at push (\d+)", panel.svg.alt)[1])
+    for push, fell in ((last - 1, False), (last, True)):
+        from_page(panel.numbers["push"].field, value=push)
+        assert ("untrained agent's pole has fallen" in panel.svg.alt) == fell and "rule's pole leans" in panel.svg.alt

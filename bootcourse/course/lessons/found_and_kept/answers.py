@@ -2,21 +2,32 @@
 
 from tests.answers import equivalent, right_lines, wrong_lines
 
-PADDED = "np.pad(np.asarray(success{0}), ((0, 0), (1, 0)))"
-equivalent("forgetting", f"{PADDED.format(', dtype=float')}  ->  {PADDED.format('')}", "sums of 0 and 1 are exact")
+equivalent("ever_lost", "(1, 0)  ->  (2, 0)", "a window of the first 49 changes nothing")
 
-
-right_lines("""forgetting
-    by sliding windows: means = np.lib.stride_tricks.sliding_window_view(np.asarray(success), window, axis=1).mean(-1)
-        ends = np.where(means > 0.5, window + np.arange(means.shape[1]), 0)
-        np.stack([np.where(ends > 0, ends, 10**9).min(1) * (ends.max(1) > 0), ends.max(1)], 1)
+right_lines("""ever_lost
+    by sliding windows: ahead = np.lib.stride_tricks.sliding_window_view(np.asarray(success), 50, axis=1).sum(-1)
+        (np.maximum.accumulate(ahead >= had, axis=1) & (ahead <= limit)).any(1)
+    by the lowest that is to come: ahead = np.lib.stride_tricks.sliding_window_view(success, 50, axis=1).sum(-1)
+        lowest = np.minimum.accumulate(ahead[:, ::-1], axis=1)[:, ::-1]
+        ((ahead >= had) & (lowest <= limit)).any(1)
+    in a loop: answer = []
+        for row in success:
+            ahead = np.convolve(row, np.ones(50), "valid")
+            good = np.flatnonzero(ahead >= had)
+            answer.append(len(good) > 0 and ahead[good[0] :].min() <= limit)
+        np.array(answer)
 """)
 
-wrong_lines("""forgetting
-    blocks that do not overlap: n = np.asarray(success).shape[1] // window * window
-        means = np.asarray(success)[:, :n].reshape(len(success), -1, window).mean(-1)
-        ends = np.where(means > 0.5, window * (1 + np.arange(means.shape[1])), 0)
-        np.stack([np.where(ends > 0, ends, 10**9).min(1) * (ends.max(1) > 0), ends.max(1)], 1)
+wrong_lines("""ever_lost
+    low before it was had: ahead = np.lib.stride_tricks.sliding_window_view(success, 50, axis=1).sum(-1)
+        (np.maximum.accumulate(ahead <= limit, axis=1) & (ahead >= had)).any(1)
+    after the best window: ahead = np.lib.stride_tricks.sliding_window_view(success, 50, axis=1).sum(-1)
+        best = ahead.argmax(1)
+        np.array([row[at] >= had and row[at:].min() <= limit for row, at in zip(ahead, best)])
+    from more than half on: ahead = np.lib.stride_tricks.sliding_window_view(success, 50, axis=1).sum(-1)
+        (np.maximum.accumulate(ahead > 25, axis=1) & (ahead <= limit)).any(1)
+    how often: ahead = np.lib.stride_tricks.sliding_window_view(success, 50, axis=1).sum(-1)
+        (np.maximum.accumulate(ahead >= had, axis=1) & (ahead <= limit)).sum(1)
 """)
 
 right_lines("""reads_as_printed
@@ -40,10 +51,3 @@ for _change in (
     f"{PAIRS}  ->  zip(rows, printed, strict=False)",
 ):
     equivalent("reads_as_printed", _change, "both have as many rows")
-
-wrong_lines("""forgetting
-    more than 51 in 100: windows = np.lib.stride_tricks.sliding_window_view(success, window, axis=1)
-        each = windows.mean(-1) > 0.515
-        [np.flatnonzero(row)[[0, -1]] + window if row.any() else (0, 0) for row in each]
-    one too early: first, last = solution(success, window).T; np.stack([first, np.maximum(last - 1, first)], 1)
-""")

@@ -7,13 +7,14 @@ from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
 from bootcourse.statistics import Estimate
 
-BOTH_TABLES = ["", "the paper's success", "the paper's return", "our agents that escape"]
+BOTH_TABLES = ["", "the paper's success", "the paper's return", "our agents that escape", "our return"]
 
 
 def both_tables(study: Results) -> list[list[str]]:
     """A row for each method of the paper's Table 4, below `BOTH_TABLES`: what the paper prints, and our agents."""
     rows = [(m, PRINTED[m]["success"].mean, PRINTED[m]["returns"].mean) for m in VARIED]
-    return [[display_name(m), f"{rate:.0f} %", f"{earned:.0f}", escaped(study, m)] for m, rate, earned in rows]
+    ours = {m: f"{study.of(m).scores('returns').mean():.0f}" for m in VARIED}
+    return [[display_name(m), f"{rate:.0f} %", f"{earned:.0f}", escaped(study, m), ours[m]] for m, rate, earned in rows]
 
 
 def percent(chance: Estimate) -> str:

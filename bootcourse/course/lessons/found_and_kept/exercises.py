@@ -6,70 +6,60 @@ from bootcourse.course.exercise import exercise
 
 
 def training_curves(rng):
-    """Never, always, found and kept, found and lost, a window as long as the training; then 30 at random.
-
-    Then windows of 42 to 300, as in a training, with agents that are ahead in about half of them.
-    """
-    yield np.zeros((2, 6)), 3
-    yield np.ones((1, 5)), 2
-    yield np.array([[0, 0, 1, 1, 1, 1], [0, 1, 1, 1, 0, 0]]), 2
-    yield np.array([[1, 1, 0, 0, 0, 1, 0, 0]]), 2
-    yield np.array([[0, 1, 1, 0]]), 4
+    """At the two limits and one beside them; in the first window or the last; then 30 at random, as in the panel."""
+    yield np.repeat([[0, 0], [1, 1]], 30, axis=1), 40, 5
+    for ahead, behind in ((39, 11), (40, 10), (41, 9)):  # the most of a window
+        yield np.repeat([[0, 1, 0]], [60, ahead, behind + 50], axis=1), 40, 25
+    for left in (9, 10, 11):  # at the end of the training: the last window has so many ahead
+        yield np.repeat([[1, 0]], [50, 50 - left], axis=1), 40, 10
+        yield np.repeat([[1, 0, 1]], [50, 50 - left, 60], axis=1), 40, 10
+    yield np.repeat([[1, 0, 1, 0], [0, 1, 0, 1]], 45, axis=1), 30, 20
     for _ in range(30):
-        agents, episodes = rng.integers(1, 4), rng.integers(6, 20)
-        yield (rng.random((agents, episodes)) < rng.random((agents, 1))).astype(int), rng.integers(2, 6)
-    for window in (42, 49, 50, 51, 58, 88, 100, 101, 104, 300):  # of some, half of the weights 1 / n is not quite 1/2
-        half = np.tile([0, 1], (3, window))  # of an even window exactly half
-        half[1, window - 1], half[2, window] = 1, 0  # one more, one fewer
-        yield half, window
-        yield (rng.random((4, 5 * window)) < 0.5).astype(int), window
+        share = np.repeat(rng.beta(0.4, 0.4, (130, 6)), 40, axis=1)  # it changes every 40 episodes
+        yield (rng.random(share.shape) < share).astype(np.float32), rng.integers(36, 46), rng.integers(5, 36)
 
 
 @exercise(
-    "means over a sliding window: the ends of the first and of the last above one half", minutes=12, difficulty=3,
+    "a window of 50 with at least `had` ahead, and after it one with `limit` or fewer", minutes=12, difficulty=3,
     cases=training_curves,
     worked=[
-        # the means of three in a row end with episodes 3 to 7: 1/3, 2/3, 1, 2/3, 1/3
-        ((np.array([[0, 0, 1, 1, 1, 0, 0]]), 3), np.array([[4, 6]])),
-        ((np.array([[0, 0, 0, 0], [1, 0, 1, 1]]), 4), np.array([[0, 0], [4, 4]])),
+        ((np.repeat([[1, 0], [0, 1]], 50, axis=1), 40, 25), np.array([True, False])),  # had and lost; found late
+        ((np.repeat([[1, 0, 1], [1, 1, 1]], [40, 20, 60], axis=1), 38, 30), np.array([True, False])),  # 30 ahead of 50
     ],
     hints=(
-        "First the mean of every `window` episodes in a row, for each agent: `sums = np.cumsum(...)` with a 0 in "
-        "front, then the difference of sums `window` apart, divided by `window`.",
-        "`often.argmax(axis=1)` is the place of the first True. For the last one, look for the first in the reversed "
-        "row, `[:, ::-1]`. `often.any(axis=1)` tells where there is none.",
+        "First count the successes of every 50 episodes in a row, for each agent: `sums = np.cumsum(...)` with a 0 in "
+        "front, then the difference of sums 50 apart.",
+        "`np.maximum.accumulate(good, axis=1)` stays True from the first True on: it says at each window whether the "
+        "agent had the way out by then.",
     ),
     mistakes={
-        "window + often.argmax(axis=1) -> 1 + often.argmax(axis=1)":
-            "Your first number says where the first good window *begins*. Say with which episode it ends.",
-        "return np.where(often.any(axis=1)[:, None], ends + 1 - window, 0)":
-            "Your numbers say where the two windows *begin*. Say with which episodes they end.",
-        "return np.where(often.any(axis=1)[:, None], ends - 1, 0)":
-            "Both numbers are one too small: episodes are counted from 1, so a window of the first `window` episodes "
-            "ends with episode `window`.",
-        "means > 0.5 -> means > 0.55":
-            "Your bar is higher than one half: in a window of 50 episodes 26 are more than half.",
-        "means > 0.5 -> means >= 0.5":
-            "Half is not more than half: an agent that is ahead in every second episode has not found the way out.",
-        "window + often.argmax(axis=1), last -> last, window + often.argmax(axis=1)":
-            "Your two numbers are swapped: the end of the first good window, then that of the last.",
-        "window + often.argmax(axis=1) -> window - 1 + often.argmax(axis=1)":
-            "Your first number is one too small: episodes are counted from 1, so a window of the first `window` "
-            "episodes ends with episode `window`.",
-        "often.any(axis=1)[:, None] -> True":
-            "An agent without a good window gets numbers, too: `argmax` of a row without True is 0. Answer 0 and 0 "
-            "there.",
-        "often[:, ::-1].argmax(axis=1) -> np.zeros(len(often), int)":
-            "Your second number is the training's last episode. Say with which episode the last *good* window ends.",
+        "np.maximum.accumulate(ahead >= had, axis=1) -> (ahead >= had).any(axis=1)[:, None]":
+            "Your function counts low windows *before* the agent had the way out, too: each agent begins with some. "
+            "Only a low window after one with `had` ahead is a loss.",
+        "ahead <= limit -> ahead < limit":
+            "A window with exactly `limit` ahead counts as lost, too.",
+        "ahead >= had -> ahead > had":
+            "A window with exactly `had` ahead is enough: *at least* `had`.",
+        "return by_then[:, -1] & (ahead[:, -1] <= limit)":
+            "You look at the last window alone. An agent that loses the way out and finds it again has lost it once.",
+        "return by_then.any(axis=1)":
+            "You say who had the way out. Who lost it has a low window after that, a whole one of 50 episodes.",
+        "return (ahead <= limit).any(axis=1)":
+            "You say who had a low window. Each agent that begins to learn has one: look only after a window with "
+            "`had` ahead.",
+        "return ~(by_then & (ahead <= limit)).any(axis=1)":
+            "Your answers are the opposite: True means that the agent lost the way out.",
+        "ahead = sums[:, 50:] - sums[:, :-50] -> ahead = (sums[:, 50:] - sums[:, :-50])[:, ::50]":
+            "Your windows do not overlap. Each episode from the 50th on ends a window.",
+        "ahead = sums[:, 50:] - sums[:, :-50] -> ahead = (sums[:, 50:] - sums[:, :-50]) / 50":
+            "You compare a mean, which is at most 1, with `had` and `limit`: count the successes of a window.",
     },
 )  # fmt: skip
-def forgetting(success, window):
-    sums = np.cumsum(np.pad(np.asarray(success, dtype=float), ((0, 0), (1, 0))), axis=1)
-    means = (sums[:, window:] - sums[:, :-window]) / window
-    often = means > 0.5
-    last = window + means.shape[1] - 1 - often[:, ::-1].argmax(axis=1)
-    ends = np.stack([window + often.argmax(axis=1), last], axis=1)
-    return np.where(often.any(axis=1)[:, None], ends, 0)
+def ever_lost(success, had, limit):
+    sums = np.cumsum(np.pad(success, ((0, 0), (1, 0))), axis=1)
+    ahead = sums[:, 50:] - sums[:, :-50]
+    by_then = np.maximum.accumulate(ahead >= had, axis=1)
+    return (by_then & (ahead <= limit)).any(axis=1)
 
 
 def table_cases(rng):

@@ -5,17 +5,18 @@ never ends, and no bonus is paid.
 import numpy as np
 
 from bootcourse.colours import INK, QUIET
+from bootcourse.course import own_code
 from bootcourse.course.shipped import shipped_experiment, shipped_results
 from bootcourse.methods import style
 from bootcourse.panels.explorable import WIDTH, Explorable
 from bootcourse.panels.number import Number, whole_number
 from bootcourse.plots.svg import Drawing, SvgAxes, drawing, line, rect, text, ticks
 from bootcourse.research.results import Results
-from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost, rolling_means
+from bootcourse.statistics import HAD, IN_A_ROW, LOST, rolling_means
 
 LEFT, RIGHT, TOP = 124, 536, 84  # pixels: of the bars
 ROW, TALL, APART = 7, 70, 24  # pixels: a row, a group, the space between two groups
-LOSE, KEEP, EARN = 574, 636, 710  # pixels: the middles of the three columns at the right
+LOSE, KEEP, EARN = 572, 652, 722  # pixels: the middles of the three columns at the right
 
 
 def groups() -> dict[str, Results]:
@@ -31,22 +32,26 @@ def groups() -> dict[str, Results]:
 
 
 def losing() -> Explorable:
-    """When each agent has the way out; how many lose it, by a limit to choose; who keeps it, and earns how much."""
-    shown = groups()
+    """When each agent has the way out; how many lose it, by a limit; who has it at the end, and earns how much.
+
+    Who loses it is counted by the student's `ever_lost`, if it passed its check.
+    """
+    shown, ever_lost = groups(), own_code.yours_or_ours("ever_lost", doing="Counting")
     episodes, bottom = shipped_results().curves["success"].shape[1], TOP + len(shown) * (TALL + APART) - APART
     axes = SvgAxes(LEFT, TOP, RIGHT - LEFT, bottom - TOP, (0.0, float(episodes)), (0.0, 1.0))
     still = [text((LEFT + RIGHT) / 2, bottom + 31, "training episode", "middle", QUIET, 11)]
     for tick in ticks(0, episodes, 4):
         across, _ = axes.at(tick, 0)
         still += [line(across, TOP, across, bottom + 3), text(across, bottom + 15, f"{tick:,.0f}", "middle", QUIET, 11)]
-    columns = (LOSE, "lose it"), (KEEP, "keep it"), (EARN, "their return")
-    still += [text(x, TOP - 22, word, "middle", bold=True) for x, word in columns]
+    columns = (LOSE, "lose it at", "least once"), (KEEP, "have it", "at the end"), (EARN, "their", "return")
+    for x, *words in columns:
+        still += [text(x, TOP - 38 + 16 * i, word, "middle", bold=True) for i, word in enumerate(words)]
 
     kept, ends = {}, {}
     for place, (words, results) in enumerate(shown.items()):
         keep = results.found_and_kept("bootstrapped")[1]
         earned = f"{results.scores('returns')[keep].mean():.0f}"
-        kept[words] = f"{keep.sum()} keep it, return {earned}"
+        kept[words] = f"{keep.sum()} have it at the end, return {earned}"
         top = TOP + place * (TALL + APART)
         still += _named(words, top) + [text(KEEP, _middle(top), f"{keep.sum()} of {len(keep)}", "middle")]
         still.append(text(EARN, _middle(top), earned, "middle"))
@@ -56,14 +61,14 @@ def losing() -> Explorable:
         parts, losers = [], {}
         for place, (words, results) in enumerate(shown.items()):
             top, success = TOP + place * (TALL + APART), results.curves["success"]
-            losers[words] = int(lost(success, int(limit)).sum())
+            losers[words] = int(np.sum(ever_lost(success, HAD, int(limit))))
             parts += _bars(axes, top, success, limit) + ends[words]
             parts.append(text(LOSE, _middle(top), f"{losers[words]} of {len(success)}", "middle"))
         *some, last = losers.values()
         says = f"Lost at {limit:.0f} of {IN_A_ROW} or fewer: {', '.join(map(str, some))} and {last} of ten lose it."
         parts.append(text(4, 20, says, size=14, bold=True))
         parts.append(text(LEFT, TOP - 22, f"bar: more than {limit:.0f} of the last {IN_A_ROW} ahead", bold=True))
-        in_all = "; ".join(f"{words}: {count} lose it, {kept[words]}" for words, count in losers.items())
+        in_all = "; ".join(f"{words}: {count} lose it at least once, {kept[words]}" for words, count in losers.items())
         return drawing(WIDTH, bottom + 38, still + parts, f"{says} {in_all}.")
 
     help = f"After {HAD} of {IN_A_ROW} ahead, so few count as lost."

@@ -1,13 +1,20 @@
-"""To drag in this lesson: γ, and where a target stops to change before a fall, if it knows the end and if not."""
+"""To drag in this lesson: two poles, push by push; and γ, for where a target stops to change before a fall, if it knows
+the end and if not.
+"""
+
+from collections.abc import Callable
 
 import numpy as np
+import torch
 
-from bootcourse.colours import OTHER
+from bootcourse.colours import INK, OTHER, QUIET
+from bootcourse.course.lessons.update_and_loop import by_hand, numbers
 from bootcourse.learn import sac
 from bootcourse.methods import style
-from bootcourse.panels.explorable import Axes, Curve, Explorable, curves
+from bootcourse.panels.explorable import WIDTH, Axes, Curve, Explorable, curves
 from bootcourse.panels.number import Number
-from bootcourse.plots.svg import Drawing
+from bootcourse.plots.svg import Drawing, drawing, line, rect, text
+from bootcourse.research.experiments import checks
 
 LAST = 40  # pushes before the fall that are shown
 AXES = Axes("pushes from the fall (−1: the last push)", "value at which the target no longer changes", (0.0, 55.0))
@@ -34,3 +41,61 @@ def the_end() -> Explorable:
 
     gamma = Number("γ", 0.9, 0.5, 0.98, 0.01, "What a reward one push later is worth, as a share of one now.")
     return Explorable("Does the critic know that the pole will fall?", draw, gamma=gamma)
+
+
+# Two poles -----------------------------------------------------------------------------------------------
+
+SHOWN = 30  # pushes that can be looked at
+METRE, LENGTH, GROUND = 70, 130, 180  # pixels: of a metre, of a pole, and of the track's height in the picture
+
+
+def episode(push_of: Callable[[np.ndarray], int]) -> np.ndarray:
+    """The states (T + 1, 4) of an episode, as gymnasium scales them. push_of: the push for a state, 0 or 1."""
+    env, ended = checks.cartpole(), False
+    states = [env.reset(seed=0)[0]]
+    while not ended:
+        state, _, *ends, _ = env.step(push_of(states[-1]))
+        states.append(state)
+        ended = any(ends)
+    return np.array(states) * checks.CARTPOLE_SCALES
+
+
+def two_poles() -> Explorable:
+    """The pole of an untrained agent, by its most probable pushes, and the rule's, while the push moves."""
+    agent = by_hand.SAC(seed=0)
+    drives = {
+        "untrained agent": episode(lambda state: int(agent.log_pi(torch.from_numpy(state)[None]).argmax())),
+        "rule": episode(lambda state: int(checks.balance(state[None])[0])),
+    }
+
+    def draw(push: float) -> Drawing:
+        parts, says, done = [], [], round(push)
+        for middle, (name, states), look in zip((190, 570), drives.items(), (OTHER, style("rule")), strict=True):
+            last = len(states) - 1
+            x, _, angle, _ = states[min(done, last)]
+            fell = done >= last
+            leans = f"{abs(np.degrees(angle)):.0f}°"
+            words = f"has fallen at push {last} ({leans})" if fell else f"leans by {leans}"
+            says.append(f"the {name}'s pole {words}")
+            label = name if last <= SHOWN else f"{name}: {last} pushes in all"
+            parts += [text(middle, GROUND + 20, label, "middle"), *cart(middle, x, angle, look.colour)]
+        sentence = f"Push {done}: {' and '.join(says)}."
+        return drawing(WIDTH, GROUND + 30, [text(4, 20, sentence, size=14, bold=True), *parts], sentence)
+
+    push = Number("push", 0, 0, SHOWN, 1, "How many pushes have been made.")
+    return Explorable("Who balances the pole?", draw, push=push)
+
+
+def cart(middle: float, x: float, angle: float, colour: str) -> list[str]:
+    """A cart x m from the middle of its track, its pole, and dashed where a pole counts as fallen. angle: rad."""
+    place, top, limit = middle + METRE * x, GROUND - 18, np.radians(numbers.fallen_at())
+
+    def pole(angle: float, colour: str, width: float, more: str = "") -> str:
+        return line(place, top, place + LENGTH * np.sin(angle), top - LENGTH * np.cos(angle), colour, width, more)
+
+    return [
+        line(middle - 2.4 * METRE, GROUND, middle + 2.4 * METRE, GROUND, QUIET),
+        *(pole(side * limit, QUIET, 1, 'stroke-dasharray="4 4"') for side in (-1, 1)),
+        rect(place - 25, top, 50, 18, INK),
+        pole(angle, colour, 6),
+    ]

@@ -8,7 +8,13 @@ from bootcourse.course.lessons.update_and_loop import by_hand  # noqa: F401 (the
 from bootcourse.course.lessons.update_and_loop.pole import BLOCK, SOLVED
 from bootcourse.course.lessons.update_and_loop.worlds import BEFORE, GAMMA  # noqa: F401 (the text names γ)
 from bootcourse.course.shipped import shipped_experiment
+from bootcourse.research.problems import cartpole
 from bootcourse.research.results import Results
+
+
+def fallen_at() -> float:
+    """How far (degrees) a pole leans when it counts as fallen."""
+    return float(np.degrees(cartpole().unwrapped.theta_threshold_radians))
 
 
 @cache
@@ -46,16 +52,6 @@ def pushes() -> list[int]:
 def with_setbacks() -> int:
     """How many had a test that was worse than the one before."""
     return sum(min(np.diff(each)) < 0 for each in tests())
-
-
-def falling() -> int:
-    """How many expect less with each push towards the fall, after their first block."""
-    return int((np.diff(along_falls()) < 0).all(1).sum())
-
-
-def last_push() -> np.ndarray:
-    """What each expects one push before the fall, where 1 is right, whatever it does."""
-    return along_falls()[:, -2]
 
 
 def unmarked() -> int:

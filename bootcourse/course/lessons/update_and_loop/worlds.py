@@ -2,6 +2,7 @@
 no fall is marked.
 """
 
+from functools import cache
 from typing import NamedTuple
 
 import gymnasium as gym
@@ -19,19 +20,14 @@ class World(NamedTuple):
     pays: tuple[tuple[int, int], ...]
     falls: bool
     right: str  # what Q should be at the start, γ = 0.8
-    shows: str  # a bug
 
 
 GAMMA = 0.8
 WORLDS = {
-    "A push pays 1, then the pole falls": World(((1, 1),), True, "1", "`terminated` is lost"),
-    "Two pushes pay 1 each, then it falls": World(((1, 1), (1, 1)), True, f"1 + γ = {1 + GAMMA:g}", "γ is lost"),
-    "Each push pays 1, then the time is up": World(
-        ((1, 1),), False, f"1 / (1 − γ) = {1 / (1 - GAMMA):.0f}", "the end of the time counts as a fall"
-    ),
-    "A push to the left pays 0, to the right 1, then it falls": World(
-        ((0, 1),), True, "0 and 1", "the two actions are exchanged"
-    ),
+    "A push pays 1, then the pole falls": World(((1, 1),), True, "1"),
+    "Two pushes pay 1 each, then it falls": World(((1, 1), (1, 1)), True, f"1 + γ = {1 + GAMMA:g}"),
+    "Each push pays 1, then the time is up": World(((1, 1),), False, f"1 / (1 − γ) = {1 / (1 - GAMMA):.0f}"),
+    "A push to the left pays 0, to the right 1, then it falls": World(((0, 1),), True, "0 and 1"),
 }
 
 
@@ -95,6 +91,7 @@ class Unmarked:
 BEFORE = 8  # pushes before the fall from which a fall is shown
 
 
+@cache
 def to_one_side() -> list[np.ndarray]:
     """The states (T + 1, 4) of poles that are pushed to one side only until they fall, 20 to each side."""
     found = []
@@ -114,14 +111,6 @@ def along_falls(agent: by_hand.SAC) -> np.ndarray:
     """What an agent's critics expect in the last states of a fall, a mean of 40 falls and of both pushes: (9,)."""
     states = torch.from_numpy(np.stack([states[-BEFORE - 1 :] for states in to_one_side()]))
     return agent.q(states.flatten(0, 1)).mean((0, 2)).view(states.shape[:2]).mean(0).numpy()
-
-
-def still_paid(gamma: float) -> np.ndarray:
-    """What the falls still pay in the last states before them, discounted: (8,).
-
-    No Q of these states can be less: no other row of pushes lets one of these poles fall sooner (all were tried).
-    """
-    return (1 - gamma ** np.arange(BEFORE, 0, -1)) / (1 - gamma)
 
 
 def most_possible(agent: by_hand.SAC) -> float:
