@@ -209,11 +209,16 @@ def test_a_crashing_drive_is_cut_at_the_first_decision_that_finds_the_car_in_the
         assert 0 not in lanes[:n] and (n == len(lanes) or lanes[n] == 0)
         kept.append(n)
     assert 0 < sum(kept) < sum(len(drive.actions) for drive in crashes.crashed())
-    whole, cut = crashes.rows_of_crashes(is_cut=False), crashes.rows_of_crashes(is_cut=True)
+    whole, cut = crashes.rows_of_crashes("all"), crashes.rows_of_crashes("cut")
     assert len(cut) == sum(kept)
     first = crashes.crashed()[0]
     assert torch.equal(cut[: kept[0]], whole[: kept[0]])
     assert torch.equal(cut[kept[0]], whole[len(first.actions)])  # the second drive begins there
+
+
+def test_the_control_takes_away_as_many_decisions_as_the_cut_and_none_in_the_free_lane():
+    cut, control = crashes.is_kept("cut"), crashes.is_kept("as-many")
+    assert cut.sum() == control.sum() == len(crashes.rows_of_crashes("as-many")) and (cut | control).all()
 
 
 def test_agents_learn_from_drives_that_crash_without_their_part_in_the_free_lane():

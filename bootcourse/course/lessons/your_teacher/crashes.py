@@ -35,6 +35,7 @@ KINDS = {  # cell: what the agents learn from, method and changed settings
     "no-labels": ("drives and bonus", "demos", {}),
     "no-bonus": ("drives and labels", "bootstrapped", {"bonus": 0.0}),
     "cut": ("the drives until the free lane, bonus and labels", "bootstrapped", {}),
+    "as-many": ("the drives without as many decisions before the free lane, bonus and labels", "bootstrapped", {}),
 }
 
 
@@ -46,7 +47,7 @@ def cells(seeds: int = 10, episodes: int = TAUGHT["bootstrapped"][1], tests: int
 def from_crashes(kind: str, seeds: int, episodes: int, tests: int) -> Results:
     """Train and test the agents of one kind, with the compiled learner. Raises Interrupted."""
     _, method, changes = KINDS[kind]
-    settings, rows = with_seeds(settings_for(method, **changes), seeds), rows_of_crashes(is_cut=kind == "cut")
+    settings, rows = with_seeds(settings_for(method, **changes), seeds), rows_of_crashes(kind)
     training = Training(settings, episodes, DEFAULT, teacher_named(TEACHER), demonstrations=rows, learner="compiled")
     result = training.run(progress=False, stop=orphaned)
     if result.interrupted:
@@ -60,13 +61,24 @@ def crashed() -> list[Rollout]:
     return [drive for drive in demonstrated(TEACHER) if not drive.success]
 
 
-def rows_of_crashes(is_cut: bool) -> Tensor:
-    """Their rows, (transitions, row); if they are cut, those before the first decision in the free lane."""
-    teacher, kept = teacher_named(TEACHER), []
-    for drive in crashed():
-        rows = demonstration_rows([drive], teacher)
-        kept.append(rows[: before_free_lane(drive)] if is_cut else rows)
-    return torch.cat(kept)
+def rows_of_crashes(kind: str) -> Tensor:
+    """What one kind of agents learns from, (transitions, row)."""
+    rows = torch.cat([demonstration_rows([drive], teacher_named(TEACHER)) for drive in crashed()])
+    return rows[torch.from_numpy(is_kept(kind))]
+
+
+def is_kept(kind: str) -> np.ndarray:
+    """Which of these drives' decisions, one after the other, the kind learns from: (decisions,) bool.
+
+    "cut": those before the free lane; "as-many": without as many of those as the cut takes away, drawn at random.
+    """
+    before = np.concatenate([np.arange(len(drive.actions)) < before_free_lane(drive) for drive in crashed()])
+    if kind == "cut":
+        return before
+    kept = np.ones(len(before), dtype=bool)
+    if kind == "as-many":
+        kept[np.random.default_rng(0).choice(np.flatnonzero(before), (~before).sum(), replace=False)] = False
+    return kept
 
 
 def before_free_lane(drive: Rollout) -> int:

@@ -1,6 +1,6 @@
 """What teachers are worth: each of their students as a dot, and whether they help."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from IPython.display import Markdown
@@ -11,25 +11,35 @@ from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.your_teacher import crashes, example_teachers, taught_agents
 from bootcourse.methods import style
 from bootcourse.plots.figure import QUIET, axes_at, finish, new_figure
+from bootcourse.research.experiments.teacher_worth import Cells
 from bootcourse.research.results import Results
+from bootcourse.research.teachers import TEACHERS as STUDIED
 from bootcourse.road.state import LANE, SPEED, X, Y
 from bootcourse.statistics import ESCAPES
 
 HEAD, FOOT = 0.75, 0.55  # inches, above and below the rows of a figure
 MARKS = {"helps": "▲", "hurts": "▼"}
+LONG = {  # (teacher, method) of the experiment `teachers`: the name of its row
+    ("rule", "bootstrapped"): "the rule",
+    ("timid", "bootstrapped"): "timid",
+    ("random-50", "bootstrapped"): "half random",
+    ("random-50", "soft"): "its labels alone",
+}
 PARTS = {  # kind of the experiment `crashes`: the name of its row
     "all": "all",
     "no-labels": "no labels",
     "no-bonus": "no bonus",
     "cut": "no free lane",
+    "as-many": "the control",
 }
 
 
 def exam_of_all() -> Markdown:
     """A table of how the teachers drive themselves."""
     rows = []
-    for name in taught_agents.SHOWN:
-        driven = example_teachers.examine(taught_agents.TEACHERS[name]).episodes
+    rules = {name: taught_agents.TEACHERS[name] for name in taught_agents.SHOWN}
+    for name, rule in (rules | {"half random": STUDIED["random-50"].rule}).items():
+        driven = example_teachers.examine(rule).episodes
         shares = (100 * driven.success.mean(), 100 * np.mean(driven.accident > 0))
         rows.append([name, *(f"{share:.0f}" for share in shares), f"{driven.returns.mean():.0f}"])
     below = "A drive that ends ahead of trap 1 got out, even if it ends by a crash."
@@ -64,25 +74,15 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], verdicts: Mapping[s
     `taught_agents.verdicts` returns them.
     """
     title = "The racer's students get out more often than those alone, and earn less"
-    row = 0.42
-    figure = new_figure(HEAD + row * len(groups) + FOOT)
-    ax = axes_at(figure, 1.25, HEAD, 2.8, row * len(groups))
-    ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
-    alt_parts = []
-    for place, (name, group) in enumerate(groups.items()):
-        colour = style("sac" if name == taught_agents.ALONE else "bootstrapped").colour
-        success = np.sort(100 * group["success"])
-        dots(ax, success, place, colour, success >= 100 * ESCAPES)
-        escape, mean = f"{(success >= 100 * ESCAPES).sum()} of {len(success)}", round(group["returns"].mean())
-        accidents, found = f"{100 * group['accident'].mean():.0f}", verdicts.get(name, {})
-        marks = [MARKS.get(found.get(score), "") for score in ("success", "returns")]
-        beside(ax, place, f"{escape} {marks[0]}", f"{mean} {marks[1]}", accidents)
-        words = "".join(f", {score}: {word}" for score, word in found.items())
-        alt_parts.append(f"{name}: {escape} escape, return {mean}, accidents in {accidents} %{words}")
-    beside(ax, -0.75, "escape", "return", "accidents, %", colour=QUIET)
-    name_rows(ax, list(groups), f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes")
-    ax.set_xlim(-2, 102)
-    return finish(figure, title, f"A dot for each student. {'; '.join(alt_parts)}.")
+    methods = ["sac" if name == taught_agents.ALONE else "bootstrapped" for name in groups]
+    return in_rows(title, groups, methods, "success", verdicts=verdicts)
+
+
+def after_a_whole_training(computed: Cells) -> Figure:
+    """The same of students of the experiment `teachers`."""
+    title = "A teacher crashes in every drive, and all ten of its students escape"
+    groups = {name: scores(computed[cell]) for cell, name in LONG.items()}
+    return in_rows(title, groups, [method for _, method in LONG], "success", left=1.5)
 
 
 def without_a_part(computed: Mapping[str, Results]) -> Figure:
@@ -91,18 +91,43 @@ def without_a_part(computed: Mapping[str, Results]) -> Figure:
     computed: {kind: agents}, as it ships.
     """
     title = "These crashing drives teach agents to earn; cut before the free lane, they do not"
-    row, alt_parts = 0.42, []
-    figure = new_figure(HEAD + row * len(PARTS) + FOOT)
-    ax = axes_at(figure, 1.75, HEAD, 2.8, row * len(PARTS))
-    for place, (kind, words) in enumerate(PARTS.items()):
-        agents = computed[kind]
-        fills = agents.scores("success") >= ESCAPES
-        dots(ax, agents.scores("returns"), place, style(crashes.KINDS[kind][1]).colour, fills)
-        escape, mean = f"{fills.sum()} of {len(agents)}", f"{agents.scores('returns').mean():.0f}"
-        accidents = f"{100 * agents.scores('accident').mean():.0f}"
-        beside(ax, place, escape, mean, accidents)
-        alt_parts.append(f"{words}: {escape} escape, return {mean}, accidents in {accidents} %")
+    groups = {name: scores(computed[kind]) for kind, name in PARTS.items()}
+    return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in PARTS], "returns", left=1.5)
+
+
+def scores(agents: Results) -> dict[str, np.ndarray]:
+    """What a figure's row says of agents, each (agents,)."""
+    return {name: agents.scores(name) for name in ("success", "returns", "accident")}
+
+
+def in_rows(
+    title: str,
+    groups: Mapping[str, Mapping[str, np.ndarray]],
+    methods: Sequence[str],
+    drawn: str,
+    left: float = 1.25,
+    verdicts: Mapping[str, Mapping[str, str]] | None = None,
+) -> Figure:
+    """A dot for each agent at its success (%) or return, a row for each group; beside it what the group reached.
+
+    groups: {name: `scores`}; methods: of each group, for its colour; drawn: "success" or "returns"; left: inches.
+    """
+    row, alt_parts, is_success = 0.42, [], drawn == "success"
+    figure = new_figure(HEAD + row * len(groups) + FOOT)
+    ax = axes_at(figure, left, HEAD, 2.8, row * len(groups))
+    if is_success:
+        ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+    for place, ((name, group), method) in enumerate(zip(groups.items(), methods, strict=True)):
+        fills = group["success"] >= ESCAPES
+        dots(ax, 100 * group["success"] if is_success else group["returns"], place, style(method).colour, fills)
+        escape, mean = f"{fills.sum()} of {len(fills)}", round(group["returns"].mean())
+        accidents, found = f"{100 * group['accident'].mean():.0f}", (verdicts or {}).get(name, {})
+        marks = [MARKS.get(found.get(score), "") for score in ("success", "returns")]
+        beside(ax, place, f"{escape} {marks[0]}", f"{mean} {marks[1]}", accidents)
+        words = "".join(f", {score}: {word}" for score, word in found.items())
+        alt_parts.append(f"{name}: {escape} escape, return {mean}, accidents in {accidents} %{words}")
     beside(ax, -0.75, "escape", "return", "accidents, %", colour=QUIET)
-    name_rows(ax, list(PARTS.values()), "return of an agent after training; filled: it escapes")
-    ax.set_xlim(0, None)
+    of_success = f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes"
+    name_rows(ax, list(groups), of_success if is_success else "return of an agent after training; filled: it escapes")
+    ax.set_xlim((-2, 102) if is_success else (0, None))
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")

@@ -40,7 +40,7 @@ from bootcourse.course.lessons.your_teacher import (
     figures,
     taught_agents,
 )
-from bootcourse.course.shipped import beginning, shipped_experiment
+from bootcourse.course.shipped import beginning, shipped_experiment, shipped_teachers
 from bootcourse.learn.teachers import ahead, teacher_policy, toward
 from bootcourse.research.teachers import TEACHERS
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
@@ -50,15 +50,20 @@ progress("your_teacher")
 # %% [markdown]
 # ## Look first
 #
-# So far the teacher was the rule of lesson [[the_rule]]. Here are two others. `racer` gets out of
+# So far the teacher was the rule of lesson [[the_rule]]. Here are three others. `racer` gets out of
 # the trap, then aims for 20 m/s and ignores the other cars. `timid` keeps straight behind trap 1.
-# Press play. Which of the two earns more?
+# **Half random** is the rule, but in half of the states a random action replaces its own, the same
+# one whenever that state comes. Press play. Which earns most?
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
-pair = (example_teachers.racer, example_teachers.timid)
-drives = [bc.record(teacher_policy(each), [ROAD], label=each.__name__)[0] for each in pair]
-bc.recording([beginning(drive, 30) for drive in drives], height=360)
+three = {
+    "racer": example_teachers.racer,
+    "timid": example_teachers.timid,
+    "half random": TEACHERS["random-50"].rule,
+}
+drives = [bc.record(teacher_policy(rule), [ROAD], label=name)[0] for name, rule in three.items()]
+bc.recording([beginning(drive, 30) for drive in drives], height=480)
 
 # %% [markdown]
 # Each drives 100 roads, and so do the rule and `careful`, which goes left as soon as there is room,
@@ -168,14 +173,14 @@ print(example_teachers.examine(mine))
 #   (two_situations(10.0).accident > 0).sum() > 0 -->
 
 # %% [markdown]
-# ## Round 2: your students
+# ## Round 2: success or return?
 #
 # A teacher enters the learner in three places. It **drives** the demonstrations. It **labels** the
 # states that the agent reaches, for the KL. It labels the states that come next, for the KL in the
 # critic's target. `Training(..., teacher=my_rule)` swaps all three.
 #
 # Two agents learn from your rule with the paper's method, for {{ taught_agents.UPDATES | , }}
-# updates. **Yours will differ** with your processor. Watch one beside its teacher.
+# updates. **Yours will differ** with your processor. Watch the second beside its teacher.
 
 # %% tags=["nbval-ignore-output"]
 settings = bc.with_seeds(bc.settings_for("bootstrapped"), 2)
@@ -185,11 +190,8 @@ driven = [bc.record(driver, [ROAD], label=name)[0] for name, driver in both.item
 bc.recording([beginning(drive, 60) for drive in driven], height=360)
 
 # %% [markdown]
-# ## Round 3: success or return?
-#
-# Two students are too few for a verdict. Here are ten shipped students of each teacher, and ten
-# that learned alone, at equal decisions (the teacher's {{ SETTINGS.demonstration_episodes }} drives
-# not counted).
+# Two students are too few for a verdict. Ten of each teacher ship, and ten that learned alone, at
+# equal decisions (the teacher's {{ SETTINGS.demonstration_episodes }} drives not counted).
 # <!-- claim: len({(s.learning_starts, s.envs_per_agent, s.updates) for s in
 #   map(settings_for, ('sac', 'bootstrapped'))}) == 1 -->
 #
@@ -214,8 +216,10 @@ bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 
 # %% [markdown]
 # **See.** After this short training success and return give the racer opposite verdicts. Its
-# students get out more often than those alone, and crash more often. `timid` helps by return: its
-# students stay behind trap 1, without an accident.
+# students get out more often than those alone, and crash in {{ 100 *
+# students('racer')['accident'].mean() | .0f }} % of drives; the racer itself in {{ 100 *
+# (teacher_exam('racer').accident > 0).mean() | .0f }} %. `timid` helps by return: its students stay
+# behind trap 1, without an accident.
 #
 # Of these four, only those that get out have students that escape. Must a teacher get out?
 # <!-- claim: student_escapes('timid') == 0 and (students('timid')['alike'] == 1).all() and
@@ -231,68 +235,73 @@ bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 # defend one verdict, and say which measurement would overturn it.
 
 # %% [markdown]
-# ## Round 4: a teacher that crashes
+# ## Round 3: a teacher that crashes
 #
-# **Half random** is the rule again, but in half of the states a random action replaces its own,
-# the same one whenever that state comes.
-
-# %% tags=["nbval-ignore-output"]
-half_random = teacher_policy(TEACHERS["random-50"].rule)
-bc.recording([beginning(bc.record(half_random, [ROAD], label="half random")[0], 30)], height=240)
-
-# %% [markdown]
-# Its label is the rule's in about 1/2 + 1/18 = {{ 1 / 2 + 1 / 18 | .2f }} of the states: one random
-# action in nine is the rule's by chance. The KL trusts it with p = {{ SETTINGS.rule_p }}. Each
-# of its {{ len(demonstrated('random-50')) }} drives ends in an accident.
-#
-# And yet ten agents, bootstrapped from these drives and labels, all escape after a whole training.
-# With the labels alone {{ worth()['random-50', 'soft'].escapers('soft') }} of ten does. What is in
-# these drives?
+# All of half random's {{ len(demonstrated('random-50')) }} drives end in an accident, {{
+# gets_ahead('random-50') }} of them ahead of trap 1. Its label is the rule's in about 1/2 + 1/18 =
+# {{ 1 / 2 + 1 / 18 | .2f }} of the states: one random action in nine is the rule's by chance. The
+# KL trusts it with p = {{ SETTINGS.rule_p }}.
 # <!-- claim: settings_for('soft').rule_p == settings_for('bootstrapped').rule_p == SETTINGS.rule_p
 #   and abs(like_the_rule('random-50') - 1 / 2 - 1 / 18) < 0.02 -->
 # <!-- claim: all(drive.accident > 0 for drive in demonstrated('random-50')) -->
-# <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
-#   TAUGHT['soft'] == TAUGHT['bootstrapped'] -->
-# <!-- claim: dataclasses.replace(settings_for('soft'), method='bootstrapped', beta_start=0.6) ==
-#   settings_for('bootstrapped') -->
 #
-# We leave out the {{ gets_ahead('random-50') }} that end ahead of trap 1. Ten agents learn from all
-# that is in the other {{ len(crashes.crashed()) }}, and ten each without one part: the labels, the
-# bonus, or the free lane: there each drive is *cut* ({{ reach_free_lane() }} come so far).
-#
-# > **Predict.** Without which part do the students earn least?
+# > **Predict.** Ten students learn from these drives and labels, in a whole training (Round 2's was
+# > short). How many escape?
 
 # %%
-parts = ["the labels", "the bonus", "the drive in the free lane"]
-predict("your_teacher.3", "Without which part do they earn least?", parts)
+predict("your_teacher.3", "Of these ten students escape ...", ["0 to 2", "3 to 7", "8 to 10"])
 
 # %%
 predicted("your_teacher.3")
+taught = shipped_teachers()
+bc.show(figures.after_a_whole_training(taught))
+
+# %% [markdown]
+# **See.** All ten escape, and earn no less than the rule's students. With the labels alone {{
+# worth()['random-50', 'soft'].escapers('soft') }} does. Of `timid`'s none does.
+# <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
+#   TAUGHT['soft'] == TAUGHT['bootstrapped'] -->
+# <!-- claim: worth()['random-50', 'bootstrapped'].scores('returns').mean() >
+#   worth()['rule', 'bootstrapped'].scores('returns').mean() -->
+# <!-- claim: worth()['timid', 'bootstrapped'].escapers('bootstrapped') == 0 and not
+#   teacher_exam('timid').accident.any() -->
+# <!-- claim: dataclasses.replace(settings_for('soft'), method='bootstrapped', beta_start=0.6) ==
+#   settings_for('bootstrapped') -->
+#
+# What is in these drives? We leave out those {{ gets_ahead('random-50') }}. Ten agents learn from
+# all that is in the other {{ len(crashes.crashed()) }}, and ten each without one part: the labels, the
+# bonus, or the free lane (the {{ reach_free_lane() }} drives that reach it are *cut* there). A
+# control loses as many decisions ({{ 100 - 100 * rows_left() | .0f }} %), at random, *before* it.
+
+# %%
 parted = shipped_experiment("crashes")
 bc.show(figures.without_a_part(parted))
 
 # %% [markdown]
 # **See.** Without the free lane none earns more than {{ crash_returns('cut').max() | .0f }}; with
-# all parts, each does. Without the bonus they earn less, too. Without the labels no difference is
-# shown: {{ crash_escapes('all') }} and {{ crash_escapes('no-labels') }} of ten can be chance. (Rank
-# tests on the returns, three after Holm.)
+# all parts, each does. Fewer decisions alone do not explain it: the control, with as few, earns
+# more. Without the bonus they earn less, too. Without the labels no difference is shown: {{
+# crash_escapes('all') }} and {{ crash_escapes('no-labels') }} of ten can be chance. (Rank tests on
+# the returns, four after Holm: the control against the cut, the others against all.)
 # <!-- claim: crash_returns('cut').max() < crash_returns('all').min() -->
-# <!-- claim: [crash_shown(kind) for kind in ('cut', 'no-bonus', 'no-labels')] == [True, True,
-#   False] and not significant(10)[crash_escapes('all'), crash_escapes('no-labels')] and
-#   crash_returns('no-bonus').mean() < crash_returns('all').mean() -->
-# <!-- claim: crash_returns('cut').mean() < min(crash_returns(kind).mean() for kind in crashes.KINDS
-#   if kind != 'cut') -->
+# <!-- claim: [crash_shown(kind) for kind in ('cut', 'as-many', 'no-bonus', 'no-labels')] == [True,
+#   True, True, False] and not significant(10)[crash_escapes('all'), crash_escapes('no-labels')] and
+#   crash_returns('no-bonus').mean() < crash_returns('all').mean() and len(crashes.KINDS) == 5 and
+#   crash_returns('as-many').mean() > 4 * crash_returns('cut').mean() -->
+# <!-- claim: crashes.is_kept('cut').sum() == crashes.is_kept('as-many').sum() -->
 #
-# So, to our question: *drives that all crash can teach, if they come to the free lane and are paid
-# the bonus.* But the cut also takes away {{ 100 - 100 * rows_left() | .0f }} % of
-# the decisions, and the fast driving. And two of ten still escape in both weak groups.
+# So a teacher need not get out: *drives that all crash can teach; without the bonus or the free
+# lane these taught less.* But the cut also takes away {{ reach_free_lane() }} of {{
+# len(crashes.crashed()) }} accidents and the fast driving, and two of ten still escape in both
+# groups, after the cut without earning more.
 # <!-- claim: crash_escapes('no-bonus') == crash_escapes('cut') == 2 and not any(drive.success for
 #   drive in crashes.crashed()) and crash_escapes('all') >= 5 -->
+# <!-- claim: all(drive.accident > 0 for drive in crashes.crashed()) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Let each group name a control for the cut before it reads question 3. After the cut the two that
-# escape earn about what it pays to stay behind trap 1. `bootcourse study crashes --out DIR` trains
-# the four groups again.
+# Ask what else the cut takes away, and how the last row rules one thing out. After the cut the two
+# that escape earn about what it pays to stay behind trap 1. `bootcourse study crashes --out DIR`
+# trains the five groups again.
 # <!-- claim: crash_returns('cut').max() < 26 -->
 
 # %%
@@ -303,7 +312,7 @@ compare_predictions(
     {
         1: "none",
         2: f"{word}: {earned['racer']:.1f}, alone {earned['alone']:.1f}",
-        3: f"{parts[2]}: {parted['cut'].scores('returns').mean():.0f} on average",
+        3: f"{taught['random-50', 'bootstrapped'].escapers('bootstrapped')} of ten",
     },
 )
 
@@ -365,14 +374,14 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 # - Could two bad teachers together be a good one?
 # - Would the half-random teacher's labels teach more if the KL trusted them with p = {{ 1 / 2 + 1 /
 #   18 | .2f }}?
-# - The cut takes away the free lane, and decisions. Which control would tell the two apart?
+# - The cut takes away the free lane, and its accidents. Which control would tell the two apart?
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Answers to the three questions. (1) Ask what is missing. Once it is out, the racer looks at no
 # car, and `timid` looks at none anywhere, so these two mixed do not look either. Let them try a
 # mixture with `example_teachers.examine`. (2) Open. A lower p pulls more weakly towards each label,
-# the right ones too: `settings_for("soft", rule_p=0.56)`. (3) Take away as many decisions at
-# random, or those before the free lane.
+# the right ones too: `settings_for("soft", rule_p=0.56)`. (3) Leave out
+# only the last decision of each drive that is cut: it ends in the accident.
 
 # %% [markdown]
 # **Read on**: teachers that are left behind on purpose: Uchendu et al., *Jump-Start Reinforcement
