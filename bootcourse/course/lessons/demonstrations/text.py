@@ -54,7 +54,7 @@ bc.show(figures.where_they_were(driven, seconds=30, title=title))
 # Count hands for each of the two and let one of each side give a reason. Do not resolve it.
 
 # %% [markdown]
-# ## Round 1: whose drives make the best clone?
+# ## Round 1: whose clones crash least?
 #
 # A **demonstration** is somebody's drive, kept as **transitions**, one for each decision: what the
 # driver saw, what it did, what it was paid, what it saw next, and whether an accident ended the
@@ -91,11 +91,10 @@ def cloning_loss(log_pi, expert_actions):
 check.cloning_loss(cloning_loss)
 
 # %% [markdown]
-# Now train five clones on each of four data sets: your drives,
-# {{ SETTINGS.demonstration_episodes }} drives of the rule, as many of the stochastic rule, and these
-# once more, with each state labelled with the rule's action. Each clone then drives 100 new roads
-# and takes its most probable action. The share of its data in which this is the label is its
-# **agreement**.
+# Now train five clones on each of four data sets: your drives, {{ SETTINGS.demonstration_episodes
+# }} drives of the rule, as many of the stochastic rule, and the last once more, with each state
+# labelled with the rule's action. Each clone then drives 100 new roads and takes its most probable
+# action. The share of its data where that is the label is its **agreement**.
 #
 # > **Predict.** Clones of which 200 drives have the most accidents?
 
@@ -120,7 +119,7 @@ bc.show(figures.clones(measured))
 # **See.** *Agreement with its own data does not say who drives well.* These data differ: one in ten
 # of the stochastic rule's decisions is drawn, and no clone can foresee it. Our clones of one drive
 # know it almost by heart, and mostly crash. (Yours may differ.) Of the 200 drives, those without an
-# accident make the clones that crash most.
+# accident make the clones that crash most. (To crash less is not yet to get out.)
 # <!-- claim: round(1 / (1 - RULE_P)) == 10 -->
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
 #
@@ -129,10 +128,10 @@ bc.show(figures.clones(measured))
 # its drives end early: more of its rows, and so of the updates, show the way out.
 #
 # All this is after {{ UPDATES | , }} updates. The study's clones, with over 40 times as many, have
-# the other order: ten of the rule crash in {{ 100 * accidents('bc') | .1f }} % of their drives (and
-# earn {{ of('bc').scores('returns').mean() | .0f }}, less than the rule's
-# {{ of('rule').scores('returns').mean() | .0f }}), ten of the stochastic rule in
-# {{ 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %.
+# the other order: ten of the rule all escape, crash in {{ 100 * accidents('bc') | .1f }} % of their
+# drives (and earn {{ of('bc').scores('returns').mean() | .0f }}, less than the rule's {{
+# of('rule').scores('returns').mean() | .0f }}), ten of the stochastic rule in {{ 100 *
+# clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %.
 # <!-- claim: of('bc').scores('returns').mean() < of('rule').scores('returns').mean() -->
 # <!-- claim: UPDATES == 1500 -->
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 -->

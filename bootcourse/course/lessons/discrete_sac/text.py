@@ -232,9 +232,10 @@ explorable.overestimated()
 
 # %% [markdown]
 # **Explain.** Above 0: one estimate alone is at 0 on average, and the highest of nine is mostly
-# higher. An actor prefers what is overestimated. So SAC has **two critics** and takes for each action
-# the smaller value, in V(s') and in the actor's loss (*min Q* in the picture). With independent errors
-# it is nearer to 0 from two actions on. SAC's two learn from one target, so they can share an error.
+# higher. An actor prefers what is overestimated. So SAC has **two critics** and takes for each
+# action the smaller value, in V(s') and in the actor's loss (*min Q* in the picture). With
+# independent errors the highest is then nearer to 0, from two actions on. SAC's two learn from one
+# target, so they can share an error.
 # <!-- claim: [n for n in range(1, 21) if abs(highest(n)[1]) < highest(n)[0]] == list(range(2, 21)) -->
 
 # %% [markdown]
@@ -298,9 +299,10 @@ leave = [(soft_sweeps(alpha)[0] / alpha).softmax(-1)[1].item() for alpha in alph
 bc.show(figures.leaving(alphas, leave))
 
 # %% [markdown]
-# **Explain.** About 0.5: {{ leave(1) | .2f }}. The softmax divides the lead of leaving by α, so a large α
-# makes π nearly even. With α = 0.05 it is {{ leave(0.05) | .2f }}. As α goes to 0 the soft equation becomes
-# the plain one, and leaving is worth {{ soft_q(1e-3)[0, 1] | .2f }} again. (The sweeps know the whole chain;
+# **Explain.** About 0.5: {{ leave(1) | .2f }}. The softmax divides the lead of leaving by α, so a
+# large α makes π nearly even; and then the lead itself shrinks, as such a policy often turns back.
+# With α = 0.05 it is {{ leave(0.05) | .2f }}. As α goes to 0 the soft equation becomes the plain
+# one, and leaving is worth {{ soft_q(1e-3)[0, 1] | .2f }} again. (The sweeps know the whole chain;
 # a learner must first find the way out.)
 # <!-- claim: 0.5 < leave(1) < 0.55 and max(abs(leave(a) - 0.5) for a in (2, 3, 5, 7, 10)) < 0.01 -->
 

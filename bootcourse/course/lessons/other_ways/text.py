@@ -241,8 +241,8 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 
 # %% [markdown]
 # **See.** Having a teacher matters more than how it is used: all five earn more than twice what the
-# rule earns, PPO and plain SAC without a teacher less than it. Return is not safety: all agents of
-# the five have accidents.
+# rule earns, PPO and plain SAC without a teacher, after the same search, less than it. Return is
+# not safety: all agents of the five have accidents.
 # <!-- claim: min(map(middle, TAUGHT)) > 2 * of('rule').scores('returns').mean() > 2 *
 #   max(score_at(m).high for m in compared() if m not in TAUGHT) and all(at(m, 'accident').min() > 0
 #   for m in TAUGHT) -->
@@ -255,10 +255,10 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 #   list(compared())[-1] == 'sac' and score_at('sac').high < score_at('jsrl').low -->
 #
 # Which of the five earns the most stays *open*. **Rank tests** of all ten pairs (lesson
-# [[your_teacher]]), corrected for their number ([[how_many_seeds]]), show only that bootstrapped
-# SAC and IBRL earn more than PPO after cloning. After {{ SECOND | , }} decisions they show no
-# difference. A larger search may find more: four of the five best settings stand at the edge of
-# what was tried.
+# [[your_teacher]]), corrected for their number (lesson [[how_many_seeds]]), show only that
+# bootstrapped SAC and IBRL earn more than PPO after cloning. After {{ SECOND | , }} decisions they
+# show no difference. A larger search may find more: four of the five best settings stand at the
+# edge of what was tried.
 # <!-- claim: {pair for pair, p in pairs(FIRST).items() if p < 0.05} == {('bootstrapped',
 #   'ppo_cloned'), ('ibrl', 'ppo_cloned')} and min(pairs(SECOND).values()) > 0.05 and
 #   len(pairs(FIRST)) == 10 and all(middle(m) > middle('ppo_cloned') for m in ('bootstrapped',
@@ -306,9 +306,9 @@ explorable.TwoCounts(compared, by_rule.returns.mean())
 #   explorable.DECISIONS)) and first_may_be_chance(explorable.EARLY, explorable.DECISIONS) -->
 # <!-- claim: 0.4 < left_of('jsrl') < 0.6 -->
 #
-# **Explain.** PPO's decisions cost little computing. That it learns from its last drives alone may be
-# why it needs more of them. So early in training the way does matter, and what is scarce decides:
-# computing time, or seconds on the road.
+# **Explain.** PPO's decisions cost little computing. That it learns from its last drives alone may
+# be why it needs more of them. So if little can be spent the way does matter, and what is scarce
+# decides: computing time, or seconds on the road.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask who in the room has which clock: a simulator and one night, or a car and one day. A faster

@@ -54,11 +54,6 @@ def by_the_formula(sight: float) -> Changes:
     return Changes(speeds[at], faster[at], int((episodes.accident[at[1]] > 0).sum()))
 
 
-def stuck(sight: float) -> int:
-    """How many drives on the lesson's roads, with this sight (m), neither crash nor get out."""
-    return int(((driven(sight).success == 0) & (driven(sight).accident == 0)).sum())
-
-
 def slower_at_changes(sight: float) -> bool:
     """Whether the rule is slower than trap 2 whenever it decides to change lane, with this sight (m)."""
     reasons, _, cars, _ = decided(sight)

@@ -170,9 +170,9 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 #
 # **Explain.** Getting out would still pay more: with the concave reward the rule's drive on this
 # road earns {{ paid_concavely(by_rule()) | .0f }}, this agent's {{
-# paid_concavely(ppo_drive('concave')) | .0f }}. But the new reward pays less for it: r_v at 15 m/s
-# is now {{ 1 - second_trap.concave_speed_reward(np.float64(10)) | .2f }} above r_v at 10, not {{ 1 -
-# speed_reward(10) | .2f }}.
+# paid_concavely(ppo_drive('concave')) | .0f }}. It pays less for it: r_v at 15 m/s is now {{ 1 -
+# second_trap.concave_speed_reward(np.float64(10)) | .2f }} above r_v at 10, not {{ 1 -
+# speed_reward(10) | .2f }}. But with the road's own reward none of the ten got out either.
 # <!-- claim: paid_concavely(by_rule(), settings_for('ppo').gamma) >
 #   paid_concavely(ppo_drive('concave'), settings_for('ppo').gamma) and by_rule().success -->
 
@@ -195,9 +195,9 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 explorable.later()
 
 # %% [markdown]
-# **See.** If V knows no sprints, falling back looks bad with λ = 0. From 0.85 on, it looks good; PPO
-# takes {{ settings_for('ppo').gae_lambda }}. If V knows them, λ is not needed; their worth
-# depends on γ. No agent here was trained with λ = 0.
+# **See.** If V knows no sprints, falling back looks bad with λ = 0. From 0.85 on, it looks good;
+# PPO takes {{ settings_for('ppo').gae_lambda }}. Once V expects them, λ is not needed; but with a
+# small γ they come too late to pay. No agent here was trained with λ = 0.
 # <!-- claim: all(ppo_kinds.settings_of(kind).gae_lambda == settings_for('ppo').gae_lambda > 0 for
 #   kind in ppo_kinds.KINDS) -->
 # <!-- claim: [explorable.weighted(lam).sum() > 0 for lam in (0, 0.5, 0.8, 0.85, 0.95, 1)] ==
@@ -290,7 +290,7 @@ check.clipped_loss(clipped_loss)
 # %% [markdown]
 # ## Round 4: start as a clone
 #
-# So far no agent has escaped. The rule knows a way out. It drives {{
+# So far no agent of this lesson has escaped. The rule knows a way out. It drives {{
 # settings_for('ppo_cloned').demonstration_episodes }} roads, stochastically, and the actor is
 # *cloned* from it (lesson [[demonstrations]]). Then PPO begins, with the road's own reward; the
 # rule is not asked again.

@@ -174,8 +174,8 @@ print(f"and crashes on {np.mean(hurt):.0%}.")
 time_step.compared(plan)
 
 # %% [markdown]
-# **See.** The plan is quick, but crashes on about every fourth road. In the first row half the step
-# changes little, in the second it more than doubles the result.
+# **See.** The plan is quick, but crashes on about every fourth road. Half the step changes little
+# in the first row. In the second 0.5 s is too long: half more than doubles the result.
 #
 # <details><summary>What happens in the second row</summary>
 #
@@ -446,9 +446,10 @@ compare_predictions(
 # 2. A simulation's result may come from its time step: halve it and compare.
 # 3. Doing nothing earns about {{ idle().rewards.sum() | .0f }}; an early crash costs more than that.
 # 4. An agent learns from the rewards that follow its actions. Of ten agents of plain SAC {{
-#    escaped('sac') }} escapes, of ten with the rule's help {{ escaped('bootstrapped') }}.
-# 5. At γ = {{ SETTINGS.gamma }} the rule's way out is worth less than staying. A quicker way out is
-#    worth more, if it seldom crashes.
+#    escaped('sac') }} escapes, of ten with the rule's help {{ escaped('bootstrapped') }}; the other
+#    three crash on most roads.
+# 5. At γ = {{ SETTINGS.gamma }} the rule's way out is worth less than staying. A quicker one can be
+#    worth more than staying, if it seldom crashes.
 #
 # **Three questions to think about**
 # - Would it still be a trap if trap 2 drove 0.5 m/s faster than you?

@@ -73,7 +73,7 @@ check.discounted_return(discounted_return)
 # Staying is worth $0.16 + 0.16\,\gamma + 0.16\,\gamma^2 + \dots = 0.16 / (1 - \gamma)$. Leaving
 # pays nothing for four decisions, and then 1 at each: it is worth $\gamma^4 / (1 - \gamma)$. So
 # leaving is worth more where $\gamma^4 > 0.16$: how far you look decides. At the paper's γ, {{
-# SETTINGS.gamma }}, it is worth {{ 0.8**4 / 0.16 | .1f }} times as much.
+# SETTINGS.gamma }}, leaving is worth {{ 0.8**4 / 0.16 | .1f }} times as much.
 # <!-- claim: 0.8**4 > 2.5 * 0.16 and SETTINGS.gamma == 0.8 -->
 #
 # > **Predict.** The way out gets one state longer. From which γ on is leaving worth more now?
@@ -140,8 +140,8 @@ bc.show(diagrams.sweeps(found))
 
 # %% [markdown]
 # **Explain.** A sweep looks one decision ahead, so each one carries the free road's value one state
-# back. (White, not 0: from the trap.) At sweep 40 the row has the heights of the blue bars in *Look
-# first* at γ = 0.8: each sweep leaves at most γ times the largest error before.
+# back. (White above 0: the trap's pay.) At sweep 40 the row has the heights of the blue bars in
+# *Look first* at γ = 0.8: each sweep leaves at most γ times the largest error before.
 # <!-- claim: np.abs(sweeps(11, 0.8) - sweeps(300, 0.8)).max()
 #   <= 0.8 * np.abs(sweeps(10, 0.8) - sweeps(300, 0.8)).max() + 1e-9 -->
 # <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
@@ -296,10 +296,10 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
 # More exploration helps here: one attempt in {{ 4**4 }} gets through in C, one in {{ 2**4 }} in D.
-# Once is not enough: a walk moves the value one state back (Round 3), where it must exceed that of
-# going back. {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5, 0.8) }} learn to
-# leave; the second picture shows one of each. On the road a random decision can also cost an
-# accident.
+# Once is not enough: a walk moves the value one state back (Round 3), and in each it must beat
+# going back. {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5, 0.8) }}
+# learn to leave; the second picture shows one of each. On the road a random decision can also cost
+# an accident.
 # <!-- claim: chain.leaves(chain.over_walks(0.5, 0.8, 1)[-1]) -->
 # <!-- claim: chain.has_been_free(chain.over_walks(0.5, 0.8, 16)[-1]) and
 #   not chain.leaves(chain.over_walks(0.5, 0.8, 16)[-1]) -->
