@@ -67,7 +67,8 @@ explorable.two_poles()
 explorable.the_end()
 
 # %% [markdown]
-# Where no end is marked, one value fits every push, the last one too: 1 / (1 − γ).
+# Where no end is marked, and if a fallen pole counts as a standing one, one value fits every push:
+# 1 / (1 − γ).
 #
 # SAC keeps its rows in a table, the **replay buffer**. Each update learns from a **batch**, rows that
 # are drawn **uniformly with replacement**: at each draw each row has the same chance. A batch of
@@ -212,10 +213,11 @@ lost = worlds.learn(loop, step, lambda size: worlds.Unmarked(buffer(size)))
 figures.small_worlds(right, lost)
 
 # %% [markdown]
-# **See.** Without the bug each Q is right to one decimal. With it all but the third are too high: in that
-# world no row is marked anyway, and Q counts all that would follow, 1 / (1 − γ). In the others the
-# target now counts the fallen state, in which no row begins. No row says what its value is: the network
-# makes it up. The fourth world's better push is still the better one: only Q shows the bug there.
+# **See.** Without the bug each Q is right to one decimal. With it all but the third are too high:
+# in the third no row is marked anyway, and Q counts all that would follow, 1 / (1 − γ). In the
+# others the target now counts the fallen state, in which no row begins. No row says what its value
+# is: the network makes it up. The fourth world's better push is still the better one: only Q shows
+# the bug there.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Let those who have finished exchange their `update` with a neighbour and find the lines in which
@@ -284,12 +286,12 @@ print(f"Entropy of its policy, pole upright: {entropy.item():.2f} nats")
 # **Explain.** Entropy adds at most α log 2 to a push, so no Q above (1 + α log 2) / (1 − γ) can be right
 # (dotted; without marks α has grown from 0.01). Your agent stays below, as ours did.
 #
-# Without marks Q is above the limit, and higher still for the fallen pole. Here, too, no row begins in
-# a fallen state. The actor learns from its critics alone: it is sure of its push, and the pole falls. In
-# {{ unmarked() }} of our {{ len(agents('unmarked')) }} agents Q was above it, and the pole fell after {{
-# after_a_block('unmarked').max() | .0f }} pushes (with marks after {{ after_a_block().min() | .0f }} to {{
-# after_a_block().max() | .0f }}). No error message appeared. The score shows that something is wrong;
-# an impossible Q shows that the critics are.
+# Without marks Q is above the limit, and higher still for the fallen pole. Here, too, no row begins
+# in a fallen state. The actor learns from its critics alone: it is sure of its push, and the pole
+# falls. In {{ unmarked() }} of our {{ len(agents('unmarked')) }} agents Q was above the limit, and
+# the pole fell after {{ after_a_block('unmarked').max() | .0f }} pushes (with marks after {{
+# after_a_block().min() | .0f }} to {{ after_a_block().max() | .0f }}). No error message appeared.
+# The score shows that something is wrong; an impossible Q shows that the critics are.
 # <!-- claim: along_falls().max() < 1 / (1 - by_hand.SAC.gamma) -->
 
 # %% [markdown] tags=["instructor"] minutes=4

@@ -203,10 +203,10 @@ choices = ["less than those alone", "about as much", "more"]
 predict("your_teacher.2", "What do the students of the racer earn?", choices)
 
 # %% [markdown]
-# An agent *escapes* if it gets out on {{ 100 * ESCAPES | .0f }} % of {{ len(taught_agents.ROADS)
-# }} held-out roads. ▲ and ▼ are verdicts, on success and on return: the teacher helps, or hurts.
-# Each comes from a rank test (Mann and Whitney) against those that learned alone, at 5 % for all
-# *eight* together, after Holm (lesson [[how_many_seeds]]).
+# An agent *escapes* if it gets out on at least {{ 100 * ESCAPES | .0f }} % of {{
+# len(taught_agents.ROADS) }} held-out roads. ▲ and ▼ are verdicts, on success and on return: the
+# teacher helps, or hurts. Each comes from a rank test (Mann and Whitney) against those that learned
+# alone, at 5 % for all *eight* together, after Holm (lesson [[how_many_seeds]]).
 
 # %%
 predicted("your_teacher.2")
@@ -269,9 +269,10 @@ bc.show(figures.after_a_whole_training(taught))
 #   settings_for('bootstrapped') -->
 #
 # What is in these drives? We leave out those {{ gets_ahead('random-50') }}. Ten agents learn from
-# all that is in the other {{ len(crashes.crashed()) }}, and ten each without one part: the labels, the
-# bonus, or the free lane (the {{ reach_free_lane() }} drives that reach it are *cut* there). A
-# control loses as many decisions ({{ 100 - 100 * rows_left() | .0f }} %), at random, *before* it.
+# all that is in the other {{ len(crashes.crashed()) }}, and ten each without one part: the labels,
+# the bonus, or the free lane (the {{ reach_free_lane() }} drives that reach it are *cut* there). A
+# control loses as many decisions ({{ 100 - 100 * rows_left() | .0f }} %), drawn from those *before*
+# the free lane.
 
 # %%
 parted = shipped_experiment("crashes")
@@ -280,9 +281,11 @@ bc.show(figures.without_a_part(parted))
 # %% [markdown]
 # **See.** Without the free lane none earns more than {{ crash_returns('cut').max() | .0f }}; with
 # all parts, each does. Fewer decisions alone do not explain it: the control, with as few, earns
-# more. Without the bonus they earn less, too. Without the labels no difference is shown: {{
-# crash_escapes('all') }} and {{ crash_escapes('no-labels') }} of ten can be chance. (Rank tests on
-# the returns, four after Holm: the control against the cut, the others against all.)
+# more. Without the bonus these ten earn less, too, but that is not a safe verdict. Without the
+# labels no difference is shown: {{ crash_escapes('all') }} and {{ crash_escapes('no-labels') }} of
+# ten can be chance. (Rank tests on the returns, four after Holm: the control against the cut, the
+# others against all. We chose these four after we had seen that another choice would not show the
+# bonus.)
 # <!-- claim: crash_returns('cut').max() < crash_returns('all').min() -->
 # <!-- claim: [crash_shown(kind) for kind in ('cut', 'as-many', 'no-bonus', 'no-labels')] == [True,
 #   True, True, False] and not significant(10)[crash_escapes('all'), crash_escapes('no-labels')] and
@@ -290,10 +293,9 @@ bc.show(figures.without_a_part(parted))
 #   crash_returns('as-many').mean() > 4 * crash_returns('cut').mean() -->
 # <!-- claim: crashes.is_kept('cut').sum() == crashes.is_kept('as-many').sum() -->
 #
-# So a teacher need not get out: *drives that all crash can teach; without the bonus or the free
-# lane these taught less.* But the cut also takes away {{ reach_free_lane() }} of {{
-# len(crashes.crashed()) }} accidents and the fast driving, and two of ten still escape in both
-# groups, after the cut without earning more.
+# So a teacher need not get out: *drives that all crash can teach; cut before the free lane these
+# taught less.* But the cut also takes away {{ reach_free_lane() }} of {{ len(crashes.crashed()) }}
+# accidents and the fast driving, and two of ten still escape after the cut, without earning more.
 # <!-- claim: crash_escapes('no-bonus') == crash_escapes('cut') == 2 and not any(drive.success for
 #   drive in crashes.crashed()) and crash_escapes('all') >= 5 -->
 # <!-- claim: all(drive.accident > 0 for drive in crashes.crashed()) -->
@@ -367,8 +369,7 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 #    each of them.
 # 2. A rule that looks at no other car can pass a test. Test it where looking matters.
 # 3. Success and return can give opposite verdicts on a teacher: give both.
-# 4. A teacher's drives need not end well. Cut at the free lane, or without the bonus, these taught
-#    less.
+# 4. A teacher's drives need not end well. Cut before the free lane, these taught less.
 #
 # **Three questions to think about**
 # - Could two bad teachers together be a good one?
