@@ -1,4 +1,4 @@
-"""Plain charts for lessons: lines over a number, bars over the nine actions, a histogram, many small panels."""
+"""Plain charts for lessons: lines over a number, and many small panels."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 
 from bootcourse.colours import OTHER, Style
-from bootcourse.methods import display_name, style
+from bootcourse.methods import display_name
 from bootcourse.plots.figure import (
     INK,
     QUIET,
@@ -86,19 +86,6 @@ def _in_words(x: Sequence[float], named: Mapping[str, np.ndarray]) -> str:
         )
         sentences.append(f"{display_name(label)}: {first} at {x[0]:,g}, {last} at {x[-1]:,g}; at most {highest}.")
     return " ".join(sentences)
-
-
-def histogram(values: np.ndarray, label: str, title: str) -> Figure:
-    """How often each value occurs among the episodes, (n,)."""
-    figure, ax = one_axes(3.0, title, label, "episodes")
-    counts, _, _ = ax.hist(values, bins=40, color=style("rule").colour)
-    ax.set_ylim(0, 1.2 * counts.max())
-    ax.axvline(np.mean(values), color=INK, linestyle="--", linewidth=1)
-    ax.annotate(f"mean {np.mean(values):.1f}", (np.mean(values), 0.91), xycoords=("data", "axes fraction"),
-                xytext=(6, 0), textcoords="offset points", fontsize=TEXT, color=INK)  # fmt: skip
-    low, middle, high = np.percentile(values, [5, 50, 95])
-    alt = f"A histogram of {len(values)} episodes: median {middle:.1f}, nine in ten between {low:.1f} and {high:.1f}."
-    return finish(figure, title, alt)
 
 
 def many(
