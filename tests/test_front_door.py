@@ -2,6 +2,7 @@
 
 import importlib
 import inspect
+import pkgutil
 import re
 import subprocess
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import bootcourse as bc
+from bootcourse import course
 
 ROOT = Path(__file__).resolve().parent.parent
 MOST = 0.3  # seconds that the import may cost
@@ -50,6 +52,13 @@ def test_a_public_name_is_there_and_says_what_it_is_and_what_it_raises(name):
         assert words and words[0].isupper() and "." in words
     if inspect.isfunction(value) and "raise BootcourseError" in inspect.getsource(value):
         assert re.search(r"\bRaises\s+BootcourseError\b", inspect.getdoc(value))
+
+
+@pytest.mark.parametrize("package", [bc, course])
+def test_no_module_has_the_name_of_a_function_beside_it(package):
+    """Loaded later, it would take the function's place in the package: a cell that runs twice would fail."""
+    modules = {module.name for module in pkgutil.iter_modules(package.__path__)}
+    assert modules & set(package.__all__) <= set(bc.MODULES)
 
 
 def test_a_name_is_looked_up_where_it_is_defined():

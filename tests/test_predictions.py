@@ -14,7 +14,7 @@ from bootcourse.course.lessons import registry, stem
 from bootcourse.course.notebook import beside_the_notebook
 from bootcourse.course.prediction_form import PredictionForm
 from bootcourse.course.predictions import FILE, predictions
-from bootcourse.course.progress import note_passed
+from bootcourse.course.progress_card import note_passed
 from bootcourse.errors import BootcourseError
 from tests.panels import raise_in_callbacks, words  # noqa: F401
 

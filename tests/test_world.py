@@ -9,8 +9,7 @@ import pytest
 
 import bootcourse as bc
 from bootcourse import one_per_cell
-from bootcourse.episodes import interactive
-from bootcourse.episodes.record import record
+from bootcourse.episodes.record import EpisodeRecorder, record
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.training import Training
@@ -62,13 +61,17 @@ def test_the_drive_is_driven_again_from_its_actions_equal_in_every_number(world)
 
 
 def test_a_cell_reads_the_drive_while_decisions_arrive_in_another_thread(world, monkeypatch):
-    def slowly(*arguments):
-        for state in real(*arguments):
-            time.sleep(0.001)
-            yield state
+    class Slow(list):
+        def append(self, each):
+            time.sleep(0.005)
+            super().append(each)
 
-    real, shown, read = interactive.driven, world(road=4), []
-    monkeypatch.setattr(interactive, "driven", slowly)
+    def slowly(recorder, *start):
+        begin(recorder, *start)
+        recorder.observations = Slow(recorder.observations)
+
+    begin, shown, read = EpisodeRecorder.__init__, world(road=4), []
+    monkeypatch.setattr(EpisodeRecorder, "__init__", slowly)
     page = threading.Thread(target=lambda: [driven(shown, [4] * n) for n in range(1, 10)])
     page.start()
     while page.is_alive():

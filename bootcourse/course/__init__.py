@@ -15,8 +15,8 @@ hint_at_names()
 
 
 def progress(lesson: str | None = None):
-    """A card that says how far you are: see progress.py, which loads widgets."""
-    from bootcourse.course.progress import progress
+    """A card that says how far you are: see progress_card.py, which loads widgets."""
+    from bootcourse.course.progress_card import progress
 
     return progress(lesson)
 

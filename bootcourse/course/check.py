@@ -76,7 +76,7 @@ def _check(exercise: Exercise, answer: Callable) -> Verdict:
     if not verdict.passed or _strict:
         return verdict
     if _keeps and this_cell() is not None:
-        from bootcourse.course.progress import note_passed
+        from bootcourse.course.progress_card import note_passed
 
         note_passed(exercise.name)
     if exercise.name in PARTS or "bootcourse.course.own_code" in sys.modules:

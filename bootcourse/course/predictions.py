@@ -27,7 +27,7 @@ LONGEST = 2000  # characters of an answer
 PATIENCE = 20  # seconds that a notebook waits for another one that writes
 NAME = re.compile(rf"({'|'.join(LESSONS)})\.\d{{1,2}}")
 NOTHING = "You committed to no prediction in this lesson."
-after_commit: list[Callable[[], None]] = []  # called when something new is kept, such as by the card of progress.py
+after_commit: list[Callable[[], None]] = []  # called when something new is kept, such as by progress_card.py
 
 
 @dataclass(frozen=True)

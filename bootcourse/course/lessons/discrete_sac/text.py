@@ -282,7 +282,7 @@ predict("discrete_sac.4", "With α = 1, how probable is leaving the trap?", chan
 # %%
 predicted("discrete_sac.4")
 value, target = own_code.yours_or_ours("soft_value", "critic_target", doing="Sweeping")
-reward, s_next = torch.tensor(chain.REWARD).flatten(), torch.tensor(chain.NEXT).flatten()
+rewards, s_next = torch.tensor(chain.REWARD).flatten(), torch.tensor(chain.NEXT).flatten()
 
 
 def soft_sweeps(alpha):
@@ -290,7 +290,7 @@ def soft_sweeps(alpha):
     q = torch.zeros(5, 2, dtype=torch.float64)
     for _ in range(40):
         v = value((q / alpha).log_softmax(-1), q, alpha)
-        q = target(reward, torch.zeros(10), v[s_next], 0.8).reshape(5, 2)
+        q = target(rewards, torch.zeros(10), v[s_next], 0.8).reshape(5, 2)
     return q
 
 

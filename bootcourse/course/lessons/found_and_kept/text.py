@@ -309,8 +309,8 @@ compare_predictions(
 # ## What you now know
 #
 # 1. To find the way out and to keep it are two things, and one rate at the end mixes them.
-# 2. With both aids and a β that never ends, none of these agents loses the way out with the bonus,
-#    all do without it; and the bonus costs return.
+# 2. With both aids and a β that never ends, none of these ten agents loses the way out with the
+#    bonus, all do without it; and the bonus costs return.
 # 3. With two updates, π̃ and one road at a time 10 agents keep it with demonstrations alone (before:
 #    2), 5 with the soft constraint (before: 6). π̃ alone gives 6 and 6; what adds the rest is open.
 # 4. A row that is one agent depends on the luck of one training. Print each agent, the updates for

@@ -43,7 +43,7 @@ def pull() -> Explorable:
         together, alone = (regularised_policy(q, log_rule, alpha, xi)[0] for xi in (multiplier * alpha, 2.0))
         lead = head_start(log_rule[0].numpy(), alpha, multiplier * alpha)
         q_lead = LEAD / ((1 + multiplier) * alpha)
-        says = f"α = {alpha:.2g}, ξ = {multiplier * alpha:.2g}: "
+        says = f"α = {alpha:.6f}".rstrip("0") + f", ξ = {multiplier * alpha:.2g}: "
         says += f"the rule's head start is {lead:.2f} nats, Q's lead {q_lead:.2f}."
         named = {
             "the best policy, ξ = 200 α": Curve(together, style("soft").colour),

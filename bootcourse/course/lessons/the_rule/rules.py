@@ -43,7 +43,7 @@ def crash(sight: float = 20.0) -> Rollout:
     """The first drive on the lesson's roads in which the rule with this sight (m) crashes, with its own reasons."""
     scenario = with_numbers(sight)  # among DEFAULT's drivers the drive is the same, but notes the reasons at 200 m
     road = ROADS[int(np.argmax(driven(sight).accident > 0))]
-    return record(rule_policy(scenario), [road], scenario, label="rule")[0]
+    return record(rule_policy(scenario), [road], scenario, label=f"rule, sight {sight:g} m")[0]
 
 
 def timed(scenario: Scenario) -> tuple[Episodes, np.ndarray]:
