@@ -10,6 +10,7 @@ these files, and only a cell of a notebook calls it. `own_learner.py` puts the p
 """
 
 import functools
+import textwrap
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
@@ -66,7 +67,12 @@ def load() -> None:
     for name in stored:
         _own[name] = answer_files.read(name)
     folder = beside_the_notebook() / answer_files.FOLDER
-    print(f"Found in {folder}: {whose(stored)}.".replace("`", "") if stored else NONE)
+    say(f"Found in {folder}: {whose(stored)}." if stored else NONE)
+
+
+def say(sentence: str) -> None:
+    """Print a sentence in lines that a notebook's column holds: JupyterLab would break them inside a word."""
+    print(textwrap.fill(sentence.replace("`", ""), 80, break_long_words=False, break_on_hyphens=False))
 
 
 def whose(names: Sequence[str]) -> str:
@@ -89,7 +95,7 @@ def training(settings: Sequence[Settings], episodes: int = 1000, **more) -> Trai
     else:
         more.setdefault("learner", "faster")
     mine = Training(settings, episodes, **more)
-    print(f"Training with {whose(names) or 'no part that an exercise writes'}.".replace("`", ""))
+    say(f"Training with {whose(names) or 'no part that an exercise writes'}.")
     return mine
 
 
@@ -98,7 +104,7 @@ def yours_or_ours(*names: str, doing: str = "Training") -> Any:
 
     Prints what is done with whose: "Training with your `update`, our `train`."
     """
-    print(f"{doing} with {whose(names)}.".replace("`", ""))
+    say(f"{doing} with {whose(names)}.")
     answers = [part(_own, name) for name in names]
     return answers[0] if len(names) == 1 else answers
 
