@@ -43,7 +43,7 @@ def training_curves(rng):
         "return by_then[:, -1] & (ahead[:, -1] <= limit)":
             "You look at the last window alone. An agent that loses the way out and finds it again has lost it once.",
         "return by_then.any(axis=1)":
-            "You say who had the way out. Who lost it has a low window after that, a whole one of 50 episodes.",
+            "You say who had the way out. An agent that lost it also has, later, a low window: 50 whole episodes.",
         "return (ahead <= limit).any(axis=1)":
             "You say who had a low window. Each agent that begins to learn has one: look only after a window with "
             "`had` ahead.",

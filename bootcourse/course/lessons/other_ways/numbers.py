@@ -13,6 +13,7 @@ from bootcourse.methods import METHODS, display_name
 from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
+from bootcourse.research.tables import markdown
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, holm, interval
 from tools.course.known import shipped_experiment
@@ -89,7 +90,7 @@ def hours_before(method: str) -> float:
 def not_equal() -> str:
     """A table of what differs between the methods with a teacher, beside how they use it."""
     head = ["", "rule's hours, not counted", "decisions per update", "rule in the test", "tuned (η: target entropy)"]
-    rows = [head, ["---", *[":---:"] * 3, "---"]]
+    rows = []
     for method in TAUGHT:
         tuned = [VARIED[name] for name in equal_decisions.TRIES[method][0]]
         by_hand = [words for name, words in BY_HAND.items() if name in equal_decisions.COMMON[method]]
@@ -97,7 +98,7 @@ def not_equal() -> str:
         asked = "yes" if METHODS[method].learner_class().needs_teacher else "no"
         numbers = f"{hours_before(method):.0f}", f"{decisions_per_update(method):.0f}"
         rows.append([display_name(method), *numbers, asked, "; ".join(tuned)])
-    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+    return markdown(head, rows).rstrip()
 
 
 def decisions_per_update(method: str) -> float:
