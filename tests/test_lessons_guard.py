@@ -106,17 +106,18 @@ HOSTILE = {
 
 def the_state_of_this_process():
     settings = torch.get_default_dtype(), sys.getrecursionlimit(), np.allclose, values.same, sac.critic_target
-    return *settings, random.getstate(), torch.get_rng_state().tolist(), threading.active_count()
+    return *settings, random.getstate(), torch.get_rng_state().tolist()
 
 
 @pytest.mark.skipif(not runner.FORKS, reason="needs a fork")
 @pytest.mark.parametrize("answer, words", HOSTILE.items(), ids=lambda x: getattr(x, "__name__", None) or "says")
 def test_whatever_an_answer_does_is_one_sentence_and_leaves_nothing_behind(answer, words):
-    before = the_state_of_this_process()
+    before, threads = the_state_of_this_process(), threading.enumerate()
     with redirect_stdout(io.StringIO()) as printed:
         verdict = judge(TARGET, answer, 0.5 if "0.5 s" in words else None)
     assert verdict.kind in ("wrong", "did_not_run") and words in verdict.sentence and one_sentence(verdict), verdict
     assert the_state_of_this_process() == before and printed.getvalue() == ""
+    assert not set(threading.enumerate()) - set(threads)
     assert judge(TARGET, TARGET.solution).is_right
 
 

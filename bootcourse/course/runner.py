@@ -155,6 +155,7 @@ class Process:
             raise EOFError(f"no report: {error}") from None
         finally:
             late.cancel()
+            late.join()  # or its thread outlives the check by a moment
 
     def kill(self) -> None:
         """Kill it, with all processes that it started."""
