@@ -1,11 +1,10 @@
-"""For the lesson's tables: the paper's rows beside ours, and a chance in words."""
+"""For the lesson's table: the paper's rows beside ours."""
 
 from bootcourse.methods import display_name
 from bootcourse.research.cells import VARIED
 from bootcourse.research.paper import PRINTED
 from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
-from bootcourse.statistics import Estimate
 
 BOTH_TABLES = ["", "the paper's success", "the paper's return", "our agents that escape", "our return"]
 
@@ -15,9 +14,3 @@ def both_tables(study: Results) -> list[list[str]]:
     rows = [(m, PRINTED[m]["success"].mean, PRINTED[m]["returns"].mean) for m in VARIED]
     ours = {m: f"{study.of(m).scores('returns').mean():.0f}" for m in VARIED}
     return [[display_name(m), f"{rate:.0f} %", f"{earned:.0f}", escaped(study, m), ours[m]] for m, rate, earned in rows]
-
-
-def percent(chance: Estimate) -> str:
-    """ "33 % [10, 54]"."""
-    value, low, high = (100 * part for part in chance)
-    return f"{value:.0f} % [{low:.0f}, {high:.0f}]"

@@ -1,5 +1,5 @@
-"""To drag in this lesson: when a way out counts as lost, in four groups of agents: β ends early, late or never; or it
-never ends, and no bonus is paid.
+"""To drag in this lesson: when a way out counts as lost, in four groups of agents: β ends or never does, with the bonus
+or without.
 """
 
 import numpy as np
@@ -23,9 +23,9 @@ def groups() -> dict[str, Results]:
     """The agents with both aids, ten in each group: {words: results}."""
     changed = shipped_experiment("ablations")
     of = {
-        "β ends by 300": changed["β over 300 episodes"],
-        "β ends by 1,000": shipped_results(),
-        "β never ends": changed["β for ever"],
+        "β ends, bonus": shipped_results(),
+        "β never ends, bonus": changed["β for ever"],
+        "β ends, no bonus": changed["c = 0"],
         "β never ends, no bonus": changed["β for ever, c = 0"],
     }
     return {words: results.of("bootstrapped") for words, results in of.items()}

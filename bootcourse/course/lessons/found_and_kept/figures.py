@@ -1,45 +1,46 @@
-"""Figures of the lesson on finding and keeping: one agent's success, and who found and kept the way out."""
+"""Figures of the lesson on finding and keeping: one agent's success, who found and kept the way out, and how often
+single agents drive as the paper's.
+"""
 
 from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import Style
 from bootcourse.course.charts import lines
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, TEXT, WIDTH, axes_at, finish, new_figure
+from bootcourse.plots.figure import INK, QUIET, TEXT, WIDTH, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.cells import VARIED
+from bootcourse.research.experiments import clocks
 from bootcourse.research.results import Results
 from bootcourse.statistics import IN_A_ROW, rolling_means
 
 # Titles that answer a prediction stand here, so that the student's cell does not give it away.
 IN_THE_STUDY = "With demonstrations alone half of the agents find the way out, and none keeps it"
 OF_TWO_GROUPS = "With two updates and π̃ all ten with demonstrations keep it, five with the soft constraint"
+OF_EIGHT = "In six of eight settings more than one table in ten has the paper's four rates"
 
 
 def one_agent(results: Results, which: int, title: str) -> Figure:
-    """Training of one agent of one method: how often it is ahead, its first and last good window, how often it crashes.
-
-    The second line counts the accidents of the episodes that do not end ahead.
-    """
-    success, accident = (results.curves[measure][which] for measure in ("success", "accident"))
-    crashed = (success == 0) & (accident > 0)
-    at, (share, crashes) = rolling_means(100 * np.stack([success, crashed]), IN_A_ROW, len(success))
+    """Training of one agent of one method: how often it is ahead, its first and last good window, and β's end."""
+    success, end = results.curves["success"][which], results.agents[which]["beta_episodes"]
+    at, (share,) = rolling_means(100 * success, IN_A_ROW, len(success))
     look = style(results.methods[0])._replace(line="-")
-    named, looks = {"ahead of trap 1": share, "crashed behind trap\u00a01": crashes}, [look, Style(QUIET, ":")]
     words = f"% of the last {IN_A_ROW} episodes"
-    figure = lines(at, named, title, "training episode", words, looks=looks)
-    good = np.flatnonzero(share > 50)
+    figure = lines(at, {"ahead of trap 1": share}, title, "training episode", words, looks=[look])
+    ax, good = figure.axes[0], np.flatnonzero(share > 50)
+    ax.axvline(end, color=INK, linewidth=1.1, linestyle=(0, (4, 3)), zorder=1)
+    ax.text(end + 25, 90, f"no demonstrations\nafter {end:,}", fontsize=TEXT, color=QUIET, va="center")
     for place, words in ((good[0], "found"), (good[-1], "last had it")):
-        figure.axes[0].plot(at[place], share[place], "o", color=INK, ms=6, zorder=5)
-        figure.axes[0].annotate(
+        ax.plot(at[place], share[place], "o", color=INK, ms=6, zorder=5)
+        ax.annotate(
             f"{words}: {at[place]:,.0f}", (at[place], share[place]), (8, 0), ha="left", va="center",
             textcoords="offset points", fontsize=TEXT, color=INK, zorder=4,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 1},
         )  # fmt: skip
     figure.alt += (
-        f" More than half of a window for the first time at {at[good[0]]:.0f}, the last at {at[good[-1]]:.0f}."
+        f" More than half of a window for the first time at {at[good[0]]:.0f}, the last at {at[good[-1]]:.0f}. A dashed"
+        f" line at {end:,}: no demonstrations after it."
     )
     return figure
 
@@ -57,13 +58,12 @@ def found_and_kept(panels: Mapping[str, Results], title: str) -> Figure:
         for y, method in enumerate(VARIED):
             found, kept = (int(each.sum()) for each in results.found_and_kept(method))
             n, colour = len(results.of(method)), style(method).colour
-            for x in range(n):
-                if x < found:
-                    ax.plot(x, y, "s", ms=8.5, color=colour if x < kept else "white", mec=colour, mew=1.6)
-                else:
-                    ax.plot(x, y, "o", ms=2.5, color=QUIET)
+            for first, after, fill in ((0, kept, colour), (kept, found, "white")):
+                at = range(first, after)
+                ax.plot(at, [y] * len(at), "s", ms=8.5, color=fill, mec=colour, mew=1.6)
+            ax.plot(range(found, n), [y] * (n - found), "o", ms=2.5, color=QUIET)
             counted = f"{found} of {n} found it, {kept} kept it"
-            alt_parts.append(": ".join(part for part in (panel, display_name(method), counted) if part))
+            alt_parts.append(": ".join(part for part in ("" if y else panel, display_name(method), counted) if part))
         ax.set(xlim=(-0.6, 9.6), ylim=(len(VARIED) - 0.5, -0.5), xticks=(), yticks=())
         for side in ax.spines.values():
             side.set_visible(False)
@@ -74,3 +74,31 @@ def found_and_kept(panels: Mapping[str, Results], title: str) -> Figure:
     key = "■ found and kept   □ found, not kept   · not found.   Each mark is an agent."
     figure.text(0.012, 0.14 / figure.get_figheight(), key, fontsize=TEXT, color=INK)
     return finish(figure, title, f"Agents that found and kept the way out. {'; '.join(alt_parts)}.")
+
+
+def chances(cells: Mapping[tuple[str, str], Results], counted: Mapping[tuple[str, str], float], title: str) -> Figure:
+    """How often single agents read as the paper's four rows, in %, a row for each of the settings `cells`.
+
+    counted: each setting's chance, drawn as a dot; the bar is the interval over seeds, see `clocks.pattern`.
+    """
+    tall, alt_parts, driven = 0.27, [], style("rule").colour
+    figure = new_figure(0.95 + tall * len(cells) + 0.5)
+    ax = axes_at(figure, 1.95, 0.95, 3.5, tall * len(cells))
+    plain_axes(ax, "", grid="x")
+    heads = (-0.55, "updates, roads"), (-0.16, "driver"), (1.03, "chance"), (1.19, "agents a row")
+    for x, words in heads:
+        ax.text(x, 1.03, words, transform=ax.transAxes, fontsize=TEXT, color=QUIET, va="bottom")
+    for y, ((updates, driver), results) in enumerate(cells.items()):
+        value, (_, *bar) = 100 * counted[updates, driver], (100 * part for part in clocks.pattern(results))
+        ax.plot(bar, (y, y), color=driven, linewidth=2, alpha=0.5)
+        ax.plot(value, y, "o", ms=7, color=driven if driver == "π̃" else "white", mec=driven, mew=1.6, zorder=3)
+        sizes = sorted({len(results.of(method)) for method in VARIED})
+        agents, roads = " or ".join(map(str, sizes)), results.agents[0]["envs_per_agent"]
+        setting = f"{updates.replace('1/4', '¼')}, {'one road' if roads == 1 else f'{roads} roads'}"
+        written = (-0.55, "" if y % 2 else setting), (-0.16, driver), (1.03, f"{value:.0f} %"), (1.19, agents)
+        for x, words in written:
+            ax.text(x, y, words, transform=ax.get_yaxis_transform(), fontsize=TEXT, color=INK, va="center")
+        alt_parts.append(f"{setting}, {driver}: {value:.0f} % [{bar[0]:.0f}, {bar[1]:.0f}], of {agents}")
+    ax.set(xlim=(0, 100), ylim=(len(cells) - 0.5, -0.5), yticks=())
+    ax.set_xlabel("% of the draws with all four rates as the paper's; bar: 95 % over seeds", fontsize=TEXT, color=INK)
+    return finish(figure, title, f"Updates, roads, driver: chance [95 %], agents a row. {'; '.join(alt_parts)}.")

@@ -11,8 +11,8 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
-from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost  # noqa: F401 (the text names them)
-from tools.course.known import in_training, of, shipped_experiment, shipped_results
+from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost, rolling_means
+from tools.course.known import in_training, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
 SHORTER = study_clocks.TRAINED  # training episodes of the agents of round 3
@@ -29,6 +29,7 @@ class Group(NamedTuple):
     """What round 2 says of a group of agents with both aids."""
 
     lost: np.ndarray  # which agents lose the way out
+    first: np.ndarray  # after which episode they first have, ∞ for those that do not
     earned: np.ndarray  # return after training, of each agent
     keep: np.ndarray  # which agents keep the way out
 
@@ -44,27 +45,41 @@ def way(results: Results, method: str) -> Counted:
 
 
 @cache
-def group(ends: str) -> Group:
-    """Of round 2: β ends by "300", by "1,000" or "never", or "no bonus"; or "others: never", of the ten others, …"""
-    if ends.startswith("others"):
-        agents = shipped_experiment("stress")["bootstrapped" + (", β for ever" if "never" in ends else "")]
+def group(words: str) -> Group:
+    """Of round 2: see `groups`; or "others: never", of the ten others, where β never ends; "others: ends", …"""
+    if words.startswith("others: "):
+        cell = {"ends": "", "never": ", β for ever", "no bonus": ", c = 0"}[words.removeprefix("others: ")]
+        agents = shipped_experiment("stress")[f"bootstrapped{cell}"]
     else:
-        agents = next(results for words, results in groups().items() if ends in words)
-    keep = agents.found_and_kept("bootstrapped")[1]
-    return Group(lost(agents.curves["success"]), agents.scores("returns"), keep)
+        agents = groups()[words]
+    success = agents.curves["success"]
+    return Group(lost(success), first_lost(success), agents.scores("returns"), agents.found_and_kept("bootstrapped")[1])
 
 
-def lost_least_if_never(low: int, high: int) -> bool:
-    """Do fewer agents lose the way out if β never ends than in each other group, at each limit from low to high?"""
+def first_lost(success: np.ndarray) -> np.ndarray:
+    """The training episode after which each agent has first lost the way out, ∞ for one that does not."""
+    at, share = rolling_means(success, IN_A_ROW, success.shape[1])
+    losing = np.maximum.accumulate(share >= HAD / IN_A_ROW, axis=1) & (share <= LOST / IN_A_ROW)
+    return np.where(losing.any(axis=1), at[losing.argmax(axis=1)], np.inf)
+
+
+def lost_least_if_both(low: int, high: int) -> bool:
+    """Do fewest agents lose the way out if β never ends and the bonus is paid, at each limit from low to high?"""
     success = {words: agents.curves["success"] for words, agents in groups().items()}
-    never = success.pop("β never ends")
+    both = success.pop("β never ends, bonus")
     limits = range(low, high + 1)
-    return all(lost(never, at).sum() < min(lost(each, at).sum() for each in success.values()) for at in limits)
+    return all(lost(both, at).sum() < min(lost(each, at).sum() for each in success.values()) for at in limits)
 
 
-def earns_less(never: Group, *others: Group) -> bool:
+def earns_less(both: Group, *others: Group) -> bool:
     """Does each agent of the first group earn less than each of the others that keeps the way out?"""
-    return all(bool(never.earned.max() < each.earned[each.keep].min()) for each in others)
+    return all(bool(both.earned.max() < each.earned[each.keep].min()) for each in others)
+
+
+def one_road() -> list[float]:
+    """The chances of round 3 in the settings with one road at a time."""
+    settings = study_clocks.choices(shipped_experiment("clocks"))
+    return [study_clocks.pattern(each).value for (updates, _), each in settings.items() if updates != "1/4"]
 
 
 def alone_and_staying() -> tuple[int, int, int]:
@@ -74,15 +89,6 @@ def alone_and_staying() -> tuple[int, int, int]:
     losers = sum(int(lost(agents.curves["success"]).sum()) for agents in each)
     ways = [way(agents, "demos") for agents in each]
     return losers, sum(each.found for each in ways), sum(each.kept for each in ways)
-
-
-def crashing_and_waiting(first: int, last: int) -> tuple[float, float]:
-    """Of the agent of the lesson's first curve: which share of these training episodes is a crash behind trap 1, and
-    which is neither that nor ahead.
-    """
-    curves, best = of("demos").curves, int(in_training("demos", 700, 900).argmax())
-    ahead, crashed = (curves[name][best, first:last] > 0 for name in ("success", "accident"))
-    return float((~ahead & crashed).mean()), float((~ahead & ~crashed).mean())
 
 
 def of_the_agent_shown() -> Rollout:

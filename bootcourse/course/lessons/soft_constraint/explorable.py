@@ -1,6 +1,4 @@
-"""To drag in this lesson: the temperature α, with ξ = 200 α and with a ξ that stays; then the target entropy."""
-
-import math
+"""To drag in this lesson: the temperature α, with ξ = 200 α and with a ξ that stays."""
 
 import numpy as np
 import torch
@@ -9,7 +7,7 @@ from bootcourse.colours import QUIET
 from bootcourse.learn.bootstrap import log_stochastic_rule, regularised_policy
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
-from bootcourse.panels.explorable import Axes, Curve, Explorable, bars, curves
+from bootcourse.panels.explorable import Axes, Curve, Explorable, bars
 from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing
 from bootcourse.scenario import ACTION_NAMES
@@ -54,32 +52,3 @@ def pull() -> Explorable:
     help_text = f"The temperature; it starts at {settings.alpha_init:g}, and falls while the agent learns."
     alpha = Number("α", settings.alpha_init, 1e-5, 0.1, 0.05, help_text, logarithmic=True)
     return Explorable("Another action is worth more than the rule's. When is it taken?", draw, alpha=alpha)
-
-
-UPDATES, TURN = 400, 0.02  # of the thermostat; what each changes in log α
-POWERS = Axes("update", "log₁₀ ξ", (-4.0, 4.0))
-
-
-def thermostat() -> Explorable:
-    """ξ = 200 α for the best compromise in that state, while α follows a target entropy that one drags.
-
-    Each update moves log α by one step that stays, as in the lesson on discrete SAC.
-    """
-    settings, (q, log_rule) = Settings(), one_state()
-
-    def draw(target: float) -> Drawing:
-        alpha, xi, rises, entropy = settings.alpha_init, [], [], 0.0
-        for _ in range(UPDATES + 1):
-            xi.append(settings.xi_multiplier * alpha)
-            entropy = torch.special.entr(regularised_policy(q, log_rule, alpha, xi[-1])).sum().item()
-            rises.append(entropy < target)
-            alpha *= math.exp(TURN if rises[-1] else -TURN)
-        course = "falls and comes to rest" if any(rises) else "falls at each update"
-        course = "rises at each update" if all(rises) else course
-        says = f"With η = {target:g}, ξ {course}: from {xi[0]:g} to {float(f'{xi[-1]:.2g}'):,g}. The entropy of π "
-        says = f"{says}ends at {entropy:.2f}.".replace("-", "−")
-        return curves(says, POWERS, np.arange(UPDATES + 1), {"ξ = 200 α": Curve(np.log10(xi), style("soft").colour)})
-
-    help_text = "The target entropy. Each update moves α, and ξ = 200 α, by 2 %; the policy is the best one for its α."
-    target = Number("η", settings.target_entropy, -1.5, 2.5, 0.1, help_text)
-    return Explorable("The same state, with a thermostat: does ξ come to rest?", draw, target=target)

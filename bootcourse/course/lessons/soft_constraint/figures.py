@@ -1,6 +1,7 @@
-"""The pictures of the lesson on the soft constraint: a training without the value penalty, how twenty agents ended."""
+"""The pictures of the lesson on the soft constraint: drives by a finished Q and the rule, trainings, how they ended."""
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -8,15 +9,17 @@ from matplotlib.figure import Figure
 from bootcourse.colours import INK, QUIET
 from bootcourse.course import shipped
 from bootcourse.course.dots import beside, dots, name_rows
+from bootcourse.course.lessons.soft_constraint.examples import ROADS
 from bootcourse.course.live_curves import LiveCurves
 from bootcourse.learn.training import Training
 from bootcourse.methods import style
-from bootcourse.plots.figure import axes_at, finish, label_ends, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import SMALL, axes_at, finish, label_ends, new_figure, one_axes, plain_axes
 from bootcourse.statistics import IN_A_ROW, found_after, lost
 
 PENALTY = "with the value penalty", "without it"
 
 
+@cache
 def ways_out() -> list[np.ndarray]:
     """The episodes after which the study's agents found the way out, (10,): those with the value penalty, and without.
 
@@ -55,12 +58,67 @@ class LivePenalty(LiveCurves):
             dots(below, episodes, place, colour)
         name_rows(below, PENALTY, "episode; a dot: one of the study's ten agents finds the way out")
         below.set_xlim(0, 400)
-        found = (f"the study's ten agents {words} find the way out after {each.min()} to {each.max()} episodes"
+        found = (f"{words} after {each.min()} to {each.max()} episodes"
                  for words, each in zip(PENALTY, ways_out(), strict=True))  # fmt: skip
-        return finish(figure, title, f"Two lines over {done} episodes. Below, dots: {'; '.join(found)}.")
+        alt = f"Two lines over {done} episodes. The study's ten agents find the way out {', '.join(found)}."
+        return finish(figure, title, alt)
+
+
+def mixed(strengths: Sequence[float], returns: np.ndarray, accidents: np.ndarray) -> Figure:
+    """The drives of `examples.mixed`: a dot for each agent's mean return, beside a row its share of accidents."""
+    rows = [f"ξ = {xi:g}" if xi else "ξ = 0: Q alone" for xi in strengths] + ["their own policies"]
+    title = "The rule and a finished Q together are slow, or crash"
+    figure, ax = one_axes(3.2, title, "", "")
+    ax.set_position((0.2, 0.17, 0.57, 0.66))
+    alt = []
+    for place, (name, each, crashed) in enumerate(zip(rows, returns, 100 * accidents, strict=True)):
+        dots(ax, each, place, style("soft").colour if place == len(strengths) else INK)
+        share = f"{crashed.min():.0f} to {crashed.max():.0f}" if crashed.max() else "0"
+        beside(ax, place, f"{share} % crash")
+        alt.append(f"{name}: {each.min():.0f} to {each.max():.0f}, {share} % crash")
+    name_rows(ax, rows, f"mean return on {len(ROADS)} roads; a dot for each of five agents")
+    return finish(figure, title, f"Returns: {'; '.join(alt)}.")
 
 
 FADING = "ξ falls towards 0"  # the study's own agents with the soft constraint; the other kinds have one change
+
+
+FLOOR = "ξ falls to 0.1"
+
+
+def courses(kinds: Sequence[str]) -> Figure:
+    """Above ξ, below the return in training: the study's ten agents of each of three kinds, thin, and their mean.
+
+    kinds: as in `twenty`. An agent of `FADING` is that of `FLOOR` until ξ reaches 0.1; from there on its ξ is not kept.
+    """
+    changed = shipped.shipped_experiment("ablations") | {FADING: shipped.shipped_results().of("soft")}
+    title = "Where ξ falls, the return rises first, and drops again in some agents"
+    figure, looks = new_figure(4.4), (QUIET, INK, style("soft").colour)
+    above, below = axes_at(figure, 0.6, 0.75, 4.9, 0.9), axes_at(figure, 0.6, 2.0, 4.9, 1.85)
+    plain_axes(above, "mean ξ of ten agents")
+    plain_axes(below, f"return in training, with drawn actions: mean of {IN_A_ROW} episodes; thick: of ten agents")
+    ends, alt = [], []
+    for kind, colour in zip(kinds, looks, strict=True):
+        xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
+        until = np.argmax(xi <= 0.101) if kind == FADING else len(xi)
+        above.plot(np.arange(until), xi[:until], color=colour, linewidth=2)
+        returns = changed[kind].of("soft").curves["return"].astype(float)
+        sums = np.cumsum(np.pad(returns, ((0, 0), (1, 0))), axis=1)
+        window = (sums[:, IN_A_ROW:] - sums[:, :-IN_A_ROW]) / IN_A_ROW
+        episodes = np.arange(IN_A_ROW, returns.shape[1] + 1)
+        below.plot(episodes, window.T, color=colour, linewidth=0.5, alpha=0.45)
+        below.plot(episodes, window.mean(0), color=colour, linewidth=2.2)
+        ends.append((window[:, -1].mean(), kind, colour))
+        alt.append(f"{kind}: {window[:, 1000 - IN_A_ROW].mean():.0f}, at last {ends[-1][0]:.0f}")
+    above.set(yscale="log", xlim=(0, returns.shape[1]), ylim=(0.06, 3))
+    above.set_yticks((0.1, 1, 2), ("0.1", "1", "2"))
+    above.annotate("towards 0", (until, 0.1), (until + 20, 0.16), fontsize=SMALL, color=looks[-1])
+    above.minorticks_off()
+    above.set_xticklabels([])
+    below.set(xlim=(0, returns.shape[1]))
+    below.set_xlabel("training episode", fontsize=SMALL, color=INK)
+    label_ends(below, ends)
+    return finish(figure, title, f"Mean returns after 1,000 episodes: {'; '.join(alt)}.")
 
 
 def twenty(kinds: Sequence[str]) -> Figure:

@@ -1,23 +1,27 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-import math
 import re
 from collections.abc import Callable
+from functools import cache
 
-import torch
+import numpy as np
 
-from bootcourse.course.lessons.soft_constraint import explorable
+from bootcourse.course.lessons.soft_constraint import examples
+from bootcourse.course.lessons.soft_constraint.examples import ROADS
 from bootcourse.course.lessons.soft_constraint.figures import ways_out as ways_out
 from bootcourse.course.shipped import shipped_agents
+from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.record import record
 from bootcourse.learn.bootstrap import regularised_policy
-from bootcourse.panels.compromise import Ways
+from bootcourse.panels.compromise import CHOSEN, Way, Ways
+from bootcourse.policies import rule_policy
 from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import HAD as HAD
 from bootcourse.statistics import IN_A_ROW as IN_A_ROW
 from bootcourse.statistics import LOST as LOST
 from bootcourse.statistics import lost
-from tools.course.known import RULE_P, SETTINGS, of, others, shipped_experiment
+from tools.course.known import RULE_P, of, others, shipped_experiment
 
 
 def stays(xi: float = 2.0) -> Results:
@@ -84,27 +88,49 @@ def returning_more() -> int:
     return sum(int((each.found_and_kept("soft")[1] & (each.scores("returns") > most)).sum()) for each in fading())
 
 
-def entropy_of_the_rule() -> float:
-    """The entropy of the stochastic rule, in nats: p for its action, the rest for the other eight."""
-    return -RULE_P * math.log(RULE_P) - (1 - RULE_P) * math.log((1 - RULE_P) / 8)
+@cache
+def ways_of_the_panel(xi: float) -> dict[str, Way]:
+    """The panel's three ways on from the start of road 10, with p = 0.9, by their names."""
+    helped = shipped_agents("soft")[0]
+    drive = record(helped.as_policy(with_q=True), [10])[0]
+    return Ways(drive, helped).at(0, RULE_P, xi, examples.ALPHA)
+
+
+def way(xi: float, whose: str = CHOSEN) -> str:
+    """How far one of the panel's three ways gets: "402 m in 40 s"."""
+    return ways_of_the_panel(xi)[whose].words
+
+
+def metres(xi: float) -> str:
+    """How far the panel's compromise gets in its 40 s."""
+    return re.fullmatch(r"(\d+) m in 40 s", way(xi))[1]
 
 
 def accidents_of_the_panel(xi: float) -> list[str]:
-    """Which of the panel's three ways on from the start of road 10 end in an accident."""
-    helped = shipped_agents("soft")[0]
-    drive = record(helped.as_policy(with_q=True), [10])[0]
-    return [name for name, way in Ways(drive, helped).at(0, 0.9, xi, 0.01).items() if way.accident]
+    """Which of the panel's three ways end in an accident."""
+    return [name for name, each in ways_of_the_panel(xi).items() if each.accident]
 
 
-def entropy_at(alpha: float) -> float:
-    """The entropy of the best policy in the thermostat's state with ξ = 200 α, in nats."""
-    q, log_rule = explorable.one_state()
-    best = regularised_policy(q, log_rule, alpha, SETTINGS.xi_multiplier * alpha)
-    return torch.special.entr(best).sum().item()
+@cache
+def drives() -> tuple[np.ndarray, np.ndarray]:
+    """The mean returns and shares of accidents of the drives in Round 2, (5, agents) each: ξ = 1, 0.3, 0.1, 0, own."""
+    return examples.mixed(regularised_policy, [1, 0.3, 0.1, 0])
 
 
-def thermostat_says(eta: float) -> str:
-    """What the panel says that ξ does with this target entropy."""
-    panel = explorable.thermostat()
-    panel.numbers["target"].value = eta
-    return re.search(r", ξ ([a-z ]+):", panel.svg.alt)[1]
+def rule_on_these_roads() -> float:
+    """The rule's mean return on the roads of `drives`."""
+    return float(drive_episodes(rule_policy(DEFAULT), ROADS).returns.mean())
+
+
+def same_until_the_floor() -> bool:
+    """Have the study's agents the same episodes, whether ξ falls towards 0 or to 0.1, until it is at 0.1?"""
+    stops, goes_on = floored()[0].of("soft").curves, of("soft").of("soft").curves
+    at_the_floor = np.maximum.accumulate(stops["xi"] <= 0.1001, axis=1)
+    return bool((at_the_floor | (stops["return"] == goes_on["return"])).all() and at_the_floor.any(1).all())
+
+
+@cache
+def leaves_the_rule() -> float:
+    """The share of the five shipped agents' decisions on 100 roads that are not the rule's."""
+    driven = [drive for agent in shipped_agents("soft") for drive in record(agent.as_policy(), range(100))]
+    return float(np.concatenate([drive.actions != drive.rule_actions for drive in driven]).mean())

@@ -16,7 +16,7 @@
 # **What you will be able to do**
 # - say in nats what it costs an agent to ignore the rule;
 # - derive the best compromise between Q and the rule, and say what is left of it when α fades;
-# - write the two losses that the pull enters.
+# - write the two losses that the pull enters, and say when the pull must be strong.
 #
 # **Time** 55 minutes. **It builds on** the rule of lesson [[the_rule]], and actor, critic and soft
 # value of lesson [[discrete_sac]].
@@ -44,16 +44,13 @@ progress("soft_constraint")
 #
 # The rule **escapes**: it ends ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the roads.
 # Afterwards it is slow. An agent should follow it at first, and improve on it later. For this it gets
-# a **pull** to the rule, the *soft constraint*.
+# a **pull** to the rule, the *soft constraint*. Its strength is ξ ("xi").
 # <!-- claim: of('rule').scores('success').min() >= ESCAPES -->
 #
-# Below, π is a trained agent's policy, π̃ ("pi tilde") the stochastic rule's (lesson [[the_rule]]).
-# The *optimum* is the best compromise between Q and the rule; ξ ("xi") says how much the rule
-# counts. The thick line is the optimum's drive, red if it crashes; the thin ones are the agent's
-# and the rule's.
+# Here a trained agent's Q and the rule choose together: the *optimum*. The thick line is its drive, red
+# if it crashes; the thin ones are the agent's and the rule's. The table is for Round 1.
 #
-# **Drag** t to 1 s: does the agent follow the rule? Then, at t = 0, drag ξ: does each compromise get
-# past the traps unhurt?
+# **Drag** ξ from 1 to 0: how far does this compromise get in 40 s?
 
 # %%
 ROAD = 10
@@ -62,12 +59,12 @@ its_drive = bc.record(helped.as_policy(with_q=True), [ROAD], label="soft")[0]
 bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 
 # %% [markdown]
-# **See.** The agent takes the rule's first action, and another one a second later. With ξ near 0.1
-# the compromise has an accident on this road; with Q or the rule alone there is none. (Q does not adapt
-# here; in training it does.) *A compromise between two good drivers need not be a good driver.* When
-# should the pull be strong?
+# **See.** *A strong pull drives as slowly as the rule.* With ξ = 1 the car gets {{ metres(1) }} m, like the
+# rule; with ξ = 0 {{ metres(0) }} m, like the agent; with 0.1 it has an accident. When should the pull be
+# strong?
 # <!-- claim: accidents_of_the_panel(0.1) == ['this compromise'] and accidents_of_the_panel(0) ==
 #   accidents_of_the_panel(1) == [] -->
+# <!-- claim: way(1) == way(1, "the rule's way") and way(0) == way(0, 'its own way') -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Collect ways to combine the bars of π and π̃ (mix them, multiply them, add a loss). Keep the list
@@ -76,8 +73,8 @@ bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 # %% [markdown]
 # ## Round 1: what does it cost to ignore the rule?
 #
-# The rule names one action, μ(s). The stochastic rule takes it with probability $p$ (Equation 16
-# of the paper):
+# The rule names one action, μ(s). The stochastic rule π̃ ("pi tilde", lesson [[the_rule]]) takes it
+# with probability $p$ (Equation 16):
 #
 # $$ \tilde\pi(a|s) = p \text{ if } a = \mu(s), \qquad \tfrac{1-p}{8} \text{ otherwise} $$
 #
@@ -85,7 +82,7 @@ bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 # probability $1/e$ costs one. **Drag** p in the panel above from 0.9 to 0.99: any other action
 # becomes ten times as unlikely, but its price grows by $\log 10$ = {{ math.log(10) | .1f }} nats only.
 #
-# A whole policy is charged its mean price, less its entropy. This is the **Kullback-Leibler
+# A whole policy π is charged its mean price, less its entropy. This is the **Kullback-Leibler
 # divergence** (KL) from π̃:
 #
 # $$ D_\mathrm{KL}(\pi \,\|\, \tilde\pi) = \sum_a \pi(a|s) \big( -\log \tilde\pi(a|s) \big)
@@ -152,7 +149,7 @@ predict(
 )
 
 # %% [markdown]
-# **Drag** α down. Here the Q of another action is 1 above that of the rule's action: which number
+# **Drag** α down. Here the Q of another action is 1 above that of the rule's: which number
 # stays, and when does the other action win?
 
 # %%
@@ -167,7 +164,7 @@ explorable.pull()
 # <!-- claim: 1 < 2 * math.log(8 * RULE_P / (1 - RULE_P)) -->
 
 # %% [markdown]
-# Why? In a formula the three goals are
+# Why? The three goals are
 #
 # $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
 # - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
@@ -187,11 +184,10 @@ def regularised_policy(q, log_rule, alpha, xi):
 check.regularised_policy(regularised_policy)
 
 # %% [markdown]
-# <details><summary>The derivation in four lines</summary>
+# <details><summary>The derivation</summary>
 #
-# The objective is $\sum_a \pi\,(Q + \xi\log\tilde\pi) - (\alpha+\xi) \sum_a \pi\log\pi$: that of
-# SAC with $Q + \xi\log\tilde\pi$ in place of Q, and α + ξ in place of α. Its best policy is
-# therefore a softmax: $\pi^*(a) \propto \exp\frac{Q(a) + \xi\log\tilde\pi(a)}{\alpha+\xi}$.
+# The objective is $\sum_a \pi\,(Q + \xi\log\tilde\pi) - (\alpha+\xi) \sum_a \pi\log\pi$: SAC's
+# form. So $\pi^*(a) \propto \exp\frac{Q(a) + \xi\log\tilde\pi(a)}{\alpha+\xi}$.
 #
 # </details>
 #
@@ -201,28 +197,28 @@ check.regularised_policy(regularised_policy)
 # $$ \pi^*(a) \propto
 # \exp\Big( \frac{Q(a)}{201\,\alpha} + \tfrac{200}{201} \log\tilde\pi(a) \Big) $$
 #
-# Only Q's part depends on α. In lesson [[discrete_sac]] a thermostat moved α until the entropy was
-# η, and reached each η between 0 and $\log 9$ = {{ math.log(9) | .1f }}. Here it moves ξ along.
+# Only Q's part depends on α.
 #
-# **Drag** η up. From which η on does ξ rise for ever?
+# **Drive** with your formula, with the Q of five trained agents. Which ξ is fast and safe?
 
 # %%
-explorable.thermostat()
+strengths = [1, 0.3, 0.1, 0]
+mix = own_code.yours_or_ours("regularised_policy", doing="Driving")
+bc.show(figures.mixed(strengths, *examples.mixed(mix, strengths)))
 
 # %% [markdown]
-# **See.** *If ξ starts at 2, it rises here for ever from η = 0.6 on.* A larger α weakens Q, but not the
-# head start: π comes nearer to π̃, whose entropy is only {{ entropy_of_the_rule() | .2f }}. So the
-# thermostat turns α up again.
-# <!-- claim: [thermostat_says(eta) for eta in (0.5, 0.6, 1)] == ['falls and comes to rest'] +
-#   ['rises at each update'] * 2 -->
-# <!-- claim: entropy_at(0.01) < 0.6 < entropy_at(0.005) -->
+# **See.** *None of these four is fast and safe.* With ξ = 1 each drives as the rule does. With less they crash, also
+# with Q alone. The agents' own policies, learnt under the pull, are fast, and crash less than their Q.
+# <!-- claim: not drives()[1][0].any() and (abs(drives()[0][0] - rule_on_these_roads()) < 1).all() -->
+# <!-- claim: (drives()[1][1:-1] > 0).all() and drives()[0][-1].min() > drives()[0][:-1].max() and
+#   (drives()[1][-1] < drives()[1][-2]).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Do the derivation on the board up to the line in which π log π is collected, then let them finish.
 # Whoever is early: which π is best if all Q are equal and α = ξ? (The root of π̃, divided by its sum.)
 #
-# In a trial with η = 1, ξ of two agents rose beyond ten million in 800 episodes; of one whose ξ stays at
-# 2, α came to rest near 0.5. From ξ = 1 on, η = 0.6 comes to rest in the panel's state.
+# Ask why Q alone crashes where the agent does not. (We have not tested it: a Q is trained mostly on
+# actions that its policy takes.)
 
 # %% [markdown]
 # ## Round 3: where does the pull enter the learner?
@@ -233,8 +229,7 @@ explorable.thermostat()
 # **The actor's loss** is minus the soft value, now with the KL in it. The KL in this loss alone is
 # *policy regularisation*.
 #
-# **Exercise (5 min, ●●○).** Add this term to the actor's loss. The check also looks at gradients:
-# the actor's loss must not change Q.
+# **Exercise (5 min, ●●○).** Add this term to the actor's loss. It must not change Q.
 
 
 # %%
@@ -320,7 +315,7 @@ own_code.compare()
 
 # %% [markdown]
 # > **Predict.** An agent **finds the way out** if it ends ahead in more than half of {{ IN_A_ROW }}
-# > training episodes in a row. Train an agent with the value penalty, and one without it
+# > training episodes in a row. Train one with the value penalty, one without it
 # > (`kl_in_target=False`). Which finds it sooner?
 
 # %%
@@ -335,9 +330,8 @@ training.run(progress=False, callback=live)
 live.show(training)
 
 # %% [markdown]
-# **See.** *The value penalty delays the way out.* In the study the ten agents without it find it after
-# {{ ways_out()[1].min() }} to {{ ways_out()[1].max() }} episodes, the ten with it after {{
-# ways_out()[0].min() }} to {{ ways_out()[0].max() }}. Why is open.
+# **See.** *The value penalty delays the way out.* Each of the study's ten agents without it finds it
+# before any of the ten with it. Why is open.
 # <!-- claim: len(of('soft')) == len(actor_only()) == found(of('soft')) == found(actor_only()) == 10
 #   and sooner_without() -->
 
@@ -354,12 +348,20 @@ live.show(training)
 # %% [markdown]
 # ## Round 4: must the pull fade?
 #
-# An agent **loses** the way out if after {{ HAD }} of {{ IN_A_ROW }} episodes ahead come {{ LOST }} or
-# fewer.
+# Three kinds of agents learn, the third with the paper's ξ = {{ SETTINGS.xi_multiplier }} α.
+
+# %%
+kinds = ["ξ stays at 2", "ξ stays at 0.1", "ξ falls towards 0"]
+bc.show(figures.courses(kinds))
+
+# %% [markdown]
+# **See.** *Each kind has a fault.* With 2 agents stay slow, with 0.1 they are late, and where ξ falls,
+# some lose what they found.
+# <!-- claim: same_until_the_floor() -->
 #
-# There are four kinds of agents: ξ stays at 2; ξ stays at 0.1; ξ = {{ SETTINGS.xi_multiplier }} α
-# falls towards 0; or it falls to 0.1 and no further (`bc.settings_for("soft", xi_min=0.1)`). Ten of
-# each are the study's; ten others have other seeds, another implementation, twice the episodes.
+# An agent **loses** the way out if after {{ HAD }} of {{ IN_A_ROW }} episodes ahead come {{ LOST }} or
+# fewer. In a fourth kind ξ falls to 0.1 and no further (`bc.settings_for("soft", xi_min=0.1)`). Ten
+# more agents of each kind have other seeds, another implementation, twice the episodes.
 #
 # A second at 15 m/s pays {{ second_pays(15) - second_pays(10) | .2f }} more than one at 10 m/s. To
 # accelerate where the rule would brake costs {{ math.log(80) | .2f }} ξ a second.
@@ -367,7 +369,7 @@ live.show(training)
 # > **Predict.** Which kind is fast, and has all twenty escape?
 
 # %%
-kinds = ["ξ stays at 2", "ξ stays at 0.1", "ξ falls towards 0", "ξ falls to 0.1"]
+kinds = [*kinds, "ξ falls to 0.1"]
 predict("soft_constraint.5", "Which kind is fast, and has all twenty escape?", [*kinds, "none"])
 
 # %%
@@ -376,17 +378,16 @@ bc.show(figures.twenty(kinds))
 
 # %% [markdown]
 # **See.**
-# - With ξ = 2 leaving the rule costs more than speed pays: none of the twenty is fast (the rule
-#   returns {{ of('rule').scores('returns').mean() | .0f }}), and {{ 20 - in_all(kept, 2) }} do not
-#   escape.
-# - With 0.1 throughout those that escape are fast, but seven do not find the way out.
-# - If ξ falls towards 0, all find it, {{ losing(fading()) }} lose it at least once, and four do not
-#   escape.
+# - ξ = 2: leaving the rule costs more than speed pays; none of the twenty is fast (the rule returns
+#   {{ of('rule').scores('returns').mean() | .0f }}).
+# - 0.1 throughout: seven do not find the way out.
+# - Towards 0: all find it, {{ losing(fading()) }} lose it at least once, four do not escape.
 #
 # *A pull that is strong first, then weak but not gone, finds the way out, keeps it, and returns
-# more than twice as much as the rule*, in twenty of twenty agents. What it costs: where ξ falls
-# towards 0, {{ returning_more() }} of the {{ in_all(kept) }} that escape return more than each of
-# these. The floor also keeps the temperature α + ξ up: whether that or the pull helps is open.
+# more than twice as much as the rule*, in twenty of twenty agents.
+#
+# It costs return: towards 0, {{ returning_more() }} of the {{ in_all(kept) }} that escape return more
+# than each of these. The floor also keeps the temperature up: whether that or the pull helps is open.
 # <!-- claim: in_all(kept) / 2 < returning_more() < in_all(kept) -->
 # <!-- claim: losing(floored()) == 0 -->
 # <!-- claim: (in_all(found, 0.1), in_all(found), twenty(found)) == (13, 20, 20) == (in_all(kept, 0.1),
@@ -428,15 +429,15 @@ compare_predictions(
 # 3. With ξ = {{ SETTINGS.xi_multiplier }} α the rule's head start in the logits stays. The temperature
 #    fades, so Q decides in the end.
 # 4. The KL in the actor's loss is policy regularisation, in the critics' target a value penalty,
-#    which lowers most the value of leaving the rule. It delayed the way out in the study.
-# 5. In the study, with one update for four decisions, a ξ that stays at 2 holds agents near the
-#    rule's return. With 0.1 throughout, not all find the way out. With ξ strong first, then weak but
-#    not gone, all twenty find and keep it.
+#    which lowers most the value of leaving the rule, and delayed the way out in the study.
+# 5. With one update for four decisions, a ξ that stays at 2 holds agents near the rule's return; with
+#    0.1 throughout, not all find the way out; with ξ strong first, then weak but not gone, all twenty
+#    find and keep it.
 # <!-- claim: twenty(found) == twenty(kept) == 20 > in_all(found, 0.1) -->
 
 # %% [markdown]
 # **Three questions to think about**
-# - With η = 0.4 the panel's ξ comes to rest. What would that of a learning agent do?
+# - What would a thermostat for the KL do to ξ once the agent drives better than the rule?
 # - Where the rule is wrong, which p would you want? Could p depend on the state?
 # - Up to which ξ that stays would agents drive fast?
 #
@@ -445,9 +446,10 @@ compare_predictions(
 # Probabilistic Inference* (arXiv 1805.00909).
 
 # %% [markdown] tags=["instructor"] minutes=2
-# *Answers to the three questions.* **η = 0.4:** α rises where the entropy is below 0.4, and falls
-# where it is above, so ξ comes to rest. In our trial of two agents it fell to 0.07 and ended near
-# 0.1, as with `xi_min=0.1`; both ended ahead in nearly all of their last episodes. **Where the rule
+# *Answers to the three questions.* **A thermostat for the KL:** it raises ξ while the KL is above its
+# target. An agent that drives better than the rule leaves it often ({{ 100 * leaves_the_rule() | .0f }} %
+# of the decisions of our five agents on 100 roads), so ξ would rise, and hold it back.
+# **Where the rule
 # is wrong:** a small p, with which π̃ is nearly even and the prices of the nine actions are about
 # the same. p could depend on the state, for instance on how often drives that followed the rule
 # from such states ended in an accident; then π̃ is surest where the rule has proved itself. **The
