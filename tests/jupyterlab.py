@@ -64,23 +64,38 @@ def _wait_for(address: str, lab: subprocess.Popen, log: Path) -> None:
     raise AssertionError(f"JupyterLab does not answer: {log.read_text()[-2000:]}")
 
 
+ON_CELLS = """([command, first, last]) => {
+    const cells = jupyterapp.shell.currentWidget.content;
+    cells.deselectAll();
+    cells.activeCellIndex = first;
+    if (last > first) cells.extendContiguousSelectionTo(last);
+    jupyterapp.commands.execute(command);
+}"""
+
+
 class Notebook:
     """A notebook open in JupyterLab. `.page` is playwright's, `.folder` is where the kernel works."""
 
     def __init__(self, shown: Page, folder: Path):
         self.shown, self.page, self.folder = shown, shown.page, folder
 
-    def run_all(self, timeout: float = 120.0) -> None:
-        """Run every cell and wait until the kernel is idle. Fails if a cell raised."""
-        self._run("notebook:run-all-cells", timeout)
+    def cell(self, number: int):
+        return self.page.locator(".jp-Notebook .jp-Cell").nth(number)
 
-    def run_selected(self) -> None:
-        """Run the selected cell, wait until the kernel is idle, and select the next one."""
-        self._run("notebook:run-cell-and-select-next", 60.0)
+    def begin(self, first: int, last: int) -> None:
+        """Run the cells with these numbers, the last one included, and do not wait for them."""
+        self._do("notebook:run-cell", first, last)
 
-    def _run(self, command: str, timeout: float) -> None:
-        """Do one of JupyterLab's commands, and wait until no cell runs. Fails if a cell raised."""
-        self.page.evaluate("command => { jupyterapp.commands.execute(command); }", command)
+    def clear(self, first: int, last: int) -> None:
+        """Take away what the cells with these numbers show: it moves and draws no more."""
+        self._do("notebook:clear-cell-output", first, last)
+
+    def _do(self, command: str, first: int, last: int) -> None:
+        self.page.evaluate(ON_CELLS, [command, first, last])
+
+    def run(self, first: int, last: int, timeout: float = 120.0) -> None:
+        """Run the cells with these numbers and wait until no cell runs. Fails if a cell raised."""
+        self.begin(first, last)
         self.page.wait_for_timeout(300)
         self.page.wait_for_function(
             "() => document.querySelectorAll('.jp-InputPrompt').length > 0 && "

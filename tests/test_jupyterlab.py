@@ -49,53 +49,68 @@ drive = record(agent.as_policy(with_q=True), [1], label="bootstrapped")[0]
 """
 
 
-@pytest.fixture(scope="module")
-def open_notebook(tmp_path_factory):
-    with open_lab(tmp_path_factory.mktemp("lab")) as open_notebook:
-        yield open_notebook
-
-
-# Replays
-
-
 DRIVE = """from bootcourse.policies import rule_policy
 from bootcourse.episodes.record import record
 from bootcourse.scenario import DEFAULT
 from bootcourse.replay3d import replay
 drive = record(rule_policy(DEFAULT), [1], DEFAULT, "rule")[0]"""
 
+CELLS = {  # of one notebook, so that the tests wait for one page and one kernel; a test runs the cells of a name
+    "worlds": (
+        "import bootcourse as bc\nmine = bc.world(road=3, ghosts=[])\nmine",
+        TRAINED + "learned = bc.world(4, driver=agent, ghosts={'the same': agent})\nlearned",
+        "def my_rule(cars, scenario):\n    return 1 if cars[0, 3] > 8 else 4\n"
+        "ruled = bc.world(5, driver=my_rule, ghosts=[bc.rule_policy(bc.DEFAULT)], details=True)\nruled",
+        "def broken(cars, scenario):\n    return 9\nwrong = bc.world(5, driver=broken)\nwrong",
+    ),
+    "panels": (
+        "from bootcourse.panels import train_panel\n"
+        "trainer = train_panel('bootstrapped', seeds=2, episodes=5000)\ntrainer",
+        THINKING + "weighed = policy_panel(drive)\nweighed",
+        "from bootcourse.panels import bonus_panel\nbonus = bonus_panel()\nbonus",
+        "from bootcourse.course import predict\npredict('the_barrier.1', 'Does <b>it</b> stay?', "
+        "['<i>yes</i>', 'no', 'perhaps'])",
+        "predict('the_barrier.2', 'For how long?', unit='s')",
+    ),
+    "predictions": (
+        "from bootcourse.course import predict, predicted, progress\nprogress('the_rule')",
+        'predict("the_rule.1", "Which?", ["none", "some"])',
+        'predicted("the_rule.1")\nprint(7)',
+        'predict("the_rule.2", "Which?", ["none", "some"])',
+        'predicted("the_rule.2")\nprint(7)',
+    ),
+    "training": (
+        "from bootcourse.learn.settings import settings_for\nfrom bootcourse.learn.training import Training\n"
+        "result = Training([settings_for('bootstrapped', learning_starts=64)], 20_000).run()",
+        "print('interrupted' if result.interrupted else 'whole', len(result.agents))",
+    ),
+    "replay": (DRIVE, "shown = replay(drive)\nshown"),
+    "ended": ("from bootcourse.course.lessons.values.explorable import worths\nworths()",),
+}
 
-def test_a_live_replay_plays_in_its_cell(open_notebook):  # a recording in a page: test_replay_export.py, test_book.py
-    with open_notebook(DRIVE, "shown = replay(drive)\nshown") as notebook:
-        notebook.page.set_viewport_size({"width": 800, "height": 600})  # WebGL is drawn by the processor here
-        notebook.run_all()
-        element = notebook.page.wait_for_selector(".jp-Cell:nth-of-type(2) iframe", timeout=30_000)
-        element.scroll_into_view_if_needed()
-        frame = element.content_frame()
-        frame.wait_for_selector("canvas", timeout=30_000)
-        frame.wait_for_function("() => window.__viserMutable?.nodeRefFromName?.['/drive0/car0/paint']")
-        close_notice(frame)
-        path = str(ARTEFACTS / "replay-in-jupyterlab.png")
-        assert until(lambda: not is_blank(element.screenshot(path=path)))
+
+def place_of(name: str) -> tuple[int, int]:
+    """The numbers of the first and the last cell of a name."""
+    names = [each for each, cells in CELLS.items() for _ in cells]
+    return names.index(name), len(names) - 1 - names[::-1].index(name)
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    cells = [cell for each in CELLS.values() for cell in each]
+    with open_lab(tmp_path_factory.mktemp("lab")) as open_notebook, open_notebook(*cells, saved="as it came") as it:
+        it.page.set_default_timeout(20_000)
+        yield it
 
 
 # Worlds
 
 
 @pytest.fixture(scope="module")
-def worlds(open_notebook):
-    cells = (
-        "import bootcourse as bc\nmine = bc.world(road=3, ghosts=[])\nmine",
-        TRAINED + "learned = bc.world(4, driver=agent, ghosts={'the same': agent})\nlearned",
-        "def my_rule(cars, scenario):\n    return 1 if cars[0, 3] > 8 else 4\n"
-        "ruled = bc.world(5, driver=my_rule, ghosts=[bc.rule_policy(bc.DEFAULT)], details=True)\nruled",
-        "def broken(cars, scenario):\n    return 9\nwrong = bc.world(5, driver=broken)\nwrong",
-    )
-    with open_notebook(*cells) as it:
-        it.page.set_default_timeout(20_000)
-        it.run_all()
-        it.page.wait_for_function(f"() => document.querySelectorAll('{WORLD}').length === 4")
-        yield it
+def worlds(page):
+    page.run(*place_of("worlds"))
+    page.page.wait_for_function(f"() => document.querySelectorAll('{WORLD}').length === 4")
+    return page
 
 
 def world(worlds, number):
@@ -166,80 +181,15 @@ def test_a_key_is_seen_two_pictures_later_and_the_module_is_there_once(worlds):
     assert answer(worlds, "print(len({id(each.library) for each in (mine, learned, ruled)}))") == "1"
 
 
-def test_a_panel_whose_kernel_has_ended_says_so_once(open_notebook):
-    with open_notebook("from bootcourse.course.lessons.values.explorable import worths\nworths()") as it:
-        it.run_all()
-        it.page.wait_for_selector(".bc-panel")
-        it.page.evaluate("() => jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()")
-        marks = "them => them.map(each => getComputedStyle(each, '::before').content).filter(mark => mark !== 'none')"
-        said = lambda: it.page.eval_on_selector_all(".bc-panel, .bc-panel *", marks)  # noqa: E731
-        assert until(lambda: said() == ['"The kernel has ended: run this cell again."'])
-
-
-def test_a_training_is_watched_in_its_cell_and_the_road_s_button_stops_it(open_notebook):
-    cells = (
-        "from bootcourse.learn.settings import settings_for\nfrom bootcourse.learn.training import Training\n"
-        "result = Training([settings_for('bootstrapped', learning_starts=64)], 20_000).run()",
-        "print('interrupted' if result.interrupted else 'whole', len(result.agents))",
-    )
-    with open_notebook(*cells) as it:
-        it.page.set_default_timeout(60_000)
-        it.page.evaluate("() => { jupyterapp.commands.execute('notebook:run-all-cells'); }")
-        road = it.page.locator(WORLD)
-        clock = lambda: road.locator("#clock").inner_text()  # noqa: E731
-        assert until(lambda: re.match("[1-9]", clock()), 60), "the present agent drives"
-        assert until(lambda: "now, after" in road.locator("#driver").inner_text())
-        it.page.locator(".jp-OutputArea svg circle").first.wait_for()
-        it.page.locator(".jp-OutputArea-output").first.screenshot(path=str(ARTEFACTS / "watched.png"))
-        it.page.get_by_role("button", name="Stop, and keep what was learned").click()
-        it.page.get_by_text("interrupted 1").wait_for()
-        assert "You stopped it after" in it.page.locator(".jp-OutputArea").first.inner_text() and it.shown.errors == []
-
-
-def test_a_saved_result_is_folded_until_its_prediction_is_committed(open_notebook):
-    cells = ["from bootcourse.course import predict, predicted, progress\nprogress('the_rule')"]
-    for place in (1, 2):
-        cells += [
-            f'predict("the_rule.{place}", "Which?", ["none", "some"])',
-            f'predicted("the_rule.{place}")\nprint(7)',
-        ]
-    with open_notebook(*cells, saved="as it came") as it:
-        folded = it.page.locator(".jp-OutputPlaceholder")
-        assert folded.count() == 2
-        for _ in range(2):
-            it.run_selected()
-        it.page.locator("input[type=radio]").last.check()
-        assert folded.count() == 2
-        it.page.get_by_role("button", name="Commit").click()
-        it.page.wait_for_function("() => document.querySelectorAll('.jp-OutputPlaceholder').length === 1")
-        assert it.page.locator(".bc-progress").inner_text().startswith("This lesson: 1 of ")
-        for _ in range(2):  # the notebook has the focus again, and hears keys
-            it.page.keyboard.press("Shift+Enter")
-            it.page.wait_for_timeout(500)
-        number = number_of("the_rule.1")
-        it.page.get_by_text(f"You predicted ({number}): some. Was it so?").wait_for()
-        it.page.screenshot(path=str(ARTEFACTS / "prediction.png"))
-
-
 # Panels
 
 
 @pytest.fixture(scope="module")
-def notebook(open_notebook):
-    cells = (
-        "from bootcourse.panels import train_panel\n"
-        "trainer = train_panel('bootstrapped', seeds=2, episodes=5000)\ntrainer",
-        THINKING + "weighed = policy_panel(drive)\nweighed",
-        "from bootcourse.panels import bonus_panel\nbonus = bonus_panel()\nbonus",
-        "from bootcourse.course import predict",
-        "predict('the_barrier.1', 'Does <b>it</b> stay?', ['<i>yes</i>', 'no', 'perhaps'])",
-        "predict('the_barrier.2', 'For how long?', unit='s')",
-    )
-    with open_notebook(*cells) as it:
-        it.page.set_default_timeout(20_000)
-        it.run_all()
-        it.page.wait_for_selector(".bc-panel[data-bc-named]")
-        yield it
+def notebook(page):
+    page.clear(*place_of("worlds"))  # their cars go on driving
+    page.run(*place_of("panels"))
+    page.page.wait_for_selector(".bc-panel[data-bc-named]")
+    return page
 
 
 def panel(notebook, number):
@@ -280,11 +230,12 @@ def test_a_slider_shows_its_effect_within_a_tenth_of_a_second(notebook):
 def test_a_training_grows_on_the_page_and_stops(notebook):
     shown = panel(notebook, 0)
     train, road = button(notebook, 0, "Train"), shown.locator("#road")
-    height = train.bounding_box()["y"]
+    height = lambda: train.bounding_box()["y"] - shown.bounding_box()["y"]  # noqa: E731
+    before = height()
     train.press("Enter")
     waits_for(notebook, 0, "<circle")
     notebook.page.wait_for_timeout(700)
-    assert abs(train.bounding_box()["y"] - height) < 5, "the sliders stay where they are"
+    assert abs(height() - before) < 5, "the sliders stay where they are"
     curves = shown.get_by_role("img", name="Training curves").first  # it is drawn anew all the time
 
     def is_beside() -> bool:
@@ -330,3 +281,63 @@ def test_the_panels_fit_their_column_and_the_console_has_no_error(notebook):
     )
     assert len(widths) == 5 and all(scroll <= client for scroll, client in widths)
     assert not [error for error in notebook.shown.errors if "WebGL" not in error]
+
+
+# Predictions, trainings, replays, and the end
+
+
+def test_a_saved_result_is_folded_until_its_prediction_is_committed(page):
+    first, _ = place_of("predictions")
+    folded = page.page.locator(".jp-OutputPlaceholder")
+    assert folded.count() == 2
+    page.run(first, first + 1)
+    page.cell(first + 1).locator("input[type=radio]").last.check()
+    assert folded.count() == 2
+    page.cell(first + 1).get_by_role("button", name="Commit").click()
+    page.page.wait_for_function("() => document.querySelectorAll('.jp-OutputPlaceholder').length === 1")
+    assert page.page.locator(".bc-progress").inner_text().startswith("This lesson: 1 of ")
+    for _ in range(2):  # the notebook has the focus again, and hears keys
+        page.page.keyboard.press("Shift+Enter")
+        page.page.wait_for_timeout(500)
+    page.page.get_by_text(f"You predicted ({number_of('the_rule.1')}): some. Was it so?").wait_for()
+    page.page.screenshot(path=str(ARTEFACTS / "prediction.png"))
+
+
+def test_a_training_is_watched_in_its_cell_and_the_road_s_button_stops_it(page):
+    first, last = place_of("training")
+    page.begin(first, last)
+    watched = page.cell(first)
+    road = watched.locator(WORLD)
+    clock = lambda: road.locator("#clock").inner_text()  # noqa: E731
+    assert until(lambda: re.match("[1-9]", clock()), 60), "the present agent drives"
+    assert until(lambda: "now, after" in road.locator("#driver").inner_text())
+    watched.locator("svg circle").first.wait_for()
+    watched.locator(".jp-OutputArea-output").first.screenshot(path=str(ARTEFACTS / "watched.png"))
+    watched.get_by_role("button", name="Stop, and keep what was learned").click()
+    page.cell(last).get_by_text("interrupted 1").wait_for()
+    assert "You stopped it after" in watched.locator(".jp-OutputArea").first.inner_text()
+    assert page.shown.errors == []
+
+
+def test_a_live_replay_plays_in_its_cell(page):  # a recording in a page: test_replay_export.py, test_book.py
+    page.page.set_viewport_size({"width": 800, "height": 600})  # WebGL is drawn by the processor here
+    page.run(*place_of("replay"))
+    element = page.cell(place_of("replay")[1]).locator("iframe").element_handle(timeout=30_000)
+    element.scroll_into_view_if_needed()
+    frame = element.content_frame()
+    frame.wait_for_selector("canvas", timeout=30_000)
+    frame.wait_for_function("() => window.__viserMutable?.nodeRefFromName?.['/drive0/car0/paint']")
+    close_notice(frame)
+    path = str(ARTEFACTS / "replay-in-jupyterlab.png")
+    assert until(lambda: not is_blank(element.screenshot(path=path)))
+    page.clear(*place_of("replay"))
+
+
+def test_a_panel_whose_kernel_has_ended_says_so_once(page):
+    page.run(*place_of("ended"))
+    shown = page.cell(place_of("ended")[0])
+    shown.locator(".bc-panel").wait_for()
+    page.page.evaluate("() => jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()")
+    marks = "them => them.map(each => getComputedStyle(each, '::before').content).filter(mark => mark !== 'none')"
+    said = lambda: shown.locator(".bc-panel, .bc-panel *").evaluate_all(marks)  # noqa: E731
+    assert until(lambda: said() == ['"The kernel has ended: run this cell again."'])

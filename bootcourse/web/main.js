@@ -47,6 +47,7 @@ class Game {
   // Offer drivers in both lists, in place of those of the same id: { id, name, label, colour, words, decide }, as in
   // drivers.js. Who is at the wheel or beside you drives on from the next decision.
   offer(...drivers) {
+    if (this.stop.signal.aborted) return;
     for (const driver of drivers) this.drivers[driver.id] = driver;
     this.list();
     for (const seat of [this.seat, ...this.ghosts ?? []]) {
@@ -124,8 +125,9 @@ class Game {
       pace: this.pace, futures: Number(this.find("futures").checked), view: this.inDepth ? "3d" : "above" };
   }
 
-  // Begin with what is given; the rest stays as it is.
+  // Begin with what is given; the rest stays as it is. It may be called late, by a clock or an answer out of Python.
   open(given) {
+    if (this.stop.signal.aborted) return "";
     const { road, ghost, driver, pace, futures, view } = { ...this.state, ...given };
     this.setPace(Number(pace));
     this.find("futures").checked = Number(futures) === 1;
