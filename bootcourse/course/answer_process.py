@@ -137,8 +137,8 @@ def work(exercise: bytes, job: bytes, notes: Notes | None = None) -> Report:
             if notes is not None:
                 notes.begin_case()
             report.answers.append(plain(outcome(called, *copy)))
-            pairs = enumerate(zip(map(plain, copy), map(plain, case), strict=True))
-            changed = next(((number, place) for place, pair in pairs if not same(*pair, nan_too=True)), None)
+            places = enumerate(zip(copy, case, strict=True))
+            changed = next(((number, place) for place, pair in places if not unchanged(*pair)), None)
             report.changed = report.changed or changed
     except BaseException as error:  # also SystemExit and KeyboardInterrupt
         report.error = in_words(error, answer)
@@ -146,6 +146,19 @@ def work(exercise: bytes, job: bytes, notes: Notes | None = None) -> Report:
             report.is_ours, report.refused = True, why_no_array(called.value)
     report.printed = PATH.sub(r"\1", sendable(printed.getvalue()))
     return report
+
+
+def unchanged(argument, before) -> bool:
+    """Is an argument what it was before the answer was called? NaN equals NaN."""
+    if type(argument) is type(before):  # what most arguments are is compared as it is: a tenth of the time
+        if isinstance(before, (int, float, str)) and argument == before:
+            return True
+        if type(before) is tuple and len(argument) == len(before):
+            return all(map(unchanged, argument, before))
+        if type(before) in (np.ndarray, torch.Tensor) and argument.dtype == before.dtype:
+            if argument.shape == before.shape and bool((argument == before).all()):
+                return True
+    return same(plain(argument), plain(before), nan_too=True)
 
 
 def is_ours(error: BaseException, said: tuple[str, str, int | None]) -> bool:

@@ -52,7 +52,7 @@ class SAC:
     gamma, tau, target_entropy = 0.99, 0.1, 0.3 * float(np.log(2))
 
     def __init__(self, seed: int = 0, optimiser: Callable = ADAM, rates: tuple = (6e-3, 4e-3, 6e-3)):
-        torch.manual_seed(seed)
+        torch.default_generator.manual_seed(seed)  # `torch.manual_seed` seeds every device, and takes milliseconds
         self.actor = mlp(*SIZES, HIDDEN)
         self.critics = nn.ModuleList([mlp(*SIZES, HIDDEN) for _ in range(2)])
         self.copies = copy.deepcopy(self.critics)
