@@ -5,6 +5,7 @@ from collections.abc import Callable
 from functools import cache
 
 import numpy as np
+import torch
 
 from bootcourse.course.lessons.soft_constraint import examples
 from bootcourse.course.lessons.soft_constraint.examples import ROADS
@@ -129,8 +130,8 @@ def same_until_the_floor() -> bool:
     return bool((at_the_floor | (stops["return"] == goes_on["return"])).all() and at_the_floor.any(1).all())
 
 
-@cache
-def leaves_the_rule() -> float:
-    """The share of the five shipped agents' decisions on 100 roads that are not the rule's."""
-    driven = [drive for agent in shipped_agents("soft") for drive in record(agent.as_policy(), range(100))]
-    return float(np.concatenate([drive.actions != drive.rule_actions for drive in driven]).mean())
+def entropy_where_all_q_are_equal(alpha: float) -> float:
+    """The entropy (nats) of the best policy with ξ = 200 α, in a state where all nine Q are equal."""
+    log_rule = torch.tensor([[RULE_P] + [(1 - RULE_P) / 8] * 8]).log()
+    policy = regularised_policy(torch.zeros(1, 9), log_rule, alpha, 200 * alpha)
+    return float(-(policy * policy.log()).sum())

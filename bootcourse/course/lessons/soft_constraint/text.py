@@ -437,7 +437,10 @@ compare_predictions(
 
 # %% [markdown]
 # **Three questions to think about**
-# - What would a thermostat for the KL do to ξ once the agent drives better than the rule?
+# - Where all Q are equal, the policy that the pull makes has an entropy of
+#   {{ entropy_where_all_q_are_equal(0.01) | .2f }} nats for every α. The temperature's loss raises α while the entropy
+#   is below η. What would α and ξ do with η = 1?
+#   <!-- claim: abs(entropy_where_all_q_are_equal(0.01) - entropy_where_all_q_are_equal(10)) < 1e-4 -->
 # - Where the rule is wrong, which p would you want? Could p depend on the state?
 # - Up to which ξ that stays would agents drive fast?
 #
@@ -446,9 +449,9 @@ compare_predictions(
 # Probabilistic Inference* (arXiv 1805.00909).
 
 # %% [markdown] tags=["instructor"] minutes=2
-# *Answers to the three questions.* **A thermostat for the KL:** it raises ξ while the KL is above its
-# target. An agent that drives better than the rule leaves it often ({{ 100 * leaves_the_rule() | .0f }} %
-# of the decisions of our five agents on 100 roads), so ξ would rise, and hold it back.
+# *Answers to the three questions.* **η = 1:** without the pull a higher α makes the policy more even,
+# until its entropy is 1. With ξ = 200 α it comes nearer to π̃ instead: the entropy stays below 1, and
+# α and ξ rise at each update. The coupling runs away.
 # **Where the rule
 # is wrong:** a small p, with which π̃ is nearly even and the prices of the nine actions are about
 # the same. p could depend on the state, for instance on how often drives that followed the rule
