@@ -8,12 +8,13 @@ from matplotlib.figure import Figure
 from bootcourse.colours import ALARM, OTHER, Style
 from bootcourse.course import charts
 from bootcourse.course.dots import beside, dots, name_rows
-from bootcourse.course.lessons.other_ways.measures import Episodes
+from bootcourse.course.lessons.other_ways.measures import AGENTS, Episodes, Judged
 from bootcourse.methods import display_name, style
 from bootcourse.plots.diagrams import Diagram, label
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
 from bootcourse.research import equal_decisions
 from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import iqm
 
 START, TRAINED, END = 210, 560, 690  # pixels: the training begins and ends, and the trained agent drives
@@ -53,32 +54,68 @@ def what_is_taken() -> Diagram:
 
 
 def believed(updates: Sequence[int], values: Mapping[str, np.ndarray], bound: float) -> Figure:
-    """The mean Q of the rule's actions over the updates: {which critics: (points,)}; bound: no drive is worth more."""
-    over = [words for words, each in values.items() if each[-1] > bound]
-    passes = f"passes what any drive can earn if the layers are {' or '.join(over)}"
-    title = f"Q {passes if over else 'stays below what a drive can earn'}"
-    looks = [Style(style("rlpd").colour, width=2.0), OTHER]
+    """Each critic's mean Q of the rule's actions: {agent: (critics, points)}; bound: no drive is worth more."""
+    over = [words for words, each in values.items() if (each[:, -1] > bound).all()]
+    whose = {1: "one agent", 2: "two agents"}.get(len(over), "each agent")
+    all_of = f"All {len(values[AGENTS[1]])} critics of {whose} pass what any drive can earn"
+    title = all_of if over else "No agent's critics all pass what any drive can earn"
+    looks = [Style(style("rlpd").colour), OTHER, style("rule")]
     marks = {f"no drive is worth more than {bound:.0f}": bound}
-    return charts.lines(updates, values, title, "update", "mean Q of the rule's actions", looks=looks, marks=marks)
+    ends = [f"{words}: {each[:, -1].min():.1f} to {each[:, -1].max():.1f}" for words, each in values.items()]
+    alt = f"At the end, {'; '.join(ends)}."
+    label = "mean Q of the rule's actions; a line for each critic"
+    return charts.lines(updates, values, title, "update", label, looks=looks, marks=marks, alt=alt)
 
 
-def handing_over(driven: Episodes) -> Figure:
-    """How a teacher hands over: a column for each episode says who drives."""
-    figure, look, rule = new_figure(3.4), style("jsrl"), style("rule")
-    h, episodes = driven.h, np.arange(1, len(driven.h) + 1)
-    title = f"In {len(h)} episodes h falls from {h[0]:g} s to {h.min():g} s"
-    ax, by_rule = axes_at(figure, 0.6, 0.72, 5.0, 2.1), np.minimum(h, driven.decisions)
-    ax.bar(episodes, by_rule, width=0.9, color=rule.colour)
-    ax.bar(episodes, driven.decisions - by_rule, bottom=by_rule, width=0.9, color=look.colour, alpha=0.6)
-    ax.scatter(episodes[driven.accident], driven.decisions[driven.accident], s=9, color=ALARM, zorder=3)
-    plain_axes(ax, "seconds of the episode")
+def who_chose(driven: Episodes) -> Figure:
+    """Who decides in IBRL's first episodes: a column for each episode, and how long the rule alone drives."""
+    figure, episodes, alone = new_figure(3.4), len(driven.decisions), DEFAULT.clock.decisions
+    ax, accidents = axes_at(figure, 0.6, 0.72, 5.0, 2.1), driven.accident.sum()
+    title = f"Beside the rule, {accidents} of {episodes} episodes end in an accident"
+    _columns(ax, driven, style("ibrl"))
+    ax.axhline(alone, color=style("rule").colour, linewidth=2)
+    ax.set_ylim(0, alone * 1.05)
     ax.set_xlabel("training episode", fontsize=TEXT, color=INK)
+    says = [(alone, "the rule alone", style("rule").colour), (30, "the agent's action", style("ibrl").colour)]
+    label_ends(ax, [*says, (6, "the rule's action", style("rule").colour), (54, "dot: an accident", ALARM)])
+    lasts, first = np.median(driven.decisions), episodes // 4
+    share = 100 * driven.by_rule[:first].sum() / driven.decisions[:first].sum()
+    words = f"half last {lasts:.0f} s at most. In the first {first} Q takes the rule's action in {share:.0f} %"
+    return finish(figure, title, f"Columns: {words} of decisions. The rule alone: {alone:g} s.")
+
+
+def handing_over(driven: Episodes, h: np.ndarray, judged: Sequence[Judged]) -> Figure:
+    """How a teacher hands over: a column for each episode says who drives; below, how each judgement came out."""
+    figure, look, rule, episodes = new_figure(4.9), style("jsrl"), style("rule"), len(h)
+    title = f"h falls from {h[0]:g} s to {h.min():g} s, with {driven.accident.sum()} accidents in {episodes} episodes"
+    ax, below = axes_at(figure, 0.6, 0.72, 5.0, 1.9), axes_at(figure, 0.6, 3.1, 5.0, 1.2)
+    _columns(ax, driven, look)
     ends = [(h[-1] / 2, "the rule", rule.colour), (h[-1] + 30, "then the agent", look.colour)]
     label_ends(ax, [*ends, (driven.decisions.max(), "dot: an accident", ALARM)])
-    ax.set_xlim(0.5, len(h) + 0.5)
-    first = ", ".join(f"{seconds:g} s from {1 + np.argmax(h == seconds)}" for seconds in sorted(set(h), reverse=True))
-    accidents = f"{driven.accident.sum()} of the {len(h)} end in an accident"
-    return finish(figure, title, f"A column for each training episode. h: {first}; {accidents}.")
+    for each in judged:
+        fill = look.colour if each.shrinks else "white"
+        below.plot(each.episode, each.mean, "o", color=look.colour, markerfacecolor=fill, ms=7, clip_on=False, zorder=3)
+        below.plot([each.episode - 1.5, each.episode + 1.5], [each.limit] * 2, color=INK, linewidth=2)
+    plain_axes(below, "mean return when h is judged")
+    below.set(xlim=(0.5, episodes + 0.5), ylim=(0, 1.25 * max(each.mean for each in judged)))
+    below.set_xlabel("training episode", fontsize=TEXT, color=INK)
+    top = below.get_ylim()[1]
+    says = [("filled: h shrinks", look.colour), ("open: h stays", look.colour), ("bar: the limit", INK)]
+    label_ends(below, [(top * place, *each) for place, each in zip((0.9, 0.6, 0.3), says, strict=True)])
+    steps = ", ".join(f"{seconds:g} s from {1 + np.argmax(h == seconds)}" for seconds in sorted(set(h), reverse=True))
+    shrinks = sum(each.shrinks for each in judged)
+    words = f"h is judged {len(judged)} times and shrinks {shrinks} times, first without a limit"
+    return finish(figure, title, f"Columns. h: {steps}. Below, {words}.")
+
+
+def _columns(ax, driven: Episodes, own: Style) -> None:
+    """A column for each episode: the rule's seconds, the agent's above them, and a dot for an accident."""
+    episodes, green = np.arange(1, len(driven.decisions) + 1), style("rule").colour
+    ax.bar(episodes, driven.by_rule, width=0.9, color=green)
+    ax.bar(episodes, driven.decisions - driven.by_rule, bottom=driven.by_rule, width=0.9, color=own.colour, alpha=0.6)
+    ax.scatter(episodes[driven.accident], driven.decisions[driven.accident], s=9, color=ALARM, zorder=3)
+    plain_axes(ax, "seconds of the episode")
+    ax.set_xlim(0.5, len(episodes) + 0.5)
 
 
 def in_the_test(computed: Mapping[str, Results], rule: float) -> Figure:
@@ -98,10 +135,10 @@ def in_the_test(computed: Mapping[str, Results], rule: float) -> Figure:
         dots(ax, returns, place, style(method).colour, np.full(len(returns), taught), earned)
         beside(ax, place, f"{earned:.0f}", accidents)
         least, most = returns.min(), returns.max()
-        words = f"return {earned:.0f}, from {least:.0f} to {most:.0f}, accidents in {accidents} %"
+        words = f"{earned:.0f} ({least:.0f} to {most:.0f}), accidents {accidents} %"
         alt_parts.append(f"{names[-1]}: {words}")
     beside(ax, -0.75, "return", "accidents, %", colour=QUIET)
     name_rows(ax, names, "return of an agent in the test; filled: it had a teacher; bar: interquartile mean")
     ax.set_xlim(0, 140)
     ax.text(rule + 2, len(names) - 1, "the rule", color=green, fontsize=SMALL, va="center")
-    return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}. The rule: {rule:.0f}.")
+    return finish(figure, title, f"A dot for each agent. Return: {'; '.join(alt_parts)}. The rule: {rule:.0f}.")

@@ -1,19 +1,24 @@
-"""What this lesson's trainings are asked: what critics believe, and when a teacher hands over."""
+"""What this lesson's trainings are asked: what critics believe, who decides, and when a teacher hands over."""
 
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 import torch
+import torch.nn.functional as F
 from torch import Tensor
 
 from bootcourse.episodes.record import record
+from bootcourse.learn import sac
 from bootcourse.learn.networks import mlp
-from bootcourse.learn.rlpd import normalised_mlp
+from bootcourse.learn.replay_buffer import Batch
+from bootcourse.learn.rlpd import RLPDLearner
 from bootcourse.learn.training import Training
 from bootcourse.policies import rule_policy
 from bootcourse.research.paper import earned_at
 from bootcourse.scenario import DEFAULT
+
+AGENTS = ("normalised", "not normalised", "the target asks the rule")  # of the first round
 
 
 def worth_at_most(gamma: float) -> float:
@@ -22,50 +27,106 @@ def worth_at_most(gamma: float) -> float:
 
 
 def first_normalised(parameters: Sequence[Tensor], x: Tensor) -> Tensor:
-    """RLPD's critics for the first of two agents, the same without normalisation for the second."""
-    critics = [network([each[i::2] for each in parameters], x[i::2]) for i, network in enumerate((normalised_mlp, mlp))]
-    return torch.stack(critics, 1).flatten(0, 1)
+    """RLPD's critics for the first of three agents, the same without normalisation for the others."""
+    first = (torch.arange(len(x)) % 3 == 0)[:, None, None]
+    for weight, bias in zip(parameters[:-2:2], parameters[1:-2:2], strict=True):
+        hidden = torch.baddbmm(bias, x, weight)
+        x = torch.where(first, F.layer_norm(hidden, hidden.shape[-1:]), hidden).relu()
+    return torch.baddbmm(parameters[-1], x, parameters[-2])
+
+
+def last_asks_the_rule(learner: RLPDLearner, batch: Batch) -> Tensor:
+    """RLPD's target, (agents, batch); the last agent's with Q of the rule's next action instead of the policy's."""
+    next_q = learner.target_q(batch.next_states)
+    log_pi = sac.log_policy(mlp(learner.actor, batch.next_states))
+    value = learner.soft_value(log_pi, next_q, learner.alpha, torch.zeros_like(batch.rewards))
+    value[-1] = next_q[-1].gather(-1, batch.next_rule_actions[-1].unsqueeze(-1)).squeeze(-1)
+    return sac.critic_target(batch.rewards, batch.terminated, value, learner.gamma)
 
 
 def from_drives_alone(training: Training, updates: Iterable[int]) -> dict[str, np.ndarray]:
-    """The mean Q of the rule's actions on its way out, after each of these numbers of updates: {critics: (points,)}.
+    """Each critic's mean Q of the rule's actions on its way out, after so many updates: {agent: (critics, points)}.
 
-    training: of two agents, whose critics learn from the rule's drives alone, the second's without normalisation.
+    training: of three agents, whose critics learn from the rule's drives alone. The first has its layers normalised;
+    the last asks for Q of the rule's next action.
     """
     by_rule = record(rule_policy(DEFAULT), range(20), label="rule")
     way = torch.tensor(np.concatenate([drive.observations[:20] for drive in by_rule]), dtype=torch.float32)
     did = torch.tensor(np.concatenate([drive.actions[:20] for drive in by_rule]))
     learner, asked, found = training.learner, set(updates), []
     # A classmethod reads the network from the class: a class of its own changes this learner only.
-    learner.__class__ = type("WithBoth", (type(learner),), {"critic_network": staticmethod(first_normalised)})
+    changed = {"critic_network": staticmethod(first_normalised), "critic_target": last_asks_the_rule}
+    learner.__class__ = type("OfThree", (type(learner),), changed)
     generators = [np.random.default_rng(settings.seed) for settings in learner.settings]
     for update in range(max(asked) + 1):
         if update:
-            learner.update(training.replay.sample(64, np.ones(2), generators))  # demonstrations only
+            learner.update(training.replay.sample(64, np.ones(3), generators))  # demonstrations only
         if update in asked:
             with torch.no_grad():
-                q = learner.q_pair(learner.critics, way.expand(2, -1, -1)).mean(0)  # (2, states, 9)
-            found.append(q[:, torch.arange(len(did)), did].mean(1).numpy())
-    return dict(zip(("normalised", "not normalised"), np.array(found).T, strict=True))
+                q = learner.q_pair(learner.critics, way.expand(3, -1, -1))  # (critics, 3, states, 9)
+            found.append(q[:, :, torch.arange(len(did)), did].mean(-1).numpy())
+    return dict(zip(AGENTS, np.array(found).transpose(2, 1, 0), strict=True))
 
 
 class Episodes(NamedTuple):
-    """The training episodes of one agent of jump-start RL, each (episodes,)."""
+    """The training episodes of one agent and its teacher, each (episodes,)."""
 
-    h: np.ndarray  # so many decisions were the rule's
+    by_rule: np.ndarray  # so many decisions were the rule's
     decisions: np.ndarray  # of both
     accident: np.ndarray  # did it end in one?
 
 
-def handed_over(training: Training) -> Episodes:
-    """Train one agent of jump-start RL, and say of each episode who drove how long."""
-    learner, judge, h = training.learner, training.learner.note_episodes, []
+def chosen_by_q(training: Training) -> Episodes:
+    """Train one agent of IBRL, and say of each episode how many decisions its choice left to the rule, on average."""
+    learner, by_rule = training.learner, []
+    choose, judge, so_far = learner.acting_policy, learner.note_episodes, np.zeros(training.envs_per_agent)
+
+    def acting_policy(states: Tensor, rule_actions: Tensor, decided: Tensor) -> Tensor:
+        chosen = choose(states, rule_actions, decided)
+        so_far[:] += chosen[0].gather(-1, rule_actions[0].unsqueeze(-1)).squeeze(-1).numpy()
+        return chosen
+
+    def note(ended: np.ndarray, returns: np.ndarray) -> None:
+        by_rule.extend(so_far[ended[0]])
+        so_far[ended[0]] = 0
+        judge(ended, returns)
+
+    learner.acting_policy, learner.note_episodes = acting_policy, note
+    training.run(progress=False)
+    return _episodes(training, np.array(by_rule))
+
+
+class Judged(NamedTuple):
+    """One judgement of the curriculum of jump-start RL."""
+
+    episode: int  # so many had ended
+    mean: float  # the return of the last ones
+    limit: float  # what this mean must reach; -inf at first
+    shrinks: bool
+
+
+def handed_over(training: Training) -> tuple[Episodes, np.ndarray, list[Judged]]:
+    """Train one agent of jump-start RL: its episodes, the h of each (episodes,), and how h was judged."""
+    learner, judge, h, judged = training.learner, training.learner.note_episodes, [], []
+    shrinks, shared = learner.shrinks, training.settings[0]
 
     def note(ended: np.ndarray, returns: np.ndarray) -> None:
         h.extend(learner.guided[0, torch.from_numpy(ended[0])].tolist())
         judge(ended, returns)
 
-    learner.note_episodes = note
+    def noted(agent: int) -> bool:
+        mean, best, answer = float(learner.returns[agent].mean()), float(learner.best[agent]), shrinks(agent)
+        limit = best - shared.tolerance * abs(best) if np.isfinite(best) else best
+        judged.append(Judged(len(h), mean, limit, answer))
+        return answer
+
+    learner.note_episodes, learner.shrinks = note, noted
     training.run(progress=False)
-    curves = training.curves.values
-    return Episodes(np.array(h[: training.episodes]), curves["decisions"][0], curves["accident"][0] > 0)
+    h = np.array(h[: training.episodes])
+    return _episodes(training, h), h, judged
+
+
+def _episodes(training: Training, by_rule: np.ndarray) -> Episodes:
+    curves, n = training.curves.values, training.episodes
+    decisions = curves["decisions"][0][:n]
+    return Episodes(np.minimum(by_rule[:n], decisions), decisions, curves["accident"][0][:n] > 0)

@@ -9,19 +9,16 @@ from bootcourse.course.lessons.other_ways import explorable, figures
 from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
 from bootcourse.learn.settings import settings_for
-from bootcourse.methods import METHODS, display_name
+from bootcourse.methods import METHODS  # noqa: F401 (for the expressions)
 from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
-from bootcourse.research.tables import markdown
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, holm, interval
 from tools.course.known import shipped_experiment
 
 FIRST, SECOND, _ = BUDGETS
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
-VARIED = {"envs_per_agent": "roads at once", "target_entropy": "η"}  # in the search
-BY_HAND = {"bonus": "c", "beta_episodes": "episodes of β"}
 APART = {"method", "seed", "bonus"}  # SAC has no demonstrations that a bonus could reward
 
 
@@ -87,18 +84,10 @@ def hours_before(method: str) -> float:
     return drives_before(method) * DEFAULT.clock.decisions / 3600
 
 
-def not_equal() -> str:
-    """A table of what differs between the methods with a teacher, beside how they use it."""
-    head = ["", "rule's hours, not counted", "decisions per update", "rule in the test", "tuned (η: target entropy)"]
-    rows = []
-    for method in TAUGHT:
-        tuned = [VARIED[name] for name in equal_decisions.TRIES[method][0]]
-        by_hand = [words for name, words in BY_HAND.items() if name in equal_decisions.COMMON[method]]
-        tuned += [f"by hand {' and '.join(by_hand)}"] if by_hand else []
-        asked = "yes" if METHODS[method].learner_class().needs_teacher else "no"
-        numbers = f"{hours_before(method):.0f}", f"{decisions_per_update(method):.0f}"
-        rows.append([display_name(method), *numbers, asked, "; ".join(tuned)])
-    return markdown(head, rows).rstrip()
+def by_hand() -> dict[str, set[str]]:
+    """{method with a teacher: which of c and β's episodes were chosen by hand}, if any."""
+    common = {method: equal_decisions.COMMON[method].keys() & {"bonus", "beta_episodes"} for method in TAUGHT}
+    return {method: set(names) for method, names in common.items() if names}
 
 
 def decisions_per_update(method: str) -> float:
@@ -107,11 +96,6 @@ def decisions_per_update(method: str) -> float:
     if "epochs" in agent:
         return agent["batch"] / agent["epochs"]
     return agent["envs_per_agent"] / agent["updates"]
-
-
-def updates_in(method: str, seconds: float) -> float:
-    """How many updates one of these agents makes in so many seconds of computing, on average."""
-    return seconds / explorable.seconds_per_decision(later(method)).mean() / decisions_per_update(method)
 
 
 def on_road(decisions: float) -> float:
