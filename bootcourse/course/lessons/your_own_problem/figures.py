@@ -63,32 +63,38 @@ def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
 
 def clones() -> Figure:
     """What the clones of a random and of a systematic teacher earn, on three problems."""
-    return beside_teachers(THREE, "Clones outdo these random teachers, not the systematic ones")
+    rows = {"random\nteacher": ("random", "returns"), "systematic\nteacher": ("systematic", "returns")}
+    return beside_teachers(rows, "Clones outdo these random teachers, not the systematic ones")
 
 
-def clones_in_doorkey() -> Figure:
-    """The same on DoorKey."""
-    return beside_teachers(("doorkey",), "In DoorKey clones do not even outdo the random teacher")
+def clones_that_draw() -> Figure:
+    """What the same clones of the random teachers earn by their most probable actions, and by drawn ones."""
+    rows = {"most\nprobable": ("random", "returns"), "drawn": ("random", "drawn_returns")}
+    return beside_teachers(rows, "Clones that draw their actions earn about what their teacher does")
 
 
-def beside_teachers(problems: Sequence[str], title: str) -> Figure:
-    """What the clones of a random and of a systematic teacher earn, a dot each; a column for each problem."""
+def beside_teachers(rows: Mapping[str, tuple[str, str]], title: str) -> Figure:
+    """What clones earn, a dot each, beside their teacher and the good one; a column for each of three problems.
+
+    rows: by name, whose clones, and which measure of them (see `elsewhere_claims.Cells.scores`).
+    """
     figure, alt, good_colour = new_figure(2.9), [], style("rule").colour
-    kinds, step = ("random", "systematic"), 5.85 / len(problems)
-    for column, problem in enumerate(problems):
+    step = 5.85 / len(THREE)
+    for column, problem in enumerate(THREE):
         ax = axes_at(figure, 1.15 + step * column, 1.0, step - 0.2, 1.25)
         plain_axes(ax, PROBLEMS[problem].name, grid="x")
         good = cells().mean(problem, "good", "the teacher")
         ax.axvline(good, color=good_colour, linewidth=2, zorder=2)
-        alt.append(f"{PROBLEMS[problem].name}: the good teacher {good:.3g}.")
-        for place, teacher in enumerate(kinds):
-            own, scores = cells().mean(problem, teacher, "the teacher"), cells().scores(problem, teacher, "cloning")
+        alt.append(f"{PROBLEMS[problem].name}, good teacher {good:.3g}.")
+        for place, (name, (teacher, measure)) in enumerate(rows.items()):
+            own = cells().mean(problem, teacher, "the teacher")
+            scores = cells().scores(problem, teacher, "cloning", measure)
             ax.plot([own] * 2, [place - 0.36, place + 0.36], color=ALARM, linewidth=3, zorder=2)
             dots(ax, scores, place, style("bc").colour, size=13)
-            alt.append(f"The {teacher} teacher {own:.3g}, its clones {scores.mean():.3g}.")
-        ax.set_yticks(range(len(kinds)), [f"{kind}\nteacher" if column == 0 else "" for kind in kinds])
+            alt.append(f"{name.replace(chr(10), ' ').capitalize()}: clones {scores.mean():.3g}, teacher {own:.3g}.")
+        ax.set_yticks(range(len(rows)), rows if column == 0 else [""] * len(rows))
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-        ax.set_ylim(len(kinds) - 0.5, -0.5)
+        ax.set_ylim(len(rows) - 0.5, -0.5)
     keys = {"this teacher": ALARM, "its ten clones": style("bc").colour, "the good teacher": good_colour}
     for x, (words, colour) in zip((0.165, 0.34, 0.53), keys.items(), strict=True):
         figure.text(x, 0.8, words, fontsize=TEXT, color=colour, fontweight="bold")
@@ -135,8 +141,8 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
         ax.axvline(0, color=rule, linewidth=2.5, zorder=1)
         ax.plot(angle, -angle, color=INK, linewidth=1.2, linestyle="--")
         ax.set_xticks([-0.2, 0, 0.2], ["−0.2", "0", "0.2"])
-        falls = f"edges fall by {min(slopes):.1f} to {max(slopes):.1f} rad/s a rad"
-        alt.append(f"after {decisions:,} decisions {falls}, mean return {earned.mean():.0f}")
+        falls = f"{min(slopes):.1f} to {max(slopes):.1f}, mean return {earned.mean():.0f}"
+        alt.append(f"after {decisions:,} decisions by {falls}")
         if column == 0:
             ax.text(-0.19, -1.4, "push left", fontsize=TEXT, color=INK)
             ax.text(0.19, 1.2, "push right", ha="right", fontsize=TEXT, color=INK)
@@ -145,7 +151,7 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
         figure.text(x, 0.8, words, fontsize=TEXT, color=colour)
     below = "across: angle of the pole, rad; up: its speed, rad/s; return: mean over the agents"
     figure.text(0.5, 0.06, below, ha="center", fontsize=TEXT, color=INK)
-    return finish(figure, title, f"Edges between left and right: {'; '.join(alt)}. The teacher's edge is upright.")
+    return finish(figure, title, f"Edges fall, in rad/s a rad: {'; '.join(alt)}. The teacher's is upright.")
 
 
 def ranking() -> Figure:
@@ -161,11 +167,11 @@ def ranking() -> Figure:
         names.append(display_name(method) + ", no teacher" * (method in ALONE))
         dots(ax, returns, at, style(method).colour, size=16)
         beside(ax, at, f"{earned:.0f}", str(place))
-        alt.append(f"{names[-1]}: interquartile mean {earned:.0f}, place {place}")
+        alt.append(f"{names[-1]}: {earned:.0f}, place {place}")
     beside(ax, -0.8, "IQM", "place", colour=QUIET)
     below = f"mean return on 1,000 held-out roads; a dot for each of {AGENTS} agents; IQM: interquartile mean"
     name_rows(ax, names, below)
     ax.axvline(clone, color=look.colour, linewidth=1.6, linestyle="--", zorder=1)
     ax.text(clone + 2, 1, "the clone of\nthe course's rule", color=look.colour, fontsize=SMALL, va="center")
     ax.set_xlim(0, 140)
-    return finish(figure, title, f"{'; '.join(alt)}. The clone of the course's rule: {clone:.0f}.")
+    return finish(figure, title, f"Interquartile means: {'; '.join(alt)}. The clone of the course's rule: {clone:.0f}.")

@@ -1,4 +1,4 @@
-"""How a rule climbs the hill of MountainCar, where a teacher loops in DoorKey, and agents that no reward teaches."""
+"""How a rule climbs the hill of MountainCar, where a teacher loops in DoorKey, and what agents learn from each."""
 
 from collections.abc import Callable
 from functools import cache
@@ -19,9 +19,11 @@ from bootcourse.course.lessons.your_teacher.driven_out import (
 from bootcourse.episodes.driving import copies_of
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.agent import Agent
+from bootcourse.learn.demonstrations import demonstrate
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import Rule, teacher_policy
 from bootcourse.learn.training import Training
+from bootcourse.research.elsewhere import settings_of
 from bootcourse.research.problems import PROBLEMS, DoorKey
 
 MakeEnvs = Callable[[int], VectorEnv]
@@ -123,22 +125,65 @@ def earns(rule: Rule, make_env: MakeEnvs) -> float:
 
 
 @cache
-def without_reward(
-    budgets: tuple[int, ...], make_env: MakeEnvs, teacher: Rule
+def trained(
+    budgets: tuple[int, ...], make_env: MakeEnvs, teacher: Rule, pays: float, gamma: float
 ) -> dict[int, tuple[list[Agent], np.ndarray]]:
-    """Five agents that have the soft constraint and no reward, after so many decisions each: (they, what they earn).
+    """Five agents with the soft constraint, after so many decisions each: (they, what they earn).
 
-    In training each reward is 0, and with γ = 0 they do not look ahead; the test counts the environment's reward.
+    pays: the share of each reward that they get in training, 0 for none; the test counts the environment's reward.
     """
 
-    def unpaid(n: int) -> VectorEnv:
-        return TransformReward(copies_of(make_env, n), np.zeros_like)
+    def paid(n: int) -> VectorEnv:
+        return TransformReward(copies_of(make_env, n), lambda rewards: pays * rewards)
 
-    settings = with_seeds(settings_for("soft", gamma=0.0), 5)
-    training = Training(settings, episodes=MOST_EPISODES, make_env=unpaid, teacher=teacher)
+    settings = with_seeds(settings_for("soft", gamma=gamma), 5)
+    training = Training(settings, episodes=MOST_EPISODES, make_env=paid, teacher=teacher)
     tested, held_out = {}, held_out_seeds(1, 5)
     for budget in budgets:
         agents = training.run(False, stop=lambda most=budget * training.n_agents: training.decisions >= most).agents
         drives = [drive_episodes(agent.as_policy(), held_out, make_env=make_env) for agent in agents]
         tested[budget] = agents, np.array([each.returns.mean() for each in drives])
     return tested
+
+
+def returns(*arguments, **settings) -> dict[int, int]:
+    """What the agents of `trained` earn, the mean over agents by decisions in training."""
+    return {decisions: round(earned.mean()) for decisions, (_, earned) in trained(*arguments, **settings).items()}
+
+
+def labels(problem: str, decisions: int = 2_000) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """(the states of 50 drives of the random teacher, its actions there, its clone's, the good teacher's), n of each.
+
+    The clone, a single agent, learns for so many decisions.
+    """
+    one, teachers = PROBLEMS[problem], PROBLEMS[problem].teachers()
+    drives = demonstrate(50, None, teacher=teachers["random"], make_env=one.make_env)
+    learning = {"make_env": one.make_env, "teacher": teachers["random"], "demonstrations": drives.rows()}
+    training = Training([settings_for("bc")], episodes=MOST_EPISODES, **learning)
+    (clone,) = training.run(False, stop=lambda: training.decisions >= decisions).agents
+    seen = drives.observations
+    return seen, drives.actions, np.asarray(clone.probabilities(seen)).argmax(-1), teachers["good"](seen)
+
+
+def states(seen: np.ndarray) -> int:
+    """How many different states there are among these, (n, observation)."""
+    return len(np.unique(seen, axis=0))
+
+
+@cache
+def without_loops() -> np.ndarray:
+    """Three agents with both aids and c = 2 in DoorKey, whose demonstrations all reach the goal: their success, (3,).
+
+    As in the study, but for the demonstrations: 50 of the random teacher's drives that do not end in a loop. The
+    agents draw their actions in the test.
+    """
+    one, teacher = PROBLEMS["doorkey"], PROBLEMS["doorkey"].teachers()["random"]
+    drives = demonstrate(400, None, teacher=teacher, make_env=one.make_env)
+    arrived = [drive for drive in drives.drives if drives.terminated[drive.stop - 1]][:50]
+    rows = np.concatenate([np.arange(drive.start, drive.stop) for drive in arrived])
+    settings = with_seeds(settings_of(one, "both"), 3)
+    learning = {"make_env": one.make_env, "teacher": teacher, "demonstrations": drives.rows()[rows]}
+    agents = Training(settings, episodes=one.episodes, learner="faster", **learning).run(False).agents
+    drawing = [agent.as_policy(np.random.default_rng(0)) for agent in agents]
+    held_out = held_out_seeds(1, 100)
+    return np.array([drive_episodes(each, held_out, make_env=one.make_env).success.mean() for each in drawing])

@@ -1,14 +1,17 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from functools import cache
+
 import gymnasium as gym
 import numpy as np
+from gymnasium.vector import VectorEnv
 
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import explorable, loops  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, cells, entries, places  # noqa: F401
 from bootcourse.research import elsewhere_claims  # noqa: F401
 from bootcourse.research.equal_decisions import BOARD  # noqa: F401
-from bootcourse.research.problems import PROBLEMS, DoorKey
+from bootcourse.research.problems import PROBLEMS  # noqa: F401
 
 TEACHERS = ("good", "random", "systematic")
 SHOWN = [(p, t) for p in THREE for t in TEACHERS]
@@ -19,6 +22,11 @@ def score(problem: str, teacher: str, method: str, measure: str = "success") -> 
     return cells().mean(problem, teacher, method, measure)
 
 
+def pole(n: int) -> VectorEnv:
+    """CartPole, as the lesson makes it."""
+    return gym.make_vec("CartPole-v1", n, vectorization_mode="sync")
+
+
 def earned(teacher: str) -> float:
     """What a teacher of MountainCar earns."""
     return score("mountain-car", teacher, "the teacher", "returns")
@@ -26,9 +34,7 @@ def earned(teacher: str) -> float:
 
 def speed_rule_earns() -> float:
     """What the rule of CartPole earns that pushes to the side of angle + speed, as the picture of the edges has it."""
-    return loops.earns(
-        lambda seen: int(seen[2] + seen[3] > 0), lambda n: gym.make_vec("CartPole-v1", n, vectorization_mode="sync")
-    )
+    return loops.earns(lambda seen: int(seen[2] + seen[3] > 0), pole)
 
 
 def by_bonus(teacher: str) -> np.ndarray:
@@ -41,15 +47,16 @@ def without_bonus(teacher: str) -> float:
     return score("doorkey", teacher, BONUSES["c = 0"])
 
 
-def same_action_nearby() -> float:
-    """Of the pairs of DoorKey's states that differ in one part, the share in which the good teacher does the same."""
-    env, rng = DoorKey(500), np.random.default_rng(0)
-    seen = [env.reset(seed=0)[0], *(env.step(rng.integers(env.actions, size=500))[0] for _ in range(100))]
-    states = np.unique(np.concatenate(seen), axis=0)
-    states = states[states[:, 8] == 0]  # nothing is left to do in the goal's cell
-    apart = np.abs(states[:, None] - states).sum(-1)  # a part is one-hot: 2, or 1 where the key is fetched
-    actions = PROBLEMS["doorkey"].teachers()["good"](states)
-    return (actions[:, None] == actions)[(apart > 0) & (apart <= 2)].mean()
+def alone(bonus: str) -> float:
+    """The success on DoorKey of agents that have the good teacher's demonstrations and no more, by drawn actions."""
+    return score("doorkey", "good", f"demonstrations{bonus}", "drawn_success")
+
+
+@cache
+def with_reward() -> dict[int, float]:
+    """What Round 1's agents on CartPole, which get the reward, earn after so many decisions each, as means."""
+    tested = loops.trained((1_000, 3_000), pole, lambda seen: int(seen[2] > 0), pays=1, gamma=0.99)
+    return {decisions: earned.mean() for decisions, (_, earned) in tested.items()}
 
 
 def drowning_bonus(*arguments: float) -> float:
