@@ -1,5 +1,6 @@
 """Clones of a driver, and DAgger: what the lesson trains and tests."""
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import islice
@@ -18,11 +19,13 @@ from bootcourse.learn.networks import mlp
 from bootcourse.learn.sac import log_policy
 from bootcourse.learn.settings import settings_for
 from bootcourse.policies import Policy, PolicyOutput
-from bootcourse.road.state import EGO, LANE, SPEED
+from bootcourse.road.observation import Y_SCALE
+from bootcourse.road.state import EGO, Accident, Y
 from bootcourse.scenario import DEFAULT
 
 SIZE = DEFAULT.observation_size
 ACTION, RULE_ACTION = 2 * SIZE, 2 * SIZE + 3  # columns of a transition
+OF_Y = 2  # the column with the car's place across the road
 UPDATES, ROADS = 1500, held_out_seeds(6, 100)  # of a clone's training, and where it is measured
 
 
@@ -30,13 +33,14 @@ def side_by_side(tables: Sequence[Tensor], seeds: Sequence[Sequence[int]], loss=
     """For each table of transitions its clones, one for each of its seeds; all of them are trained together."""
     settings = [replace(settings_for("bc"), seed=seed) for of_one in seeds for seed in of_one]
     learner, table = BCLearner(settings, SIZE), torch.cat([*tables])
-    states, actions = table[:, :SIZE], table[:, ACTION].long()
+    states, actions = table[:, :SIZE].contiguous(), table[:, ACTION].long()
     clones, sizes = [len(of_one) for of_one in seeds], [len(rows) for rows in tables]
     first = np.repeat(np.cumsum([0, *sizes[:-1]]), clones)[:, None]  # of each clone's rows
     draws = np.stack([np.random.default_rng(each.seed).random((UPDATES, 64)) for each in settings], axis=1)
     rows = first + (draws * np.repeat(sizes, clones)[:, None]).astype(np.int64)  # (updates, clones, 64)
     for batch in torch.from_numpy(rows):
-        log_pi = log_policy(mlp(learner.actor, states[batch]))  # (clones, 64, 9)
+        drawn = states.index_select(0, batch.flatten()).view(*batch.shape, SIZE)  # faster than states[batch]
+        log_pi = log_policy(mlp(learner.actor, drawn))  # (clones, 64, 9)
         learner.optimiser.zero_grad()
         (len(settings) * loss(log_pi.flatten(0, 1), actions[batch].flatten())).backward()  # the sum of all clones'
         learner.optimiser.step()
@@ -82,39 +86,37 @@ def measure(agents: Sequence[Agent], rows: Tensor) -> np.ndarray:
 
 
 def alone(agents: Sequence[Agent]) -> list[Rollout]:
-    """All the clones' own drives, each on the same 20 roads."""
-    return record(all_at_once(agents), [*range(20)] * len(agents))
+    """All the clones' own drives, each on the 60 roads of the two demonstrators."""
+    return record(all_at_once(agents), [*range(60)] * len(agents))
 
 
-def unlike_the_rule(drives: Sequence[Rollout]) -> np.ndarray:
-    """Where the driver differed from the rule: (drives, decisions of the longest), 1 or 0, NaN after a drive's end."""
-    longest = max(len(each.actions) for each in drives)
-    wrong = [(each.actions != each.rule_actions).astype(float) for each in drives]
-    return np.array([np.pad(each, (0, longest - len(each)), constant_values=np.nan) for each in wrong])
+def accidents(drives: Sequence[Rollout]) -> str:
+    """A sentence: how many of the drives end in an accident, and in which."""
+    ended = Counter(Accident(each.accident) for each in drives if each.accident)
+    left = sum(off_on_the_left(each) for each in drives)
+    kinds = {
+        "off the left edge": left,
+        "off the right edge": ended[Accident.ROAD_DEPARTURE] - left,
+        "stopped": ended[Accident.STOPPAGE],
+        "into another car": ended[Accident.COLLISION],
+    }
+    said = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count)
+    return f"{sum(ended.values())} of {len(drives)} drives end in an accident: {said}."
 
 
-def slow(drives: Sequence[Rollout]) -> tuple[float, float]:
-    """How many seconds of a drive the car is in the free lane at 9 m/s or less, on average, up to the drive's end; and
-    in what share of these seconds its driver differs from the rule.
-    """
-    cars = [each.states[:: each.scenario.clock.steps][: len(each.actions), EGO] for each in drives]
-    is_slow = [(car[:, LANE] == 0) & (car[:, SPEED] < 9.5) for car in cars]
-    wrong = [(each.actions != each.rule_actions)[some] for each, some in zip(drives, is_slow, strict=True)]
-    return sum(map(np.sum, is_slow)) / len(drives), float(np.concatenate(wrong).mean())
+def off_on_the_left(drive: Rollout) -> bool:
+    """Whether this drive ends beyond the left edge of the road."""
+    return drive.accident == Accident.ROAD_DEPARTURE and drive.states[-1, EGO, Y] < 0
 
 
-def slowness(of_rule: Sequence[Rollout], of_clones: Sequence[Rollout]) -> str:
-    """A sentence: how long both are slow in the free lane, and how often the clones err there."""
-    (rule, _), (clones, wrong) = slow(of_rule), slow(of_clones)
-    return (
-        f"In the free lane at 9 m/s or less: the rule {rule:.0f} s of a drive, the clones {clones:.0f} s.\n"
-        f"In {100 * wrong:.0f} % of these seconds the clones err."
-    )
+def metres_left(drive: Rollout) -> np.ndarray:
+    """How far left of the middle of the left lane the car is, at each decision (m); right of it, below 0."""
+    return -drive.states[:: drive.scenario.clock.steps][: len(drive.actions), EGO, Y]
 
 
-def unlike(agent: Agent, drives: Sequence[Rollout]) -> np.ndarray:
-    """Where the clone would decide unlike the driver in these drives of equal length: (drives, decisions) bool."""
-    return np.array([agent.probabilities(each.observations[:-1]).argmax(1) != each.actions for each in drives])
+def left_in(rows: Tensor) -> Tensor:
+    """The same for each transition of a data set: the state holds the car's place in lanes."""
+    return -rows[:, OF_Y] * Y_SCALE
 
 
 class Trainings:

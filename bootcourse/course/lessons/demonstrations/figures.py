@@ -5,10 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.course import charts
 from bootcourse.course.lessons.demonstrations import cloning
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.learn.agent import Agent
 from bootcourse.methods import style
 from bootcourse.plots.canvas import MplAxes
 from bootcourse.plots.figure import INK, TEXT, finish, label_ends, new_figure, plain_axes
@@ -56,36 +54,90 @@ def clones(measured: dict[str, np.ndarray]) -> Figure:
     title = "Agreement with the data, and accidents"
     if agrees.argmax() == crash.argmax() and (agrees[1], crash[1]) == (agrees[1:].max(), crash[1:].max()):
         title = "The clones that agree most with their data crash most"
+    return _two_panels(measured, {0: "agree with their data (%)", 2: "have an accident (%)"}, title)
+
+
+def added(whole: dict[str, np.ndarray], fed: dict[str, np.ndarray]) -> Figure:
+    """What rows added to the rule's change: as `clones`, with the agreement with the rule in the clones' own states.
+
+    whole: of the rule's drives and of the stochastic rule's; fed: of the rule's with other rows, and with those of the
+    edge.
+    """
+    (rule, unsure), (others, edge) = whole.items(), fed.items()
+    title = "Accidents, with rows added to the rule's"
+    if edge[1][:, 2].mean() < min(rule[1][:, 2].mean(), others[1][:, 2].mean()) / 2:
+        title = "Rows from the edge prevent most of the accidents"
+    return _two_panels(
+        dict((rule, *((f"{rule[0]}, {name}", values) for name, values in (others, edge)), unsure)),
+        {1: "agree in their own states (%)", 2: "have an accident (%)"}, title,
+    )  # fmt: skip
+
+
+def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str) -> Figure:
+    """A row for each name, a panel for each of two columns of `cloning.measure`."""
     figure = new_figure(1.0 + 0.5 * len(measured))
     alt_parts = {name: [] for name in measured}
     height = figure.get_figheight()
-    for place, (k, label) in enumerate(((0, "agree with their data (%)"), (2, "have an accident (%)"))):
+    for place, (k, label) in enumerate(columns.items()):
         ax = figure.add_axes((0.27 + 0.37 * place, 0.3 / height, 0.34, 1 - 0.95 / height))
         for row, (name, values) in enumerate(measured.items()):
             shown = 100 * values[:, k]
             ax.plot(shown, np.full(len(shown), row), "o", color=style("bc").colour, markersize=5, alpha=0.55)
             ax.plot(shown.mean(), row, "|", color=INK, markersize=15, markeredgewidth=2)
             ax.text(shown.mean(), row - 0.32, f"{shown.mean():.0f}", fontsize=TEXT, color=INK, ha="center")
-            alt_parts[name].append(f"{label.removesuffix(' (%)')} {shown.mean():.0f} %")
-        plain_axes(ax, label, grid="x")
+            alt_parts[name].append(f"{label.removesuffix(' (%)')} {shown.mean():.0f} %".replace("\n", " "))
+        plain_axes(ax, label.replace("\n", " "), grid="x")
         names = [name.replace(", ", ",\n") for name in measured]
         ax.set_yticks(range(len(measured)), names if place == 0 else [""] * len(measured))
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
         ax.set(xlim=(-4, 104), ylim=(len(measured) - 0.5, -0.7))
-    words = "; ".join(f"clones of {name}: on average {', '.join(parts)}" for name, parts in alt_parts.items())
-    return finish(figure, title, f"A dot for each clone, a bar for their mean. {words}.")
+    words = "; ".join(f"{name}: {', '.join(parts)}" for name, parts in alt_parts.items())
+    return finish(figure, title, f"Clones' means, by data. {words}.")
 
 
-def errors(agents: Sequence[Agent], of_rule: Sequence[Rollout], own: Sequence[Rollout]) -> Figure:
-    """How often the clones have decided unlike the rule so far: in their own drives, in the states of the rule's on the
-    same roads, and in the worst case, in which each decision after the first error is one.
-    """
-    alone = np.mean([cloning.unlike(agent, of_rule) for agent in agents], axis=(0, 1)).cumsum()
-    mine, worst = np.nan_to_num(cloning.unlike_the_rule(own)).mean(axis=0).cumsum(), np.minimum(1, alone).cumsum()
-    title = f"A clone makes {mine[-1]:.0f} errors in a drive of its own, {alone[-1]:.0f} in one of the rule's"
-    named = {"in the worst case": worst, "in their own states": mine, "in the rule's states": alone}
-    looks = [charts.Style(INK, "--"), *(charts.Style(style(method).colour) for method in ("bc", "rule"))]
-    return charts.lines(np.arange(1, len(mine) + 1), named, title, "time (s)", "errors so far", looks=looks)
+STEPS_LEFT = np.array([-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0])  # m, the bars of `off_the_road`
+
+
+def off_the_road(own: Sequence[Rollout], of_rule: Sequence[Rollout], seconds: int = 8) -> Figure:
+    """How clones leave the road: their last seconds, where they decide unlike the rule, and where the rule has been."""
+    furthest = max(cloning.metres_left(drive).max() for drive in of_rule)
+    left = np.concatenate([cloning.metres_left(drive) for drive in own])
+    wrong = np.concatenate([drive.actions != drive.rule_actions for drive in own])
+    each = np.digitize(left, STEPS_LEFT) - 1
+    shares = np.array([100 * wrong[each == k].mean() for k in range(len(STEPS_LEFT) - 1)])
+    rows = np.histogram(np.concatenate([cloning.metres_left(drive) for drive in of_rule]), STEPS_LEFT)[0]
+    title = "How the clones leave the road, and where they err"
+    if shares[-1] > 90 and rows[-1] == 0:
+        title = "Left of the rule's path, the clones do not steer back"
+    figure = new_figure(3.9)
+    paths = figure.add_axes((0.075, 0.14, 0.5, 0.7))
+    bars = figure.add_axes((0.63, 0.14, 0.24, 0.7))
+    gone = [drive for drive in own if cloning.off_on_the_left(drive)]
+    paths.axhspan(-2, furthest, color=style("rule").colour, alpha=0.13, linewidth=0)
+    for drive in gone:
+        way, errs = cloning.metres_left(drive)[-seconds:], (drive.actions != drive.rule_actions)[-seconds:]
+        when = np.arange(-len(way), 0)
+        paths.plot(when, way, color=style("bc").colour, linewidth=0.7, alpha=0.35)
+        paths.plot(when[errs], way[errs], ".", color=INK, markersize=4, alpha=0.5)
+    where = {"color": style("rule").colour, "fontsize": TEXT, "va": "bottom", "backgroundcolor": "#DEF2EA"}
+    paths.text(-seconds + 0.1, -1.95, "where the rule's drives are", **where)
+    paths.set(xlim=(-seconds - 0.2, -0.6), ylim=(-2, 2.05))
+    paths.set_xlabel("seconds before the accident", fontsize=TEXT, color=INK)
+    plain_axes(paths, "left of the lane's middle (m); a dot is an error")
+    bars.barh((STEPS_LEFT[:-1] + STEPS_LEFT[1:]) / 2, shares, height=0.42, color=style("bc").colour, alpha=0.8)
+    for middle, share, count in zip((STEPS_LEFT[:-1] + STEPS_LEFT[1:]) / 2, shares, rows, strict=True):
+        bars.text(share - 2, middle, f"{share:.0f}", fontsize=TEXT, color="white", ha="right", va="center")
+        bars.text(104, middle, f"{count:,}", fontsize=TEXT, color=style("rule").colour, ha="left", va="center")
+    bars.text(104, 2.1, "rule's\ndecisions", fontsize=TEXT, color=style("rule").colour, ha="left", va="bottom")
+    bars.set(xlim=(0, 100), ylim=(-2, 2.05), yticks=[])
+    plain_axes(bars, "errors there (%)", grid="x")
+    bars.set_yticks([])
+    said, counted = ", ".join(f"{share:.0f}" for share in shares), ", ".join(map(str, rows))
+    return finish(
+        figure, title,
+        f"{len(gone)} drives, their last {seconds} s. From {-STEPS_LEFT[0]:g} m right of the left lane's middle to "
+        f"{STEPS_LEFT[-1]:g} m left, by half metres, the clones err in {said} %; the rule's decisions: {counted}.",
+    )  # fmt: skip
 
 
 def taught(trainings: np.ndarray, of_rule: np.ndarray) -> Figure:
