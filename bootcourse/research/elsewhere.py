@@ -29,6 +29,7 @@ BONUSES = {  # on DoorKey alone: from which bonus c on does it mislead?
     **{f"both, c = {c:g}": ("bootstrapped", {"bonus": c}) for c in (0.03, 0.1, 0.3, 1.0)},
     "demonstrations, c = 0": ("demos", {"bonus": 0.0}),
 }
+WITHOUT_LOOPS = "both, without loops"  # on DoorKey: demonstrations are the random teacher's drives to the goal
 HYPOTHESES = {  # written before any cell was run with more than two seeds; elsewhere_claims.py compares them
     "H1": "The bonus helps only where c a step is small beside the reward of success. On DoorKey (c = 2, the goal pays "
     "at most 1) both with c = 0 succeeds more often than both, with the random teacher too; on MountainCar (-1 a step) "
@@ -49,8 +50,8 @@ PPO = {"envs_per_agent": 16, "horizon": 64, "batch": 256, "actor_lr": 1e-3, "cri
 
 
 def settings_of(problem: Problem, name: str) -> Settings:
-    """The settings of one of `METHODS` or `BONUSES` on a problem."""
-    method, changes = (METHODS | BONUSES)[name]
+    """The settings of one of `METHODS` or `BONUSES`, or `WITHOUT_LOOPS`, on a problem."""
+    method, changes = (METHODS | BONUSES | {WITHOUT_LOOPS: METHODS["both"]})[name]
     changes = {"gamma": problem.gamma, "demonstration_episodes": 50} | changes
     if changes.get("target_entropy") == USABLE:
         changes["target_entropy"] = 0.3 * math.log(problem.actions)

@@ -23,7 +23,6 @@ from bootcourse.learn.demonstrations import demonstrate
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import Rule, teacher_policy
 from bootcourse.learn.training import Training
-from bootcourse.research.elsewhere import settings_of
 from bootcourse.research.problems import PROBLEMS, DoorKey
 
 MakeEnvs = Callable[[int], VectorEnv]
@@ -168,22 +167,3 @@ def labels(problem: str, decisions: int = 2_000) -> tuple[np.ndarray, np.ndarray
 def states(seen: np.ndarray) -> int:
     """How many different states there are among these, (n, observation)."""
     return len(np.unique(seen, axis=0))
-
-
-@cache
-def without_loops() -> np.ndarray:
-    """Three agents with both aids and c = 2 in DoorKey, whose demonstrations all reach the goal: their success, (3,).
-
-    As in the study, but for the demonstrations: 50 of the random teacher's drives that do not end in a loop. The
-    agents draw their actions in the test.
-    """
-    one, teacher = PROBLEMS["doorkey"], PROBLEMS["doorkey"].teachers()["random"]
-    drives = demonstrate(400, None, teacher=teacher, make_env=one.make_env)
-    arrived = [drive for drive in drives.drives if drives.terminated[drive.stop - 1]][:50]
-    rows = np.concatenate([np.arange(drive.start, drive.stop) for drive in arrived])
-    settings = with_seeds(settings_of(one, "both"), 3)
-    learning = {"make_env": one.make_env, "teacher": teacher, "demonstrations": drives.rows()[rows]}
-    agents = Training(settings, episodes=one.episodes, learner="faster", **learning).run(False).agents
-    drawing = [agent.as_policy(np.random.default_rng(0)) for agent in agents]
-    held_out = held_out_seeds(1, 100)
-    return np.array([drive_episodes(each, held_out, make_env=one.make_env).success.mean() for each in drawing])

@@ -1,7 +1,5 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-from functools import cache
-
 import gymnasium as gym
 import numpy as np
 from gymnasium.vector import VectorEnv
@@ -9,7 +7,7 @@ from gymnasium.vector import VectorEnv
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import explorable, loops  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, cells, entries, places  # noqa: F401
-from bootcourse.research import elsewhere_claims  # noqa: F401
+from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
 from bootcourse.research.equal_decisions import BOARD  # noqa: F401
 from bootcourse.research.problems import PROBLEMS  # noqa: F401
 
@@ -47,16 +45,14 @@ def without_bonus(teacher: str) -> float:
     return score("doorkey", teacher, BONUSES["c = 0"])
 
 
+def without_loops() -> float:
+    """The success on DoorKey with c = 2, and drives of the random teacher that reach the goal, by drawn actions."""
+    return score("doorkey", "random", elsewhere.WITHOUT_LOOPS, "drawn_success")
+
+
 def alone(bonus: str) -> float:
     """The success on DoorKey of agents that have the good teacher's demonstrations and no more, by drawn actions."""
     return score("doorkey", "good", f"demonstrations{bonus}", "drawn_success")
-
-
-@cache
-def with_reward() -> dict[int, float]:
-    """What Round 1's agents on CartPole, which get the reward, earn after so many decisions each, as means."""
-    tested = loops.trained((1_000, 3_000), pole, lambda seen: int(seen[2] > 0), pays=1, gamma=0.99)
-    return {decisions: earned.mean() for decisions, (_, earned) in tested.items()}
 
 
 def drowning_bonus(*arguments: float) -> float:

@@ -137,7 +137,7 @@ bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0))
 # copy heeds not the angle alone but the speed, too. Its edge lies near the dashes, and a rule with that edge
 # earns {{ speed_rule_earns() | .0f }}.
 #
-# Better copies earn less, with reward, too: *one budget can mislead.*
+# Better copies earn less: *one budget can mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
 # **On yours**, with reward or without:
@@ -300,16 +300,14 @@ check.drowning_bonus(drowning_bonus)
 # <!-- claim: math.isclose(drowning_bonus(0, 1, 1, 0.97), drowning_bonus(0, 1, 90, 0.97)) -->
 # <!-- claim: list(BONUSES)[2] == 'c = 0.1' and min(by_bonus(t)[2] for t in TEACHERS) > 0.5 -->
 #
-# **Is it the loop?** Without looping demonstrations most drives of three agents reach the goal with
-# c = 2, by drawn actions. But a bonus can harm without a demonstrated loop, too. With the good teacher's
-# demonstrations *alone* {{ 100 * alone(', c = 0') | .0f }} % reach it with c = 0, and {{ 100 *
-# alone('') | .0f }} % with c = 2.
-# <!-- claim: loops.without_loops().mean() > 0.5 -->
+# **Is it the loop?** With the random teacher's demonstrations that reach the goal, and c = 2,
+# {{ 100 * without_loops() | .0f }} % of the drives reach it, by drawn actions. But a bonus can harm without a
+# demonstrated loop, too. With the good teacher's demonstrations *alone* {{ 100 * alone(', c = 0') | .0f }} % reach it
+# with c = 0, and {{ 100 * alone('') | .0f }} % with c = 2.
 #
 # **On yours.** Which loop is there, and what is its threshold?
 
 # %%
-# loops.without_loops()  # about 20 seconds
 # MountainCar's threshold; put in your numbers:
 # drowning_bonus(reward=-1, goal=0, decisions=120, gamma=0.99)
 
