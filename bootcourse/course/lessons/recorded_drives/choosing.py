@@ -32,6 +32,22 @@ def recorded(drives: int = 200) -> Batch:
     return decode_transitions(rows, DEFAULT.observation_size, torch.zeros(len(rows)))
 
 
+def earned(data: Batch, drives: int = 200, gamma: float = 0.8) -> float:
+    """What the recorded driver went on to earn, discounted: the mean over the recorded seconds."""
+    later, worths = torch.zeros(drives), []
+    for rewards in data.rewards.reshape(-1, drives).flip(0):  # the rows are second by second, all drives in each
+        later = rewards + gamma * later
+        worths.append(later)
+    return float(torch.stack(worths).mean())
+
+
+def promised(policy: Policy, states: torch.Tensor) -> tuple[torch.Tensor, float]:
+    """What an agent with a critic would do in these states, (n,), and the mean of its Q of these actions."""
+    decided = policy(states.numpy(), None)
+    actions = np.asarray(decided.actions, dtype=np.int64)
+    return torch.from_numpy(actions), float(decided.q_values[np.arange(len(actions)), actions].mean())
+
+
 def actions_of(policy: Policy, states: torch.Tensor) -> torch.Tensor:
     """What a driver that sees nothing but observations does in these states, (n,)."""
     return torch.from_numpy(np.asarray(policy(states.numpy(), None).actions, dtype=np.int64))
@@ -101,3 +117,8 @@ def worth(policy: Policy, roads: Sequence[int], gamma: float) -> float:
 def rule_worth(roads: Sequence[int] = range(100), gamma: float = 0.8) -> float:
     """What the rule itself is worth on these roads: the guess that looks at no driver."""
     return worth(rule_policy(DEFAULT), roads, gamma)
+
+
+def by_set(values: Sequence[float]) -> np.ndarray:
+    """A number of each agent, one set of six after the other, as (sets, agents)."""
+    return np.reshape(values, (-1, len(METHODS)))

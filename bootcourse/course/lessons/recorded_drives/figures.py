@@ -1,23 +1,20 @@
-"""The lesson on recorded drives: three agents' drives, returns, promises, and estimates."""
+"""The lesson on recorded drives: three agents' drives, returns, choices, and estimates."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from functools import cache
 
 import numpy as np
-from matplotlib.axes import Axes
+import torch
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from bootcourse.colours import OTHER, QUIET
-from bootcourse.course.dots import beside, dots, name_rows
+from bootcourse.colours import GRID, INK, OTHER, QUIET
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.shipped import beginning, shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.learner import SACLearner
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import TEXT, finish, new_figure, one_axes
-from bootcourse.policies import rule_policy
+from bootcourse.plots.figure import TEXT, axes_at, finish, new_figure, one_axes
 from bootcourse.research.report import rule_results
 from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
@@ -25,8 +22,12 @@ from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 
 ROAD = 9  # of the held-out ones: chosen for GAIL's drive
-SECONDS = 20  # of a drive: the way out
 WITH = "with CQL's term"
+LABELS = {  # where a method's name stands in `estimates`: x, y, side
+    "bc": (99, 0.1, "right"), "cql": (99, -0.2, "right"), "cql_sac": (60, 0.3, "left"),
+    "gail": (48, -0.35, "left"), "sac": (21, 1.25, "left"), "bootstrapped": (31, -0.55, "left"),
+}  # fmt: skip
+METHODS_BY_NAME = {display_name(method): method for method in choosing.METHODS}
 
 
 def three_drives() -> list[Rollout]:
@@ -63,97 +64,79 @@ def returns(study: Results) -> Figure:
     return finish(figure, title, f"A dot for each agent. {words}. The rule's return is {by_rule:.1f}.")
 
 
-def earned(drive: Rollout, gamma: float) -> float:
-    """What a drive earns from a second of its way out on, discounted, the mean over these seconds."""
-    weights = gamma ** np.arange(len(drive.rewards))
-    seconds = range(min(SECONDS, len(drive.actions)))
-    return float(np.mean([drive.rewards[t:] @ weights[: len(weights) - t] for t in seconds]))
+def would_do(learners: Mapping[str, SACLearner]) -> Figure:
+    """In which share of the recorded seconds the rule took each of the nine actions, and agents would, as grids.
 
-
-@cache
-def rule_on_its_way() -> float:
-    """What the rule's own drives on 100 roads earn, as in `earned`: the mean."""
-    short = replace(DEFAULT, clock=replace(DEFAULT.clock, decisions=SECONDS + choosing.SECONDS))
-    drives = record(rule_policy(short), range(100), short)
-    return float(np.mean([earned(drive, 0.8) for drive in drives]))
-
-
-def promises(learners: Mapping[str, SACLearner]) -> Figure:
-    """How agents drive 100 roads: the Q that they promise on the way out, and what that is worth.
-
-    learners: by what they are called, such as `WITH`.
+    learners: by what they are called, such as `WITH`. Below each grid, the crashes on 100 roads, and the mean Q
+    of what an agent would do, beside what the rule went on to earn in these seconds.
     """
-    found = {}  # (name, seed): promised, paid, crashes
+    data, names = choosing.recorded(), ["the rule"]
+    taken, colours, words = [data.actions], [style("rule").colour], [f"no crash\nearned {choosing.earned(data):.1f}"]
+    crashes = {name: [] for name in learners}
     for name, learner in learners.items():
         for row, settings in enumerate(learner.settings):
-            drives = record(learner.agent(row).as_policy(with_q=True), range(100))
-            q = [drive.q_values[range(len(drive.actions)), drive.actions][:SECONDS].mean() for drive in drives]
-            paid = np.mean([earned(drive, settings.gamma) for drive in drives])
-            found[name, settings.seed] = np.mean(q), paid, sum(drive.accident > 0 for drive in drives)
-    without = [each for (name, _), each in found.items() if name != WITH]
-    with_it = [each for (name, _), each in found.items() if name == WITH]
-    title = "What agents promise, and what they earn"
-    if all(promised > 0 > paid and crashes == 100 for promised, paid, crashes in without):
-        title = "These agents promise a gain, and crash on every road"
-        if with_it and all(abs(promised - paid) < 0.5 and crashes < 50 for promised, paid, crashes in with_it):
-            title = "With CQL's term agents earn about what they promise"
-    names = [f"{name}, seed {seed}" for name, seed in found]
-    colours = [style("cql").colour if name == WITH else OTHER.colour for name, _ in found]
-    promised, paid, crashes = (np.array(each) for each in zip(*found.values(), strict=True))
-    label, ring = "worth, mean of the first 20 s (γ = 0.8)", "the promise, Q of the actions taken"
-    filled = np.zeros((1, len(names)), bool)
-    figure, ax = worths(names, promised[None], filled, paid, rule_on_its_way(), colours, label, ring)
-    for row, crashed in enumerate(crashes):
-        beside(ax, row, f"{crashed} % crash")
-    said = [
-        f"{names[row]}: promises {promised[row]:.1f}, is then worth {paid[row]:.1f}, {crashes[row]} crash on 100 roads"
-        for row in range(len(names))
-    ]
-    return finish(figure, title, f"{'; '.join(said)}. The rule is worth {rule_on_its_way():.1f}.")
-
-
-def estimates(names: Sequence[str], alike: Sequence[float], fits: np.ndarray, truth: Sequence[float]) -> Figure:
-    """What agents are worth: a ring for each fit, (fits, agents), filled if it is the largest of its fit, and the
-    truth. alike: how often each acts as the data do.
-    """
-    largest, title = fits.argmax(1), "What is each agent worth? Estimates, and the truth"
-    if (fits.max(1) > np.array(truth)[largest]).all():
-        title = "In each fit the largest estimate is too large"
-    shares, by_rule, alt = [f"{100 * each:.0f} %" for each in alike], choosing.rule_worth(), []
-    rows = [f"{name}\nas the data: {each}" for name, each in zip(names, shares, strict=True)]
-    filled, colours = largest[:, None] == range(len(names)), [OTHER.colour] * len(names)
-    label, ring = "worth from the start (γ = 0.8)", "an estimate · filled: the largest of its fit"
-    figure, ax = worths(rows, fits, filled, truth, by_rule, colours, label, ring)
-    for row, guesses in enumerate(fits.T):
-        words = f"largest in {(largest == row).sum()}" if row in largest else ""
-        beside(ax, row, words, colour=OTHER.colour)
-        said = f"{', '.join(f'{each:.2f}' for each in guesses)}{words and ', '}{words}; truth {truth[row]:.2f}"
-        alt.append(f"{names[row]}, acts as the data do in {shares[row]}: {said}")
-    return finish(figure, title, f"{'. '.join(alt)}. The rule is worth {by_rule:.2f}.")
-
-
-def worths(
-    rows: Sequence[str],
-    claimed: np.ndarray,
-    filled: np.ndarray,
-    truth: Sequence[float],
-    by_rule: float,
-    colours: Sequence[str],
-    label: str,
-    ring: str,
-) -> tuple[Figure, Axes]:
-    """A row for each agent: what is claimed of its worth, (claims, agents), rings or filled; a bar for the truth.
-
-    by_rule: what the rule is worth, a line. label: of the axis. ring: what a ring is.
-    """
-    height = 1.1 + 0.48 * len(rows)  # inches
-    figure = new_figure(height)
-    ax = figure.add_axes((0.27, 0.5 / height, 0.58, 1 - 1.1 / height))
-    ax.axvline(by_rule, color=style("rule").colour, linewidth=1.5, zorder=1)
-    for row, values in enumerate(claimed.T):
-        dots(ax, values, row, colours[row], filled[:, row], bar=truth[row], size=30)
-    name_rows(ax, rows, label)
-    ax.margins(x=0.04)
-    key = f"ring: {ring} · bar: the truth on the road · green: the rule"
+            agent = learner.agent(row)
+            actions, promise = choosing.promised(agent.as_policy(with_q=True), data.states)
+            drives = record(agent.as_policy(), range(100))
+            crashes[name].append(sum(drive.accident > 0 for drive in drives))
+            taken.append(actions)
+            names.append(f"{name}, seed {settings.seed}")
+            colours.append(style("cql").colour if name == WITH else OTHER.colour)
+            words.append(f"{crashes[name][-1]} crash on 100 roads\npromises {promise:.1f}")
+    shares = [torch.bincount(each, minlength=9).reshape(3, 3).numpy() / len(each) for each in taken]
+    faster = [share[2].sum() for share in shares[1:]]
+    title = "What the rule did, and what the agents would do"
+    if min(faster) == 1 and all(each == 100 for many in crashes.values() for each in many):
+        title = "Both would always accelerate, and crash on every road"
+    elif set(learners) == {WITH} and max(abs(each - shares[0][2].sum()) for each in faster) < 0.15:
+        title = "With CQL's term agents accelerate about as often as the rule"
+    figure, height = new_figure(2.95), 2.95
+    for place, (name, share, colour, below) in enumerate(zip(names, shares, colours, words, strict=True)):
+        ax = axes_at(figure, 0.85 + 2.1 * place, 0.92, 1.7, 1.2)
+        fade = LinearSegmentedColormap.from_list("", ["white", colour])
+        ax.imshow(share[::-1], cmap=fade, vmin=0, vmax=0.8, aspect="auto")  # "accelerate" on top
+        for (row, column), value in np.ndenumerate(share[::-1]):
+            ax.text(column, row, f"{100 * value:.0f} %", ha="center", va="center", fontsize=TEXT, color=INK)
+        ax.set_xticks(range(3), ["left", "straight", "right"])
+        ax.set_yticks(range(3), ["accelerate", "keep", "brake"] if place == 0 else [""] * 3)
+        ax.tick_params(length=0, labelsize=TEXT, labelcolor=INK)
+        ax.spines[:].set_color(GRID)
+        ax.set_title(name, fontsize=TEXT, color=colour)
+        ax.set_xlabel(below, fontsize=TEXT, color=INK)
+    key = f"share of the {len(data.actions):,} recorded seconds · promise: mean Q of the action chosen (γ = 0.8)"
     figure.text(0.012, 1 - 0.52 / height, key, fontsize=TEXT, color=QUIET)
-    return figure, ax
+    said = "; ".join(
+        f"{name}: accelerates {100 * share[2].sum():.0f} %, {below}".replace("\n", ", ")
+        for name, share, below in zip(names, shares, words, strict=True)
+    )
+    return finish(figure, title, f"A grid of nine actions each. {said}.")
+
+
+def estimates(names: Sequence[str], alike: np.ndarray, estimated: np.ndarray, truth: np.ndarray) -> Figure:
+    """How far estimates are off, for sets of agents, (sets, agents); filled: the largest estimate of its set.
+
+    alike: how often each acts as the data do.
+    """
+    off, largest = estimated - truth, estimated.argmax(1)
+    is_taken = largest[:, None] == np.arange(len(names))
+    title = "How far is each estimate off?"
+    if abs(off[alike > 0.8]).max() < 0.1 < 1 < abs(off[alike < 0.4]).max():
+        title = "Estimates are nearest where an agent acts as the data do"
+    label = "seconds of the data in which an agent would act as the rule did · filled: largest of its set of six"
+    figure, ax = one_axes(3.7, title, label, "estimate minus worth on the road")
+    ax.axhline(0, color=INK, linewidth=1)
+    said = []
+    for i, name in enumerate(names):
+        look = style(METHODS_BY_NAME[name])
+        fills = np.where(is_taken[:, i], look.colour, "white")
+        x = 100 * alike[:, i]
+        ax.scatter(x, off[:, i], s=34, c=fills, edgecolors=look.colour, linewidths=1.3, zorder=3)
+        dx, dy, side = LABELS[METHODS_BY_NAME[name]]
+        ax.text(dx, dy, name, fontsize=TEXT, color=look.colour, ha=side)
+        often = f", largest in {is_taken[:, i].sum()}" if is_taken[:, i].any() else ""
+        said.append(
+            f"{name}: {x.min():.0f}–{x.max():.0f} %, off {off[:, i].min():+.2f} to {off[:, i].max():+.2f}{often}"
+        )
+    ax.set_xlim(0, 100)
+    ax.xaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")
+    return finish(figure, title, f"A dot for each agent: {'; '.join(said)}.")

@@ -1,14 +1,20 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
+import torch
 
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.policies import stochastic_rule_policy
+from bootcourse.learn.learner import SACLearner
+from bootcourse.learn.networks import mlp
+from bootcourse.learn.settings import Settings, settings_for, with_seeds
+from bootcourse.learn.training import Training
+from bootcourse.policies import Policy, PolicyOutput, stochastic_rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
@@ -20,37 +26,96 @@ def of_paper(method: str) -> Results:
     return shipped_results("paper").of(method)
 
 
+SETS = 5  # of six agents, one of each of `choosing.METHODS`
+
+
 @cache
-def overlap_of(which: int) -> float:
-    """In which share of the recorded seconds the first agent of one of `choosing.METHODS` would do what was done."""
-    return choosing.overlap(list(choosing.agents().values())[which], choosing.recorded())
+def agents() -> list[Policy]:
+    """The notebook's 30, one set after the other."""
+    return [agent for which in range(SETS) for agent in choosing.agents(which).values()]
+
+
+@cache
+def overlaps() -> np.ndarray:
+    """In which share of the recorded seconds each would do what was done, (sets, agents)."""
+    return choosing.by_set([choosing.overlap(agent, choosing.recorded()) for agent in agents()])
 
 
 @cache
 def estimated() -> np.ndarray:
-    """What each of the lesson's six agents is worth by each of four fits, (fits, agents), as in its notebook."""
-    return choosing.fits(choosing.agents().values(), choosing.recorded(), times=4)
+    """What each is worth by the notebook's fit, (sets, agents)."""
+    return choosing.by_set(choosing.fits(agents(), choosing.recorded(), times=1)[0])
 
 
 @cache
 def truth() -> np.ndarray:
-    """What each of the six is worth on the road, (agents,)."""
-    return np.array([choosing.worth(agent, range(100), 0.8) for agent in choosing.agents().values()])
+    """What each is worth on the road, (sets, agents)."""
+    return choosing.by_set([choosing.worth(agent, range(100), 0.8) for agent in agents()])
+
+
+def off() -> np.ndarray:
+    """By how much each estimate is too high, (sets, agents)."""
+    return estimated() - truth()
+
+
+def of_taken(values: np.ndarray) -> np.ndarray:
+    """Of values (sets, agents) those of the agent with the largest estimate of its set, (sets,)."""
+    return np.take_along_axis(values, estimated().argmax(-1)[:, None], -1)[:, 0]
+
+
+@cache
+def successes() -> np.ndarray:
+    """In which share of its drives each gets ahead of trap 1, (sets, agents)."""
+    return np.array([of(method).scores("success")[:SETS] for method in choosing.METHODS]).T
+
+
+@cache
+def short(weight: float) -> tuple[list[float], list[int]]:
+    """Two agents of Round 2, with this weight of CQL's term: how often they would accelerate, their crashes."""
+    settings = with_seeds(settings_for("cql", cql_weight=weight), 2)
+    learner, states = updated(settings, 1000), choosing.recorded().states
+    policies = [learner.agent(row).as_policy() for row in range(2)]
+    faster = [float((choosing.actions_of(policy, states) >= 6).float().mean()) for policy in policies]
+    return faster, [crashes(policy) for policy in policies]
+
+
+def updated(settings: Sequence[Settings], updates: int) -> SACLearner:
+    """Agents after so many updates from recorded drives, as in the notebook."""
+    training, generators = Training(settings), [np.random.default_rng(each.seed) for each in settings]
+    for _ in range(updates):
+        training.learner.update(training.replay.sample(64, np.ones(len(settings)), generators))
+    return training.learner
+
+
+def crashes(policy: Policy) -> int:
+    """On how many of 100 roads a driver has an accident."""
+    return sum(drive.accident > 0 for drive in record(policy, range(100)))
+
+
+@cache
+def crashes_of_seed_3() -> int:
+    """Crashes of the fourth agent with CQL's term, trained for twice as long."""
+    return crashes(updated(with_seeds(settings_for("cql"), 4)[3:], 2000).agent(0).as_policy())
+
+
+@cache
+def crashes_without_the_best() -> list[int]:
+    """Crashes of two agents whose target holds the next action of the data, not the best; they take the highest Q."""
+    data = choosing.recorded()
+    following = torch.cat([data.actions[200:], data.actions[-200:]])  # the rows are second by second, 200 in each
+    assert torch.equal(data.next_states[:-200], data.states[200:])
+    q = choosing.fitted_q([lambda *_: PolicyOutput(following.numpy())] * 2, data, 0.8, [0, 1])
+
+    def greedy(which: int) -> Policy:
+        own = [each[which : which + 1].detach() for each in q]
+        return lambda seen, _: PolicyOutput(mlp(own, torch.as_tensor(seen).float()[None])[0].argmax(-1).numpy())
+
+    return [crashes(greedy(which)) for which in (0, 1)]
 
 
 def accidents_of_escapers() -> np.ndarray:
     """In which share of its drives each GAIL agent that escapes leaves the road, (agents,)."""
     return of("gail").scores("road_departure")[of("gail").scores("success") >= ESCAPES]
-
-
-def misses() -> np.ndarray:
-    """By how much the worst fit misses what each of the six is worth."""
-    return np.abs(estimated() - truth()).max(axis=0)
-
-
-def largest() -> list[int]:
-    """Which of the six has the largest estimate in each fit."""
-    return estimated().argmax(axis=1).tolist()
 
 
 @cache
