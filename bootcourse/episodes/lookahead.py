@@ -43,8 +43,12 @@ def imagine(
     policy: Policy,
     horizon: int = HORIZON,
     scenario: Scenario = DEFAULT,
+    gamma: float = 1.0,
+    with_worth: bool = True,
 ) -> Imagined:
     """On each road, from each of some first actions: follow the policy for the rest of the horizon.
+
+    A drive is worth its rewards, discounted by gamma, and `worth_of_speed` at its end, unless that is left out.
 
     cars (roads, vehicles, 10), which stay as they are; first (roads, branches) in 0..8. A policy that draws its
     actions is followed along one drawn drive for each first action. A policy with a state of its own (with a method
@@ -60,9 +64,11 @@ def imagine(
         if decision > 0:
             observe_all(states, constants(scenario), observations)
             actions = follow(observations, states).actions
-        values += advance(states, actions, accidents, scenario)
+        values += gamma**decision * advance(states, actions, accidents, scenario)
         places.append(states[:, EGO, X : Y + 1].copy())
-    values += np.where(accidents == 0, np.interp(states[:, EGO, SPEED], *worth_of_speed(scenario)), 0.0)
+    if with_worth:
+        later = np.interp(states[:, EGO, SPEED], *worth_of_speed(scenario))
+        values += gamma**horizon * np.where(accidents == 0, later, 0.0)
     paths = np.stack(places, axis=1).reshape(len(cars), branches, horizon + 1, 2)
     return Imagined(values.reshape(-1, branches), accidents.reshape(-1, branches), paths)
 
@@ -109,7 +115,8 @@ class LookAhead:
 
     policy: an agent's, a rule's, a plan, your own. horizon: decisions of an imagined drive, the first included.
     scenario: of the roads that it drives. models: what it imagines; of several, the worst case counts. seed: of what
-    the models draw. Of equal values the first action is taken. About 0.15 ms for each decision on a free core.
+    the models draw. gamma and with_worth: see `imagine`. Of equal values the first action is taken. About 0.15 ms for
+    each decision on a free core.
 
     Its output has the base policy's π, and the nine values as Q. Of the last decision, for pictures and counts:
     `imagined`, the nine imagined drives on each road, and `overruled` (roads,) bool, whether the action is not the
@@ -123,8 +130,10 @@ class LookAhead:
         scenario: Scenario = DEFAULT,
         models: Sequence[Model] = (EXACT,),
         seed: int = 0,
+        gamma: float = 1.0,
+        with_worth: bool = True,
     ):
-        self.policy, self.scenario = check_policy(policy), scenario
+        self.policy, self.scenario, self.counted = check_policy(policy), scenario, (gamma, with_worth)
         self.horizon = whole(horizon, "horizon", 1000, low=1)
         self.models, self.seed = tuple(models), whole(seed, "seed")
         if not self.models:
@@ -173,7 +182,7 @@ class LookAhead:
             raise BootcourseError("A policy with a state of its own cannot be imagined with several kinds of drivers.")
         groups = [rows[rows % len(kinds) == kind] for kind in range(len(kinds))]
         parts = [
-            imagine(cars[group], first[group], self.policy, self.horizon, scenario)
+            imagine(cars[group], first[group], self.policy, self.horizon, scenario, *self.counted)
             for group, scenario in zip(groups, kinds, strict=True)
             if len(group)
         ]

@@ -46,6 +46,7 @@ CLOSELY = ("ppo_cloned", "bootstrapped")  # the base policies whose model is var
 HORIZONS = (3, 6, 15)
 ROADS, MANY = 1000, 10_000  # held-out roads of an agent: mostly, and of the safest
 FEW, FEWER = 300, 100  # of long computations
+AIMS = ((1.0, True), (1.0, False), (0.8, True), (0.8, False))  # (γ of an imagined drive, with W): what leads SAC out?
 SHIPPING = 10  # agents of a base policy of which not all ship elsewhere: their actors ship with this experiment
 
 
@@ -59,6 +60,8 @@ class Cell:
     roads: int = ROADS
     horizon: int = HORIZON  # decisions
     model: str = "exact"  # one of MODELS
+    gamma: float = 1.0  # of an imagined drive
+    with_worth: bool = True  # of the speed at its end, W
 
     def __post_init__(self):
         check_known("Base policy", self.base, BASES)
@@ -67,11 +70,13 @@ class Cell:
 
     @property
     def name(self) -> str:
-        """Such as "ppo_cloned, shield, twice the time gap"."""
+        """Such as "ppo_cloned, shield, twice the time gap" or "sac, rollouts, gamma 0.8"."""
         parts = [self.base, self.form]
         parts += [f"{self.horizon} decisions"] if self.horizon != HORIZON else []
         parts += [self.model] if self.model != "exact" else []
         parts += [f"{self.roads} roads"] if self.roads == MANY else []
+        parts += [f"gamma {self.gamma:g}"] if self.gamma != 1 else []
+        parts += ["without W"] if not self.with_worth else []
         return ", ".join(parts)
 
 
@@ -87,7 +92,8 @@ def every_cell() -> list[Cell]:
     most = [Cell("ppo_cloned", "shield", roads=MANY)]
     most += [Cell("bootstrapped", "shield", roads=FEW, model=model) for model in wrong]
     most += [Cell("bootstrapped", roads=ROADS if model == wrong[0] else FEW, model=model) for model in wrong]
-    return [*plain, *closely, *shields, *horizons, *others, *rollouts, *most]
+    aims = [Cell("sac", roads=FEWER, gamma=gamma, with_worth=worth) for gamma, worth in AIMS[1:]]
+    return [*plain, *closely, *shields, *horizons, *others, *rollouts, *most, *aims]
 
 
 def cells(seeds: int = max(BASES.values()), tests: int = MANY) -> dict[str, dict]:
@@ -114,7 +120,8 @@ def drive_cell(cell: Cell, trained: Path) -> Results:
     drivers = [rule_policy(DEFAULT)] if cell.base == "rule" else [agent.as_policy() for agent in agents]
     measures = []
     for i, driver in enumerate(drivers):
-        policy = make(driver, cell.horizon, DEFAULT, MODELS[cell.model], seed=i) if make else driver
+        counted = {"gamma": cell.gamma, "with_worth": cell.with_worth}
+        policy = make(driver, cell.horizon, DEFAULT, MODELS[cell.model], seed=i, **counted) if make else driver
         measures.append(measured(policy, held_out_seeds(HELD_OUT, cell.roads)))
     entries = agent_entries([agent.settings for agent in agents])
     return Results(

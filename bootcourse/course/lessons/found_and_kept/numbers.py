@@ -11,7 +11,7 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
-from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost, rolling_means
+from bootcourse.statistics import HAD, IN_A_ROW, LOST, Estimate, lost, rolling_means
 from tools.course.known import in_training, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
@@ -76,10 +76,20 @@ def earns_less(both: Group, *others: Group) -> bool:
     return all(bool(both.earned.max() < each.earned[each.keep].min()) for each in others)
 
 
-def one_road() -> list[float]:
-    """The chances of round 3 in the settings with one road at a time."""
+def with_one_road() -> list[Estimate]:
+    """The chances of round 3, with their intervals, in the settings with one road at a time."""
     settings = study_clocks.choices(shipped_experiment("clocks"))
-    return [study_clocks.pattern(each).value for (updates, _), each in settings.items() if updates != "1/4"]
+    return [study_clocks.pattern(each) for (updates, _), each in settings.items() if updates != "1/4"]
+
+
+def one_road() -> list[float]:
+    """Those chances alone."""
+    return [chance.value for chance in with_one_road()]
+
+
+def lowest_bound() -> float:
+    """The lowest end of their intervals."""
+    return min(chance.low for chance in with_one_road())
 
 
 def alone_and_staying() -> tuple[int, int, int]:

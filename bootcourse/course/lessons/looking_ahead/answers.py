@@ -7,17 +7,17 @@ from tests.answers import right, right_lines, wrong, wrong_lines
 
 
 @right("rollout_values")
-def by_recursion(cars, policy, horizon):
+def by_recursion(cars, policy, horizon, gamma, worth):
     def earned(cars, actions, left):
         following, rewards, crashed = imagined_road.step(cars, actions)
-        later = earned(following, policy(following), left - 1) if left > 1 else imagined_road.worth(following[:, 0, 3])
-        return rewards + np.where(crashed, 0.0, later)
+        later = earned(following, policy(following), left - 1) if left > 1 else worth(following[:, 0, 3])
+        return rewards + gamma * np.where(crashed, 0.0, later)
 
     return np.stack([earned(cars, np.full(len(cars), action), horizon) for action in range(9)], axis=1)
 
 
 wrong_lines("""rollout_values
-    one action: solution(cars, policy, horizon)[:, :1]
+    one action: solution(cars, policy, horizon, gamma, worth)[:, :1]
 """)
 
 
@@ -32,17 +32,31 @@ wrong_lines("""shield
 """)
 
 
-@wrong("rollout_values")
-def all_roads_stop_at_a_late_accident_of_one(cars, policy, horizon):
+@right("rollout_values")
+def action_by_action(cars, policy, horizon, gamma, worth):
     values = np.zeros((len(cars), 9))
     for action in range(9):
         imagined, alive = cars, np.ones(len(cars), dtype=bool)
         for decision in range(horizon):
             actions = np.full(len(cars), action) if decision == 0 else policy(imagined)
             imagined, rewards, crashed = imagined_road.step(imagined, actions)
-            values[:, action] += alive * rewards
+            values[:, action] += alive * gamma**decision * rewards
+            alive &= ~crashed
+        values[:, action] += alive * gamma**horizon * worth(imagined[:, 0, 3])
+    return values
+
+
+@wrong("rollout_values")
+def all_roads_stop_at_a_late_accident_of_one(cars, policy, horizon, gamma, worth):
+    values = np.zeros((len(cars), 9))
+    for action in range(9):
+        imagined, alive = cars, np.ones(len(cars), dtype=bool)
+        for decision in range(horizon):
+            actions = np.full(len(cars), action) if decision == 0 else policy(imagined)
+            imagined, rewards, crashed = imagined_road.step(imagined, actions)
+            values[:, action] += alive * gamma**decision * rewards
             alive &= ~crashed
             if decision >= 4 and crashed.any():
                 break
-        values[:, action] += alive * imagined_road.worth(imagined[:, 0, 3])
+        values[:, action] += alive * gamma**horizon * worth(imagined[:, 0, 3])
     return values

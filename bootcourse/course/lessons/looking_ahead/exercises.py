@@ -32,6 +32,11 @@ def by_rule(cars):
     return rule(cars, DEFAULT).actions
 
 
+def nothing(speeds):
+    """Nothing, at each speed."""
+    return np.zeros_like(speeds)
+
+
 def reached(roads: int, decisions: int, action: int, seed: int) -> np.ndarray:
     """The cars of some roads after some decisions of the same action, (roads, vehicles, 10)."""
     env = TrapVectorEnv(roads)
@@ -50,67 +55,80 @@ def blocked() -> np.ndarray:
 
 
 def cases(rng):
-    """One decision; accidents for some actions; a policy that must be asked again; then 16 at random.
+    """One decision; accidents for some actions; a policy that must be asked again; discounted, or without W.
 
-    At last eight roads on which drives end early, late, and not at all within 20 decisions, also of one action.
+    Then 16 at random; at last eight roads on which drives end early, late, and not at all within 20 decisions, also of
+    one action.
     """
-    yield reached(2, 0, IDLE, 3), keep, 1
-    yield reached(2, 4, FAST, 5), keep, 4
-    yield reached(2, 3, FAST, 7), accelerate, 6
-    yield reached(3, 3, FAST, 7), by_rule, 4
-    yield reached(3, 2, IDLE, 9), by_lane, 5
-    yield reached(2, 0, IDLE, 11), by_rule, 10
+    worth = imagined_road.worth
+    yield reached(2, 0, IDLE, 3), keep, 1, 1.0, worth
+    yield reached(2, 4, FAST, 5), keep, 4, 1.0, worth
+    yield reached(2, 3, FAST, 7), accelerate, 6, 1.0, worth
+    yield reached(3, 3, FAST, 7), by_rule, 4, 1.0, nothing
+    yield reached(3, 3, FAST, 7), by_rule, 4, 0.8, nothing
+    yield reached(3, 2, IDLE, 9), by_lane, 5, 0.8, worth
+    yield reached(2, 0, IDLE, 11), by_rule, 10, 1.0, worth
     for seed in range(16):
         policy = (keep, accelerate, by_lane, by_rule)[rng.integers(4)]
-        yield reached(2, int(rng.integers(5)), FAST, 20 + 2 * seed), policy, int(rng.integers(1, 9))
+        cars, horizon = reached(2, int(rng.integers(5)), FAST, 20 + 2 * seed), int(rng.integers(1, 9))
+        yield cars, policy, horizon, float(rng.choice([1.0, 0.9])), worth
     cars = reached(8, 1, IDLE, 60)
     cars[4:, EGO + 1 :, X] += 500.0  # m: nobody is near
-    yield cars, keep, 20
+    yield cars, keep, 20, 1.0, worth
 
 
 @exercise(
     "Q(s, a): the return of doing a and then following the policy, over the horizon (Tesauro & Galperin 1996)",
     minutes=18, difficulty=3, cases=cases,
     # every action touches the car ahead within the first decision: -10, and nothing follows
-    worked=[((blocked(), keep, 3), np.full((1, 9), DEFAULT.reward.accident))],
+    worked=[((blocked(), keep, 3, 1.0, imagined_road.worth), np.full((1, 9), DEFAULT.reward.accident))],
     mistakes={
         "range(horizon) -> range(horizon + 1)":
             "You imagine one decision too many: the horizon counts the first decision, too.",
-        "+= alive * rewards -> += rewards":
+        "values += alive * gamma**decision * rewards -> values += gamma**decision * rewards":
             "Your imagined car earns after its accident. An accident ends the episode: nothing is added from there on.",
-        "+= alive * imagined_road.worth -> += imagined_road.worth":
+        "gamma**decision * rewards -> rewards":
+            "Your rewards are not discounted: the reward of decision k counts γ to the power of k.",
+        "gamma**decision * rewards -> gamma ** (decision + 1) * rewards":
+            "You discount the first reward, too: the decisions count from 0.",
+        "alive * gamma**horizon * worth(imagined[:, 0, 3]) -> gamma**horizon * worth(imagined[:, 0, 3])":
             "A drive that ended in an accident has no future: add the worth of the last speed only where the car is "
             "still driving.",
-        "values[:, action] += alive * imagined_road.worth(imagined[:, 0, 3]) ->":
+        "gamma**horizon * worth -> worth":
+            "The worth of the last speed comes after the horizon: it counts γ to the power of h.",
+        "values += alive * gamma**horizon * worth(imagined[:, 0, 3]) ->":
             "What comes after the horizon is missing. A drive that ends slowly is then worth as much as one that ends "
             "fast.",
-        "np.full(len(cars), action) if decision == 0 else policy(imagined) -> policy(imagined)":
+        "first if decision == 0 else policy(imagined) -> policy(imagined)":
             "All nine drives begin with the policy's own action, so the nine values are equal. The first decision is "
             "the action that is judged.",
-        "np.full(len(cars), action) if decision == 0 else policy(imagined) -> np.full(len(cars), action)":
+        "first if decision == 0 else policy(imagined) -> first":
             "You hold the action for the whole drive. Only the first decision is given; after it the policy decides.",
-        "policy(imagined) -> policy(cars)":
+        "policy(imagined) -> policy(cars).repeat(9)":
             "You ask the policy about the road as it is now. Ask it about the imagined road, again at each decision.",
-        "return values - values.max(axis=1, keepdims=True)":
+        "values.reshape(-1, 9) -> values.reshape(9, -1).T":
+            "The values of different roads are mixed up. `cars.repeat(9, axis=0)` keeps the nine copies of a road "
+            "together.",
+        "return values.reshape(-1, 9) - values.reshape(-1, 9).max(axis=1, keepdims=True)":
             "You subtract the best value. Return the values themselves: others compare them with returns.",
     },
     hints=(
-        "Three loops: over the nine actions, over the decisions of a drive; all roads go along as arrays.",
-        "Keep `alive`, (roads,) bool: a reward counts where the car was alive before the decision. After the last "
-        "decision `imagined_road.worth(imagined[:, 0, 3])` counts in the same way.",
+        "Copy each road nine times with `cars.repeat(9, axis=0)`: the first actions are then 0 to 8 for each road, "
+        "`np.tile(np.arange(9), len(cars))`. One loop over the decisions is left.",
+        "Keep `alive`, one bool for each copy: a reward counts where the copy was alive before the decision. After the "
+        "last decision `worth(imagined[:, 0, 3])` counts in the same way. At last `values.reshape(-1, 9)`.",
     ),
 )  # fmt: skip
-def rollout_values(cars, policy, horizon):
-    values = np.zeros((len(cars), 9))
-    for action in range(9):
-        imagined, alive = cars, np.ones(len(cars), dtype=bool)
-        for decision in range(horizon):
-            actions = np.full(len(cars), action) if decision == 0 else policy(imagined)
-            imagined, rewards, crashed = imagined_road.step(imagined, actions)
-            values[:, action] += alive * rewards
-            alive &= ~crashed
-        values[:, action] += alive * imagined_road.worth(imagined[:, 0, 3])
-    return values
+def rollout_values(cars, policy, horizon, gamma, worth):
+    first, imagined = np.tile(np.arange(9), len(cars)), cars.repeat(9, axis=0)
+    values, alive = np.zeros(len(first)), np.ones(len(first), dtype=bool)
+    for decision in range(horizon):
+        actions = first if decision == 0 else policy(imagined)
+        imagined, rewards, crashed = imagined_road.step(imagined, actions)
+        values += alive * gamma**decision * rewards
+        alive &= ~crashed
+    values += alive * gamma**horizon * worth(imagined[:, 0, 3])
+    return values.reshape(-1, 9)
 
 
 NINE_VALUES = np.array([[5.0, -3.0, 7.0, 1.0, 0.0, 2.0, -1.0, 4.0, 3.0]])

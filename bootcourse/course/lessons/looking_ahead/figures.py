@@ -12,25 +12,27 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from bootcourse.colours import ALARM
+from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.road_model import ImaginedAhead, RoadModel
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, new_figure, plain_axes
+from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
+from bootcourse.policies import Policy
 from bootcourse.research.experiments import learned_model
-from bootcourse.research.experiments.lookahead import CLOSELY, Cell
+from bootcourse.research.experiments.lookahead import AIMS, CLOSELY, Cell
 from bootcourse.research.results import Results
 from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
 MEANINGS = {  # of the wrong models that the lesson shows, for readers
     "others keep speed and lane": "nobody accelerates, brakes or changes lane",
     "twice the time gap": "the others keep twice the distance",
-    "only the four visible cars": "the cars that the agent's numbers do not show are missing",
+    "only the four visible cars": "those that the agent does not see are missing",
     "places off by 1 m, speeds by 0.5 m/s": "noise on the others, drawn anew each second",
     "the others a second late": "the others where they were a second ago, moved on at their speed",
-    "everything a second late": "the whole road as it was a second ago, the ego included",
+    "everything a second late": "the ego, too",
 }
 ERRORS = [f"{name}: {meaning}" for name, meaning in MEANINGS.items()]  # to choose from
 LEARNED_FORM = "mean of five"  # of the look-ahead in a learned model, as the lesson shows it
@@ -92,29 +94,72 @@ def each_agent(cells: dict[str, Results], base: str) -> Figure:
     return finish(figure, title, f"A line for each agent, from alone to with the look-ahead. {'; '.join(alt_parts)}.")
 
 
-def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
+def out_of_trap(
+    drivers: Mapping[str, Policy], roads: Sequence[int], study: Mapping[str, Results]
+) -> tuple[list[str], list[list]]:
+    """A table of who ends ahead of trap 1, by what the look-ahead counts: its headings and rows.
+
+    drivers: one agent's, in the order of the study's `AIMS`; beside them the study's nine agents that are stuck alone.
+    """
+    stuck = study[Cell("sac", "alone").name].measured["success"] < 0.01
+    rows = []
+    for (name, driver), (gamma, with_worth) in zip(drivers.items(), AIMS, strict=True):
+        out = study[Cell("sac", gamma=gamma, with_worth=with_worth).name].measured["success"][stuck]
+        some = f"{(out > 0).sum()} of {len(out)}"
+        rows.append([name, int(drive_episodes(driver, roads).success.sum()), f"{100 * out.mean():.0f} %", some])
+    headings = ["what counts", f"this agent is out in {len(roads)}", "all nine, mean", "out in some drives"]
+    return headings, rows
+
+
+def _judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """At each decision of a drive: Q̂ in a model, Q̂ on the true road, and whether the true drive ends in an accident.
+
+    Each (decisions, 9).
+    """
+    values = ImaginedAhead(agent, model)(drive.observations[: len(drive.actions)], drive.cars).q_values
+    true = nine_drives(drive.cars, agent.as_policy(), drive.scenario)
+    return values, true.values, true.accidents > 0
+
+
+def shares_that_crash(agent: Agent, model: RoadModel, drives: Sequence[Rollout]) -> tuple[float, float, float]:
+    """How often an action's true drive ends in an accident: the model's best of nine, drawn at random, the agent's own.
+
+    Over the decisions of drives of the agent alone at which not all nine do.
+    """
+    judged = [(*_judged(agent, model, drive), drive.actions) for drive in drives]
+    values, _, hurt, own = (np.concatenate(columns) for columns in zip(*judged, strict=True))
+    open_ = ~hurt.all(1)
+    of = [np.take_along_axis(hurt, actions[:, None], 1)[open_].mean() for actions in (values.argmax(1), own)]
+    return float(of[0]), float(hurt[open_].mean()), float(of[1])
+
+
+def promised(agent: Agent, model: RoadModel, drive: Rollout, drives: Sequence[Rollout]) -> Figure:
     """The nine Q̂ in a learned model and on the true road, at one decision of a drive that the agent itself drove.
 
     It is the first at which the best of nine in the model ends in an accident and another action would not; without
-    one, the drive's first. The title says which it is.
+    one, the drive's first. The title says which it is. Below: `shares_that_crash` of some drives.
     """
-    values = ImaginedAhead(agent, model)(drive.observations[: len(drive.actions)], drive.cars).q_values
-    true, taken = nine_drives(drive.cars, agent.as_policy(), drive.scenario), values.argmax(1)
-    hurt = true.accidents > 0
+    values, true, hurt = _judged(agent, model, drive)
+    taken = values.argmax(1)
     misled = hurt[np.arange(len(taken)), taken] & ~hurt.all(1)
-    now, of = int(misled.argmax()), f"The model misleads at {misled.sum()} of the drive's {len(misled)} decisions."
+    now, best_of, drawn, own = int(misled.argmax()), *shares_that_crash(agent, model, drives)
+    of = (
+        f"Actions whose true drive ends in an accident, over {len(drives)} drives: "
+        f"the model's best {100 * best_of:.0f} %, drawn at random {100 * drawn:.0f} %, "
+        f"the agent's own {100 * own:.0f} %."
+    )
     title = (
         f"The model's best of nine ends in an accident; {(~hurt[now]).sum()} of the other eight do not"
         if misled.any()
         else "The model's best of nine ends well"
     )
-    figure, ends, best, alt_parts = new_figure(4.4), hurt[now], taken[now], []
+    figure, ends, best, alt_parts = new_figure(4.55), hurt[now], taken[now], []
     ax, at = axes_at(figure, 1.35, 0.8, 4.0, 2.95), np.arange(N_ACTIONS)
     colours = [ALARM if end else style("bootstrapped").colour for end in ends]
     ax.barh(at - 0.19, values[now], 0.34, facecolor="white", edgecolor=INK, linewidth=0.9)
-    ax.barh(at + 0.19, true.values[now], 0.34, color=colours)
+    ax.barh(at + 0.19, true[now], 0.34, color=colours)
     for row, name in enumerate(ACTION_NAMES):
-        pair = f"{values[now, row]:.0f} and {true.values[now, row]:.0f}".replace("-", "−")
+        pair = f"{values[now, row]:.0f} and {true[now, row]:.0f}".replace("-", "−")
         words, bold = f"{pair}{'   ← taken' if row == best else ''}", "bold" if row == best else "normal"
         ax.text(158, row, words, va="center", fontsize=TEXT, color=ALARM if ends[row] else INK, fontweight=bold)
         alt_parts.append(f"{name}: {pair}{', taken' if row == best else ''}")
@@ -123,49 +168,56 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
     ax.set_yticks(at, ACTION_NAMES, fontsize=TEXT, color=INK)
     ax.axvline(0, color=QUIET, linewidth=0.8)
     ax.set_xlabel(f"Q̂ at decision {now + 1}", fontsize=TEXT, color=INK)
-    words = f"white: in the model; filled: on the true road, red with an accident. {of}"
+    words = f"white: in the model; filled: on the true road, red with an accident.\n{of}"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     alt = f"Decision {now + 1}, Q̂ in the model and on the true road. {'; '.join(alt_parts)}. {of}"
     return finish(figure, title, alt)
 
 
 def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
-    """Accidents of each agent that looks ahead in a model that it learned: a row for each way to drive for the model.
+    """Accidents of agents that look ahead in a model that they learned, by how many decisions it learned from.
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
-    title = "Random actions in the drives help the look-ahead; its own drives help more"
-    agents, base, figure = learned_model.together(computed), learned_model.BASE, new_figure(3.5)
-    alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)], style(base).colour
-    shares = [learned_model.together(computed, share) for share in learned_model.RANDOM]
-    controls = [learned_model.per_thousand(of, LEARNED_FORM, control=True)[:, 0] for of in (agents, *shares)]
-    values = np.array([alone, *controls, learned_model.per_thousand(agents, LEARNED_FORM)[:, -1]])  # (rows, agents)
-    sizes = [agents.measured["rows"], *(of.measured["rows"] for of in shares), agents.notes["rows"][:, -1]]
-    drivers = ["the agent", *(f"the agent, {100 * share:.0f} % random" for share in learned_model.RANDOM)]
-    sizes = [f"{each.mean() / 1000:.0f}" for each in sizes]
-    rows = [("no model: the agent alone", "")]
-    rows += zip([*drivers, "the agent, then the look-ahead"], sizes, strict=True)
-    left, top, height = 2.8, 1.15, 1.6
-    ax, at = axes_at(figure, left, top, 3.5, height), np.arange(len(values))
-    ax.plot(values, at, "o", color=colour, alpha=0.4, ms=4, mew=0, clip_on=False)
-    ax.plot(values.mean(1), at, "D", color=INK, ms=5, clip_on=False, zorder=4)
-    for row, mean in enumerate(values.mean(1)):
-        ax.text(1.05, row, f"{mean:,.0f}", transform=ax.get_yaxis_transform(), va="center", fontsize=TEXT, color=INK)
-    plain_axes(ax, "accidents in 1,000 drives", grid="x")
-    ax.set(xlim=(0, 1000), ylim=(len(values) - 0.6, -0.4), yticks=[])
-    ax.set_xticks([0, 500, 1000], ["0", "500", "1,000"])
-    at = [top + height * (row + 0.4) / (len(rows) - 0.2) for row in range(len(rows))]
-    lines = [*zip(at, rows, strict=True), (top - 0.11, ("who drives for the model", "decisions\n(thousand)"))]
-    for place, (words, size) in lines:
-        look = {"fontsize": TEXT, "color": INK} if place in at else {"fontsize": SMALL, "color": QUIET}
-        y = 1 - place / figure.get_figheight()
-        figure.text(0.012, y, words, va="center", **look)
-        figure.text((left - 0.25) / WIDTH, y, size, va="center", ha="right", **look)
-    words = "a dot for each agent; diamonds and numbers: their mean"
+    title = "Random actions help; the look-ahead's own drives help more, but only in the fourth round"
+    agents, base = learned_model.together(computed), learned_model.BASE
+    alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)].mean(), style(base).colour
+    rounds = agents.notes["rows"] / 1000, learned_model.per_thousand(agents, LEARNED_FORM)  # (agents, rounds)
+    drivers = {"the agent": agents}
+    drivers |= {
+        f"{100 * share:.0f} % random": learned_model.together(computed, share) for share in learned_model.RANDOM
+    }
+    groups = {
+        name: (of.measured["rows"] / 1000, learned_model.per_thousand(of, LEARNED_FORM, control=True)[:, 0])
+        for name, of in drivers.items()
+    }
+    groups["the look-ahead"] = tuple(values[:, -1] for values in rounds)
+    places = ("s", (0, -15), "center"), ("^", (26, -5), "left"), ("v", (0, -15), "center"), ("D", (10, -4), "left")
+    figure, alt_parts = new_figure(3.7), []
+    ax = axes_at(figure, 0.6, 1.0, 6.1, 1.95)
+    for (mark, offset, side), (name, (sizes, values)) in zip(places, groups.items(), strict=True):
+        x, y, look = sizes.mean(), values.mean(), colour if name == "the look-ahead" else INK
+        ax.plot(sizes, values, mark, color=look, alpha=0.3, ms=3.5, mew=0, clip_on=False)
+        ax.plot(x, y, mark, color=look, ms=8, clip_on=False, zorder=4)
+        text, at = f"{name}: {y:,.0f}", {"textcoords": "offset points", "ha": side}
+        ax.annotate(text, (x, y), offset, **at, fontsize=TEXT, color=look, zorder=5)
+        alt_parts.append(f"{name}, {x:.0f} thousand decisions: {y:.0f}")
+    x, y = (values.mean(0) for values in rounds)
+    ax.plot(x, y, "D-", color=colour, linewidth=2, ms=4.5, clip_on=False)
+    third = {"textcoords": "offset points", "fontsize": SMALL, "color": colour}
+    ax.annotate(f"after three rounds: {y[-2]:.0f}", (x[-2], y[-2]), (8, 0), **third)
+    ax.axhline(alone, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
+    words = f"no model, the agent alone: {alone:.0f}"
+    ax.text(119, alone - 20, words, ha="right", va="top", fontsize=SMALL, color=QUIET)
+    plain_axes(ax, "accidents in 1,000 drives")
+    ax.set(xlim=(0, 120), ylim=(0, 1030))
+    ax.set_yticks([0, 500, 1000], ["0", "500", "1,000"])
+    ax.set_xlabel("decisions that the model learned from (thousand)", fontsize=TEXT, color=INK)
+    words = "by who drives for the model; large: means of the agents, small: each agent; line: the look-ahead's rounds"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
-    drives = "; ".join(f"{words}{f', {size} thousand decisions' * bool(size)}" for words, size in rows)
-    means = ", ".join(f"{mean:.0f}" for mean in values.mean(1))
-    return finish(figure, title, f"Mean accidents in 1,000 drives, by who drives for the model ({drives}): {means}.")
+    alt = f"Mean accidents in 1,000 drives by who drives for the model. {'; '.join(alt_parts)}. "
+    alt += f"After three rounds {y[-2]:.0f}. The agent alone: {alone:.0f}."
+    return finish(figure, title, alt)
 
 
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:

@@ -41,12 +41,17 @@ def decide_by(policy: Policy) -> Decide:
     return decide
 
 
-def driver(values_of: Callable, policy: Policy, horizon: int) -> Policy:
-    """A policy that takes the best of nine values at each decision: values_of(cars, policy, horizon) -> (roads, 9)."""
-    decide = decide_by(policy)
+def driver(
+    values_of: Callable, policy: Policy, horizon: int, gamma: float = 1.0, after: Callable | None = None
+) -> Policy:
+    """A policy that takes the best of nine values at each decision: values_of(cars, policy, horizon, gamma, worth).
+
+    after: what comes after the horizon is worth, (speeds) -> values; `worth` if None.
+    """
+    decide, after = decide_by(policy), after or worth
 
     def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-        values = values_of(cars, decide, horizon)
+        values = values_of(cars, decide, horizon, gamma, after)
         return PolicyOutput(values.argmax(axis=1), q_values=values)
 
     return drive

@@ -1,6 +1,5 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -8,15 +7,16 @@ import numpy as np
 from bootcourse.course import shipped as course
 from bootcourse.course.lessons.looking_ahead import explorable, figures, imagined_road
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import record
-from bootcourse.learn.agent import Agent
-from bootcourse.learn.settings import Settings
+from bootcourse.learn.road_model import learned_from, transitions_of
+from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research.computed import experiment
 from bootcourse.research.experiments import learned_model
-from bootcourse.research.experiments.lookahead import Cell
+from bootcourse.research.experiments.lookahead import Cell, shipped_actors
 from bootcourse.research.results import Results
-from bootcourse.road.state import Accident
-from bootcourse.scenario import N_ACTIONS
+from bootcourse.road.state import EGO, TRAP_1, Accident, X
+from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS
 
 LATE = "everything a second late"
 WRONG = list(figures.MEANINGS)  # of the study's models
@@ -73,42 +73,69 @@ def earns(model: str, form: str = "rollouts") -> float:
     return float(each("ppo_cloned", form, "returns", model).mean())
 
 
-def stuck_that_ship() -> list[Agent]:
-    """Plain SAC's agents that ship, of those that stay behind alone."""
-    agents = course.shipped_agents("sac")
-    return [agent for agent, out in zip(agents, outs("sac", "alone"), strict=False) if out < 0.01]
+def worths() -> np.ndarray:
+    """W at every speed that the car can have."""
+    return imagined_road.worth(np.linspace(0, DEFAULT.ego.max_speed, 401))
 
 
-def out_of_these() -> np.ndarray:
-    """How often they get out with the look-ahead in the study: shares."""
-    ship = len(course.shipped_agents("sac"))
-    return outs("sac")[:ship][outs("sac", "alone")[:ship] < 0.01]
-
-
-def _values_as_learned(cars: np.ndarray, policy: Callable, horizon: int) -> np.ndarray:
-    """The nine imagined returns as the agents of the study learned them: discounted, and without W."""
-    first = np.tile(np.arange(N_ACTIONS), len(cars))
-    imagined, values = cars.repeat(N_ACTIONS, axis=0), np.zeros(len(first))
-    alive = np.ones(len(first), dtype=bool)
-    for decision in range(horizon):
-        actions = first if decision == 0 else policy(imagined)
-        imagined, rewards, crashed = imagined_road.step(imagined, actions)
-        values += alive * Settings().gamma ** decision * rewards
-        alive &= ~crashed
-    return values.reshape(-1, N_ACTIONS)
+def aim(gamma: float, with_worth: bool) -> np.ndarray:
+    """How often the nine that stay behind alone get out, by what the look-ahead counts: shares, (9,)."""
+    return shipped()[Cell("sac", gamma=gamma, with_worth=with_worth).name].measured["success"][
+        outs("sac", "alone") < 0.01
+    ]
 
 
 @cache
-def as_learned() -> list:
-    """The drives of the stuck agents that ship, with such a look-ahead, on the first 20 of the lesson's roads."""
-    roads = held_out_seeds(15, 20)
-    drivers = [imagined_road.driver(_values_as_learned, agent.as_policy(), 10) for agent in stuck_that_ship()]
-    return [drive_episodes(driver, roads) for driver in drivers]
+def trapped_futures() -> np.ndarray:
+    """Of all nine agents that stay behind, on two roads: whether each future ends ahead of trap 1, (decisions, 9)."""
+    agents, found = shipped_actors("sac"), []
+    for seed in np.flatnonzero(outs("sac", "alone") < 0.01):
+        policy = agents[seed].as_policy()
+        cars = np.concatenate([drive.cars[: len(drive.actions)] for drive in record(policy, held_out_seeds(15, 2))])
+        decide, actions = imagined_road.decide_by(policy), np.tile(np.arange(N_ACTIONS), len(cars))
+        cars = cars.repeat(N_ACTIONS, axis=0)
+        for _ in range(10):
+            cars = imagined_road.step(cars, actions)[0]
+            actions = decide(cars)
+        found.append((cars[:, EGO, X] > cars[:, TRAP_1, X]).reshape(-1, N_ACTIONS))
+    return np.concatenate(found)
 
 
-def out_as_learned() -> np.ndarray:
-    """How often each of them then gets out: shares."""
-    return np.array([ends.success.mean() for ends in as_learned()])
+class _MovedOn:
+    """Looks ahead from the road as it was a second ago, moved on by one decision: its own last one, or another.
+
+    own: whether the ego is moved on by the action that it took; else it keeps straight.
+    """
+
+    def __init__(self, policy: Policy, own: bool):
+        self.policy, self.own = policy, own
+        self.reset(0)
+
+    def reset(self, roads: int) -> None:
+        self.earlier: np.ndarray | None = None
+
+    def __call__(self, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        seen = cars
+        if self.earlier is not None:
+            seen = imagined_road.step(self.earlier, self.last if self.own else np.full(len(cars), IDLE))[0]
+        self.earlier, self.last = cars.copy(), nine_drives(seen, self.policy).values.argmax(axis=1)
+        return PolicyOutput(self.last)
+
+
+@cache
+def moved_on(own: bool) -> np.ndarray:
+    """Whether the drives of PPO's first five agents, on 4 roads each, end in an accident when they look ahead so."""
+    agents, roads = shipped_actors("ppo_cloned"), held_out_seeds(15, 4)
+    drives = [drive_episodes(_MovedOn(agents[seed].as_policy(), own), roads) for seed in range(5)]
+    return np.concatenate([ends.accident > 0 for ends in drives])
+
+
+@cache
+def misled() -> tuple[float, float, float]:
+    """In the model that the lesson learns, see `figures.shares_that_crash`."""
+    agent, roads = course.shipped_agents("bootstrapped")[0], held_out_seeds(15, 10)
+    model = learned_from(transitions_of(agent.as_policy(), held_out_seeds(41, 200)), updates=500)
+    return figures.shares_that_crash(agent, model, record(agent.as_policy(), roads))
 
 
 @cache
@@ -159,9 +186,9 @@ def own_better(share: float) -> int:
     return int((last_round() < control).sum())
 
 
-def learned_rows(share: float | None = None) -> np.ndarray:
-    """The decisions that each model of the last round, or of a control with random actions, learned from, (agents,)."""
-    return learning().notes["rows"][:, -1] if share is None else learning(share).measured["rows"]
+def learned_rows(share: float | None = None, after: int = learned_model.ROUNDS) -> np.ndarray:
+    """The decisions that each model after a round, or of a control with random actions, learned from, (agents,)."""
+    return learning().notes["rows"][:, after - 1] if share is None else learning(share).measured["rows"]
 
 
 @cache

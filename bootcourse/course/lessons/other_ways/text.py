@@ -58,7 +58,7 @@ bc.show(figures.what_is_taken())
 # who pays for computing time would count instead of decisions.
 
 # %% [markdown]
-# ## Round 1: do five critics know more than one?
+# ## Round 1: can five critics all be wrong?
 #
 # RLPD (*reinforcement learning with prior data*) is SAC with half of each batch demonstrations,
 # without bonus, margin and KL. Its danger is that of lesson [[recorded_drives]]: Q of an untried
@@ -166,8 +166,8 @@ bc.show(figures.who_chose(measures.chosen_by_q(training)))
 # **See.** (Yours will differ.) Nearly all end in one, after a few seconds: Q refuses the rule's action
 # in about half of the first decisions.
 #
-# **Explain.** Q is the judge, and at first it knows nothing. Later this helps: a KL pulls towards the
-# teacher also where it is wrong, Q may overrule it.
+# **Explain.** Q is the judge, and at first it knows nothing. Later it may help: a KL pulls towards
+# the teacher also where it is wrong, Q may overrule it.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask what happens if the critic is wrong about the rule's action. If it thinks too little of it, the
@@ -259,8 +259,8 @@ by_rule = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 200
 bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 
 # %% [markdown]
-# **See.** Having a teacher matters more than how it is used: all five earn more than twice what the
-# rule earns, PPO and plain SAC without a teacher, after the same search, less than it.
+# **See.** After the same search these five differ less from each other than from no teacher: all
+# earn more than twice what the rule earns, PPO and plain SAC without a teacher less than it.
 #
 # Return is not safety. All agents of the five have accidents, one of RLPD in
 # {{ 100 * at('rlpd', 'accident').max() | .0f }} % of its drives, and it still earns
@@ -325,8 +325,9 @@ explorable.TwoCounts(compared, by_rule.returns.mean())
 #   and max(of, key=lambda m: of[m].value) == 'rlpd')(training_scores(explorable.EARLY,
 #   explorable.DECISIONS)) and first_may_be_chance(explorable.EARLY, explorable.DECISIONS) -->
 #
-# **Explain.** PPO's decisions cost little computing, and it needs more of them. So if little can be
-# spent the way does matter, and what is scarce decides: computing time, or seconds on the road.
+# **Explain.** PPO's decisions cost little computing, and it needs more of them. So with {{
+# equal_decisions.SECONDS }} s of computing, or {{ on_road(explorable.EARLY) | .0f }} h on a road,
+# the choice matters. For a night of computing we did not find that it does.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask who in the room has which clock: a simulator and one night, or a car and one day. A faster

@@ -83,6 +83,11 @@ def losing(agents: list[Results]) -> int:
     return sum(int(lost(each.of("soft").curves["success"]).sum()) for each in agents)
 
 
+def crashes_with_the_floor() -> float:
+    """The share of the drives of `floored` that end in an accident."""
+    return float(np.mean([each.scores("accident") for each in floored()]))
+
+
 def returning_more() -> int:
     """How many agents of `fading` that escape return more than each agent of `floored`."""
     most = max(each.scores("returns").max() for each in floored())
