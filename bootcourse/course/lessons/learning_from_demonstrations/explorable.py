@@ -35,7 +35,7 @@ def nine_values(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
         for place, value in enumerate(values):
             sides = np.array([-HALF, HALF, HALF, -HALF]) + place + 0.5
             low, high = np.clip([value, value + margin], *y)
-            chart.fill(sides, [0, 0, low, low], style("demos").colour if place == mine else OTHERS)
+            chart.fill(sides, [y[0], y[0], low, low], style("demos").colour if place == mine else OTHERS)
             if margin and place != mine:
                 chart.fill(sides, [low, low, high, high], "none", edge=EDGE)
         for level in levels:

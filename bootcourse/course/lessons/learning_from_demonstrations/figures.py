@@ -1,4 +1,4 @@
-"""What the lesson on demonstrations draws: batches while β falls, and returns with and without the bonus."""
+"""What the lesson on demonstrations draws: batches while β falls, and returns while the bonus is paid and after."""
 
 from collections.abc import Sequence
 
@@ -6,17 +6,19 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from bootcourse.course.lessons.learning_from_demonstrations.measures import Kinds
 from bootcourse.episodes.evaluate import evaluate
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.policies import rule_policy
+from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import rolling_means
 
-WINDOW = 50  # episodes, of which the returns are means
+WINDOW, LAST = 50, 1200  # episodes: of which the returns are means, and until which they are drawn
+STRIP = 25  # episodes of one shade
+NO_BONUS = "#332288"
 SIDE = 0.82  # of a row's box; the boxes stand 1 apart
 
 
@@ -39,36 +41,37 @@ def batches(settings: Settings, episodes: Sequence[int]) -> Figure:
     return finish(figure, title, f"A batch of {settings.batch} boxes, of which these are demonstrated: {words}.")
 
 
-def returns(kinds: Kinds) -> Figure:
-    """The returns of the study's ten agents of three kinds with the soft constraint, over their whole training.
+def returns(groups: dict[str, Results]) -> Figure:
+    """The returns of groups of ten agents in their first training episodes; where a bonus is paid the ground is shaded.
 
-    A thin line for each agent, a thick one for their mean; a vertical line where β reaches 0, if there is a β.
+    A thin line for each agent, a thick one for their mean, the mean of the first group in grey in each other panel.
     """
-    title = "With c = 2 the return stays near the rule's until about episode 500, and falls as β reaches 0"
-    figure, rule = new_figure(3.6), evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value
-    words, means = f"return without the bonus, mean of {WINDOW} episodes; thin: an agent, thick: all ten", {}
-    figure.text(0.012, 1 - 0.62 / 3.6, words, fontsize=TEXT, color=INK, va="top")
-    for column, (name, colour) in enumerate(zip(kinds, ("#D55E00", "#332288", "#56B4E9"), strict=True)):
-        agents = kinds[name][0][0]
+    title = "The sooner the bonus ends, the sooner the return leaves the rule's"
+    figure, rule, means = new_figure(3.6), evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value, {}
+    words = f"return without the bonus, mean of {WINDOW} episodes; thin: an agent, thick: all ten; grey: as on the left"
+    figure.text(0.012, 1 - 0.42 / 3.6, words, fontsize=TEXT, color=INK, va="top")
+    for column, (name, agents) in enumerate(groups.items()):
+        start, ends, bonus = (agents.agents[0][which] for which in ("beta_start", "beta_episodes", "bonus"))
         at, each = rolling_means(agents.curves["return"], WINDOW)
-        means[name] = each.mean(axis=0)
-        ax = axes_at(figure, 0.42 + 2.2 * column, 1.05, 2.03, 2.05)
+        means[name], colour = each.mean(axis=0), style("bootstrapped").colour if bonus else NO_BONUS
+        ax = axes_at(figure, 0.42 + 2.2 * column, 0.92, 2.03, 2.28)
         plain_axes(ax, "")
+        for episode in range(0, ends if bonus else 0, STRIP):
+            share = demonstration_share(episode, start, ends) / start
+            ax.axvspan(episode, episode + STRIP, color=style("demos").colour, alpha=0.4 * share, linewidth=0)
+        if bonus:
+            ax.text(30, -17, "bonus paid", va="bottom", fontsize=SMALL, color=INK)
         ax.plot(at, each.T, color=colour, linewidth=0.7, alpha=0.5)
+        ax.plot(at, next(iter(means.values())), color=QUIET, linewidth=1.4)
         ax.plot(at, means[name], color=colour, linewidth=2.4)
         ax.axhline(rule, color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
-        ax.text(at[-1], rule + 2, "rule", ha="right", va="bottom", fontsize=SMALL, color=QUIET)
-        if agents.agents[0]["beta_start"]:
-            ax.axvline(ends := agents.agents[0]["beta_episodes"], color=INK, linewidth=1)
-            ax.text(ends + 30, -18, "β is 0", va="bottom", fontsize=SMALL, color=INK)
+        ax.text(LAST, rule - 2, "rule", ha="right", va="top", fontsize=SMALL, color=QUIET)
         ax.set_title(name, loc="left", fontsize=TEXT, color=INK, fontweight="bold", pad=5)
-        ax.set(xlim=(0, at[-1]), ylim=(-20, 140), xticks=range(0, at[-1], 500))
+        ax.set(xlim=(0, LAST), ylim=(-20, 140), xticks=range(0, LAST, 300))
         ax.xaxis.set_major_formatter("{x:,g}")
         ax.tick_params(labelleft=not column)
         ax.set_xlabel("training episode", fontsize=SMALL, color=INK)
-    at_these = {each: int(np.argmin(np.abs(at - each))) for each in (420, 910, 1040, 2000)}
-    said = [
-        f"{name}: " + ", ".join(f"{mean[i]:.0f} at episode {each:,}" for each, i in at_these.items())
-        for name, mean in means.items()
-    ]
-    return finish(figure, title, f"Three panels. Mean return of ten agents, {'; '.join(said)}. The rule: {rule:.0f}.")
+    at_these = {each: int(np.argmin(np.abs(at - each))) for each in (450, 900, 1050)}
+    said = [f"{name}: " + ", ".join(f"{mean[i]:.0f}" for i in at_these.values()) for name, mean in means.items()]
+    words = f"Three panels. Mean return near episodes {', '.join(f'{each:,}' for each in at_these)}: {'; '.join(said)}."
+    return finish(figure, title, f"{words} The rule: {rule:.0f}.")

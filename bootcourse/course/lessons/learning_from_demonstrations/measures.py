@@ -1,9 +1,14 @@
-"""Measured for the lesson: who finds the way out, and who escapes."""
+"""Measured for the lesson: who finds the way out, who escapes, and in which states a margin loss counts."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
+import torch
+from torch import Tensor
 
+from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.agent import Agent
+from bootcourse.learn.bootstrap import paper_q_filter
 from bootcourse.research.experiment import Computed
 from bootcourse.research.results import Results
 from bootcourse.statistics import found_after
@@ -34,9 +39,38 @@ def found(agents: Sequence[Results]) -> np.ndarray:
     return np.concatenate([found_after(each.curves["success"]) for each in agents])
 
 
-FOUND = ["with the soft constraint", "find the way out after (median)", "escape at the end"]
+def paid_until(study: Results, changed: Computed) -> dict[str, Results]:
+    """Ten agents with both aids each, by how long the bonus is paid."""
+    return {
+        "c = 2, β ends at 1,000": study.of("bootstrapped"),
+        "c = 2, β ends at 300": changed["β over 300 episodes"].of("bootstrapped"),
+        "c = 0, β ends at 1,000": changed["c = 0"].of("bootstrapped"),
+    }
+
+
+FOUND = ["with the soft constraint", "find the way out after (median)", "escape, of the study's", "of the others"]
 
 
 def found_and_escaped(agents: Kinds) -> list[list[str]]:
     """A row for each kind of demonstrations, below `FOUND`."""
-    return [[name, f"{np.median(found(soft)):.0f} episodes", escape(soft)] for name, (soft, _) in agents.items()]
+    return [
+        [name, f"{np.median(found(soft)):.0f} episodes", *(escape([each]) for each in soft)]
+        for name, (soft, _) in agents.items()
+    ]
+
+
+PUSHED = ["the demonstrated action", "states", "loss above 0", "counted by the filter"]
+
+
+def pushed(loss: Callable[[Tensor, Tensor], Tensor], agent: Agent, drive: Rollout, seconds: int) -> list[list[str]]:
+    """In how many states of a drive's first seconds a margin loss pushes, without the paper's filter and with it.
+
+    loss: of (q, demonstrated actions), with a margin of 1. Rows below `PUSHED`, by an agent's own Q.
+    """
+    q = torch.from_numpy(agent.q_values(drive.observations[:seconds]))
+    did = torch.from_numpy(drive.rule_actions[:seconds]).long()
+    rivals = q.scatter(-1, did[:, None], -np.inf).amax(-1)
+    lead, pushes = q.gather(-1, did[:, None])[:, 0] - rivals, loss(q, did) > 0
+    kinds = {"is behind": lead < 0, "leads by less than 1": (lead >= 0) & (lead < 1), "leads by 1 or more": lead >= 1}
+    columns = torch.ones(len(q)) > 0, pushes, pushes & (paper_q_filter(q, did) > 0)
+    return [[name, *(f"{int((of & each).sum())}" for each in columns)] for name, of in kinds.items()]

@@ -17,7 +17,11 @@ def kinds() -> measures.Kinds:
 
 
 def _with(name: str) -> tuple[list[Results], list[Results]]:
-    """One of `kinds`, by its last word: "c = 2", "c = 0" or "none"; or the study's ten with the "margin"."""
+    """One of `kinds`, by its last word: "c = 2", "c = 0" or "none"; the study's ten with the "margin"; or those whose
+    β ends at episode "300".
+    """
+    if name == "300":
+        return [measures.paid_until(shipped_results(), shipped_experiment("ablations"))["c = 2, β ends at 300"]], []
     if name == "margin":
         return [shipped_results().of("margin_soft")], [shipped_results().of("margin")]
     return kinds()["no demonstrations" if name == "none" else f"demonstrations, {name}"]
@@ -31,11 +35,6 @@ def in_all(name: str) -> str:
 def of_the_study(name: str) -> str:
     """How many of the study's ten agents with the soft constraint and these demonstrations escape."""
     return measures.escape(_with(name)[0][:1])
-
-
-def of_the_others(name: str) -> int:
-    """How many of the ten others."""
-    return sum(each.escapers(each.methods[0]) for each in _with(name)[0][1:])
 
 
 def alone(name: str) -> str:
@@ -59,6 +58,11 @@ def passes(earned: float) -> int:
     return int(at[np.argmax(each.mean(axis=0) > earned)])
 
 
-def training(name: str, curve: str, first: int, last: int) -> np.ndarray:
-    """The mean of the study's ten agents with the soft constraint in some training episodes, (agents,)."""
-    return _with(name)[0][0].curves[curve][:, first:last].mean(axis=1)
+def training(name: str, curve: str, first: int, last: int, others: bool = False) -> np.ndarray:
+    """The mean of the study's ten agents in some training episodes, (agents,), or of the ten others."""
+    return _with(name)[0][int(others)].curves[curve][:, first:last].mean(axis=1)
+
+
+def fall(name: str) -> np.ndarray:
+    """By how much the return of each of the study's ten falls as β reaches 0, (agents,)."""
+    return training(name, "return", 800, 900) - training(name, "return", 1000, 1100)
