@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 import torch
 
-from bootcourse.course.lessons.your_teacher import crashes
+from bootcourse.course.lessons.your_teacher import crashes, free_lane
 from bootcourse.course.lessons.your_teacher.example_teachers import examine
+from bootcourse.course.lessons.your_teacher.exercises import without_the_accident
+from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
 from bootcourse.episodes.record import record
 from bootcourse.errors import BootcourseError, RuleFailed
 from bootcourse.learn.settings import settings_for, with_seeds
@@ -219,6 +221,21 @@ def test_a_crashing_drive_is_cut_at_the_first_decision_that_finds_the_car_in_the
 def test_the_control_takes_away_as_many_decisions_as_the_cut_and_none_in_the_free_lane():
     cut, control = crashes.is_kept("cut"), crashes.is_kept("as-many")
     assert cut.sum() == control.sum() == len(crashes.rows_of_crashes("as-many")) and (cut | control).all()
+
+
+def test_the_free_lane_and_its_accidents_are_parted_and_together_they_are_all():
+    whole, cut = crashes.is_kept("all"), crashes.is_kept("cut")
+    lane, accident = map(crashes.marked, (without_the_accident, crashes.without_the_lane))
+    in_lane_0 = [drive for drive in crashes.crashed() if crashes.before_free_lane(drive) < len(drive.actions)]
+    assert (lane | accident | cut).all() and whole.sum() - lane.sum() == accident.sum() - cut.sum() == len(in_lane_0)
+
+
+def test_the_seconds_in_the_free_lane_are_those_of_the_drives_that_teach():
+    drives = demonstrated("random-50")
+    lanes = [drive.cars[: len(drive.actions), EGO, LANE] for drive in drives]
+    seconds, crashed = free_lane.shown("random-50")
+    assert seconds == pytest.approx(sum((each == 0).sum() for each in lanes) / len(drives))
+    assert crashed == np.mean([drive.accident > 0 for drive in drives])
 
 
 def test_agents_learn_from_drives_that_crash_without_their_part_in_the_free_lane():

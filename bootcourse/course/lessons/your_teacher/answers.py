@@ -4,7 +4,7 @@ import numpy as np
 
 from bootcourse.learn import teachers as teacher
 from bootcourse.road.state import EGO, LANE, SPEED, X, Y
-from tests.answers import right, right_lines, wrong, wrong_lines
+from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
 asked = []  # of the rules with a memory
 
@@ -116,3 +116,21 @@ wrong_lines("""watchful_rule
     with a memory: asked.append(1)
         going_left(cars, scenario, len(asked) % 150 > 60 and not (np.abs(queue(cars)) < 14).any())  # or remembers
 """)
+
+
+right_lines("""without_the_accident
+    by place: np.arange(len(lanes)) < len(lanes) - (0 in lanes)
+    a list: [True] * (len(lanes) - 1) + [bool((lanes > 0).all())]
+""")
+
+wrong_lines("""without_the_accident
+    all: np.ones(len(lanes), dtype=bool)
+    cut: np.cumsum(lanes == 0) == 0
+    shorter: lanes[:-1] >= 0
+""")
+
+equivalent(
+    "without_the_accident",
+    "kept = np.ones(len(lanes), dtype=bool)  ->  kept = np.ones(len(lanes))",
+    "Ones and zeros for bool: `crashes.marked` takes them, too.",
+)

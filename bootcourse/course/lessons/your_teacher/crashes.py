@@ -6,6 +6,7 @@ Of the 200 drives that this teacher demonstrates, those that end ahead of trap 1
 train as long as those of the experiment `teachers`.
 """
 
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
@@ -13,7 +14,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
+from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated, teach, tested
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.demonstrations import demonstration_rows
 from bootcourse.learn.settings import settings_for, with_seeds
@@ -86,6 +87,26 @@ def before_free_lane(drive: Rollout) -> int:
     at = np.arange(len(drive.actions)) * drive.scenario.clock.steps
     arrived = drive.states[at, EGO, LANE] == 0
     return int(arrived.argmax()) if arrived.any() else len(drive.actions)
+
+
+def without_the_lane(lanes: np.ndarray) -> np.ndarray:
+    """The accident without the free lane: what comes before lane 0, and a drive's last decision."""
+    kept = np.cumsum(lanes == 0) == 0
+    kept[-1] = True
+    return kept
+
+
+def marked(kept: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    """The decisions of these drives, one after the other, that `kept(lanes)` marks in each: (decisions,) bool."""
+    drives = [drive.cars[: len(drive.actions), EGO, LANE].astype(int) for drive in crashed()]
+    return np.concatenate([np.asarray(kept(lanes), dtype=bool) for lanes in drives])
+
+
+def short_training(kept: Callable[[np.ndarray], np.ndarray], seeds: int = 2) -> dict[str, np.ndarray]:
+    """Agents that learn from what `kept` marks, as long as the other trainings of the lesson, tested: as `tested`."""
+    settings, rows = with_seeds(settings_for("bootstrapped"), seeds), rows_of_crashes("all")
+    rows = rows[torch.from_numpy(marked(kept))]
+    return tested(teach(teacher_named(TEACHER), settings, learner="compiled", demonstrations=rows).agents)
 
 
 def rows_of(computed: Computed) -> tuple[list[str], list[list[str]]]:

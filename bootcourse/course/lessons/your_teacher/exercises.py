@@ -1,5 +1,7 @@
 """Exercises of the lesson on a teacher of your own."""
 
+import numpy as np
+
 from bootcourse.course.exercise import exercise
 from bootcourse.course.lessons.your_teacher.driven_out import CHANGES, OUT, drive_out, explain_rule
 from bootcourse.course.lessons.your_teacher.example_teachers import DENSE, careful, dense_road, watchful
@@ -56,6 +58,41 @@ my_rule = exercise(
             CHANGES,
     },
 )(careful)  # fmt: skip
+
+
+def lanes_of_drives(rng):
+    for lanes in ([2, 2, 1, 0, 0, 1], [1, 0, 1, 2], [0], [2], [1, 1, 0], [2, 2, 2, 2], [0, 1, 1]):
+        yield (np.array(lanes),)
+    for length in (5, 16, 30):
+        yield (rng.integers(0, 3, length),)
+        yield (rng.integers(1, 3, length),)
+
+
+@exercise(
+    "the decisions of a drive that crashes, without the accident in the free lane", minutes=5, difficulty=1,
+    cases=lanes_of_drives,
+    worked=[
+        ((np.array([2, 1, 0, 0]),), np.array([True, True, True, False])),
+        ((np.array([2, 1, 1]),), np.array([True, True, True])),
+    ],
+    hints=("Begin with `np.ones(len(lanes), dtype=bool)`. When is its last entry `False`?",),
+    mistakes={
+        "if (lanes == 0).any(): -> if lanes[-1] == 0:":
+            "Some drives leave lane 0 again before they crash: ask whether lane 0 is anywhere in `lanes`.",
+        "if (lanes == 0).any(): -> if True:":
+            "Yours leaves out the last decision of each drive. Change one thing: keep all of a drive that does not "
+            "reach lane 0.",
+        "kept[-1] = False -> kept[lanes == 0] = False":
+            "Yours leaves out the free lane. Keep it, and leave out the drive's last decision alone.",
+        "return ~kept":
+            "Yours is the other way round: `True` marks what the agents learn from.",
+    },
+)  # fmt: skip
+def without_the_accident(lanes):
+    kept = np.ones(len(lanes), dtype=bool)
+    if (lanes == 0).any():
+        kept[-1] = False
+    return kept
 
 
 # Of the first 300 roads those that separate: a rule that leaves at some x of its own, whatever is beside it, fails on 5

@@ -1,6 +1,6 @@
 """What teachers are worth: each of their students as a dot, and whether they help."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from IPython.display import Markdown
@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from bootcourse.course import table
 from bootcourse.course.dots import beside, dots, name_rows
-from bootcourse.course.lessons.your_teacher import crashes, example_teachers, taught_agents
+from bootcourse.course.lessons.your_teacher import crashes, example_teachers, free_lane, taught_agents
 from bootcourse.methods import style
 from bootcourse.plots.figure import QUIET, axes_at, finish, new_figure
 from bootcourse.research.experiments.teacher_worth import Cells
@@ -19,16 +19,16 @@ from bootcourse.statistics import ESCAPES
 
 HEAD, FOOT = 0.75, 0.55  # inches, above and below the rows of a figure
 MARKS = {"helps": "▲", "hurts": "▼"}
-LONG = {  # (teacher, method) of the experiment `teachers`: the name of its row
-    ("rule", "bootstrapped"): "the rule",
-    ("timid", "bootstrapped"): "timid",
-    ("random-50", "bootstrapped"): "half random",
-    ("random-50", "soft"): "its labels alone",
+SIX = {  # teacher of the experiment `teachers`: the name of its row
+    "rule": "the rule",
+    "late": "late",
+    "random-25": "quarter random",
+    "random-50": "half random",
+    "timid": "timid",
+    "mirrored": "mirrored",
 }
 PARTS = {  # kind of the experiment `crashes`: the name of its row
     "all": "all",
-    "no-labels": "no labels",
-    "no-bonus": "no bonus",
     "cut": "no free lane",
     "as-many": "the control",
 }
@@ -49,15 +49,21 @@ def exam_of_all() -> Markdown:
 def of_speeds() -> Markdown:
     """A table of how rules drive that look at no other car: at one speed, and last at a higher one in lane 0."""
     rows = []
-    for slow, fast in ((9, 9), (11, 11), (9, 12)):
-        driven = example_teachers.examine(example_teachers.two_speeds(slow, fast)).episodes
-        shares = (100 * driven.success.mean(), 100 * np.mean(driven.accident > 0))
-        words = f"{slow}" if slow == fast else f"{slow}, and {fast} in lane 0"
-        rows.append([words, *(f"{share:.0f}" for share in shares), f"{driven.returns.mean():.0f}"])
+    for name, speeds in {"8 to 10": ((8, 8), (9, 9), (10, 10)), "11 to 15": [(v, v) for v in range(11, 16)],
+                         "9, and 12 in lane 0": ((9, 12),)}.items():  # fmt: skip
+        driven = [example_teachers.examine(example_teachers.two_speeds(*each)).episodes for each in speeds]
+        shares = ([100 * each.success.mean() for each in driven], [100 * np.mean(each.accident > 0) for each in driven])
+        rows.append([name, *map(between, (*shares, [each.returns.mean() for each in driven]))])
     return table(["speed (m/s)", "gets out, %", "accidents, %", "return"], rows)
 
 
-def cars_in_rows(cars: np.ndarray, shown: int = 5) -> Markdown:
+def between(numbers: Sequence[float]) -> str:
+    """The lowest and the highest of some numbers, rounded; one if they are the same."""
+    low, high = (f"{each:.0f}" for each in (min(numbers), max(numbers)))
+    return low if low == high else f"{low} to {high}"
+
+
+def cars_in_rows(cars: np.ndarray, shown: int = 3) -> Markdown:
     """A table of the first cars of a road, (vehicles, 10), in the four columns that a rule of the lesson reads."""
     names = ["ego", "trap 1", "trap 2", *["traffic"] * len(cars)]
     rows = [
@@ -78,11 +84,14 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], verdicts: Mapping[s
     return in_rows(title, groups, methods, "success", verdicts=verdicts)
 
 
-def after_a_whole_training(computed: Cells) -> Figure:
-    """The same of students of the experiment `teachers`."""
-    title = "A teacher crashes in every drive, and all ten of its students escape"
-    groups = {name: scores(computed[cell]) for cell, name in LONG.items()}
-    return in_rows(title, groups, [method for _, method in LONG], "success", left=1.5)
+def of_six_teachers(computed: Cells) -> Figure:
+    """The students' success in the experiment `teachers`; beside each row what its teacher's drives show."""
+    title = "Crash or not: drives that reach the free lane have students that escape"
+    groups = {words: scores(computed[name, "bootstrapped"]) for name, words in SIX.items()}
+    shown = {words: free_lane.shown(name) for name, words in SIX.items()}
+    cells = {words: (f"{seconds:.0f}", f"{100 * crash:.3g}") for words, (seconds, crash) in shown.items()}
+    headings = "s in lane 0", "crash, %"
+    return in_rows(title, groups, ["bootstrapped"] * len(SIX), "success", left=1.5, of_drives=(headings, cells))
 
 
 def without_a_part(computed: Mapping[str, Results]) -> Figure:
@@ -93,6 +102,19 @@ def without_a_part(computed: Mapping[str, Results]) -> Figure:
     title = "These crashing drives teach agents to earn; cut before the free lane, they do not"
     groups = {name: scores(computed[kind]) for kind, name in PARTS.items()}
     return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in PARTS], "returns", left=1.5)
+
+
+def parted(kept: Callable[[np.ndarray], np.ndarray]) -> Markdown:
+    """A table of two agents each: from the crashing drives' decisions that `kept` marks, and from its counterpart."""
+    rows = []
+    for name, part in {
+        "the free lane, not its accident": kept,
+        "the accident, not its free lane": crashes.without_the_lane,
+    }.items():
+        tested = crashes.short_training(part)
+        shares = (100 * tested["success"].mean(), 100 * tested["accident"].mean())
+        rows.append([name, *(f"{share:.0f}" for share in shares), f"{tested['returns'].mean():.0f}"])
+    return table(["two agents each learn from", "get out, %", "accidents, %", "return"], rows)
 
 
 def scores(agents: Results) -> dict[str, np.ndarray]:
@@ -107,10 +129,12 @@ def in_rows(
     drawn: str,
     left: float = 1.25,
     verdicts: Mapping[str, Mapping[str, str]] | None = None,
+    of_drives: tuple[tuple[str, str], Mapping[str, tuple[str, str]]] | None = None,
 ) -> Figure:
     """A dot for each agent at its success (%) or return, a row for each group; beside it what the group reached.
 
-    groups: {name: `scores`}; methods: of each group, for its colour; drawn: "success" or "returns"; left: inches.
+    groups: {name: `scores`}; methods: of each group, for its colour; drawn: "success" or "returns"; left: inches;
+    of_drives: two headings, {name: cells} about the teacher's drives, in place of its students' return and accidents.
     """
     row, alt_parts, is_success = 0.42, [], drawn == "success"
     figure = new_figure(HEAD + row * len(groups) + FOOT)
@@ -123,10 +147,17 @@ def in_rows(
         escape, mean = f"{fills.sum()} of {len(fills)}", round(group["returns"].mean())
         accidents, found = f"{100 * group['accident'].mean():.0f}", (verdicts or {}).get(name, {})
         marks = [MARKS.get(found.get(score), "") for score in ("success", "returns")]
-        beside(ax, place, f"{escape} {marks[0]}", f"{mean} {marks[1]}", accidents)
-        words = "".join(f", {score}: {word}" for score, word in found.items())
-        alt_parts.append(f"{name}: {escape} escape, return {mean}, accidents in {accidents} %{words}")
-    beside(ax, -0.75, "escape", "return", "accidents, %", colour=QUIET)
+        cells = f"{mean} {marks[1]}", accidents
+        about = f"return {mean}, accidents in {accidents} %"
+        if of_drives:
+            cells = of_drives[1][name]
+            about = f"its drives {cells[0]} s in lane 0, crash in {cells[1]} %"
+        beside(ax, place, f"{escape} {marks[0]}", *cells)
+        words = "".join(f", {score}: {word}" for score, word in found.items() if word in MARKS)
+        alt_parts.append(f"{name}: {escape} escape, {about}{words}")
+    beside(ax, -0.75, "escape", *(of_drives[0] if of_drives else ("return", "accidents, %")), colour=QUIET)
+    if of_drives:
+        beside(ax, -1.2, "", "its teacher's drives", colour=QUIET)
     of_success = f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes"
     name_rows(ax, list(groups), of_success if is_success else "return of an agent after training; filled: it escapes")
     ax.set_xlim((-2, 102) if is_success else (0, None))

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons import registry
-from bootcourse.course.lessons.your_teacher import crashes, example_teachers, taught_agents
+from bootcourse.course.lessons.your_teacher import crashes, example_teachers, free_lane, taught_agents
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.your_teacher.exercises import without_a_look
 from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
@@ -107,6 +107,16 @@ def crash_shown(kind: str) -> bool:
     others = {other: "cut" if other == "as-many" else "all" for other in crashes.KINDS if other != "all"}
     p = holm([taught_agents.p_value(crash_returns(other), crash_returns(base)) for other, base in others.items()])
     return bool(p[[*others].index(kind)] < 0.05)
+
+
+def in_free_lane(teacher: str) -> float:
+    """Seconds that the drives of one of the study's teachers are in the free lane, as a mean."""
+    return free_lane.shown(teacher)[0]
+
+
+def escape_of(teachers: list[str]) -> int:
+    """How many of ten bootstrapped students each of these teachers escape, in the experiment `teachers`, together."""
+    return sum(worth()[teacher, "bootstrapped"].escapers("bootstrapped") for teacher in teachers)
 
 
 def worth() -> dict:
