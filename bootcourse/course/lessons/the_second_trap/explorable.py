@@ -1,4 +1,4 @@
-"""To drag in this lesson: how far a speed swings around that of the traps, how the reward is bent, and λ."""
+"""To drag in this lesson: how far a speed swings around that of the traps, and λ."""
 
 from collections.abc import Callable
 
@@ -13,7 +13,7 @@ from bootcourse.plots.svg import Drawing, SvgAxes, drawing, text
 from bootcourse.road.formulas import speed_reward
 from bootcourse.scenario import DEFAULT
 
-SLOW, KNEE, FAST = 5.0, 12.5, 15.0  # m/s, where the speed reward's slope changes
+SLOW, FAST = 5.0, 15.0  # m/s, where the speed reward begins and is largest
 MEAN, MOST = DEFAULT.traps.speed, 5.0  # m/s
 SECONDS, HALF = 40.0, 10  # of a drive that is shown; so long it keeps each speed
 
@@ -94,21 +94,3 @@ def later() -> Explorable:
 
     lam = Number("λ", 0, 0, 1, 0.05, "So much each second counts, compared with the one before it (times γ).")
     return Explorable("Which later surprises count?", draw, lam=lam)
-
-
-def bent(at_knee: float) -> Callable[[float], float]:
-    """A speed reward that pays so much at 12.5 m/s, and at 5 and 15 m/s what the road's pays."""
-    return lambda v: float(np.interp(v, [SLOW, KNEE, FAST], [0.0, at_knee, 1.0]))
-
-
-def bends() -> Explorable:
-    """5 and 15 m/s in turn, while the reward is bent."""
-
-    def draw(at_knee: float) -> Drawing:
-        turns, steady = paid(bent(at_knee), MOST)
-        more = "the same as" if abs(turns - steady) < 1e-9 else "more than" if turns > steady else "less than"
-        says = f"With {at_knee:g} at {KNEE:g} m/s, sprints pay {more} a steady {MEAN:g} m/s."
-        return picture(says, bent(at_knee), MOST)
-
-    at_knee = Number("at 12.5 m/s", 0.2, 0, 1, 0.05, "So much a second at 12.5 m/s pays; at 5 m/s 0, at 15 m/s 1.")
-    return Explorable("Which reward pays for sprints?", draw, at_knee=at_knee)

@@ -1,4 +1,4 @@
-"""PPO's clipped loss, two drives' speeds, and return against success."""
+"""Two drives' speeds, a drive's advantages, PPO's clipped loss, return against success, and what each ending paid."""
 
 from collections.abc import Mapping
 
@@ -6,18 +6,32 @@ import numpy as np
 import torch
 from matplotlib.figure import Figure
 
-from bootcourse.colours import Style
+from bootcourse.colours import ALARM, Style
 from bootcourse.course.charts import lines
-from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, compared
+from bootcourse.course.lessons.the_second_trap.ppo_kinds import ENDINGS, ROADS, by_ending, compared
 from bootcourse.course.lessons.the_second_trap.second_trap import speeds
 from bootcourse.episodes.record import Rollout
 from bootcourse.learn.ppo import clipped_loss
+from bootcourse.learn.training import Training
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import (
+    INK,
+    QUIET,
+    SMALL,
+    TEXT,
+    axes_at,
+    finish,
+    label_ends,
+    new_figure,
+    one_axes,
+    plain_axes,
+)
 from bootcourse.scenario import DEFAULT
 
 RATIOS = np.linspace(0.3, 1.7, 141)
 POINTS = (0.5, 1.5)  # where a dot says what the gradient does
+BLOCK = 25_000  # decisions that a dot of `endings` stands for
+LARGEST = 160.0  # area of the dot of an ending that all drives of a block have, points²
 
 
 def plane(clone: tuple[float, float], trained: tuple[float, float]) -> Figure:
@@ -36,13 +50,13 @@ def plane(clone: tuple[float, float], trained: tuple[float, float]) -> Figure:
         x, y = float(np.mean(returns)), 100 * float(np.mean(ahead))
         look = {"textcoords": "offset points", "ha": "center", "fontsize": TEXT, "color": INK}
         ax.annotate(name, (x, y), (0, 9 if y < 50 else -17), **look)
-        alt.append(f"{name}: {len(returns)} with a mean return of {x:.0f}, ahead on {y:.0f} %")
+        alt.append(f"{name} ({len(returns)}): return {x:.0f}, ahead on {y:.0f} %")
     (x, y), (to_x, to_y) = ((returns, 100 * ahead) for returns, ahead in (clone, trained))
     ax.annotate("", (to_x, to_y), (x, y), arrowprops={"arrowstyle": "->", "color": INK, "linewidth": 1.2})
     ax.plot(x, y, "o", color="white", markeredgecolor=INK, ms=6, zorder=3)
     ax.plot(to_x, to_y, "o", color=INK, ms=6, zorder=4)
     ax.annotate("your clone", (x, y), (0, -15), textcoords="offset points", ha="center", fontsize=TEXT, color=INK)
-    alt.append(f"your clone: from return {x:.0f}, ahead on {y:.0f} %, to return {to_x:.0f}, ahead on {to_y:.0f} %")
+    alt.append(f"your clone: return {x:.0f}, ahead on {y:.0f} %, then {to_x:.0f}, {to_y:.0f} %")
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt)}.")
 
 
@@ -66,7 +80,7 @@ def hinges(clip: float) -> Figure:
             away = {"center": (0, 9), "right": (-7, -18), "left": (7, -18)}[side]
             look = {"textcoords": "offset points", "ha": side, "fontsize": SMALL, "color": INK}
             ax.annotate(words.replace(" ", "\n"), (ratio, height), away, **look)
-            alt_parts.append(f"A = {advantage:g}, ρ = {ratio:g}: the action {words}")
+            alt_parts.append(f"A = {advantage:g}, ρ = {ratio:g}: {words}")
         plain_axes(ax, f"loss of a decision, A = {advantage:g}".replace("-", "−"))
         ax.set_xlabel("ratio ρ", fontsize=TEXT, color=INK)
         ax.margins(y=0.2)
@@ -82,3 +96,60 @@ def two_speeds(drives: Mapping[str, Rollout]) -> Figure:
     seconds, looks = np.arange(1, 1 + max(map(len, named.values()))), (Style(style("ppo").colour), Style(QUIET))
     marks = {"the traps": DEFAULT.traps.speed}
     return lines(seconds, named, title, "time (s)", "speed (m/s)", marks=marks, looks=looks)
+
+
+def credit(speed: np.ndarray, found: Mapping[float, torch.Tensor]) -> Figure:
+    """A drive's speeds (seconds,), and below them its advantages for each λ, (seconds, 1): good above 0, bad below."""
+    title = "With λ near 1, most seconds of falling back look good"
+    figure, seconds, alt = new_figure(4.0), np.arange(len(speed)), []
+    above, below = axes_at(figure, 0.55, 0.75, 5.5, 0.95), axes_at(figure, 0.55, 2.1, 5.5, 1.35)
+    for ax, words in ((above, "speed (m/s)"), (below, "advantage A of the decision at that second")):
+        plain_axes(ax, words)
+        ax.set_xlim(0, len(speed))
+        for start, end in slow_stretches(speed):
+            ax.axvspan(start, end, color=QUIET, alpha=0.13, linewidth=0)
+    above.plot(seconds, speed, color=style("ppo").colour, linewidth=2)
+    above.axhline(DEFAULT.traps.speed, color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
+    above.set(ylim=(0, 17), yticks=(0, 5, 10, 15), xticklabels=[])
+    label_ends(above, [(DEFAULT.traps.speed, "the traps", QUIET)])
+    ends, slow = [], np.asarray(speed) < DEFAULT.traps.speed
+    for lam, colour in zip(found, (INK, style("ppo").colour), strict=True):
+        values = np.asarray(found[lam])[:, 0]
+        below.plot(seconds, values, color=colour, linewidth=2)
+        ends.append((values[-1], f"λ = {lam:g}", colour))
+        alt.append(f"{(values[slow] > 0).sum()} for λ = {lam:g}")
+    below.axhline(0, color=INK, linewidth=0.8)
+    below.set_xlabel("time (s); grey: slower than the traps", fontsize=TEXT, color=INK)
+    label_ends(below, ends)
+    return finish(figure, title, f"Of {slow.sum()} seconds below 10 m/s, A > 0 in {', '.join(alt)}.")
+
+
+def slow_stretches(speed: np.ndarray) -> list[tuple[int, int]]:
+    """From when to when (s) a drive is slower than the traps."""
+    slow = np.concatenate([[False], np.asarray(speed) < DEFAULT.traps.speed, [False]])
+    edges = np.flatnonzero(slow[1:] != slow[:-1])
+    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
+
+
+def endings(trainings: Mapping[str, Training]) -> Figure:
+    """What the drives of each training earned while the agent learned, by how they ended; a dot's area: how many."""
+    title = "What each agent's own drives earned while it learned, by how they ended"
+    looks = dict(zip(ENDINGS, (style("ppo").colour, style("idle").colour, ALARM), strict=True))
+    figure, alt_parts = new_figure(3.7), []
+    for left, (name, training) in zip((0.5, 3.85), trainings.items(), strict=True):
+        ax, ends, said = axes_at(figure, left, 0.95, 2.25, 2.0), [], []
+        plain_axes(ax, f"mean return: {name}")
+        ax.set(xlim=(0, 210), ylim=(-20, 85), xticks=(0, 100, 200))
+        ax.set_xlabel("decisions (thousands)", fontsize=TEXT, color=INK)
+        for ending, (at, returns, shares) in by_ending(training, BLOCK).items():
+            there = shares > 0
+            if not there.any():
+                continue
+            ax.plot(at[there] / 1000, returns[there], color=looks[ending], linewidth=1)
+            ax.scatter(at[there] / 1000, returns[there], s=3 + LARGEST * shares[there], color=looks[ending], zorder=3)
+            ends.append((returns[there][-1], ending, looks[ending]))
+            said.append(f"{ending} {100 * shares[-1]:.0f} % (return {returns[there][-1]:.0f})")
+        label_ends(ax, ends, wrap=10, gap=0.04)
+        alt_parts.append(f"{name}, at the end: {', '.join(said)}.")
+    figure.text(0.012, 0.1 / 3.7, "A larger dot: more of the drives end so.", fontsize=SMALL, color=INK)
+    return finish(figure, title, " ".join(alt_parts))

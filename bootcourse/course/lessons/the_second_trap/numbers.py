@@ -3,9 +3,12 @@
 from functools import cache
 
 import numpy as np
+import torch
 
 from bootcourse.course.lessons.the_second_trap import explorable, ppo_kinds, second_trap  # noqa: F401 (for the text)
 from bootcourse.episodes.record import record
+from bootcourse.learn.ppo import advantages
+from bootcourse.road.formulas import speed_reward
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, shipped_teachers
@@ -47,6 +50,19 @@ def ppo_gap() -> np.ndarray:
     """How far (m) the first agent of PPO alone is ahead of trap 1 after each decision, (decisions,)."""
     cars = ppo_drive().states[2::2]
     return cars[:, EGO, X] - cars[:, TRAP_1, X]
+
+
+def credit(lam: float) -> np.ndarray:
+    """The advantages of that drive, paid by r_v, where V is what a steady 10 m/s pays for ever: (decisions,)."""
+    rewards = torch.tensor([[speed_reward(v)] for v in ppo_speeds()])
+    values = torch.full_like(rewards, speed_reward(10.0) / (1 - ppo_kinds.GAMMA))
+    no = torch.zeros_like(rewards)  # accident, nor other end
+    return advantages(rewards, values, values, no, no, ppo_kinds.GAMMA, lam)[:, 0].numpy()
+
+
+def judged_good(lam: float) -> int:
+    """In how many of its seconds below 10 m/s the advantage is above 0."""
+    return int((credit(lam)[ppo_speeds() < 10] > 0).sum())
 
 
 def cloned_escape(teacher: str) -> int:
