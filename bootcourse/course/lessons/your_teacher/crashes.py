@@ -37,6 +37,8 @@ KINDS = {  # cell: what the agents learn from, method and changed settings
     "no-bonus": ("drives and labels", "bootstrapped", {"bonus": 0.0}),
     "cut": ("the drives until the free lane, bonus and labels", "bootstrapped", {}),
     "as-many": ("the drives without as many decisions before the free lane, bonus and labels", "bootstrapped", {}),
+    "lane": ("the drives without the accident in the free lane, bonus and labels", "bootstrapped", {}),
+    "accident": ("the drives with the accident, without its free lane, bonus and labels", "bootstrapped", {}),
 }
 
 
@@ -71,8 +73,11 @@ def rows_of_crashes(kind: str) -> Tensor:
 def is_kept(kind: str) -> np.ndarray:
     """Which of these drives' decisions, one after the other, the kind learns from: (decisions,) bool.
 
-    "cut": those before the free lane; "as-many": without as many of those as the cut takes away, drawn at random.
+    "cut": those before the free lane; "as-many": without as many of those as the cut takes away, drawn at random;
+    "lane" and "accident": the free lane without its accident, and the reverse.
     """
+    if kind in ("lane", "accident"):
+        return marked(without_the_accident if kind == "lane" else without_the_lane)
     before = np.concatenate([np.arange(len(drive.actions)) < before_free_lane(drive) for drive in crashed()])
     if kind == "cut":
         return before
@@ -87,6 +92,14 @@ def before_free_lane(drive: Rollout) -> int:
     at = np.arange(len(drive.actions)) * drive.scenario.clock.steps
     arrived = drive.states[at, EGO, LANE] == 0
     return int(arrived.argmax()) if arrived.any() else len(drive.actions)
+
+
+def without_the_accident(lanes: np.ndarray) -> np.ndarray:
+    """The free lane without its accident: all of a drive but its last decision, if it reaches lane 0."""
+    kept = np.ones(len(lanes), dtype=bool)
+    if (lanes == 0).any():
+        kept[-1] = False
+    return kept
 
 
 def without_the_lane(lanes: np.ndarray) -> np.ndarray:

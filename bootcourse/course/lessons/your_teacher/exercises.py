@@ -3,6 +3,7 @@
 import numpy as np
 
 from bootcourse.course.exercise import exercise
+from bootcourse.course.lessons.your_teacher import crashes
 from bootcourse.course.lessons.your_teacher.driven_out import CHANGES, OUT, drive_out, explain_rule
 from bootcourse.course.lessons.your_teacher.example_teachers import DENSE, careful, dense_road, watchful
 from bootcourse.learn.teachers import toward
@@ -68,7 +69,7 @@ def lanes_of_drives(rng):
         yield (rng.integers(1, 3, length),)
 
 
-@exercise(
+without_the_accident = exercise(
     "the decisions of a drive that crashes, without the accident in the free lane", minutes=5, difficulty=1,
     cases=lanes_of_drives,
     worked=[
@@ -87,12 +88,7 @@ def lanes_of_drives(rng):
         "return ~kept":
             "Yours is the other way round: `True` marks what the agents learn from.",
     },
-)  # fmt: skip
-def without_the_accident(lanes):
-    kept = np.ones(len(lanes), dtype=bool)
-    if (lanes == 0).any():
-        kept[-1] = False
-    return kept
+)(crashes.without_the_accident)  # fmt: skip
 
 
 # Of the first 300 roads those that separate: a rule that leaves at some x of its own, whatever is beside it, fails on 5

@@ -100,11 +100,12 @@ def crash_escapes(kind: str) -> int:
 
 
 def crash_shown(kind: str) -> bool:
-    """Does a rank test, after Holm for all four, tell their returns from those of the agents that learn from all?
+    """Does a rank test, after Holm for all five, tell their returns from those of the agents that learn from all?
 
-    Of the control: from those of the cut.
+    Of the control: from those of the cut; of the free lane without its accidents: from those of the reverse.
     """
-    others = {other: "cut" if other == "as-many" else "all" for other in crashes.KINDS if other != "all"}
+    bases = {"as-many": "cut", "lane": "accident"}
+    others = {other: bases.get(other, "all") for other in crashes.KINDS if other not in ("all", "accident")}
     p = holm([taught_agents.p_value(crash_returns(other), crash_returns(base)) for other, base in others.items()])
     return bool(p[[*others].index(kind)] < 0.05)
 
