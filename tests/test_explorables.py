@@ -13,7 +13,8 @@ from bootcourse.course.lessons import COURSE, LESSONS
 from bootcourse.course.lessons.learning_from_demonstrations.explorable import nine_values
 from bootcourse.course.lessons.looking_ahead import explorable as futures
 from bootcourse.course.lessons.other_ways.explorable import TwoCounts
-from bootcourse.course.lessons.the_barrier.numbers import bearable
+from bootcourse.course.lessons.the_barrier.explorable import hill
+from bootcourse.course.lessons.the_trap.numbers import worth_of_plan
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.learn import sac
 from bootcourse.learn.bootstrap import large_margin_loss, regularised_policy
@@ -22,6 +23,7 @@ from bootcourse.policies import idle_policy
 from bootcourse.research.equal_decisions import by_method
 from bootcourse.statistics import rate
 from tests.panels import at_its_ends, from_page, inside, raise_in_callbacks  # noqa: F401
+from tools.course.known import discounted, idle
 from tools.course.numbering import text_file
 from tools.course.source import read
 
@@ -85,11 +87,14 @@ def test_the_numbers_in_the_sentences_are_those_of_the_library():
     assert f"by {sac.entropy(log_pi).item():.2f} nats" in panel.svg.alt
     low, high = 100 * np.array(rate(np.arange(10) < 8)[1:])
     assert f"{low:.0f} to {high:.0f} %" in shown("how_many_seeds").svg.alt
-    panel = shown("the_barrier")
+    panel, of_staying = shown("the_barrier"), worth_of_plan(0.8) / discounted(idle(), 0.8)
+    assert abs(hill(10, 0.8)[0] - of_staying) < 1e-4, "what lesson 1 says of the same plan"
     for price, gamma in ((10, 0.8), (1, 0.8), (10, 0.95), (0, 0.95)):
         for name, value in (("price", price), ("gamma", gamma)):
             from_page(panel.numbers[name].slider, value=value)
-        assert f"at most {100 * bearable(gamma, price):.0f} % crash early" in panel.svg.alt
+        now, later = hill(price, gamma)[[0, -1]]
+        for said in (f"the plan is worth {now:.1f} of staying", f"after 14 s {later:.1f}."):
+            assert said in panel.svg.alt
 
 
 def test_the_soft_target_is_the_plain_one_at_alpha_0_and_the_best_action_and_above_it_with_the_softmax():

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from bootcourse.course.lessons.the_barrier.figures import FAR, NOT, SOME, squares
+from bootcourse.course.lessons.the_barrier import easier
+from bootcourse.course.lessons.the_barrier.figures import FAR, NOT, SOME, escapes, squares
+from bootcourse.course.shipped import shipped_experiment
 from bootcourse.episodes.rollout import series
 from bootcourse.episodes.words import cars_at, overtaken
 from bootcourse.errors import BootcourseError
@@ -133,8 +135,9 @@ def every_figure(escape, idle, crash):
     yield traces([idle, escape, crash])
     yield training_curves({"sac": curves(), "bootstrapped": curves()}, "A title " * 12)
     yield animation.frame([idle, escape], 5.5)
-    kinds = {"one kind": [(FAR, True), (NOT, False)], "another": [(SOME, False), (NOT, True)]}
-    yield squares({"left": kinds, "right": kinds}, "A title", ("far", "some way", "not far"), "crashed")
+    kinds = {"one kind": [FAR, NOT], "another": [SOME, NOT]}
+    yield squares({"left": kinds, "right": kinds}, "A title", ("far", "some way", "not far"))
+    yield escapes(shipped_experiment("easier"), easier.SHOWN)
 
 
 def test_every_figure_has_alt_text_and_no_text_lies_on_another(escape, idle, crash):

@@ -24,10 +24,23 @@ class Outcome:
     rewards: np.ndarray  # (roads, decisions); 0 after an accident
     ahead: np.ndarray  # bool: ahead of trap 1 at the end
     accident: np.ndarray  # bool: ended in an accident of any kind
+    lasted: np.ndarray  # decisions until its end
 
     def values(self, gamma: float) -> np.ndarray:
         """Σ γ^t r_t from the start of each drive."""
         return self.rewards @ gamma ** np.arange(self.rewards.shape[1])
+
+    def going_on(self, gamma: float, price: float, decisions: int) -> np.ndarray:
+        """What the rest of a drive is worth after 0, 1, … decisions, (decisions + 1,).
+
+        Each is the mean of the drives that have not ended; an accident costs `price`.
+        """
+        rewards = self.rewards.copy()
+        rewards[self.accident, self.lasted[self.accident] - 1] = -price
+        weights, means = gamma ** np.arange(rewards.shape[1]), []
+        for t in range(decisions + 1):
+            means.append((rewards[self.lasted > t, t:] @ weights[: rewards.shape[1] - t]).mean())
+        return np.array(means)
 
 
 def keep_lane(cars: np.ndarray, speeds: np.ndarray, lanes: np.ndarray) -> np.ndarray:
@@ -40,8 +53,9 @@ def keep_lane(cars: np.ndarray, speeds: np.ndarray, lanes: np.ndarray) -> np.nda
 def drive(policy: Policy, seeds: Sequence[int], make_env: Callable[..., VectorEnv] = TrapVectorEnv) -> Outcome:
     """One drive on the road of each seed. make_env: the roads, such as those of easier.py."""
     env = make_env(len(seeds), DEFAULT, AutoresetMode.DISABLED)  # after an episode's end its reward is 0
-    rewards, accident = [], np.zeros(len(seeds), dtype=bool)
+    rewards, accident, lasted = [], np.zeros(len(seeds), dtype=bool), np.zeros(len(seeds), dtype=int)
     for step in steps(policy, env, list(seeds)):
         rewards.append(step.rewards)
         accident |= step.infos["accident"] > 0
-    return Outcome(np.stack(rewards, axis=1), step.infos["is_success"], accident)
+        lasted += step.running
+    return Outcome(np.stack(rewards, axis=1), step.infos["is_success"], accident, lasted)

@@ -102,13 +102,9 @@ KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the set
     BOTH: (costing(1.0, MidLaneStart), {}),
 }
 
-SHOWN = {  # the kinds whose agents the lesson shows, in its words
-    "the road as it is": "as it is",
-    "a lane keeper": "a lane keeper",
-    "a start mid-lane": MIDDLE,
-    "accidents cost 1": CHEAP,
-    "cost 1, lane keeper": KEPT,
-    "cost 1, mid-lane": BOTH,
+SHOWN = {  # the kinds whose agents the lesson shows, in its words: {price: {road: kind}}
+    "accidents cost 10": {"as it is": "as it is", "a lane keeper": "a lane keeper", "a start mid-lane": MIDDLE},
+    "accidents cost 1": {"as it is": CHEAP, "a lane keeper": KEPT, "a start mid-lane": BOTH},
 }
 
 

@@ -1,50 +1,52 @@
-"""To drag in this lesson: how many attempts may crash, by what an accident costs and how far ahead a driver looks."""
+"""To drag in this lesson: what it is worth to go on with lesson 1's plan, second by second: the barrier."""
 
 from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons.the_barrier.attempts import PLAN
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.episodes.record import record
+from bootcourse.course.lessons.the_barrier.attempts import PLAN, Outcome, drive
+from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.methods import style
 from bootcourse.panels.explorable import Axes, Curve, Explorable, curves
 from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing
-from bootcourse.policies import PlanPolicy, idle_policy, rule_policy
-from bootcourse.scenario import DEFAULT
+from bootcourse.policies import PlanPolicy, idle_policy
 
-ROAD, CRASH_AFTER = 10, 3  # the road of the drives; s, after which an attempt crashes if it does
-RISKS = np.linspace(0, 100, 101)  # % of attempts
+SECONDS = 14  # of the plan, from its start until it is past the traps
 
 
 @cache
-def the_plan_crashes() -> float:
-    """On which share of the study's 1,000 held-out roads lesson 1's plan ends in an accident."""
-    return float((drive_episodes(PlanPolicy(PLAN), held_out_seeds(1, 1000)).accident > 0).mean())
+def by_plan() -> Outcome:
+    """What comes of lesson 1's plan on the study's 1,000 held-out roads."""
+    return drive(PlanPolicy(PLAN), held_out_seeds(1, 1000))
 
 
-def attempt() -> Explorable:
-    """What an attempt like lesson 1's plan is worth, beside staying, by how many such attempts crash."""
-    by_rule, plan, idle = (
-        record(policy, [ROAD])[0].rewards for policy in (rule_policy(DEFAULT), PlanPolicy(PLAN), idle_policy)
-    )
-    crashes = 100 * the_plan_crashes()
+@cache
+def by_staying() -> Outcome:
+    """What comes of doing nothing, on one road: it earns the same on each."""
+    return drive(idle_policy, held_out_seeds(1, 1))
+
+
+def hill(price: float, gamma: float) -> np.ndarray:
+    """What it is worth to go on with the plan after 0 to 14 s of it, as a multiple of staying at its start."""
+    return by_plan().going_on(gamma, price, SECONDS) / by_staying().values(gamma)[0]
+
+
+def barrier() -> Explorable:
+    """What it is worth to go on with the plan, by how many of its seconds are driven, beside staying."""
 
     def draw(price: float, gamma: float) -> Drawing:
-        stay, out, crash = (
-            gamma ** np.arange(len(rewards)) @ rewards for rewards in (idle, plan, [*by_rule[:CRASH_AFTER], -price])
-        )
-        worth = (out + (crash - out) * RISKS / 100) / stay
-        share = f"{(out - stay) / (out - crash):.0%}".replace("%", " %")
-        says = f"Price {price:g}, γ = {gamma:g}: it pays if at most {share} crash early (the plan: "
-        says += f"{crashes:.0f} %, early or later)."
-        axes = Axes("early crashes, % of attempts", "worth, as a multiple of staying", (-10.0, 4.0))
+        worth = hill(price, gamma)
+        lowest = int(worth.argmin())
+        dip = f"after {lowest} s {worth[lowest]:.1f}" if lowest else "no dip"
+        says = f"Price {price:g}, γ = {gamma:g}: the plan is worth {worth[0]:.1f} of staying, {dip}, "
+        says = f"{says}after {SECONDS} s {worth[-1]:.1f}.".replace("-", "−")
+        axes = Axes("seconds of the plan that are driven", "worth of going on, as a multiple of staying", (-2.0, 7.0))
         named = {
-            "an attempt": Curve(worth, style("sac").colour),
-            "staying": Curve(np.ones(len(RISKS)), style("idle").colour, "--"),
+            "going on with the plan": Curve(worth, style("sac").colour),
+            "staying": Curve(np.ones(SECONDS + 1), style("idle").colour, "--"),
         }
-        return curves(says, axes, RISKS, named, mark=crashes)
+        return curves(says, axes, np.arange(SECONDS + 1), named, mark=lowest)
 
     numbers = {
         "price": Number("price", 10, 0, 15, 1, "What an accident costs."),

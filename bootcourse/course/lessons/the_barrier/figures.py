@@ -1,4 +1,7 @@
-"""Figures of the barrier, and a table: when agents ended ahead while they learned, and how they drive in the end."""
+"""Figures of the barrier, and a table: when agents ended ahead while they learned, and how they drive in the end.
+
+`squares` is lesson 2's: which learners leave its chain.
+"""
 
 from collections.abc import Mapping, Sequence
 
@@ -15,23 +18,52 @@ from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
 
 FAR, SOME, NOT = 2, 1, 0  # how far a learner got: its square is dark, light or empty
-AGENTS = ("escapes, and earns more than a car that stays", "escapes, and earns less", "does not escape")
 LEARNERS = ("learned to leave", "was on the free road, and did not learn to leave", "was not on the free road")
 SHADES = {FAR: style("sac").colour, SOME: "#A9CFE6", NOT: "white"}
 
 
-def escapes(trained: Mapping[str, Results], kinds: Mapping[str, str]) -> Figure:
-    """How the agents of each kind of road end. kinds: {the row's name: the kind}."""
-    title = "Cheap accidents free most agents with a start mid-lane, and none with a lane keeper"
-    rows = {name: ends(trained[kind], easier.staying(kind)) for name, kind in kinds.items()}
-    return squares({"": rows}, title, AGENTS, "has an accident on most roads", counted=(FAR, SOME))
+def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str]]) -> Figure:
+    """Each agent's return over how often it ends ahead, a panel for each kind. shown: {row: {column: the kind}}."""
+    figure, listed, ends = new_figure(4.75), [], {}
+    for row, (price, kinds) in enumerate(shown.items()):
+        for column, (road, kind) in enumerate(kinds.items()):
+            ax = axes_at(figure, 0.95 + 2.02 * column, 0.95 + 1.68 * row, 1.85, 1.45)
+            ends[kind] = counts = _dots(ax, trained[kind], easier.staying(kind))
+            listed.append(f"{price}: " * (not column) + f"{road} {', '.join(map(str, counts))}")
+            ax.set(xticklabels=ax.get_xticks() if row else [], yticklabels=[] if column else ax.get_yticks())
+            ax.text(3, 97, f"{counts[0]} of {len(trained[kind])} escape", fontsize=TEXT, color=INK, fontweight="bold")
+            if not row:
+                ax.set_title(road, fontsize=TEXT, color=INK)
+            if not column:
+                left = {"rotation": 90, "ha": "center", "va": "center", "color": INK}
+                ax.text(-40, 48, f"{price}\nreturn", fontsize=TEXT, linespacing=1.4, **left)
+            if not row + column:
+                ax.text(45, 27, "staying", fontsize=SMALL, color=style("idle").colour)
+            if row and column == 1:
+                ax.set_xlabel("ends ahead, % of the test roads", fontsize=TEXT, color=INK)
+    escaping, earning, _ = ends[easier.BOTH]
+    title = f"Cheap accidents with a start mid-lane free {escaping} of {len(trained[easier.BOTH])} agents; "
+    title += f"{earning} of them earn more than by staying"
+    words = "A dot: an agent. A cross: one with an accident on most roads. "
+    words += f"Blue, from {100 * ESCAPES:.0f} % on: it escapes. (Spread a little sideways.)"
+    figure.text(0.012, 0.015, words, fontsize=SMALL, color=QUIET)
+    what = "Escape, of these earn more than by staying, crash on most roads:"
+    return finish(figure, title, f"{words}\n{what} {'; '.join(listed)}.")
 
 
-def ends(results: Results, staying: float) -> list[tuple[int, bool]]:
-    """Each agent for `squares`: whether it escapes and earns more than `staying`, and if it crashes on most roads."""
-    success, earned, accident = (results.scores(name) for name in ("success", "returns", "accident"))
-    far = np.where(success < ESCAPES, NOT, np.where(earned > staying, FAR, SOME))
-    return list(zip(far.tolist(), (accident > 0.5).tolist(), strict=True))
+def _dots(ax, agents: Results, staying: float) -> tuple[int, int, int]:
+    """Draw a kind's agents; how many escape, how many of these earn more than `staying`, and how many crash mostly."""
+    success, earned, accident = (agents.scores(name) for name in ("success", "returns", "accident"))
+    out, crashing = success >= ESCAPES, accident > 0.5
+    plain_axes(ax, "", grid="")
+    ax.set(xlim=(-6, 106), ylim=(-16, 112), xticks=[0, 50, 100], yticks=[0, 50, 100])
+    ax.axvspan(100 * ESCAPES, 106, color=SHADES[SOME], alpha=0.45, linewidth=0)
+    ax.axhline(staying, color=style("idle").colour, linestyle="--", linewidth=1.0)
+    look = {"markersize": 5.5, "alpha": 0.75, "clip_on": False, "linestyle": ""}
+    across = 100 * success + 1.8 * (earned.argsort().argsort() % 5 - 2)
+    ax.plot(across[~crashing], earned[~crashing], "o", color=SHADES[FAR], markeredgecolor="white", **look)
+    ax.plot(across[crashing], earned[crashing], "x", color=TRAP, markeredgewidth=1.4, **look)
+    return int(out.sum()), int((out & (earned > staying)).sum()), int(crashing.sum())
 
 
 def how_they_drive(agents: Sequence, tests: Sequence):
@@ -84,58 +116,45 @@ def while_they_learned(results: Results, chance: float) -> Figure:
     return finish(figure, title, f"{words}\nThe agents' drives that ended ahead: {', '.join(listed)}.")
 
 
-def learners(all_q: Sequence[np.ndarray]) -> list[tuple[int, bool]]:
+def learners(all_q: Sequence[np.ndarray]) -> list[int]:
     """How far the chain's learners got, for `squares`."""
-    return [(FAR if chain.leaves(q) else SOME if chain.has_been_free(q) else NOT, False) for q in all_q]
+    return [FAR if chain.leaves(q) else SOME if chain.has_been_free(q) else NOT for q in all_q]
 
 
-def squares(
-    panels: Mapping[str, Mapping[str, Sequence[tuple[int, bool]]]],
-    title: str,
-    meaning: Sequence[str],
-    crossed: str = "",
-    counted: Sequence[int] = (FAR,),
-) -> Figure:
+def squares(panels: Mapping[str, Mapping[str, Sequence[int]]], title: str, meaning: Sequence[str]) -> Figure:
     """A square for each learner, a row for each kind; the panels stand side by side and have the same kinds.
 
-    panels: {name: {kind: (FAR, SOME or NOT, whether it is crossed out) of each learner}}, drawn in this order.
-    meaning: of FAR, SOME and NOT; crossed: of the cross; counted: which of them the number beside a row counts.
+    panels: {name: {kind: FAR, SOME or NOT of each learner}}, drawn in this order; meaning: of FAR, SOME and NOT.
     """
     first = next(iter(panels.values()))
-    most, keys = max(map(len, first.values())), [*meaning, *([crossed] if crossed else [])]
+    most = max(map(len, first.values()))
     size, height = min(0.19, (4.4 - 0.8 * (len(panels) - 1)) / len(panels) / most), 0.29 * len(first)
     top = 0.34 + 0.2 * len(wrapped(title).splitlines()) + 0.16 * any(panels)
-    figure, left, listed = new_figure(top + height + 0.2 + 0.19 * len(keys)), 1.75, []
+    figure, left, listed = new_figure(top + height + 0.2 + 0.19 * len(meaning)), 1.75, []
     for name, rows in panels.items():
         ax = axes_at(figure, left, top, size * most, height)
         ax.set(xlim=(-0.5, most - 0.5), ylim=(len(rows) - 0.5, -0.5))
         ax.axis("off")
         ax.text(-0.5, -0.75, name, fontsize=TEXT, color=INK, va="bottom")
         for row, (kind, learners) in enumerate(rows.items()):
-            for column, (far, cross) in enumerate(sorted(learners, key=lambda each: (-each[0], each[1]))):
-                _square(ax, column, row, far, cross, 47 * size)
-            dark, light = (sum(far == shade for far, _ in learners) for shade in (FAR, SOME))
-            number = sum(far in counted for far, _ in learners)
-            ax.text(most - 0.1, row, f"{number} of {len(learners)}", fontsize=TEXT, color=INK, va="center")
+            for column, far in enumerate(sorted(learners, reverse=True)):
+                _square(ax, column, row, far, 47 * size)
+            dark, light = (sum(far == shade for far in learners) for shade in (FAR, SOME))
+            ax.text(most - 0.1, row, f"{dark} of {len(learners)}", fontsize=TEXT, color=INK, va="center")
             if ax is figure.axes[0]:
                 ax.text(-0.9, row, kind, fontsize=TEXT, color=INK, va="center", ha="right")
             listed.append(f"{name} {kind}: {dark} dark, {light} light, {len(learners) - dark - light} empty".strip())
-            listed[-1] += f", {sum(cross for _, cross in learners)} crossed out" * bool(crossed)
         left += size * most + 0.75
-    key = axes_at(figure, 1.75, top + height + 0.08, 0.19, 0.19 * len(keys))
-    key.set(xlim=(-0.5, 0.5), ylim=(len(keys) - 0.5, -0.5))
+    key = axes_at(figure, 1.75, top + height + 0.08, 0.19, 0.19 * len(meaning))
+    key.set(xlim=(-0.5, 0.5), ylim=(len(meaning) - 0.5, -0.5))
     key.axis("off")
-    marks = ((FAR, False), (SOME, False), (NOT, False), (NOT, True))
-    for row, (mark, words) in enumerate(zip(marks, keys, strict=False)):
-        _square(key, 0, row, *mark, 6.5)
+    for row, (far, words) in enumerate(zip((FAR, SOME, NOT), meaning, strict=True)):
+        _square(key, 0, row, far, 6.5)
         key.text(0.9, row, words, fontsize=SMALL, color=QUIET, va="center")
-    legend = zip(("Dark", "Light", "Empty", "Crossed out"), keys, strict=False)
+    legend = zip(("Dark", "Light", "Empty"), meaning, strict=True)
     legend = " ".join(f"{look}: {words}." for look, words in legend)
     return finish(figure, title, f"A square for each learner. {legend} {'; '.join(listed)}.")
 
 
-def _square(ax, x: float, y: float, far: int, crossed: bool, size: float) -> None:
+def _square(ax, x: float, y: float, far: int, size: float) -> None:
     ax.plot(x, y, "s", markersize=size, color=SHADES[far], markeredgecolor=QUIET, markeredgewidth=0.7, clip_on=False)
-    if crossed:
-        ink = "white" if far == FAR else TRAP
-        ax.plot(x, y, "x", markersize=0.6 * size, color=ink, markeredgewidth=1.3, clip_on=False)

@@ -5,16 +5,13 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
-from bootcourse.course.lessons.the_trap import numbers as the_trap
-from bootcourse.course.lessons.the_trap.exercises import bearable_risk
 from bootcourse.course.shipped import shipped_agents
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.policies import PlanPolicy, random_policy
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.results import Results
-from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD, by_rule, discounted, idle, shipped_experiment
+from tools.course.known import ROAD, discounted, idle, shipped_experiment
 
 
 @cache
@@ -24,23 +21,31 @@ def planned() -> float:
 
 
 @cache
-def by_chance():
-    """The barrier's 5,000 random drives."""
-    return drive_episodes(random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000))
+def by_chance() -> list[attempts.Outcome]:
+    """The barrier's 5,000 random drives, 1,000 at a time, as its cell drives them."""
+    policy, seeds = random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000)
+    return [attempts.drive(policy, seeds[i : i + 1000]) for i in range(0, 5000, 1000)]
 
 
-def bearable(gamma: float, price: float = -DEFAULT.reward.accident) -> float:
-    """The share of crashes that lesson 1 bears: on its road, like its plan, or a crash after 3 s that costs `price`."""
-    crash = gamma ** np.arange(4) @ [*by_rule().rewards[:3], -price]
-    stay, leave = discounted(idle(), gamma), discounted(the_trap.on_ten(), gamma)
-    return float(bearable_risk.solution(stay, leave, crash))
+def lucky(gamma: float = 1.0) -> np.ndarray:
+    """What those of them are worth that end ahead; all of them crash."""
+    assert all(each.accident.all() for each in by_chance())
+    return np.concatenate([each.values(gamma)[each.ahead] for each in by_chance()])
 
 
-def the_plan_crashes() -> float:
-    """On which share of lesson 1's roads its plan ends in an accident."""
-    share = float(np.mean(the_trap.blind_plan().accident > 0))
-    assert share == explorable.the_plan_crashes()  # which the panel draws
-    return share
+@cache
+def at_random(kind: str) -> float:
+    """What a random drive on a kind of road is worth at γ = 0.8, mean of 1,000 roads."""
+    policy = random_policy(np.random.default_rng(1))
+    return float(attempts.drive(policy, held_out_seeds(7, 1000), easier.KINDS[kind][0]).values(0.8).mean())
+
+
+hill = explorable.hill
+
+
+def crash_by(second: int) -> np.ndarray:
+    """On which of lesson 1's roads its plan ends in an accident within so many seconds."""
+    return explorable.by_plan().accident & (explorable.by_plan().lasted <= second)
 
 
 def easy(kind: str) -> Results:
@@ -90,7 +95,8 @@ def earn_more(kind: str, longer: bool = False) -> int:
 
 def earn_and(crash: bool) -> int:
     """How many of the agents that escape and earn with both changes have an accident on most roads, or have not."""
-    return figures.ends(easy(BOTH), easier.staying(BOTH)).count((figures.FAR, crash))
+    success, earned, accident = (easy(BOTH).scores(name) for name in ("success", "returns", "accident"))
+    return int(((success >= ESCAPES) & (earned > easier.staying(BOTH)) & ((accident > 0.5) == crash)).sum())
 
 
 @cache
