@@ -8,7 +8,8 @@ import pytest
 from PIL import Image
 
 from bootcourse.course.lessons.the_barrier import easier
-from bootcourse.course.lessons.the_barrier.figures import FAR, NOT, SOME, escapes, squares
+from bootcourse.course.lessons.the_barrier.figures import escapes
+from bootcourse.course.lessons.values.diagrams import who_leaves
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.episodes.rollout import series
 from bootcourse.episodes.words import cars_at, overtaken
@@ -135,8 +136,7 @@ def every_figure(escape, idle, crash):
     yield traces([idle, escape, crash])
     yield training_curves({"sac": curves(), "bootstrapped": curves()}, "A title " * 12)
     yield animation.frame([idle, escape], 5.5)
-    kinds = {"one kind": [FAR, NOT], "another": [SOME, NOT]}
-    yield squares({"left": kinds, "right": kinds}, "A title", ("far", "some way", "not far"))
+    yield who_leaves({kind: np.random.default_rng(0).normal(size=(30, 5, 2)) for kind in ("one kind", "another")})
     yield escapes(shipped_experiment("easier"), easier.SHOWN)
 
 

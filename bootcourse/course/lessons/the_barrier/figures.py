@@ -1,7 +1,4 @@
-"""Figures of the barrier, and a table: when agents ended ahead while they learned, and how they drive in the end.
-
-`squares` is lesson 2's: which learners leave its chain.
-"""
+"""Figures of the barrier, and a table: when agents ended ahead while they learned, and how they drive in the end."""
 
 from collections.abc import Mapping, Sequence
 
@@ -11,15 +8,12 @@ from matplotlib.figure import Figure
 from bootcourse.colours import TRAP
 from bootcourse.course import table
 from bootcourse.course.lessons.the_barrier import easier
-from bootcourse.course.lessons.values import chain
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes, wrapped
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
 
-FAR, SOME, NOT = 2, 1, 0  # how far a learner got: its square is dark, light or empty
-LEARNERS = ("learned to leave", "was on the free road, and did not learn to leave", "was not on the free road")
-SHADES = {FAR: style("sac").colour, SOME: "#A9CFE6", NOT: "white"}
+DARK, LIGHT = style("sac").colour, "#A9CFE6"
 
 
 def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str]]) -> Figure:
@@ -57,11 +51,11 @@ def _dots(ax, agents: Results, staying: float) -> tuple[int, int, int]:
     out, crashing = success >= ESCAPES, accident > 0.5
     plain_axes(ax, "", grid="")
     ax.set(xlim=(-6, 106), ylim=(-16, 112), xticks=[0, 50, 100], yticks=[0, 50, 100])
-    ax.axvspan(100 * ESCAPES, 106, color=SHADES[SOME], alpha=0.45, linewidth=0)
+    ax.axvspan(100 * ESCAPES, 106, color=LIGHT, alpha=0.45, linewidth=0)
     ax.axhline(staying, color=style("idle").colour, linestyle="--", linewidth=1.0)
     look = {"markersize": 5.5, "alpha": 0.75, "clip_on": False, "linestyle": ""}
     across = 100 * success + 1.8 * (earned.argsort().argsort() % 5 - 2)
-    ax.plot(across[~crashing], earned[~crashing], "o", color=SHADES[FAR], markeredgecolor="white", **look)
+    ax.plot(across[~crashing], earned[~crashing], "o", color=DARK, markeredgecolor="white", **look)
     ax.plot(across[crashing], earned[crashing], "x", color=TRAP, markeredgewidth=1.4, **look)
     return int(out.sum()), int((out & (earned > staying)).sum()), int(crashing.sum())
 
@@ -100,8 +94,8 @@ def while_they_learned(results: Results, chance: float) -> Figure:
     listed = []
     for row, k in enumerate(np.argsort(-times, kind="stable")):
         drives = results.curves["success"][k]
-        ax.plot([0, np.isfinite(drives).sum()], [row, row], color=SHADES[SOME], linewidth=1.0)
-        ax.plot(1 + np.flatnonzero(drives > 0), np.full(times[k], row), "|", color=SHADES[FAR], markersize=9)
+        ax.plot([0, np.isfinite(drives).sum()], [row, row], color=LIGHT, linewidth=1.0)
+        ax.plot(1 + np.flatnonzero(drives > 0), np.full(times[k], row), "|", color=DARK, markersize=9)
         listed.append(f"{times[k]}")
         if ahead[k] >= 0.1:
             label = f"{100 * ahead[k]:.0f} %{': escapes' if escaping[k] else ''}"
@@ -114,47 +108,3 @@ def while_they_learned(results: Results, chance: float) -> Figure:
     words += "At a row's end: the share of the test roads on which the agent then ends ahead, where it is 10 % or more."
     figure.text(0.012, 0.015, words, fontsize=SMALL, color=QUIET)
     return finish(figure, title, f"{words}\nThe agents' drives that ended ahead: {', '.join(listed)}.")
-
-
-def learners(all_q: Sequence[np.ndarray]) -> list[int]:
-    """How far the chain's learners got, for `squares`."""
-    return [FAR if chain.leaves(q) else SOME if chain.has_been_free(q) else NOT for q in all_q]
-
-
-def squares(panels: Mapping[str, Mapping[str, Sequence[int]]], title: str, meaning: Sequence[str]) -> Figure:
-    """A square for each learner, a row for each kind; the panels stand side by side and have the same kinds.
-
-    panels: {name: {kind: FAR, SOME or NOT of each learner}}, drawn in this order; meaning: of FAR, SOME and NOT.
-    """
-    first = next(iter(panels.values()))
-    most = max(map(len, first.values()))
-    size, height = min(0.19, (4.4 - 0.8 * (len(panels) - 1)) / len(panels) / most), 0.29 * len(first)
-    top = 0.34 + 0.2 * len(wrapped(title).splitlines()) + 0.16 * any(panels)
-    figure, left, listed = new_figure(top + height + 0.2 + 0.19 * len(meaning)), 1.75, []
-    for name, rows in panels.items():
-        ax = axes_at(figure, left, top, size * most, height)
-        ax.set(xlim=(-0.5, most - 0.5), ylim=(len(rows) - 0.5, -0.5))
-        ax.axis("off")
-        ax.text(-0.5, -0.75, name, fontsize=TEXT, color=INK, va="bottom")
-        for row, (kind, learners) in enumerate(rows.items()):
-            for column, far in enumerate(sorted(learners, reverse=True)):
-                _square(ax, column, row, far, 47 * size)
-            dark, light = (sum(far == shade for far in learners) for shade in (FAR, SOME))
-            ax.text(most - 0.1, row, f"{dark} of {len(learners)}", fontsize=TEXT, color=INK, va="center")
-            if ax is figure.axes[0]:
-                ax.text(-0.9, row, kind, fontsize=TEXT, color=INK, va="center", ha="right")
-            listed.append(f"{name} {kind}: {dark} dark, {light} light, {len(learners) - dark - light} empty".strip())
-        left += size * most + 0.75
-    key = axes_at(figure, 1.75, top + height + 0.08, 0.19, 0.19 * len(meaning))
-    key.set(xlim=(-0.5, 0.5), ylim=(len(meaning) - 0.5, -0.5))
-    key.axis("off")
-    for row, (far, words) in enumerate(zip((FAR, SOME, NOT), meaning, strict=True)):
-        _square(key, 0, row, far, 6.5)
-        key.text(0.9, row, words, fontsize=SMALL, color=QUIET, va="center")
-    legend = zip(("Dark", "Light", "Empty"), meaning, strict=True)
-    legend = " ".join(f"{look}: {words}." for look, words in legend)
-    return finish(figure, title, f"A square for each learner. {legend} {'; '.join(listed)}.")
-
-
-def _square(ax, x: float, y: float, far: int, size: float) -> None:
-    ax.plot(x, y, "s", markersize=size, color=SHADES[far], markeredgecolor=QUIET, markeredgewidth=0.7, clip_on=False)

@@ -3,19 +3,37 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from bootcourse.colours import OTHER
 from bootcourse.course import charts
-from bootcourse.course.lessons.the_barrier import figures
 from bootcourse.course.lessons.values import chain
+from bootcourse.methods import style
 from bootcourse.plots.diagrams import arrow, box, label, line
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
+from bootcourse.plots.figure import (
+    INK,
+    QUIET,
+    SMALL,
+    TEXT,
+    axes_at,
+    finish,
+    label_ends,
+    new_figure,
+    plain_axes,
+    wrapped,
+)
 
 WIDE, HIGH = 106, 46  # pixels of a state's box
 ON = charts.Style("#56B4E9")  # going on to the free road; what stays in the trap has OTHER's look
 CELL = (0.95, 0.31)  # inches of a number's cell
+DARK, LIGHT, EMPTY = style("sac").colour, "#A9CFE6", "white"
+SHADES = {  # of a learner's square: how that looks, and how far the learner got
+    DARK: ("Dark", "learned to leave"),
+    LIGHT: ("Light", "was on the free road, and did not learn to leave"),
+    EMPTY: ("Empty", "was not on the free road"),
+}
 
 
 def five_states(middles: Sequence[float], top: float, pay: float) -> tuple[list[str], str]:
@@ -87,10 +105,34 @@ def _values(title: str, rows: Mapping[str, tuple[np.ndarray, np.ndarray]], digit
 
 
 def who_leaves(found: Mapping[str, Sequence[np.ndarray]]) -> Figure:
-    """Which learners of each kind learned to leave the trap, from the Q (5, 2) that each ends with."""
+    """A square for each learner, a row for each kind: how far it got, by the Q (5, 2) that it ends with."""
     title = "Chance alone or a replayed demonstration teaches all thirty to leave, a longer view none"
-    rows = {kind: figures.learners(all_q) for kind, all_q in found.items()}
-    return figures.squares({"": rows}, title, figures.LEARNERS)
+    most = max(map(len, found.values()))
+    size, height, top = min(0.19, 4.4 / most), 0.29 * len(found), 0.34 + 0.2 * len(wrapped(title).splitlines())
+    figure, listed = new_figure(top + height + 0.2 + 0.19 * len(SHADES)), []
+    ax = axes_at(figure, 1.75, top, size * most, height)
+    ax.set(xlim=(-0.5, most - 0.5), ylim=(len(found) - 0.5, -0.5))
+    ax.axis("off")
+    for row, (kind, all_q) in enumerate(found.items()):
+        got = [DARK if chain.leaves(q) else LIGHT if chain.has_been_free(q) else EMPTY for q in all_q]
+        for column, shade in enumerate(sorted(got, key=[*SHADES].index)):
+            _square(ax, column, row, shade, 47 * size)
+        dark, light, empty = map(got.count, SHADES)
+        ax.text(most - 0.1, row, f"{dark} of {len(got)}", fontsize=TEXT, color=INK, va="center")
+        ax.text(-0.9, row, kind, fontsize=TEXT, color=INK, va="center", ha="right")
+        listed.append(f"{kind}: {dark} dark, {light} light, {empty} empty")
+    key = axes_at(figure, 1.75, top + height + 0.08, 0.19, 0.19 * len(SHADES))
+    key.set(xlim=(-0.5, 0.5), ylim=(len(SHADES) - 0.5, -0.5))
+    key.axis("off")
+    for row, (shade, (_, words)) in enumerate(SHADES.items()):
+        _square(key, 0, row, shade, 6.5)
+        key.text(0.9, row, words, fontsize=SMALL, color=QUIET, va="center")
+    legend = " ".join(f"{look}: {words}." for look, words in SHADES.values())
+    return finish(figure, title, f"A square for each learner. {legend} {'; '.join(listed)}.")
+
+
+def _square(ax: Axes, x: float, y: float, shade: str, size: float) -> None:
+    ax.plot(x, y, "s", markersize=size, color=shade, markeredgecolor=QUIET, markeredgewidth=0.7, clip_on=False)
 
 
 def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
