@@ -1,8 +1,11 @@
 """The pole's agents that the lesson on the update and the loop counts: how they train, and what ships."""
 
-import numpy as np
+import re
 
-from bootcourse.course.lessons.update_and_loop import pole
+import numpy as np
+import torch
+
+from bootcourse.course.lessons.update_and_loop import by_hand, exercises, explorable, pole, worlds
 from bootcourse.course.shipped import shipped_experiment
 
 
@@ -27,3 +30,19 @@ def test_the_agents_that_ship_train_until_two_tests_in_a_row_reach_the_mark():
     for tests in shipped_experiment("pole")["marked"].notes["tests"]:
         both = np.minimum(tests[1:], tests[:-1])[np.isfinite(tests[1:])]
         assert both[-1] >= pole.SOLVED > both[:-1].max()
+
+
+def test_after_a_fall_two_rows_say_that_the_pole_stays_fallen_and_none_is_marked():
+    buffer, state = exercises.ReplayBuffer.solution(10), np.arange(4)
+    rows = worlds.Lying(buffer, paid=0.5)
+    rows.add(by_hand.row(state, 1, 1.0, False, state + 1))
+    rows.add(by_hand.row(state + 1, 0, 1.0, True, state + 2))
+    lying = [by_hand.row(state + 2, push, 0.5, False, state + 2) for push in (0, 1)]
+    assert len(buffer.rows) == 4 and torch.equal(torch.stack(buffer.rows[2:]), torch.stack(lying))
+    assert not any(row[6] for row in buffer.rows)
+
+
+def test_two_trained_poles_are_first_shown_where_one_has_fallen():
+    panel = explorable.trained_poles(by_hand.SAC(seed=1), by_hand.SAC(seed=0))
+    push = int(panel.numbers["push"].value)
+    assert re.match(rf"Push {push}: .*has fallen at push {push} ", panel.svg.alt) and push > 0

@@ -15,7 +15,7 @@
 #
 # **What you will be able to do**
 # - write a look-ahead that can improve trained drivers without more training, and a shield;
-# - say what leads a stuck agent out, although no imagined drive shows the way;
+# - test what leads a stuck agent out, although no imagined drive shows the way;
 # - find out what a wrong model, or a learned one, does not know.
 #
 # **Time** 45 minutes; running it takes about half a minute. **It builds on** the rule (lesson
@@ -200,8 +200,9 @@ table(*figures.out_of_trap(drivers, roads[:10], study))
 # towards the way out has to raise $\hat Q$ by itself: by ten seconds of rewards, or by W, the speed at
 # their end.
 #
-# Were the rollouts as long as the episode, on the true road, the look-ahead would earn at least what its
-# base earns: this is **policy improvement**. It does not speak of accidents.
+# Did the rollouts reach the episode's end, with γ = 1 and without W, on the true road, the
+# look-ahead would earn at least what its base earns: this is **policy improvement**. It does not
+# speak of accidents.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # *The proof of policy improvement*, where neither road nor policy draws. Let π be the base, T the
@@ -300,9 +301,9 @@ learned = learned_from(own_drives, updates=500)
 bc.show(figures.promised(agent, learned, drive, alone[:10]))
 
 # %% [markdown]
-# **See.** The model does not expect the accidents in red: its drives do not show these actions here. Its
-# best of nine is little better than an action drawn at random, and far worse than the agent's own.
-# (Your numbers can differ a little.)
+# **See.** The model does not expect the accidents in red, and puts safe actions too low. Its best
+# of nine is little better than an action drawn at random, and far worse than the agent's own. (Your
+# numbers can differ a little.)
 # <!-- claim: 2 * misled()[2] < misled()[0] and 0.7 * misled()[1] < misled()[0] < misled()[1] -->
 #
 # Ten agents of the study look ahead, each in its model: all {{ learned_drives() | , }} drives end in an
@@ -373,10 +374,11 @@ compare_predictions(
 # 1. A rollout takes one action, follows a policy, and adds an estimate of what comes after.
 # 2. The best of nine improves one decision, without training. No future tried led a stuck agent out,
 #    yet some get out, also without W and γ = 1, and some crash more.
-# 3. A wrong model costs: with four of six errors the look-ahead crashes more often than PPO's agents
-#    alone, with five the shield crashes less than it. A late car lacks its own last action.
-# 4. A model of the agent's own drives does not know the accidents after other actions.
-# 5. In these ten agents random actions in the drives help; the look-ahead's own drives help more.
+# 3. A wrong model costs: with four of six errors the look-ahead crashes more often than PPO's
+#    agents alone, with all six more often than the shield. A late car lacks its own last action.
+# 4. By a model of its own drives this agent chose little better than at random.
+# 5. In these ten agents random actions in the drives help; the look-ahead's own drives help more,
+#    and hold more decisions.
 # <!-- claim: worse_than_alone('ppo_cloned', 'rollouts') == 4 and len(WRONG) == 6 -->
 #
 # **Three questions to think about**

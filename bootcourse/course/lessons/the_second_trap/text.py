@@ -161,7 +161,7 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 # %% [markdown]
 # **See.** None of the ten sprints on this road, and none escapes. Nine stay behind the traps, as in
 # the first trap; one crashes on {{ 100 * ppo('concave')['accident'].max() | .0f }} % of the roads.
-# **So the sprints are not all that keeps PPO there.**
+# **So PPO can stay without sprints, too.**
 # <!-- claim: ppo_escapes('concave') == 0 and abs(ppo('concave')['returns'].mean() /
 #   idle().rewards.sum() - 1) < 0.15 and sum(ppo('concave')['accident'] > 0.01) == 1 -->
 # <!-- claim: all(ppo_speeds('concave', i)[20:].std() < 0.3 * ppo_speeds()[20:].std() for i in
@@ -340,13 +340,13 @@ bc.show(figures.endings({"PPO alone": alone, "PPO after cloning": training}))
 # **See.** After cloning, none stays. Alone, PPO *does* get ahead now and then; but in the end such a
 # drive earns about what staying earns, and most others crash.
 #
-# The ten did so, too: each, at its best, in {{ 100 * ppo('alone')['escapes'].max(1).min() | .0f }} to
-# {{ 100 * ppo('alone')['escapes'].max(1).max() | .0f }} % of 300 drives, and in the second half of its
-# training in at most {{ 100 * ppo('alone')['escapes'][:, 8:].max() | .0f }} %.
+# The ten got ahead, too: each, at its best, in {{ 100 * ppo('alone')['escapes'].max(1).min() | .0f
+# }} to {{ 100 * ppo('alone')['escapes'].max(1).max() | .0f }} % of 300 drives, and in the second
+# half of its training in at most {{ 100 * ppo('alone')['escapes'][:, 8:].max() | .0f }} %.
 # <!-- claim: ppo('alone')['at'][0][8] > 400_000 and ppo('alone')['escapes'][:, -1].max() == 0 -->
 #
-# **Explain.** A compares a drive with PPO's *own* drives. Alone, those that stay earn more on average
-# than the others; after cloning, those that get ahead do.
+# **Explain.** A compares a drive with PPO's *own* drives. After cloning, getting ahead pays most;
+# alone it is rare, and pays about what staying does. Whether that is the cause is open.
 #
 # Getting out *and driving fast* pays over twice what sprinting pays: the reward does not prefer the
 # second trap. If it did, this would be *reward hacking*.
@@ -378,7 +378,7 @@ compare_predictions(
 #    twice what keeping straight earns, and none gets out. So look at success, and at a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one.
 # 3. With a concave reward ten agents do not sprint on our road, and none escapes.
-# 4. A decision that went better than V expected makes its action likelier, by up to ε.
+# 4. A decision that went better than V expected pushes until its action is likelier by ε.
 # 5. PPO compares a drive with its own others. After cloning the rule, ten of ten agents escape.
 #
 # **Three questions to think about**

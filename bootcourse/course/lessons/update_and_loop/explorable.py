@@ -1,13 +1,13 @@
-"""To drag in this lesson: two poles, push by push; and γ, for where a target stops to change before a fall, if it knows
+"""To drag in this lesson: poles, push by push; and γ, for where a target stops to change before a fall, if it knows
 the end and if not.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import torch
 
-from bootcourse.colours import INK, OTHER, QUIET
+from bootcourse.colours import INK, OTHER, QUIET, STRANGERS, Style
 from bootcourse.course.lessons.update_and_loop import by_hand, numbers
 from bootcourse.learn import sac
 from bootcourse.methods import style
@@ -60,29 +60,41 @@ def episode(push_of: Callable[[np.ndarray], int]) -> np.ndarray:
     return np.array(states) * checks.CARTPOLE_SCALES
 
 
+def of_an_agent(agent: by_hand.SAC) -> np.ndarray:
+    """The states of an episode of an agent, by its most probable pushes."""
+    return episode(lambda state: int(agent.log_pi(torch.from_numpy(state)[None]).argmax()))
+
+
 def two_poles() -> Explorable:
-    """The pole of an untrained agent, by its most probable pushes, and the rule's, while the push moves."""
-    agent = by_hand.SAC(seed=0)
-    drives = {
-        "untrained agent": episode(lambda state: int(agent.log_pi(torch.from_numpy(state)[None]).argmax())),
-        "rule": episode(lambda state: int(checks.balance(state[None])[0])),
-    }
+    """The pole of an untrained agent and the rule's, while the push moves."""
+    rule = episode(lambda state: int(checks.balance(state[None])[0]))
+    return beside({"untrained agent": of_an_agent(by_hand.SAC(seed=0)), "rule": rule}, (OTHER, style("rule")))
+
+
+def trained_poles(marked: by_hand.SAC, unmarked: by_hand.SAC) -> Explorable:
+    """The pole of the student's agent and of one that has learned with the bug."""
+    drives = {"buggy agent": of_an_agent(unmarked), "your agent": of_an_agent(marked)}
+    return beside(drives, (STRANGERS[1], OTHER), first=min(SHOWN, *(len(states) - 1 for states in drives.values())))
+
+
+def beside(drives: dict[str, np.ndarray], looks: Sequence[Style], first: int = 0) -> Explorable:
+    """Two poles beside each other. drives: {name: the states of an episode}; first: the push shown at first."""
 
     def draw(push: float) -> Drawing:
         parts, says, done = [], [], round(push)
-        for middle, (name, states), look in zip((190, 570), drives.items(), (OTHER, style("rule")), strict=True):
+        for middle, (name, states), look in zip((190, 570), drives.items(), looks, strict=True):
             last = len(states) - 1
             x, _, angle, _ = states[min(done, last)]
             fell = done >= last
             leans = f"{abs(np.degrees(angle)):.0f}°"
             words = f"has fallen at push {last} ({leans})" if fell else f"leans by {leans}"
-            says.append(f"the {name}'s pole {words}")
+            says.append(f"{name if name.startswith('your') else f'the {name}'}'s pole {words}")
             label = name if last <= SHOWN else f"{name}: {last} pushes in all"
             parts += [text(middle, GROUND + 20, label, "middle"), *cart(middle, x, angle, look.colour)]
         sentence = f"Push {done}: {' and '.join(says)}."
         return drawing(WIDTH, GROUND + 30, [text(4, 20, sentence, size=14, bold=True), *parts], sentence)
 
-    push = Number("push", 0, 0, SHOWN, 1, "How many pushes have been made.")
+    push = Number("push", first, 0, SHOWN, 1, "How many pushes have been made.")
     return Explorable("Who balances the pole?", draw, push=push)
 
 

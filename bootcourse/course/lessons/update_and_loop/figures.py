@@ -6,9 +6,11 @@ import numpy as np
 from IPython.display import Markdown
 from matplotlib.figure import Figure
 
-from bootcourse.colours import OTHER, QUIET, STRANGERS
+from bootcourse.colours import OTHER, QUIET, STRANGERS, Style
 from bootcourse.course import charts, table
 from bootcourse.course.lessons.update_and_loop import by_hand, numbers, worlds
+
+OF_A_FALL = "What critics expect in a fall"
 
 
 def small_worlds(*learned: Mapping[str, worlds.Learned]) -> Markdown:
@@ -23,14 +25,19 @@ def small_worlds(*learned: Mapping[str, worlds.Learned]) -> Markdown:
     return table(headings[: 2 + len(learned)], rows)
 
 
-def tests_in_training(tests: Sequence[float], block: int) -> Figure:
-    """The tests of an agent, one before its training and one after each `block` of pushes, over five of ours."""
-    pushes, falls = np.arange(len(tests)) * block, int((np.diff(tests) < 0).sum())
+def tests_in_training(tests: Sequence[float], block: int, lost: float) -> Figure:
+    """The tests of an agent, one before its training and one after each `block` of pushes, over five of ours.
+
+    lost: the test after one block of an agent that learns with the bug and begins as this one.
+    """
+    pushes, with_bug = np.arange(len(tests)) * block, np.array([tests[0], lost, *[np.nan] * (len(tests) - 2)])
     ended = "Solved after" if min(tests[-2:]) >= 475 else "Not solved in"
-    worse = "test is" if falls == 1 else "tests are"
-    title = f"{ended} {pushes[-1]:,} pushes; {falls} {worse} worse than the one before"
-    figure = charts.lines(pushes, {"your agent": np.array(tests)}, title, "pushes in training",
-                          "pushes balanced (thin: five of ours)", looks=[OTHER._replace(marker="o")])  # fmt: skip
+    title = f"{ended} {pushes[-1]:,} pushes; with the bug {lost:.0f} balanced"
+    named = {"your agent": np.array(tests), "terminated is lost": with_bug}
+    looks = [OTHER._replace(marker="o"), STRANGERS[1]._replace(marker="o")]
+    says = f"Your agent: {', '.join(f'{test:.3g}' for test in tests)}; with the bug: {lost:.3g}."
+    figure = charts.lines(pushes, named, title, "pushes in training", "pushes balanced (thin: five of ours)",
+                          looks=looks, alt=says)  # fmt: skip
     (ax,) = figure.axes
     for each in numbers.tests():
         ax.plot(numbers.BLOCK * np.arange(len(each)), each, color=QUIET, linewidth=0.8, zorder=1)
@@ -38,11 +45,23 @@ def tests_in_training(tests: Sequence[float], block: int) -> Figure:
     return figure
 
 
-def along_falls(marked: by_hand.SAC, unmarked: by_hand.SAC) -> Figure:
+def along_falls(yours: np.ndarray, unmarked: by_hand.SAC) -> Figure:
     """What two agents' critics expect along a fall, see `worlds.along_falls`, and the most that Q can be."""
-    lost, yours, most = worlds.along_falls(unmarked), worlds.along_falls(marked), worlds.most_possible(unmarked)
-    title = "Without marks, Q is above all that is possible" if lost.min() > most else "What critics expect in a fall"
-    named = {"terminated is lost": lost, "your agent": yours}
-    marks, looks = {"nothing above this is possible": most}, [STRANGERS[1], OTHER]
+    impossible = worlds.along_falls(unmarked).min() > worlds.most_possible(unmarked)
+    title = "Without marks, Q is above all that is possible" if impossible else OF_A_FALL
+    return falls(title, yours, "terminated is lost", unmarked, STRANGERS[1])
+
+
+def with_rows(yours: np.ndarray, added: by_hand.SAC) -> Figure:
+    """The same of an agent without marks whose buffer has rows of fallen poles."""
+    title = "With rows of fallen poles, Q is possible again" if worlds.possible(added) else OF_A_FALL
+    return falls(title, yours, "rows of fallen poles", added, STRANGERS[2])
+
+
+def falls(title: str, yours: np.ndarray, name: str, agent: by_hand.SAC, look: Style) -> Figure:
+    """A line for the student's agent and one for another, and the most that the other's Q can be."""
+    named = {name: worlds.along_falls(agent), "your agent": yours}
+    marks, looks = {"nothing above this is possible": worlds.most_possible(agent)}, [look, OTHER]
+    says = "; ".join(f"{words}: {q[0]:.3g}, then {q[-1]:.3g}" for words, q in named.items())
     pushes, x_label = np.arange(-worlds.BEFORE, 1), "pushes from the fall (0: the pole has fallen)"
-    return charts.lines(pushes, named, title, x_label, "Q, mean of 40 falls", marks=marks, looks=looks)
+    return charts.lines(pushes, named, title, x_label, "Q, mean of 40 falls", marks=marks, looks=looks, alt=f"{says}.")

@@ -54,6 +54,11 @@ def with_setbacks() -> int:
     return sum(min(np.diff(each)) < 0 for each in tests())
 
 
+def fell_at_once() -> int:
+    """How many of those without marks balance the pole for less than 10 pushes after their block."""
+    return int((after_a_block("unmarked") < 10).sum())
+
+
 def unmarked() -> int:
     """How many of those without marks have a Q above all that is possible, most for a fallen pole, and fall at once."""
     q, most = along_falls("unmarked"), agents("unmarked").measured["most"]

@@ -1,5 +1,5 @@
-"""Where an agent of the lesson learns besides the pole: small worlds whose right Q one can work out, and rows in which
-no fall is marked.
+"""Where an agent of the lesson learns besides the pole: small worlds whose right Q one can work out, rows in which no
+fall is marked, and rows of fallen poles.
 """
 
 from functools import cache
@@ -27,7 +27,7 @@ WORLDS = {
     "A push pays 1, then the pole falls": World(((1, 1),), True, "1"),
     "Two pushes pay 1 each, then it falls": World(((1, 1), (1, 1)), True, f"1 + γ = {1 + GAMMA:g}"),
     "Each push pays 1, then the time is up": World(((1, 1),), False, f"1 / (1 − γ) = {1 / (1 - GAMMA):.0f}"),
-    "A push to the left pays 0, to the right 1, then it falls": World(((0, 1),), True, "0 and 1"),
+    "Left pays 0, right pays 1, then it falls": World(((0, 1),), True, "0 and 1"),
 }
 
 
@@ -86,6 +86,30 @@ class Unmarked:
         return self.buffer.sample(batch, rng)
 
 
+class Lying(Unmarked):
+    """No fall is marked, but after each there are two rows more: a push to either side leaves the fallen pole as it is.
+
+    paid: what such a push pays.
+    """
+
+    def __init__(self, buffer, paid: float):
+        super().__init__(buffer)
+        self.paid = paid
+
+    def add(self, row: Tensor) -> None:
+        super().add(row)
+        if row[6]:
+            for push in (0.0, 1.0):
+                self.buffer.add(torch.cat([row[7:], torch.tensor([push, self.paid, 0]), row[7:]]))
+
+
+def taught(loop, update, buffer, pushes: int, seed: int) -> by_hand.SAC:
+    """A new agent that has learned from the pole. loop, update, buffer: as `learn` has them."""
+    agent = by_hand.SAC(seed)
+    loop(agent, checks.cartpole(), buffer, update, pushes, np.random.default_rng(seed))
+    return agent
+
+
 # A fall, state by state ---------------------------------------------------------------------------------
 
 BEFORE = 8  # pushes before the fall from which a fall is shown
@@ -111,6 +135,17 @@ def along_falls(agent: by_hand.SAC) -> np.ndarray:
     """What an agent's critics expect in the last states of a fall, a mean of 40 falls and of both pushes: (9,)."""
     states = torch.from_numpy(np.stack([states[-BEFORE - 1 :] for states in to_one_side()]))
     return agent.q(states.flatten(0, 1)).mean((0, 2)).view(states.shape[:2]).mean(0).numpy()
+
+
+def of_a_fallen_pole(agent: by_hand.SAC) -> float:
+    """What an agent's critics expect of a fallen pole, as a multiple of what they expect eight pushes before."""
+    standing, *_, fallen = along_falls(agent)
+    return fallen / standing
+
+
+def possible(agent: by_hand.SAC) -> bool:
+    """Whether what an agent's critics expect along a fall is possible."""
+    return along_falls(agent).max() <= most_possible(agent)
 
 
 def most_possible(agent: by_hand.SAC) -> float:

@@ -45,9 +45,9 @@ def without_bonus(teacher: str) -> float:
     return score("doorkey", teacher, BONUSES["c = 0"])
 
 
-def without_loops() -> float:
-    """The success on DoorKey with c = 2, and drives of the random teacher that reach the goal, by drawn actions."""
-    return score("doorkey", "random", elsewhere.WITHOUT_LOOPS, "drawn_success")
+def without_loops(measure: str) -> float:
+    """The success on DoorKey with c = 2, and drives of the random teacher that reach the goal."""
+    return score("doorkey", "random", elsewhere.WITHOUT_LOOPS, measure)
 
 
 def alone(bonus: str) -> float:
