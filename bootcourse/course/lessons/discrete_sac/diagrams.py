@@ -32,10 +32,9 @@ def sac_diagram() -> Diagram:
         arrow(566, 96, 566, 218), label(574, 150, "α", "start"),
     ]  # fmt: skip
     alt = (
-        "A diagram of soft actor-critic. The actor sends actions to the world and sees its states. The world's "
-        "transitions go into the replay buffer. Batches from the buffer train two critics and the actor, which makes "
-        "the smaller of the critics' values large. Slow copies of the critics, the target critics, give the critics "
-        "their target, together with the actor's policy in the next state and the temperature α. The temperature "
-        "follows the actor's entropy."
+        "Soft actor-critic. The actor sends actions to the world and sees its states. Transitions go "
+        "into the replay buffer; batches of them train two critics, and the actor, which makes the smaller of their "
+        "values large. The critics' targets come from their slow copies, the target critics, from the actor's policy "
+        "in s′ and from the temperature α, which follows the actor's entropy."
     )
     return Diagram(600, 296, parts, alt)

@@ -1,14 +1,16 @@
 """Numbers that the lesson's text prints: the panel of Round 1 as it opens, the best policy of Round 2, the highest
-estimates of Round 3, and the chain of Round 4.
+estimates and the actor that may move them of Round 3, and the chain and our trained agents of Round 4.
 """
 
 import math
+from functools import cache
 
 import numpy as np
 import torch
 
 from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START, highest_estimates
-from bootcourse.course.lessons.values import chain
+from bootcourse.course.lessons.discrete_sac.own_parts import Walked, descended, soft_sweeps, walked
+from bootcourse.course.shipped import shipped_runs
 from bootcourse.learn import sac
 
 q = np.array(START)
@@ -16,6 +18,8 @@ pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
 BY_Q = pi @ q
 WORTH = BY_Q - ALPHA * pi @ np.log(pi)
 SOFTMAX = math.exp(3) / (math.e + math.exp(3))  # of Q = 1 and 3 with α = 1, the second action
+ALPHAS = np.geomspace(0.01, 10, 13)  # the temperatures of Round 4's figure
+SURE = 0.9  # a learner that leaves with a higher probability leaves surely
 
 
 def highest(actions: int) -> tuple[float, float]:
@@ -23,18 +27,51 @@ def highest(actions: int) -> tuple[float, float]:
     return tuple(float(each[actions - 1]) for each in highest_estimates())
 
 
+def wished() -> float:
+    """What going straight seems to be worth to an actor that moves Q, too."""
+    return float(descended(lambda log_pi, q, alpha: -sac.soft_value(log_pi, q, alpha).mean()).q[1])
+
+
 def soft_q(alpha: float) -> np.ndarray:
     """Q of the chain of lesson [[values]] after 40 sweeps of the soft Bellman equation: (5, 2)."""
-    reward, temperature = torch.tensor(chain.REWARD).flatten(), torch.tensor(alpha, dtype=torch.float64)
-    q = torch.zeros(chain.REWARD.shape, dtype=torch.float64)
-    for _ in range(40):
-        value = sac.soft_value(sac.log_policy(q / alpha), q, temperature)
-        following = value[torch.tensor(chain.NEXT).flatten()]
-        q = sac.critic_target(reward, torch.zeros(10), following, 0.8).reshape(q.shape)
-    return q.numpy()
+    return soft_sweeps(sac.soft_value, sac.critic_target, alpha).numpy()
 
 
 def leave(alpha: float) -> float:
     """How probable leaving is in the chain's trap by the policy softmax(Q / α)."""
     stays, leaves = soft_q(alpha)[0]
     return 1 / (1 + math.exp((stays - leaves) / alpha))
+
+
+@cache
+def constant() -> Walked:
+    """The chain's learners at each of the ALPHAS, which stay."""
+    return walked(sac.soft_value, sac.critic_target, torch.tensor(ALPHAS).expand(1000, -1))
+
+
+def found(alpha: float) -> int:
+    """How many of the thirty with this α were on the free road."""
+    return int(constant().found[np.abs(ALPHAS / alpha - 1).argmin()].sum())
+
+
+@cache
+def sure() -> dict[str, int]:
+    """How many of thirty leave surely in the end: if α falls to 0.01, by equal factors, and at the best constant α."""
+    falling = torch.tensor(np.geomspace((10, 1), 0.01, 1000))
+    from_10, from_1 = (walked(sac.soft_value, sac.critic_target, falling).leaves > SURE).sum(axis=1)
+    return {"from 10": from_10, "from 1": from_1, "constant": max((constant().leaves > SURE).sum(axis=1))}
+
+
+@cache
+def trained() -> tuple[np.ndarray, np.ndarray]:
+    """α and the policy's entropy in each drive of our plain SAC agents' training: (agents, drives) each."""
+    runs = shipped_runs("sac")
+    return tuple(np.array([run.curves[name] for run in runs]) for name in ("alpha", "entropy"))
+
+
+def decided() -> tuple[np.ndarray, np.ndarray]:
+    """After which drive the mean entropy of 20 is first below half of log 9, for each of these agents, and α then."""
+    alphas, entropies = trained()
+    means = np.array([np.convolve(of_one, np.ones(20) / 20, "valid") for of_one in entropies])
+    drives = (means < math.log(9) / 2).argmax(axis=1) + 20
+    return drives, alphas[range(len(drives)), drives - 1]

@@ -1,0 +1,89 @@
+"""What the student's own parts do in this lesson: an actor steps down its loss, and learners walk the chain of lesson
+[[values]]. Neither is a whole SAC: there is no replay buffer, and no network.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START
+from bootcourse.course.lessons.values import chain
+
+STEPS = 100  # down the actor's loss, each of size 1
+LEARNERS, STEP, GAMMA = 30, 0.3, 0.8  # on the chain, as in lesson [[values]]
+SWEEPS = 40
+
+
+class Descent(NamedTuple):
+    """Where an actor ends: its policy, the estimates Q, and the loss, of the three actions of Round 1."""
+
+    pi: np.ndarray
+    q: np.ndarray
+    loss: float
+
+
+def descended(loss: Callable[[Tensor, Tensor, Tensor], Tensor]) -> Descent:
+    """From an even policy, gradient steps on `loss(log_pi, q, alpha)` for all that it has a gradient for."""
+    logits, q = torch.zeros(1, len(START), requires_grad=True), torch.tensor([START], requires_grad=True)
+    for _ in range(STEPS):
+        value = loss(logits.log_softmax(-1), q, torch.tensor(ALPHA))
+        value.backward()
+        with torch.no_grad():
+            for numbers in (logits, q):
+                if numbers.grad is not None:
+                    numbers -= numbers.grad
+                    numbers.grad = None
+    return Descent(logits.detach().softmax(-1)[0].numpy(), q.detach()[0].numpy(), value.item())
+
+
+def soft_sweeps(value: Callable, target: Callable, alpha: float) -> Tensor:
+    """The chain's Q after SWEEPS of the soft Bellman equation: (5, 2). Its policy is softmax(Q / α).
+
+    value, target: `soft_value` and `critic_target`, a student's or the library's.
+    """
+    reward, following = torch.tensor(chain.REWARD), torch.tensor(chain.NEXT)
+    q, alpha = torch.zeros(reward.shape, dtype=torch.float64), torch.tensor(float(alpha), dtype=torch.float64)
+    for _ in range(SWEEPS):
+        v = value((q / alpha).log_softmax(-1), q, alpha)
+        q = target(reward.flatten(), torch.zeros(reward.numel()), v[following.flatten()], GAMMA).reshape(q.shape)
+    return q
+
+
+def would_leave(value: Callable, target: Callable, alphas: Tensor) -> list[float]:
+    """How probable leaving the trap is for an agent that knows the whole chain, at each temperature."""
+    return [(soft_sweeps(value, target, alpha)[0] / alpha).softmax(-1)[1].item() for alpha in alphas]
+
+
+class Walked(NamedTuple):
+    """How probable leaving is for each learner in the end, and if it was on the free road: (kinds, LEARNERS)."""
+
+    leaves: np.ndarray
+    found: np.ndarray
+
+
+def walked(value: Callable, target: Callable, alphas: Tensor) -> Walked:
+    """Learners that act by softmax(Q / α) and move Q to the soft target; alphas: (decisions, kinds).
+
+    All kinds draw the same numbers.
+    """
+    decisions, kinds = alphas.shape
+    reward, following = torch.tensor(chain.REWARD), torch.tensor(chain.NEXT)
+    drawn = torch.tensor(np.random.default_rng(0).random((decisions, LEARNERS))).repeat(1, kinds)
+    alphas, one = alphas.repeat_interleave(LEARNERS, dim=1)[..., None], torch.ones((), dtype=torch.float64)
+    each, goes_on = torch.arange(kinds * LEARNERS), torch.zeros(kinds * LEARNERS)
+    q, found = torch.zeros(len(each), *reward.shape, dtype=torch.float64), torch.zeros(len(each), dtype=torch.bool)
+    for t, alpha in enumerate(alphas):
+        if t % chain.EPISODE == 0:
+            s = torch.zeros_like(each)
+        a = (drawn[t] < (q[each, s] / alpha).softmax(-1)[:, 1]).long()
+        found |= s == chain.STATES - 1
+        s_next = following[s, a]
+        scaled = q[each, s_next] / alpha  # V of Q at α is α times V of Q / α at 1: one call for all kinds
+        v = alpha[:, 0] * value(scaled.log_softmax(-1), scaled, one)
+        q[each, s, a] += STEP * (target(reward[s, a], goes_on, v, GAMMA) - q[each, s, a])
+        s = s_next
+    leaves = (q[:, 0] / alpha).softmax(-1)[:, 1]
+    return Walked(*(of.reshape(kinds, LEARNERS).numpy() for of in (leaves, found)))
