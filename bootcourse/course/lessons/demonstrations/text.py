@@ -210,10 +210,10 @@ bc.show(figures.added({name: measured[name] for name in KINDS}, fed_crash))
 
 # %% [markdown]
 # **See.** *The rows from the edge prevent most accidents; as many others do not.* What a data set
-# shows is its **coverage**.
+# shows, places and headings, is its **coverage**.
 #
 # The clones of the last row err most in their own states, and yet crash less than half as often as
-# those of the first: *where* a clone errs matters more than how often.
+# those of the first: a count of errors misleads.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The rows from the edge suffice. Must it be these? A group can add the rows from 1 m left of the middle
@@ -265,8 +265,8 @@ bc.show(figures.taught(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
 # **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom
-# crash.* An error rate ε in a clone's own states counts the errors that others led to, too: these are
-# ε T in T decisions, with no T².
+# crash.* In the clone's *own* states ε already counts the errors that errors led to: ε T in T
+# decisions, no T².
 #
 # Must the states be its *own*? No: in Round 3 the stochastic rule supplied them. But with DAgger nobody
 # needs to know which states to supply.

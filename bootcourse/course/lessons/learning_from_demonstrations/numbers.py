@@ -37,6 +37,11 @@ def of_the_study(name: str) -> str:
     return measures.escape(_with(name)[0][:1])
 
 
+def of_the_others(name: str) -> str:
+    """How many of the ten others."""
+    return measures.escape(_with(name)[0][1:])
+
+
 def alone(name: str) -> str:
     """How many escape with these demonstrations and without the soft constraint."""
     return measures.escape(_with(name)[1])

@@ -254,7 +254,8 @@ bc.show(figures.of_six_teachers(taught))
 #
 # Accidents do not sort these six teachers; the free lane does. Where the drives reach it, {{
 # escape_of(['rule', 'late', 'random-25', 'random-50']) }} of 40 students escape; where they do not,
-# {{ escape_of(['timid', 'mirrored']) }} of 20.
+# {{ escape_of(['timid', 'mirrored']) }} of 20. (The racer's drives reach it, too: {{
+# student_escapes(taught_agents.RACER_LONG) }} of 10.)
 # <!-- claim: escape_of(['timid', 'mirrored']) == 0 and min(escape_of([name]) for name in ('rule',
 #   'late', 'random-25', 'random-50')) > 5 -->
 # <!-- claim: in_free_lane('timid') == in_free_lane('mirrored') == 0 < in_free_lane('random-50') -->
@@ -276,8 +277,8 @@ bc.show(figures.of_six_teachers(taught))
 # ## Round 4: the free lane, or its accidents?
 #
 # {{ reach_free_lane() }} of half random's drives reach the free lane, and crash behind trap 1. Ten
-# agents learn from all drives that end there, ten from the same, *cut* where they reach the free
-# lane. The **control** loses as many decisions ({{ 100 - 100 * rows_left() | .0f }} %) from
+# agents learn from all drives that end behind trap 1, ten from the same, *cut* where they reach the
+# free lane. The **control** loses as many decisions ({{ 100 - 100 * rows_left() | .0f }} %) from
 # *before* the free lane.
 
 # %%
@@ -285,9 +286,10 @@ parted = shipped_experiment("crashes")
 bc.show(figures.without_a_part(parted))
 
 # %% [markdown]
-# After the cut none of the ten earns more than {{ crash_returns('cut').max() | .0f }}, about what
-# staying behind trap 1 pays; with all, each does. Fewer decisions do not explain it: the control
-# earns more than the cut. (Rank tests, after Holm for five comparisons of the groups that ship.)
+# After the cut {{ crash_escapes('cut') }} of ten escape, yet none earns more than {{
+# crash_returns('cut').max() | .0f }}, about what staying behind trap 1 pays; with all, each does.
+# Fewer decisions do not explain it: the control earns more than the cut. (Rank tests, after Holm
+# for five comparisons of the groups that ship.)
 # <!-- claim: crash_returns('cut').max() < crash_returns('all').min() -->
 # <!-- claim: [crash_shown(kind) for kind in ('cut', 'as-many', 'no-bonus', 'no-labels', 'lane')] == [True,
 #   True, True, False, True] and not significant(10)[crash_escapes('all'), crash_escapes('no-labels')] and
@@ -339,7 +341,8 @@ figures.parted(without_the_accident) if passed else "First the exercise."
 # but without the free lane {{ 'none' if crash_escapes('accident') == 0 else crash_escapes('accident') }} does, and
 # they earn {{ crash_returns('accident').mean() | .0f }}.
 #
-# So most students get out whose teacher *shows the free lane*, even if it crashes there.
+# So most of these students escape if the drives *show the free lane*, crash or not, and the bonus
+# is paid: from all drives without it, {{ crash_escapes('no-bonus') }} of ten do.
 # <!-- claim: in_free_lane('rule') > 0 and free_lane.shown('rule')[1] == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=1
@@ -392,7 +395,7 @@ check.watchful_rule(watchful_rule)
 # 1. A teacher is a function of the true state. It drives, and it labels.
 # 2. A rule that looks at no other car can pass a test. Test it where looking matters.
 # 3. Success and return can give opposite verdicts on a teacher: give both.
-# 4. A teacher's drives have to show what pays, here the free lane; they need not end well.
+# 4. Here the drives had to show the free lane, *with the bonus*; they need not end well.
 #
 # **Three questions to think about**
 # - Could two bad teachers together be a good one?
@@ -401,7 +404,8 @@ check.watchful_rule(watchful_rule)
 # <!-- claim: settings_for('soft').rule_p == settings_for('bootstrapped').rule_p == SETTINGS.rule_p
 #   and abs(like_the_rule('random-50') - 1 / 2 - 1 / 18) < 0.02 -->
 # - Of ten agents that first *copy* half random, then learn by PPO, {{ worth()['random-50',
-#   'ppo_cloned'].escapers('ppo_cloned') }} escape. Why does copying these drives teach less?
+#   'ppo_cloned'].escapers('ppo_cloned') }} escape. What else differs, and what would you test
+#   first?
 # <!-- claim: worth()['random-50', 'ppo_cloned'].escapers('ppo_cloned') == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=2
