@@ -12,7 +12,7 @@ from bootcourse.course.shipped import shipped_experiment
 def test_agents_train_for_some_blocks_with_marks_and_for_one_without(monkeypatch):
     monkeypatch.setattr(pole, "BLOCK", 260)
     monkeypatch.setitem(pole.BLOCKS, "marked", 2)
-    for kind, blocks in (("marked", 2), ("unmarked", 1)):
+    for kind, blocks in (("marked", 2), ("unmarked", 1), ("paid-1", 1)):
         results = pole.train_kind(**pole.cells(seeds=2)[kind])
         assert np.isfinite(results.notes["tests"]).sum(1).tolist() == [1 + blocks] * 2
         assert np.isfinite(results.notes["q"]).all() and (results.measured["most"] > 100).all()

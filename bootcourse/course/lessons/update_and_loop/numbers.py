@@ -63,3 +63,8 @@ def unmarked() -> int:
     """How many of those without marks have a Q above all that is possible, most for a fallen pole, and fall at once."""
     q, most = along_falls("unmarked"), agents("unmarked").measured["most"]
     return int(((q.min(1) > most) & (q[:, -1] > q[:, 0]) & (after_a_block("unmarked") < 10)).sum())
+
+
+def possible(kind: str) -> int:
+    """How many agents of a kind expect along a fall no more than is possible."""
+    return int((along_falls(kind).max(1) <= agents(kind).measured["most"]).sum())

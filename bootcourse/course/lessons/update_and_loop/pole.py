@@ -1,11 +1,12 @@
 """Do agents with the exercises' answers solve the pole, and what do they expect if no fall is marked?
 
-    bootcourse study pole --out DIR    # about a minute
+    bootcourse study pole --out DIR    # about two minutes
 
-With marks they train until two tests in a row reach gymnasium's mark. Other processors round otherwise, and may give
-other tests.
+In two kinds no fall is marked, but rows of fallen poles are added (`worlds.Lying`). With marks agents train until two
+tests in a row reach gymnasium's mark. Other processors round otherwise, and may give other tests.
 """
 
+from functools import partial
 from itertools import zip_longest
 from pathlib import Path
 
@@ -20,11 +21,17 @@ from bootcourse.research.tables import markdown
 
 NAME = "pole"
 BLOCK, SOLVED = 2_000, 475  # pushes from one test to the next; gymnasium's mark
-BLOCKS = {"marked": 30, "unmarked": 1}  # cell: the most blocks of a training
+BLOCKS = {"marked": 30, "unmarked": 1, "paid-0": 1, "paid-1": 1}  # cell: the most blocks of a training
+BUFFERS = {  # what keeps the rows
+    "marked": lambda buffer: buffer,
+    "unmarked": worlds.Unmarked,
+    "paid-0": partial(worlds.Lying, paid=0),
+    "paid-1": partial(worlds.Lying, paid=1),
+}
 
 
 def cells(seeds: int = 5) -> dict[str, dict]:
-    """With falls marked, and without."""
+    """With falls marked, and without; without, but with rows of fallen poles that are paid 0, or 1."""
     return {kind: {"kind": kind, "seeds": seeds} for kind in BLOCKS}
 
 
@@ -47,8 +54,7 @@ def train(kind: str, seed: int) -> tuple[list[float], np.ndarray, float, float]:
     `worlds.along_falls`, and the most that Q can be; after the training a mean of 100 episodes.
     """
     agent, rng, env = by_hand.SAC(seed), np.random.default_rng(seed), cartpole()
-    kept, tests, expected = exercises.ReplayBuffer.solution(50_000), [by_hand.balanced(agent)], ()
-    kept = kept if kind == "marked" else worlds.Unmarked(kept)
+    kept, tests, expected = BUFFERS[kind](exercises.ReplayBuffer.solution(50_000)), [by_hand.balanced(agent)], ()
     while min(tests[-2:]) < SOLVED and len(tests) <= BLOCKS[kind]:
         exercises.train.solution(agent, env, kept, exercises.update.solution, BLOCK, rng)
         tests.append(by_hand.balanced(agent))
@@ -70,7 +76,8 @@ def section(computed: dict[str, Computed], folder: Path) -> list[str]:
 
 
 ABOUT = f"""Agents of the lesson on the update and the loop, trained with the answers to its exercises. Pushes balanced:
-after training, a mean of 100 episodes of at most 500 pushes. Q: after {BLOCK:,} pushes, a mean of 40 falls.
+after training, a mean of 100 episodes of at most 500 pushes. Q: after {BLOCK:,} pushes, a mean of 40 falls. Paid 0 and
+1: no fall is marked, but rows are added that say what a push pays a fallen pole, which stays fallen.
 """
 
 EXPERIMENT = Experiment(NAME, cells, results_of(train_kind), section=section)

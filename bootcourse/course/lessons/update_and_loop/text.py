@@ -300,16 +300,20 @@ stands = by_hand.balanced(added)
 print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {tests[1]:.0f}.")
 
 # %% [markdown]
-# **Explain.** Rows are all that was added, and Q is possible: before, the network had made up what a fallen pole
-# is worth. (One agent; try another `SEED`.) A mark says what these rows say: from here on every reward
-# is 0.
+# **Explain.** Rows are all that was added, and Q is possible: before, the network had made up what
+# a fallen pole is worth. (We show the seed that learns soonest. Of five agents with these rows, {{
+# possible('paid-0') }} have a possible Q, and they balance {{ after_a_block('paid-0').min() | .0f
+# }} to {{ after_a_block('paid-0').max() | .0f }} pushes.) A mark says what these rows say: from
+# here on every reward is 0.
 #
 # The score shows that something is wrong. An impossible Q shows where: in the critics.
 
 # %% [markdown] tags=["instructor"] minutes=4
-# A belief to name: "without marks the critics would find the constant" of round 1. They approach
-# it if rows tell them what a fallen pole is worth: let them run the last cell with `PAID = 1`. Q is then
-# possible and nearly flat, and the pole falls. `bootcourse study pole --out DIR` trains our agents again.
+# A belief to name: "without marks the critics would find the constant" of round 1. They approach it
+# if rows tell them what a fallen pole is worth: let them run the last cell with `PAID = 1`. Q is
+# then possible in {{ possible('paid-1') }} of five agents and nearly flat, and they balance {{
+# after_a_block('paid-1').max() | .0f }} pushes at most. `bootcourse study pole --out DIR` trains
+# our agents again.
 
 # %%
 length = lengths[2 - np.digitize(with_bug / tests[1], [0.1, 0.75])]
