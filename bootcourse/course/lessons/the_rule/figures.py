@@ -46,8 +46,9 @@ def when_to_change(drive: Rollout) -> Figure:
     return figure
 
 
-def speed_over_time(drive: Rollout, title: str) -> Figure:
+def speed_over_time(drive: Rollout) -> Figure:
     """The rule's speed over a drive, with the traps' speed, and the time from which it is ahead of trap 1."""
+    title = "The rule falls back, gets out, and then slows down again and again"
     ahead, traps = overtaken(drive), drive.states[0, TRAP_1, SPEED]
     figure, ax = one_axes(2.4, title, "time (s)", "the rule's speed (m/s)")
     ax.plot(drive.times, drive.states[:, EGO, SPEED], color=style("rule").colour, linewidth=1.8)
@@ -60,13 +61,13 @@ def speed_over_time(drive: Rollout, title: str) -> Figure:
     return finish(
         figure, title, f"It falls to {drive.states[:, EGO, SPEED].min():g} m/s behind the traps, which drive {traps:g} "
         f"m/s. From {ahead:.0f} s on, ahead of trap 1, it rises and falls between {speeds.min():g} and "
-        f"{speeds.max():g} m/s, again and again.",
+        f"{speeds.max():g} m/s.",
     )  # fmt: skip
 
 
 def speeds_by_sight(far: Rollout, near: Rollout, alone: Rollout) -> Figure:
     """The rule's speed on one road: as it is; with a shorter sight; with this where no driver makes way."""
-    title = "With 30 m the plateau goes; the saw-tooth goes only where drivers make way"
+    title = "With a sight of 30 m the rule is fast, and stays fast only where drivers make way"
     figure, ax = one_axes(2.6, title, "time (s)", "the rule's speed (m/s)")
     rule = style("rule").colour
     looks = Style(QUIET, "-"), Style(rule, "-"), Style(INK, "--")
@@ -86,7 +87,7 @@ def speeds_by_sight(far: Rollout, near: Rollout, alone: Rollout) -> Figure:
 
 def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure:
     """The rule's mean return against how far it sees (m); a red cross where it has accidents."""
-    title = "A shorter sight more than doubles the rule's return; at 20 m drives crash"
+    title = "The return grows as the sight shrinks to 30 m; at 20 m drives crash"
     returns = np.array([each.returns.mean() for each in driven])
     crashed = np.array([np.mean(each.accident > 0) for each in driven])
     figure, ax = one_axes(3.2, title, "how far the rule sees (m)", "return of an episode")

@@ -7,9 +7,11 @@ import numpy as np
 
 from bootcourse.course.lessons.the_rule.rules import ALOOF as ALOOF
 from bootcourse.course.lessons.the_rule.rules import ROADS, with_numbers
+from bootcourse.course.lessons.the_rule.rules import as_printed as as_printed
 from bootcourse.course.lessons.the_rule.rules import crash as crash
 from bootcourse.course.lessons.the_rule.rules import driven as driven
 from bootcourse.course.lessons.the_rule.rules import recorded as recorded
+from bootcourse.course.lessons.the_rule.rules import split as split
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import overtaken as overtaken
@@ -54,12 +56,6 @@ def by_the_formula(sight: float) -> Changes:
     return Changes(speeds[at], faster[at], int((episodes.accident[at[1]] > 0).sum()))
 
 
-def slower_at_changes(sight: float) -> bool:
-    """Whether the rule is slower than trap 2 whenever it decides to change lane, with this sight (m)."""
-    reasons, _, cars, _ = decided(sight)
-    return bool((cars[:, :, EGO, SPEED] < cars[:, :, TRAP_2, SPEED])[reasons == Reason.CHANGE].all())
-
-
 def begun_in_sight(floor: float, sight: float = 20.0) -> int:
     """On how many of the lesson's roads trap 1 is in sight when the rule first begins to change lane."""
     reasons, _, cars, _ = decided(sight, floor=floor)
@@ -67,17 +63,15 @@ def begun_in_sight(floor: float, sight: float = 20.0) -> int:
     return int((sees[changes.argmax(0), np.arange(len(ROADS))] & changes.any(0)).sum())
 
 
-def first_changes(floor: float, sight: float = 20.0) -> tuple[np.ndarray, np.ndarray]:
-    """Of the first lane change that each drive begins: (completed, called off), each (roads,).
-
-    Completed: it ends in the new lane within four seconds. Called off: it does not, and one second after it began the
-    rule sees nobody ahead.
+def called_off(sight: float = 20.0) -> np.ndarray:
+    """Which drives (roads,) call off the first lane change that they begin: they do not end in the new lane within four
+    seconds, and one second after the change began the rule sees nobody ahead.
     """
-    reasons, _, cars, _ = decided(sight, floor=floor)
+    reasons, _, cars, _ = decided(sight)
     changes, roads = reasons == Reason.CHANGE, np.arange(len(ROADS))
     began, lanes = changes.argmax(0), cars[:, :, EGO, LANE]
-    completed = changes.any(0) & (lanes[began + 4, roads] < lanes[began, roads])
-    return completed, changes.any(0) & ~completed & (reasons[began + 1, roads] == Reason.FREE)
+    completed = lanes[began + 4, roads] < lanes[began, roads]
+    return changes.any(0) & ~completed & (reasons[began + 1, roads] == Reason.FREE)
 
 
 def apart() -> tuple[float, float]:
