@@ -12,6 +12,8 @@ from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START, high
 from bootcourse.course.lessons.discrete_sac.own_parts import Walked, descended, soft_sweeps, walked
 from bootcourse.course.shipped import shipped_runs
 from bootcourse.learn import sac
+from bootcourse.research.computed import experiment
+from bootcourse.statistics import ESCAPES
 
 q = np.array(START)
 pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
@@ -55,11 +57,21 @@ def found(alpha: float) -> int:
 
 
 @cache
+def falling() -> np.ndarray:
+    """How probably the thirty learners leave in the end if α falls from 10, or from 1, to 0.01: (2, 30)."""
+    return walked(sac.soft_value, sac.critic_target, torch.tensor(np.geomspace((10, 1), 0.01, 1000))).leaves
+
+
 def sure() -> dict[str, int]:
     """How many of thirty leave surely in the end: if α falls to 0.01, by equal factors, and at the best constant α."""
-    falling = torch.tensor(np.geomspace((10, 1), 0.01, 1000))
-    from_10, from_1 = (walked(sac.soft_value, sac.critic_target, falling).leaves > SURE).sum(axis=1)
+    from_10, from_1 = (falling() > SURE).sum(axis=1)
     return {"from 10": from_10, "from 1": from_1, "constant": max((constant().leaves > SURE).sum(axis=1))}
+
+
+def reachable() -> np.ndarray:
+    """Which agents of plain SAC with a target entropy of 0.3 or 1 escape on the road."""
+    of_two = (experiment("sensitivity")[f"target entropy {eta}"].of("sac") for eta in (0.3, 1))
+    return np.concatenate([agents.scores("success") for agents in of_two]) >= ESCAPES
 
 
 @cache

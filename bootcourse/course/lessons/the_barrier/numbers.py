@@ -123,11 +123,17 @@ def helped_better() -> np.ndarray:
     return helped()[helped() > discounted(idle(), 0.8)]
 
 
-def farther() -> np.ndarray:
-    """Which agents of plain SAC with a larger γ than the paper's escape on the road as it is."""
-    found = [easy("as it is")]
-    for name in ("sensitivity", "beyond", "beyond-search", "others"):
-        found += [each.of("sac") for each in shipped_experiment(name).values() if "sac" in each.methods]
+def farther(alone: bool = False) -> np.ndarray:
+    """Which agents of plain SAC with a larger γ than the paper's escape on the road as it is.
+
+    alone: only those of which nothing else is changed.
+    """
+    sensitivity = shipped_experiment("sensitivity")
+    found = [easy("as it is"), *(sensitivity[f"γ = {gamma}"].of("sac") for gamma in (0.9, 0.95, 0.99))]
+    if not alone:
+        found = [easy("as it is")]
+        for name in ("sensitivity", "beyond", "beyond-search", "others"):
+            found += [each.of("sac") for each in shipped_experiment(name).values() if "sac" in each.methods]
     escaping = [agents.scores("success") >= ESCAPES for agents in found]
     return np.concatenate([e[[one["gamma"] > 0.8 for one in a.agents]] for a, e in zip(found, escaping, strict=True)])
 

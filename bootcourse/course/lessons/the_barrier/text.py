@@ -127,8 +127,10 @@ table(["drive", "worth at γ = 0.8"], rows, below=below)
 # <!-- claim: searched().best.value > 2 * searched().keep_lane.value -->
 # <!-- claim: searched().leaves.value == 1 and len(helped()) == 10 -->
 #
-# A larger γ alone is not enough: {{ farther().sum() }} of {{ len(farther()) }} agents of plain
-# SAC with γ from 0.9 to 0.99 escapes.
+# A larger γ alone is not enough: {{ 'none' if not farther(alone=True).any() else
+# farther(alone=True).sum() }} of {{ len(farther(alone=True)) }} agents of plain SAC with γ from 0.9
+# to 0.99 escapes. (With other settings changed as well, {{ farther().sum() }} of {{ len(farther())
+# - len(farther(alone=True)) }}.)
 # <!-- claim: len(farther()) > 50 and farther().sum() == 1 -->
 #
 # What else could keep agents in?
@@ -231,17 +233,20 @@ explorable.barrier()
 # <!-- claim: hill(10, 0.8).argmin() == 4 and hill(10, 0.8)[4] < 0 and not crash_by(4).any() and
 #   len(crash_by(5)) == 1000 -->
 #
-# With a price of 1, or with γ = 0.95, the plan pays from its start. But a larger γ freed
-# {{ farther().sum() }} of {{ len(farther()) }} agents (Round 1). What does free them?
+# With a price of 1, or with γ = 0.95, the plan pays from its start. But a larger γ alone freed {{
+# 'none' if not farther(alone=True).any() else farther(alone=True).sum() }} of {{
+# len(farther(alone=True)) }} agents (Round 1). What does free them?
 # <!-- claim: min(hill(1, 0.8)) > 1 and min(hill(10, 0.95)) > 1 -->
 #
 # Three easier roads:
 #
 # - *A lane keeper* steers: the nine actions are wishes for a lane and a speed. *Slower 1, left 5,
 #   faster 5* ended ahead on each of 100 roads, with {{ wished().accident.sum() }} accidents.
-# - *A start mid-lane*, beyond the dip: an episode begins after {{ easier.LATER }} s, in the middle of
-#   the free lane, behind the traps and as fast as they are. One acceleration ended ahead on each of
-#   100 roads, without an accident.
+# - *A start mid-lane*, beyond the dip: an episode begins after {{ easier.LATER }} s, in the middle
+#   of the free lane, behind the traps and as fast as they are. One acceleration ended ahead on each
+#   of 100 roads, without an accident. (The plan is beside the middle then. From its own place {{
+#   'none' if not easy('a later start').escapers('sac') else easy('a later start').escapers('sac')
+#   }} of twenty agents escapes.)
 # - *Accidents cost 1* in place of 10.
 # <!-- claim: wished().ahead.all() and len(wished().ahead) == 100 and 2 * wished().accident.mean() <
 #   explorable.by_plan().accident.mean() -->
@@ -319,11 +324,11 @@ compare_predictions(
 # ## What you now know
 #
 # 1. Plain SAC seldom escapes: 1 of the twenty agents above, {{ escaped('sac') }} of the study's {{
-#    len(of('sac')) }}.
+#    len(of('sac')) }}; with faster traps {{ escaped('sac', 'calibrated') }} of 10.
 # 2. Staying is not best, even at γ = 0.8. A larger γ alone is not enough.
 # 3. Luck to end ahead once is not what most lack. A lucky drive is seldom a good one.
-# 4. The way out is a barrier: it costs now and pays later. After {{ easier.UPDATES | , }} updates no
-#    change alone frees half of twenty agents. With cheap accidents mid-lane {{
+# 4. The plan's way out is a barrier: it costs now and pays later. After {{ easier.UPDATES | , }}
+#    updates no change alone frees half of twenty agents. With cheap accidents mid-lane {{
 #    easy(BOTH).escapers('sac') }} escape; {{ earn_and(crash=False) }} of these earn more than by
 #    staying without crashing on most roads.
 # 5. With the rule as a constraint and as data {{ escaped('bootstrapped') }} of the study's {{
