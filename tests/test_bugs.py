@@ -60,6 +60,25 @@ def test_labels_are_the_rule_s_before_the_step_unless_they_are_shifted(bug):
     assert (labels[:-1] == right[1:]).all() == shifted
 
 
+@pytest.mark.parametrize("bug", bugs.LEARNERS)
+def test_the_target_of_a_learner_is_the_printed_one_unless_the_bug_is_in_that_line(bug):
+    rng = np.random.default_rng(2)
+    reward, value = rng.normal(size=(2, 40))
+    demo, end = rng.integers(0, 2, (2, 40))
+    y = reward + 1.7 * demo + 0.6 * (1 - end) * value
+    error = np.abs(bugs.target_of(bug)(reward, demo, 1.7, end, value, 0.6) - y)
+    wrong = {"no_end": end > 0, "bonus_for_all": demo == 0}.get(bug, np.zeros(40, dtype=bool))
+    assert ((error > 1e-9) == wrong).all()
+    assert bugs.target_of("none")(reward=1, demo=1, bonus=3, end=0, next_value=4, gamma=0.5) == 6  # one transition
+
+
+def test_the_transitions_of_drives_stand_one_after_another_and_hold_their_accidents():
+    drives = record(stochastic_rule_policy(DEFAULT, np.random.default_rng(1)), range(3))
+    seen = bugs.transitions(drives)
+    assert (seen.rule_actions == np.concatenate([drive.rule_actions for drive in drives])).all()
+    assert (seen.rewards[seen.terminated > 0] == DEFAULT.reward.accident).all() and seen.terminated.any()
+
+
 # What ships ------------------------------------------------------------------------------------------
 
 

@@ -9,6 +9,7 @@ The results that ship hold curves, probes and weights; `Hunt` reads them and cal
 """
 
 import math
+from collections.abc import Callable, Sequence
 from unittest.mock import patch
 
 import numpy as np
@@ -103,17 +104,45 @@ ROADS = range(900, 908)  # whose drives by the rule give the states of the probe
 PROBES = ("kl", "entropy", "alike", "late", "rarest", "promise", "end")
 CURVES = ("success", "return", "accident", "alpha")
 
-# A test without training -----------------------------------------------------------------------------
+# Tests without training ------------------------------------------------------------------------------
+
+
+def transitions(drives: Sequence[Rollout]) -> Batch:
+    """The transitions of some drives as NumPy arrays, (T, ...): what a probe of the critic is given."""
+    return Batch(*(values[0].numpy() for values in _as_batch(drives)))
 
 
 def labels(bug: str, drive: Rollout) -> np.ndarray:
     """What an untrained learner with a bug, "none" for none, takes for the rule's action before each step: (T,)."""
-    learner = LEARNERS[bug]([settings_for("bootstrapped")], DEFAULT.observation_size)
-    rows = demonstration_rows([drive])[None]
-    batch = decode_transitions(rows, DEFAULT.observation_size, torch.zeros(rows.shape[:2]))
+    learner = _untrained(bug)
     with patch.object(learner, "kl", wraps=learner.kl) as kl:
-        learner.losses(batch)
+        learner.losses(_as_batch([drive]))
     return kl.call_args.args[1][0].numpy()  # the last KL is the actor's, in s; the one before is the target's, in s'
+
+
+def target_of(bug: str) -> Callable:
+    """The critic's target of an untrained learner, in double precision, as a function that a test can call."""
+
+    def target(reward, demo, bonus, end, next_value, gamma):
+        columns = np.broadcast_arrays(*(np.asarray(each, float) for each in (reward, demo, end, next_value)))
+        reward, demo, end, next_value = (torch.tensor(column.reshape(1, -1)) for column in columns)
+        learner, nothing = _untrained(bug), torch.zeros_like(reward, dtype=torch.int64)
+        learner.bonus, learner.gamma = (torch.tensor([[value]], dtype=torch.float64) for value in (bonus, gamma))
+        states = torch.zeros(*reward.shape, DEFAULT.observation_size)
+        batch = Batch(states, states, nothing, reward, end, nothing, nothing, demo)
+        with patch.object(learner, "soft_value", lambda *_: next_value):
+            return learner.critic_target(batch).detach().numpy().reshape(columns[0].shape)
+
+    return target
+
+
+def _untrained(bug: str) -> SACLearner:
+    return LEARNERS[bug]([settings_for("bootstrapped")], DEFAULT.observation_size)
+
+
+def _as_batch(drives: Sequence[Rollout]) -> Batch:
+    rows = demonstration_rows(drives)[None]
+    return decode_transitions(rows, DEFAULT.observation_size, torch.zeros(rows.shape[:2]))
 
 
 # Training them ---------------------------------------------------------------------------------------

@@ -11,10 +11,10 @@ from bootcourse.learn.settings import settings_for
 DRIVERS = {"first agent": "healthy", "second agent": "E"}
 
 
-def most() -> float:
+def most(with_bonus: bool = True) -> float:
     """What a critic may promise at most: a road that pays 1 a second and the bonus in every second, discounted."""
     settings = settings_for("bootstrapped")
-    return (1 + settings.bonus) / (1 - settings.gamma)
+    return (1 + with_bonus * settings.bonus) / (1 - settings.gamma)
 
 
 def two_drives(hunt: Hunt) -> list[Rollout]:
@@ -40,9 +40,12 @@ def accidents(hunt: Hunt) -> Figure:
 def promises(hunt: Hunt) -> Figure:
     """Mean of Σ π Q in seconds that the rule drove."""
     title = "Two agents promise far more than the healthy one"
-    what = f"promise Σ π Q, cut off at 20 (dotted: {most():.0f})"
+    what = f"promise Σ π Q, cut off at 20 (dotted: {most(False):.0f} and {most():.0f})"
     probes, limits = hunt.probes("promise"), (-2, 20)
-    return charts.many(probes, title, "updates", what, reference="healthy", limits=limits, level=most())
+    figure = charts.many(probes, title, "updates", what, reference="healthy", limits=limits, level=most())
+    for panel in figure.axes:
+        panel.axhline(most(False), color=charts.INK, linewidth=1, linestyle=(0, (1, 2)), zorder=1)
+    return figure
 
 
 def rarest(hunt: Hunt) -> Figure:

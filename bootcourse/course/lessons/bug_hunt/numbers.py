@@ -5,12 +5,21 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.bug_hunt import bugs
+from bootcourse.course.lessons.bug_hunt.exercises import end_error
+from bootcourse.course.lessons.bug_hunt.target_probe import unmasks
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.learn.replay_buffer import Batch
 from bootcourse.policies import stochastic_rule_policy
 from bootcourse.scenario import DEFAULT
 
 hunt = cache(bugs.Hunt)  # the agents of the bug hunt
+
+
+@cache
+def drives() -> list[Rollout]:
+    """The stochastic rule's drives, of which the lesson takes accidents and labels."""
+    return record(stochastic_rule_policy(DEFAULT, np.random.default_rng(1)), range(50))
 
 
 @cache
@@ -19,13 +28,52 @@ def agree(bug: str) -> np.ndarray:
     return bugs.labels(bug, labelled_drive()) == labelled_drive().rule_actions
 
 
-@cache
 def labelled_drive() -> Rollout:
     """The drive whose labels the lesson compares."""
-    return record(stochastic_rule_policy(DEFAULT, np.random.default_rng(1)), [10])[0]
+    return drives()[0]
 
 
 def ends(name: str) -> float:
     """An agent's return in its last 30 training episodes, as a share of the healthy one's: the mean of two seeds."""
     returns = hunt().at_the_end("return")
     return returns[name].mean() / returns["healthy"].mean()
+
+
+def late_accidents(name: str) -> list[int]:
+    """In how many of its last 30 training episodes each of an agent's two seeds had an accident."""
+    return [round(30 * share) for share in hunt().at_the_end("accident")[name]]
+
+
+@cache
+def seen() -> Batch:
+    """The transitions of the drives whose accidents the student's probe asks about."""
+    return bugs.transitions(drives())
+
+
+def ended() -> np.ndarray:
+    """Which of these transitions ended in an accident."""
+    return seen().terminated > 0
+
+
+def asked(name: str) -> float:
+    """What the student's probe says of an agent."""
+    q = hunt().agent(name).q_values(seen().states)
+    return float(end_error(q, seen().actions, seen().rewards, seen().terminated))
+
+
+def after_the_end(name: str) -> float:
+    """The mean value Σ π Q that an agent gives to a car that has just crashed."""
+    agent, states = hunt().agent(name), seen().next_states[ended()]
+    return float((agent.probabilities(states) * agent.q_values(states)).sum(-1).mean())
+
+
+def alike(name: str, first: int, last: int) -> float:
+    """How often an agent's likeliest action is the rule's, between two updates: the mean of both seeds."""
+    during = (hunt().updates >= first) & (hunt().updates <= last)
+    return float(hunt().probe(name, "alike")[:, during].mean())
+
+
+@cache
+def found() -> set[str]:
+    """The bugs that the test of the target finds in untrained learners."""
+    return {bug for bug in bugs.LEARNERS if unmasks(bugs.target_of(bug))}
