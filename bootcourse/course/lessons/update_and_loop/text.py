@@ -18,7 +18,7 @@
 # - test them in small worlds whose right Q you can work out, then solve the pole;
 # - say why a fall counts as terminated, and the end of the time does not.
 #
-# **Time** 48 minutes; the machine computes for about half of one. **It builds on** lesson
+# **Time** 55 minutes; the machine computes for about half of one. **It builds on** lesson
 # [[discrete_sac]].
 
 # %%
