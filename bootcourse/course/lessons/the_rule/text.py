@@ -219,6 +219,18 @@ table(["condition", "gets out, of 10 roads"], rows)
 #
 # The tracker steers by *model predictive control*: it tries steering sequences on a model of the car,
 # does the *first step* of the best, and begins again.
+#
+# <details><summary>How the car moves, in four equations</summary>
+#
+# The steering angle $\theta$ sets the angle $\varphi$ between the car's motion and its heading
+# $\psi$; $v$ is its speed, $L$ its length:
+#
+# $$ \dot x = v \cos(\psi + \varphi), \quad \dot y = v \sin(\psi + \varphi), \quad \dot\psi =
+# \frac{2 v}{L} \sin\varphi, \quad \tan\varphi = \tfrac12 \tan\theta $$
+#
+# </details>
+# <!-- claim: np.isclose(formulas.bicycle_step(0.0, 0.0, 0.1, 8.0, 0.0, 0.2, 5.0, 1e-3)[2] - 0.1,
+#   1e-3 * 2 * 8 / 5 * np.sin(np.arctan(np.tan(0.2) / 2))) -->
 
 # %% [markdown]
 # ## Round 3: what makes it slow?
