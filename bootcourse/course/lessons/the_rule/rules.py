@@ -17,7 +17,7 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.teachers import toward
 from bootcourse.policies import policy_of, rule_policy
 from bootcourse.road.constants import constants
-from bootcourse.road.state import EGO, LANE, SPEED, X, Y
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X, Y
 from bootcourse.road.traffic import FRONT, NOBODY, REAR, look_around, new_around, sort_by_x
 from bootcourse.rule import SETTLED, rule
 from bootcourse.scenario import DEFAULT, Scenario
@@ -53,21 +53,29 @@ def crash(sight: float = 20.0) -> Rollout:
     return record(rule_policy(scenario), [road], scenario, label=f"rule, sight {sight:g} m")[0]
 
 
-@cache
-def split(speed_sight: float, lane_sight: float, **numbers) -> Episodes:
-    """How the rule drives with a sight for the target speed (m) and another for the lane (m)."""
-    if speed_sight == lane_sight:
-        return driven(lane_sight, **numbers)
+def with_two_sights(speed_sight: float, lane_sight: float, **numbers) -> Callable[[np.ndarray], np.ndarray]:
+    """The rule with a sight for the target speed (m) and another for the lane (m): cars -> actions."""
     for_speed, for_lane = with_numbers(speed_sight, **numbers), with_numbers(lane_sight, **numbers)
 
     def decide(cars: np.ndarray) -> np.ndarray:
-        one, other = rule(cars, for_speed), rule(cars, for_lane)
+        other = rule(cars, for_lane)
+        if speed_sight == lane_sight:
+            return other.actions
+        one = rule(cars, for_speed)
         actions = np.where(one.lanes == other.lanes, one.actions, other.actions)
         for road in np.flatnonzero((one.lanes != other.lanes) & (one.speeds != other.speeds)):
             actions[road] = toward(cars[road], one.speeds[road], other.lanes[road])
         return actions
 
-    return drive_episodes(policy_of(decide), ROADS, together=len(ROADS))
+    return decide
+
+
+@cache
+def split(speed_sight: float, lane_sight: float) -> Episodes:
+    """How it drives."""
+    if speed_sight == lane_sight:
+        return driven(lane_sight)
+    return drive_episodes(policy_of(with_two_sights(speed_sight, lane_sight)), ROADS, together=len(ROADS))
 
 
 def by_hand(speed_of: Callable, distance_of: Callable, has_room: Callable, roads: int = 10) -> Episodes:
@@ -111,14 +119,31 @@ def as_printed(speed_of: Callable) -> Episodes:
     return by_hand(speed_of, distance, lambda dx_front, dx_rear, length, d_s, *rest: d_s > dx_front)
 
 
+def timed(decide: Callable[[np.ndarray], np.ndarray]) -> tuple[Episodes, np.ndarray]:
+    """How a rule drives, and the decision (that is, the second) from which each drive that gets out is ahead."""
+    behind = []
+
+    def note(cars: np.ndarray) -> np.ndarray:
+        behind.append(cars[:, EGO, X] <= cars[:, TRAP_1, X])
+        return decide(cars)
+
+    drives = drive_episodes(policy_of(note), ROADS, together=len(ROADS))
+    last = len(behind) - np.argmax(behind[::-1], axis=0)
+    return drives, last[drives.success]
+
+
 def ranked(rules: Mapping[str, Mapping[str, float]]):
-    """A table of the rules with these numbers, the highest return first. lane_sight: the lane's sight, if another."""
+    """A table of the rules with these numbers, the highest return first, with the time until they are ahead.
+
+    lane_sight: the lane's sight, if another.
+    """
     rows = []
     for name, numbers in rules.items():
         others = {key: value for key, value in numbers.items() if key != "lane_sight"}
         sight = others.pop("sight", DEFAULT.sight.distance)
-        drives = split(sight, numbers.get("lane_sight", sight), **others)
+        drives, times = timed(with_two_sights(sight, numbers.get("lane_sight", sight), **others))
+        after = f"{np.median(times):.0f} s" if len(times) else "–"
         counts = f"{drives.success.sum()}", f"{(drives.accident > 0).sum()}"
-        rows.append((drives.returns.mean(), [name, f"{drives.returns.mean():.1f}", *counts]))
+        rows.append((drives.returns.mean(), [name, f"{drives.returns.mean():.1f}", after, *counts]))
     ordered = [row for _, row in sorted(rows, key=lambda row: -row[0])]
-    return table(["", "return", "get out, of 200", "crash"], ordered)
+    return table(["", "return", "ahead after (median)", "get out, of 200", "crash"], ordered)
