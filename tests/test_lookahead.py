@@ -8,6 +8,7 @@ import pytest
 from gymnasium.vector import AutoresetMode
 
 import bootcourse as bc
+from bootcourse.course.lessons.looking_ahead import imagined_road as imagined
 from bootcourse.course.lessons.looking_ahead.figures import wrong_models
 from bootcourse.course.shipped import beginning
 from bootcourse.episodes.evaluate import drive_episodes
@@ -240,6 +241,16 @@ def test_evaluate_and_drive_look_ahead_on_the_command_line(bootcourse, tmp_path)
     answer = bootcourse("drive", "idle", "--out", tmp_path / "drive.npz", "--lookahead", 3)
     drive = bc.Rollout.load(tmp_path / "drive.npz")
     assert drive.label == "idle, 3 ahead" and drive.q_values is not None
+
+
+def test_the_lesson_s_imagined_road_refuses_what_are_not_actions():
+    cars = bc.record(bc.idle_policy, [1])[0].cars[:2]
+    assert imagined.step(cars, [0, 8])[1].shape == (2,)
+    for actions in ([0, 9], [-1, 0], [0], [0.5, 1.0], [[0, 1]]):
+        with pytest.raises(BootcourseError, match=r"give whole numbers in 0\.\.8, shape \(2,\)"):
+            imagined.step(cars, actions)
+    with pytest.raises(BootcourseError, match="cars have shape"):
+        imagined.step(cars[:, :3], [0, 1])
 
 
 # The experiment.

@@ -112,15 +112,18 @@ def alone(study: StudyResults) -> Claim:
     ours, more = study.results["default"], study.experiments["beyond"]
     agents = [more[cell] for cell in ("sac-0", "sac-5")]
     longer = np.concatenate([each.measured["success_200000"] for each in agents]) >= ESCAPES
+    earned = np.concatenate([each.measured["returns_200000"] for each in agents]).mean()
     views = study.experiments["sensitivity"]
     other = {cell: views[cell] for cell in ("γ = 0.9", "γ = 0.95", "γ = 0.99")}
     of = sum(len(each.of("sac")) for each in other.values())
     out = sum(int(escaping(each.of("sac")).sum()) for each in other.values())
     return Claim(
-        "alone", "Most agents of plain SAC do not leave the trap.", told(ours, "sac"),
+        "alone", "Most agents of plain SAC do not escape.", told(ours, "sac"),
         {
             TWICE: (share(twice(study, "sac")) < 0.5, told(twice(study, "sac"))),
-            "200,000 decisions, tuned by its own search": (longer.mean() < 0.5, f"{longer.sum()} of 10 escape"),
+            "200,000 decisions, tuned by its own search": (
+                longer.mean() < 0.5, f"{longer.sum()} of 10 escape, return {earned:.0f}"
+            ),
             "γ = 0.9, 0.95 and 0.99": (out < of / 2, f"{out} of {of} escape"),
             "faster traps (10.9 m/s)": (
                 share(study.results["calibrated"], "sac") < 0.5, told(study.results["calibrated"], "sac")

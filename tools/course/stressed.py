@@ -20,4 +20,5 @@ def survived(lesson: str) -> str:
         return ""
     parts = [f"**{claim.sentence}**\n\n" + "\n".join(of_claim(claim)) for claim in made]
     summary = "<details><summary>What these claims survived</summary>"
-    return "\n\n".join(["", summary, *(part.strip() for part in parts), "</details>"])
+    holds = "*Holds*: the sentence is true there, too."
+    return "\n\n".join(["", summary, holds, *(part.strip() for part in parts), "</details>"])

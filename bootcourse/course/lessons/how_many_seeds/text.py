@@ -69,7 +69,8 @@ study = bc.shipped_results()
 bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 
 # %% [markdown]
-# An agent gets out nearly always or nearly never: yes or no says nearly all about its success.
+# Each of these 40 gets out nearly always or nearly never: here yes or no says nearly all about
+# success.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask how many of them have published or handed in a figure with one training behind each line.
@@ -110,10 +111,11 @@ explorable.certainty()
 # at its high end, k *or fewer* have. If none escapes it begins at 0; if all do it ends at 100 %.
 # <!-- claim: rate(np.zeros(10)).low == 0 and rate(np.ones(10)).high == 1 -->
 #
-# For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes. It
-# does not print how many agents or drives it used. But another of its rates,
-# {{ PRINTED['gail']['collision'].mean | g }} ± {{ PRINTED['gail']['collision'].sd }} % (standard
-# deviation), is exactly what one accident in {{ EPISODES }} drives gives.
+# For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes (of
+# ten others {{ escapers(others('demos'), 'demos') }}). It does not print how many agents or drives
+# it used. But another of its rates, {{ PRINTED['gail']['collision'].mean | g }} ± {{
+# PRINTED['gail']['collision'].sd }} % (standard deviation), is exactly what one accident in {{
+# EPISODES }} drives gives.
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
 # <!-- claim: (lambda x: round(x.mean(), 2) == PRINTED['gail']['collision'].mean and
 #   round(x.std(ddof=1), 2) == PRINTED['gail']['collision'].sd)(100.0 * (np.arange(EPISODES) < 1))
@@ -289,9 +291,12 @@ table(counts.ABLATION, *counts.ablation(success))
 # group learns earlier. If it leaves out 0, see below how often luck does that.
 #
 # How many agents would tell? Do not ask this run: its difference may be luck. Score each agent yes
-# or no, choose the limit and the smallest effect of interest, and ask
-# `bc.statistics.power`. Then train a *new* set. If you add agents until the interval does not hold
-# 0, you err more often than it says.
+# or no, choose the limit and the smallest effect of interest, and ask `bc.statistics.power`. Then
+# train a *new* set. (Without and with the bonus {{ escapers(shipped_experiment('ablations')['c =
+# 0'], 'bootstrapped') }} and {{ escaped('bootstrapped') }} of our ten escape, of ten others {{
+# escapers(others('bootstrapped, c = 0'), 'bootstrapped') }} and {{ escapers(others('bootstrapped'),
+# 'bootstrapped') }}.) If you add agents until the interval does not hold 0, you err more often than
+# it says.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each
 # resample draws both groups anew.
@@ -337,9 +342,13 @@ rows = [[f"{name}, {k} of 10", f"{one:.3f}", f"{after:.3f}"] for (name, k), one,
 table(["7 of 10 with both aids, against", "p", "after Holm"], rows)
 
 # %% [markdown]
-# Two of the three survive.
+# Two of the three survive. Of ten other agents of each (lesson [[learning_from_demonstrations]]) {{
+# escapers(others('bootstrapped'), 'bootstrapped') }} escape with both aids, {{
+# escapers(others('demos'), 'demos') }} with demonstrations only: these alone would not show the
+# first.
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
-# <!-- claim: 3 * fisher(7, 0) < 0.05 and 2 * fisher(7, 1) < 0.05 and fisher(7, 8) > 0.05 -->
+# <!-- claim: 3 * fisher(7, 0) < 0.05 and 2 * fisher(7, 1) < 0.05 and fisher(7, 8) > 0.05 and
+#   fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('demos'), 'demos')) > 0.05 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Give each group another number to change, and collect the results on the board: one row for each

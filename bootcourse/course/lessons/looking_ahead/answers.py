@@ -3,7 +3,7 @@
 import numpy as np
 
 from bootcourse.course.lessons.looking_ahead import imagined_road
-from tests.answers import right, right_lines, wrong, wrong_lines
+from tests.answers import equivalent, right, right_lines, wrong, wrong_lines
 
 
 @right("rollout_values")
@@ -60,3 +60,10 @@ def all_roads_stop_at_a_late_accident_of_one(cars, policy, horizon, gamma, worth
                 break
         values[:, action] += alive * gamma**horizon * worth(imagined[:, 0, 3])
     return values
+
+
+equivalent(
+    "rollout_values",
+    "values.reshape(-1, 9)  ->  values.reshape(-2, 9)",
+    "NumPy takes any negative length as the one to work out.",
+)

@@ -67,7 +67,7 @@ def speed_over_time(drive: Rollout) -> Figure:
 
 def speeds_by_sight(far: Rollout, near: Rollout, alone: Rollout) -> Figure:
     """The rule's speed on one road: as it is; with a shorter sight; with this where no driver makes way."""
-    title = "With a sight of 30 m the rule is fast, and stays fast only where drivers make way"
+    title = "With a sight of 30 m the rule is fast, and here stays fast where drivers make way"
     figure, ax = one_axes(2.6, title, "time (s)", "the rule's speed (m/s)")
     rule = style("rule").colour
     looks = Style(QUIET, "-"), Style(rule, "-"), Style(INK, "--")

@@ -277,9 +277,10 @@ bc.show(figures.speeds_by_sight(drive, near, alone))
 #   (split(200, 30).returns == driven(200.0).returns).all() -->
 #
 # In the picture the rule catches up, but {{ makes_way(recorded(ROAD, 30.0), 4) | .0f }} m ahead the
-# driver makes way: these drivers weigh what the car behind them gains. If they do not, the rule earns
-# {{ driven(30.0, ALOOF).returns.mean() | .0f }} (with 200 m: {{ driven(200.0, ALOOF).returns.mean()
-# | .0f }}). More than half of the gain is their gift.
+# driver makes way: these drivers weigh what the car behind them gains. If they do not (then they
+# also cut in), the rule earns {{ driven(30.0, ALOOF).returns.mean() | .0f }} (with 200 m: {{
+# driven(200.0, ALOOF).returns.mean()
+# | .0f }}). More than half of the gain is their politeness.
 # <!-- claim: overtaken(recorded(ROAD, 30.0, ALOOF)) == overtaken(recorded(ROAD, 30.0)) -->
 # <!-- claim: (recorded(ROAD, 30.0).states[34:, EGO, SPEED] > 14.9).all() -->
 # <!-- claim: makes_way(recorded(ROAD, 30.0), 4) < 60 and makes_way(recorded(ROAD, 30.0, ALOOF), 4) > 1e9 -->
@@ -329,8 +330,8 @@ bc.recording([rules.crash()], height=360)
 #   ['CHANGE', 'FREE', 'FREE', 'CHANGE'] and crash().accident == 1 -->
 
 # %% [markdown]
-# **Repair it.** Keep the sight of 20 m for the speed, and change *one* other number of `mine`, the
-# one that the cause points to, so that all {{ len(ROADS) }} drives get out.
+# **Repair it.** Keep the sight of 20 m for the speed, and change *one* other number of `mine`, so
+# that all {{ len(ROADS) }} drives get out. Which of the two causes has to go?
 
 # %%
 mine = {"sight": 20, "lane_sight": 20, "t_safe": 1.5, "floor": 3, "n": 5}
@@ -342,12 +343,14 @@ rules.ranked({"the rule": {}, "30 m": {"sight": 30}, "yours": mine})
 # With `lane_sight` = 200 the rule does not lose trap 1 from sight. It ranks first, and all drives get
 # out without an accident.
 #
-# So they do with a *smaller* floor, although it is meant for safety: with 0.5 m each drive begins its
-# lane change while trap 1 is in sight. With t_safe = 2 s none crashes, but about half stay behind.
+# So they do with a *smaller* floor, although it is meant for safety: with 0.5 m each drive begins
+# its lane change while trap 1 is in sight. With t_safe = 2 s none crashes, but about half stay
+# behind; with 1.5 s over a third do.
 #
 # </details>
 # <!-- claim: split(20, 200).success.all() and not split(20, 200).accident.any() and
 #   split(20, 200).returns.mean() > driven(30.0).returns.mean() -->
+# <!-- claim: 1 / 3 < (~driven(20.0).success & (driven(20.0).accident == 0)).mean() < 0.4 -->
 # <!-- claim: begun_in_sight(0.5) == 200 -->
 # <!-- claim: not driven(20.0, t_safe=2.0).accident.any() -->
 # <!-- claim: driven(20.0, floor=0.5).success.all() and

@@ -417,11 +417,11 @@ for gamma in gammas:
 bc.show(figures.bearable_risks(gammas, np.array(risks), crashes=np.mean(blind.accident > 0)))
 
 # %% [markdown]
-# **Explain.** At γ = 0.8 neither pays. The rule's way is too slow: it is worth less than staying even
-# if it never crashes. The plan is quicker, but crashes: over the {{ roads() | , }} roads it is worth
-# {{ worth_of_plan() | .2f }}, staying {{ discounted(idle(), 0.8) | .2f }}. The crossing with the red
-# line is no threshold: later crashes cost less. Is γ what keeps plain SAC behind? Lesson
-# [[the_barrier]] asks that.
+# **Explain.** At γ = 0.8 neither pays. The rule's way is too slow: it is worth less than staying
+# even if it never crashes. The plan is quicker, but crashes: over the {{ roads() | , }} roads it is
+# worth {{ worth_of_plan() | .2f }}, staying {{ discounted(idle(), 0.8) | .2f }}. The crossing with
+# the red line is no threshold: later crashes cost less. Would a larger γ free plain SAC? Lesson
+# [[the_barrier]] tries it.
 # <!-- claim: discounted(idle(), 0.8) > worth_of_plan() -->
 # <!-- claim: min(len(drive.actions) for drive in crashes_of_plan()) > 3 -->
 # <!-- claim: all(discounted(drive, gamma) > gamma ** np.arange(4) @ [*by_rule().rewards[:3], -10] for

@@ -106,7 +106,7 @@ def _values(title: str, rows: Mapping[str, tuple[np.ndarray, np.ndarray]], digit
 
 def who_leaves(found: Mapping[str, Sequence[np.ndarray]]) -> Figure:
     """A square for each learner, a row for each kind: how far it got, by the Q (5, 2) that it ends with."""
-    title = "Chance alone or a replayed demonstration teaches all thirty to leave, a longer view none"
+    title = "Chance alone or a replayed demonstration teaches all thirty to leave, a longer view alone none"
     most = max(map(len, found.values()))
     size, height, top = min(0.19, 4.4 / most), 0.29 * len(found), 0.34 + 0.2 * len(wrapped(title).splitlines())
     figure, listed = new_figure(top + height + 0.2 + 0.19 * len(SHADES)), []

@@ -289,17 +289,17 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # %% [markdown]
 # **Explain.** In A none learns to leave, although leaving is worth more. The way out costs the
 # trap's pay now, and earns at its end: this is a **barrier**. Chance gets through in one attempt in
-# {{ 20**4 | ,.0f }}. A longer view does not help: none of B's thirty was on the free road, so its
-# value is unknown.
+# {{ 20**4 | ,.0f }}. A longer view alone does not help here: none of B's thirty was on the free
+# road, so its value is unknown.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps here: one attempt in {{ 4**4 }} gets through in C, one in {{ 2**4 }} in D.
-# Once is not enough: a walk moves the value one state back (Round 3), and in each it must beat
-# going back. {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{ leaving(0.5, 0.8) }}
-# learn to leave; the second picture shows one of each. On the road a random decision can also cost
-# an accident.
+# More exploration helps Q here (D itself goes on driving at random): one attempt in {{ 4**4 }} gets
+# through in C, one in {{ 2**4 }} in D. Once is not enough: a walk moves the value one state back
+# (Round 3), and in each it must beat going back. {{ free_road_seen(0.5, 0.8) }} of C were on the
+# free road, {{ leaving(0.5, 0.8) }} learn to leave; the second picture shows one of each. On the
+# road a random decision can also cost an accident.
 # <!-- claim: chain.leaves(chain.over_walks(0.5, 0.8, 1)[-1]) -->
 # <!-- claim: chain.has_been_free(chain.over_walks(0.5, 0.8, 16)[-1]) and
 #   not chain.leaves(chain.over_walks(0.5, 0.8, 16)[-1]) -->
@@ -329,8 +329,8 @@ compare_predictions(
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves
 #    Q(s, a) by a part of it, and needs no map.
 # 4. On a walk forwards a value moves one state back; learned backwards, it moves all the way.
-# 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and
-#    so does a replayed demonstration.
+# 5. On the chain none of A's thirty learners, which take 0 of two equal actions, gets past the
+#    barrier. More random decisions help, and so does a replayed demonstration.
 #
 # **Three questions to think about**
 # - After 40 sweeps Q(0, 0) is {{ sweeps(40, 0.8)[0, 0] | .2f }}. Staying for ever is worth {{

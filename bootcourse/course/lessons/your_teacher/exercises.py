@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bootcourse.course.exercise import exercise
+from bootcourse.course.exercise import MANY_ROWS, exercise
 from bootcourse.course.lessons.your_teacher import crashes
 from bootcourse.course.lessons.your_teacher.driven_out import CHANGES, OUT, drive_out, explain_rule
 from bootcourse.course.lessons.your_teacher.example_teachers import DENSE, careful, dense_road, watchful
@@ -64,7 +64,7 @@ my_rule = exercise(
 def lanes_of_drives(rng):
     for lanes in ([2, 2, 1, 0, 0, 1], [1, 0, 1, 2], [0], [2], [1, 1, 0], [2, 2, 2, 2], [0, 1, 1]):
         yield (np.array(lanes),)
-    for length in (5, 16, 30):
+    for length in (5, 16, 30, MANY_ROWS):
         yield (rng.integers(0, 3, length),)
         yield (rng.integers(1, 3, length),)
 

@@ -25,8 +25,21 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import check, compare_predictions, predict, predicted, progress, source
-from bootcourse.course.lessons.your_teacher import example_teachers, figures, taught_agents
+from bootcourse.course import (
+    check,
+    compare_predictions,
+    predict,
+    predicted,
+    progress,
+    source,
+    table,
+)
+from bootcourse.course.lessons.your_teacher import (
+    asking,
+    example_teachers,
+    figures,
+    taught_agents,
+)
 from bootcourse.course.shipped import beginning, shipped_experiment, shipped_teachers
 from bootcourse.learn.teachers import ahead, teacher_policy, toward
 from bootcourse.research.teachers import TEACHERS
@@ -388,6 +401,16 @@ def watchful_rule(cars, scenario):
 
 
 check.watchful_rule(watchful_rule)
+
+# %% [markdown]
+# ## Further: ask only when unsure
+#
+# Your worse student drives, and asks your rule in each second in which your two students disagree,
+# or about as often at random. Compare the accidents. One pair is few: what does your neighbour see?
+
+# %% tags=["nbval-ignore-output"]
+worse_first = [students[place] for place in learned["success"].argsort()]
+table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:50]))
 
 # %% [markdown]
 # ## What you now know
