@@ -99,7 +99,7 @@ class ReplayBuffer:
 
 check.ReplayBuffer(ReplayBuffer)
 
-# %% [markdown] tags=["instructor"] minutes=3
+# %% [markdown] tags=["instructor"] minutes=5
 # To stack the whole list at each draw gives the right rows and makes the training slow: the check
 # says so. Ask what `add` would have to do if it kept the rows in the order of their age.
 
@@ -209,7 +209,7 @@ figures.small_worlds(right, lost)
 # In the others the target now counts the fallen state. No row begins there, so no row says what it is
 # worth: the network makes it up. The better push of the fourth world still has the higher Q.
 
-# %% [markdown] tags=["instructor"] minutes=5
+# %% [markdown] tags=["instructor"] minutes=7
 # Let those who have finished exchange their `update` with a neighbour and find the lines in which
 # they differ. Then each plants a bug in the other's, and looks which of the four worlds shows it: the
 # second a lost γ, the third an end of the time that counts as a fall, the fourth exchanged actions.
@@ -310,7 +310,7 @@ print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {t
 #
 # The score shows that something is wrong. An impossible Q shows where: in the critics.
 
-# %% [markdown] tags=["instructor"] minutes=4
+# %% [markdown] tags=["instructor"] minutes=7
 # A belief to name: "without marks the critics would find the constant" of round 1. They approach it
 # if rows tell them what a fallen pole is worth: let them run the last cell with `PAID = 1`. Q is
 # then possible in {{ possible('paid-1') }} of five agents and nearly flat, and they balance {{
