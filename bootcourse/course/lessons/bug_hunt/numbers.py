@@ -44,6 +44,11 @@ def late_accidents(name: str) -> list[int]:
     return [round(30 * share) for share in hunt().at_the_end("accident")[name]]
 
 
+def accidents(name: str) -> np.ndarray:
+    """How many accidents each of an agent's two seeds had in its training, (2,)."""
+    return np.nansum(hunt().curve(name, "accident"), axis=1)
+
+
 @cache
 def seen() -> Batch:
     """The transitions of the drives whose accidents the student's probe asks about."""
