@@ -2,9 +2,11 @@
 
 import numpy as np
 
+from bootcourse.errors import BootcourseError
 from bootcourse.road import twin
 from bootcourse.road.constants import constants
 from bootcourse.road.formulas import speed_reward
+from bootcourse.road.state import COLUMNS
 from bootcourse.scenario import N_ACTIONS, Scenario
 
 
@@ -12,8 +14,16 @@ def advance(cars: np.ndarray, actions: np.ndarray, accidents: np.ndarray, scenar
     """One decision on each imagined road, in place: the rewards, (roads,).
 
     cars (roads, vehicles, 10); actions (roads,) in 0..8; accidents (roads,) int, an Accident's number. A road that
-    already had an accident stands still, with reward 0.
+    already had an accident stands still, with reward 0. Raises BootcourseError for cars of another shape, and for what
+    are not whole actions in 0..8, one for each road: whoever decides may be a reader's own code.
     """
+    actions, roads = np.asarray(actions), (len(cars),)
+    if cars.shape[1:] != (scenario.vehicles, COLUMNS):
+        raise BootcourseError(f"cars have shape {cars.shape}: give (roads, {scenario.vehicles}, {COLUMNS}).")
+    if actions.shape != roads or actions.dtype.kind not in "iu" or ((actions < 0) | (actions >= N_ACTIONS)).any():
+        raise BootcourseError(
+            f"actions have shape {actions.shape} and type {actions.dtype}: give whole numbers in 0..8, shape {roads}."
+        )
     rewards, terms, asleep = np.zeros(len(cars)), np.zeros((len(cars), 3)), accidents != 0
     actions = np.ascontiguousarray(actions, dtype=np.int64)
     twin.decide(cars, actions, asleep, constants(scenario), rewards, terms, accidents, twin.NO_TRACE)

@@ -13,7 +13,7 @@ from bootcourse.course.lessons.discrete_sac.own_parts import Walked, descended, 
 from bootcourse.course.shipped import shipped_runs
 from bootcourse.learn import sac
 from bootcourse.research.computed import experiment
-from bootcourse.statistics import ESCAPES
+from bootcourse.statistics import ESCAPES, rolling_means
 
 q = np.array(START)
 pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
@@ -84,6 +84,6 @@ def trained() -> tuple[np.ndarray, np.ndarray]:
 def decided() -> tuple[np.ndarray, np.ndarray]:
     """After which drive the mean entropy of 20 is first below half of log 9, for each of these agents, and α then."""
     alphas, entropies = trained()
-    means = np.array([np.convolve(of_one, np.ones(20) / 20, "valid") for of_one in entropies])
-    drives = (means < math.log(9) / 2).argmax(axis=1) + 20
+    at, means = rolling_means(entropies, 20, entropies.shape[1])
+    drives = at[(means < math.log(9) / 2).argmax(axis=1)]
     return drives, alphas[range(len(drives)), drives - 1]

@@ -94,6 +94,12 @@ def each_agent(cells: dict[str, Results], base: str) -> Figure:
     return finish(figure, title, f"A line for each agent, from alone to with the look-ahead. {'; '.join(alt_parts)}.")
 
 
+def out_of_nine(study: Mapping[str, Results], gamma: float, with_worth: bool) -> np.ndarray:
+    """How often the nine that stay behind alone get out, by what the look-ahead counts: shares, (9,)."""
+    alone, ahead = Cell("sac", "alone"), Cell("sac", gamma=gamma, with_worth=with_worth)
+    return study[ahead.name].measured["success"][study[alone.name].measured["success"] < 0.01]
+
+
 def out_of_trap(
     drivers: Mapping[str, Policy], roads: Sequence[int], study: Mapping[str, Results]
 ) -> tuple[list[str], list[list]]:
@@ -101,10 +107,9 @@ def out_of_trap(
 
     drivers: one agent's, in the order of the study's `AIMS`; beside them the study's nine agents that are stuck alone.
     """
-    stuck = study[Cell("sac", "alone").name].measured["success"] < 0.01
     rows = []
     for (name, driver), (gamma, with_worth) in zip(drivers.items(), AIMS, strict=True):
-        out = study[Cell("sac", gamma=gamma, with_worth=with_worth).name].measured["success"][stuck]
+        out = out_of_nine(study, gamma, with_worth)
         some = f"{(out > 0).sum()} of {len(out)}"
         rows.append([name, int(drive_episodes(driver, roads).success.sum()), f"{100 * out.mean():.0f} %", some])
     headings = ["what counts", f"this agent is out in {len(roads)}", "all nine, mean", "out in some drives"]

@@ -5,13 +5,11 @@ from collections.abc import Callable
 import numpy as np
 
 from bootcourse.episodes.lookahead import nine_drives, worth_of_speed
-from bootcourse.errors import BootcourseError
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.branching import advance
 from bootcourse.road.constants import constants
 from bootcourse.road.observation import observe_all
-from bootcourse.road.state import COLUMNS
-from bootcourse.scenario import DEFAULT, N_ACTIONS
+from bootcourse.scenario import DEFAULT
 
 Decide = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
 
@@ -23,13 +21,6 @@ def step(cars: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray,
     are. It does not remember: a road that is stepped on after an accident may go on to earn rewards. Raises
     BootcourseError for what are not whole actions in 0..8, one for each road.
     """
-    actions, roads = np.asarray(actions), (len(cars),)
-    if np.shape(cars)[1:] != (DEFAULT.vehicles, COLUMNS):
-        raise BootcourseError(f"cars have shape {np.shape(cars)}: give (roads, {DEFAULT.vehicles}, {COLUMNS}).")
-    if actions.shape != roads or actions.dtype.kind not in "iu" or not ((actions >= 0) & (actions < N_ACTIONS)).all():
-        raise BootcourseError(
-            f"actions have shape {actions.shape} and type {actions.dtype}: give whole numbers in 0..8, shape {roads}."
-        )
     following, accidents = cars.copy(), np.zeros(len(cars), dtype=np.int64)
     rewards = advance(following, actions, accidents, DEFAULT)
     return following, rewards, accidents != 0

@@ -58,11 +58,6 @@ def outs(base: str, form: str = "rollouts") -> np.ndarray:
     return each(base, form, "success")
 
 
-def of_the_nine() -> np.ndarray:
-    """How often plain SAC's agents get out with the look-ahead, those that stay behind alone: shares, (9,)."""
-    return outs("sac")[outs("sac", "alone") < 0.01]
-
-
 def worse_than_alone(base: str, form: str) -> int:
     """With how many of the lesson's wrong models a base policy crashes more often than alone."""
     return sum(per_thousand(base, form, model) > per_thousand(base, "alone") for model in WRONG)
@@ -80,9 +75,7 @@ def worths() -> np.ndarray:
 
 def aim(gamma: float, with_worth: bool) -> np.ndarray:
     """How often the nine that stay behind alone get out, by what the look-ahead counts: shares, (9,)."""
-    return shipped()[Cell("sac", gamma=gamma, with_worth=with_worth).name].measured["success"][
-        outs("sac", "alone") < 0.01
-    ]
+    return figures.out_of_nine(shipped(), gamma, with_worth)
 
 
 @cache

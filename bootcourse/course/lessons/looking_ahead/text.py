@@ -167,12 +167,12 @@ study = shipped_experiment("look-ahead")
 bc.show(figures.each_agent(study, "sac"))
 
 # %% [markdown]
-# **See.** Of the nine, {{ (of_the_nine() > 0).sum() }} get out in some drives. {{
+# **See.** Of the nine, {{ (aim(1.0, True) > 0).sum() }} get out in some drives. {{
 # less_safe('sac').sum() }} of them crash *more* than alone: those that are out in about half of their
 # drives.
 # <!-- claim: (outs('sac', 'alone')[less_safe('sac')] < 0.01).all() and less_safe('sac').any() and
 #   ((abs(outs('sac') - 0.53) < 0.06) == less_safe('sac')).all() -->
-# <!-- claim: 0 < (of_the_nine() > 0).sum() < 9 -->
+# <!-- claim: 0 < (aim(1.0, True) > 0).sum() < 9 -->
 #
 # Is it W that leads them out, or γ = 1? The agent's own Q has γ = 0.8 and no W. Give your function the
 # one, the other, or both: it drives the first of the nine on ten roads.

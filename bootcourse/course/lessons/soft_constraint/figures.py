@@ -14,7 +14,7 @@ from bootcourse.course.live_curves import LiveCurves
 from bootcourse.learn.training import Training
 from bootcourse.methods import style
 from bootcourse.plots.figure import SMALL, axes_at, finish, label_ends, new_figure, one_axes, plain_axes
-from bootcourse.statistics import IN_A_ROW, found_after, lost
+from bootcourse.statistics import IN_A_ROW, found_after, lost, rolling_means
 
 PENALTY = "with the value penalty", "without it"
 
@@ -102,10 +102,8 @@ def courses(kinds: Sequence[str]) -> Figure:
         xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
         until = np.argmax(xi <= 0.101) if kind == FADING else len(xi)
         above.plot(np.arange(until), xi[:until], color=colour, linewidth=2)
-        returns = changed[kind].of("soft").curves["return"].astype(float)
-        sums = np.cumsum(np.pad(returns, ((0, 0), (1, 0))), axis=1)
-        window = (sums[:, IN_A_ROW:] - sums[:, :-IN_A_ROW]) / IN_A_ROW
-        episodes = np.arange(IN_A_ROW, returns.shape[1] + 1)
+        returns = changed[kind].of("soft").curves["return"]
+        episodes, window = rolling_means(returns, IN_A_ROW, returns.shape[1])
         below.plot(episodes, window.T, color=colour, linewidth=0.5, alpha=0.45)
         below.plot(episodes, window.mean(0), color=colour, linewidth=2.2)
         ends.append((window[:, -1].mean(), kind, colour))

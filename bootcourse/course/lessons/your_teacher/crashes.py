@@ -78,7 +78,7 @@ def is_kept(kind: str) -> np.ndarray:
     """
     if kind in ("lane", "accident"):
         return marked(without_the_accident if kind == "lane" else without_the_lane)
-    before = np.concatenate([np.arange(len(drive.actions)) < before_free_lane(drive) for drive in crashed()])
+    before = marked(before_the_lane)
     if kind == "cut":
         return before
     kept = np.ones(len(before), dtype=bool)
@@ -89,9 +89,17 @@ def is_kept(kind: str) -> np.ndarray:
 
 def before_free_lane(drive: Rollout) -> int:
     """How many of a drive's decisions are made before the car is in the free lane."""
-    at = np.arange(len(drive.actions)) * drive.scenario.clock.steps
-    arrived = drive.states[at, EGO, LANE] == 0
-    return int(arrived.argmax()) if arrived.any() else len(drive.actions)
+    return int(before_the_lane(lanes_of(drive)).sum())
+
+
+def lanes_of(drive: Rollout) -> np.ndarray:
+    """The ego's lane at each of a drive's decisions, (decisions,) int."""
+    return drive.cars[: len(drive.actions), EGO, LANE].astype(int)
+
+
+def before_the_lane(lanes: np.ndarray) -> np.ndarray:
+    """What comes before lane 0: (decisions,) bool."""
+    return np.cumsum(lanes == 0) == 0
 
 
 def without_the_accident(lanes: np.ndarray) -> np.ndarray:
@@ -104,15 +112,14 @@ def without_the_accident(lanes: np.ndarray) -> np.ndarray:
 
 def without_the_lane(lanes: np.ndarray) -> np.ndarray:
     """The accident without the free lane: what comes before lane 0, and a drive's last decision."""
-    kept = np.cumsum(lanes == 0) == 0
+    kept = before_the_lane(lanes)
     kept[-1] = True
     return kept
 
 
 def marked(kept: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
     """The decisions of these drives, one after the other, that `kept(lanes)` marks in each: (decisions,) bool."""
-    drives = [drive.cars[: len(drive.actions), EGO, LANE].astype(int) for drive in crashed()]
-    return np.concatenate([np.asarray(kept(lanes), dtype=bool) for lanes in drives])
+    return np.concatenate([np.asarray(kept(lanes_of(drive)), dtype=bool) for drive in crashed()])
 
 
 def short_training(kept: Callable[[np.ndarray], np.ndarray], seeds: int = 2) -> dict[str, np.ndarray]:
