@@ -1,4 +1,7 @@
-"""The pictures of the bug hunt: two drives, and a panel for each agent with a bug, the healthy one in grey."""
+"""The pictures of the bug hunt: two drives, and a panel for each agent with a bug, the healthy one in grey.
+
+The titles say what is drawn and not what it shows: to find that is the student's work.
+"""
 
 from matplotlib.figure import Figure
 
@@ -25,21 +28,21 @@ def two_drives(hunt: Hunt) -> list[Rollout]:
 
 def returns(hunt: Hunt) -> Figure:
     """Mean return of the last 30 training episodes."""
-    title = "One agent with a bug earns more than the healthy one"
+    title = "Return in training"
     episode, what = "training episode (logarithmic)", "return, mean of 30 episodes"
     return charts.many(hunt.curves("return"), title, episode, what, reference="healthy", x_scale="log")
 
 
 def accidents(hunt: Hunt) -> Figure:
     """Q of the decisions that ended in an accident."""
-    title = "One agent values its own accidents far below −10"
+    title = "Q at an agent's own accidents"
     what = "Q where an accident followed (dotted: −10)"
     return charts.many(hunt.probes("end"), title, "updates", what, reference="healthy", level=-10)
 
 
 def promises(hunt: Hunt) -> Figure:
     """Mean of Σ π Q in seconds that the rule drove."""
-    title = "Two agents promise far more than the healthy one"
+    title = "What the critic promises"
     what = f"promise Σ π Q, cut off at 20 (dotted: {most(False):.0f} and {most():.0f})"
     probes, limits = hunt.probes("promise"), (-2, 20)
     figure = charts.many(probes, title, "updates", what, reference="healthy", limits=limits, level=most())
@@ -50,6 +53,6 @@ def promises(hunt: Hunt) -> Figure:
 
 def rarest(hunt: Hunt) -> Figure:
     """Mean log of the smallest of the nine probabilities in the same seconds."""
-    title = "Two agents keep their rarest action far likelier than the healthy one"
+    title = "The policy's rarest action"
     what = "log of the rarest action's probability"
     return charts.many(hunt.probes("rarest"), title, "updates", what, reference="healthy")

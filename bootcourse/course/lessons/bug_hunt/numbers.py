@@ -39,9 +39,9 @@ def ends(name: str) -> float:
     return returns[name].mean() / returns["healthy"].mean()
 
 
-def late_accidents(name: str) -> list[int]:
-    """In how many of its last 30 training episodes each of an agent's two seeds had an accident."""
-    return [round(30 * share) for share in hunt().at_the_end("accident")[name]]
+def late(name: str, what: str) -> list[int]:
+    """In how many of its last 30 training episodes each of an agent's two seeds had a success or an accident."""
+    return [round(30 * share) for share in hunt().at_the_end(what)[name]]
 
 
 def accidents(name: str) -> np.ndarray:

@@ -113,14 +113,15 @@ def off_the_road(own: Sequence[Rollout], of_rule: Sequence[Rollout], seconds: in
     paths = figure.add_axes((0.075, 0.14, 0.5, 0.7))
     bars = figure.add_axes((0.63, 0.14, 0.24, 0.7))
     gone = [drive for drive in own if cloning.off_on_the_left(drive)]
-    paths.axhspan(-2, furthest, color=style("rule").colour, alpha=0.13, linewidth=0)
+    nearest = STEPS_LEFT[np.argmax(rows > 0)]  # the lowest bar with a decision of the rule
+    paths.axhspan(nearest, furthest, color=style("rule").colour, alpha=0.13, linewidth=0)
     for drive in gone:
         way, errs = cloning.metres_left(drive)[-seconds:], (drive.actions != drive.rule_actions)[-seconds:]
         when = np.arange(-len(way), 0)
         paths.plot(when, way, color=style("bc").colour, linewidth=0.7, alpha=0.35)
         paths.plot(when[errs], way[errs], ".", color=INK, markersize=4, alpha=0.5)
     where = {"color": style("rule").colour, "fontsize": TEXT, "va": "bottom", "backgroundcolor": "#DEF2EA"}
-    paths.text(-seconds + 0.1, -1.95, "where the rule's drives are", **where)
+    paths.text(-seconds + 0.1, nearest + 0.05, "where the rule's drives are", **where)
     paths.set(xlim=(-seconds - 0.2, -0.6), ylim=(-2, 2.05))
     paths.set_xlabel("seconds before the accident", fontsize=TEXT, color=INK)
     plain_axes(paths, "left of the lane's middle (m); a dot is an error")

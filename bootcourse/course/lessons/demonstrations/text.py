@@ -14,7 +14,7 @@
 # # Demonstrations
 #
 # **What you will be able to do**
-# - train clones of a driver, one of them of yourself, and judge them by how they drive;
+# - train clones of drivers, yourself included, and judge them by how they drive;
 # - find where a clone fails, and test what its data lack;
 # - let a clone drive, have the rule label what it meets, and see what that changes.
 #
@@ -35,16 +35,16 @@ progress("demonstrations")
 # %% [markdown]
 # ## Look first
 #
-# Drive this road until you get out once: clones of your drive will drive below. (If you do not get
-# out, one drive of the rule stands for yours.)
+# Drive this road until you get out once: you will train clones of your drive. (If you do not get out,
+# one drive of the rule stands for yours.)
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
 (world := bc.world(road=ROAD))
 
 # %% [markdown]
-# Two others drive 60 roads: the rule, and the stochastic rule with p = {{ RULE_P }}, which draws one
-# decision in ten from the other eight actions. Here is where they were in their first 30 seconds.
+# Two others drive 60 roads, here in their first 30 seconds: the rule, and the stochastic rule with
+# p = {{ RULE_P }}, which draws one decision in ten from the other eight actions.
 # <!-- claim: round(1 / (1 - RULE_P)) == 10 -->
 
 # %% tags=["hide-input"]
@@ -54,17 +54,15 @@ driven["the stochastic rule"] = bc.record(unsure, range(60), label="stochastic r
 title = "The rule drives along a narrow path, the stochastic rule strays from it"
 bc.show(figures.where_they_were(driven, seconds=30, title=title))
 
-# %% [markdown]
-# Whose drives would you copy?
-
 # %% [markdown] tags=["instructor"] minutes=3
-# Count hands for each of the two and let one of each side give a reason. Do not resolve it.
+# Ask whose drives they would copy. Count hands for each of the two and let one of each side give a
+# reason. Do not resolve it.
 
 # %% [markdown]
 # ## Round 1: whose clones crash least?
 #
-# A **demonstration** is somebody's drive, kept as **transitions**, one for each decision: what the
-# driver saw, did, was paid and saw next, and whether an accident ended the drive there.
+# A **demonstration** is somebody's drive, kept as transitions (lesson [[discrete_sac]]), one for each
+# decision.
 
 # %%
 mine = [drive for drive in world.attempts if drive.success and not drive.accident]
@@ -73,9 +71,8 @@ own_rows = demonstration_rows(mine or [driven["the rule"][ROAD]])
 print(f"{len(own_rows)} transitions from {whose}")
 
 # %% [markdown]
-# **Behaviour cloning** (BC) is supervised learning, without rewards: the input is a state, the
-# right answer $a_E$ the action that the demonstrator took there. The loss is the mean of
-# $-\log \pi(a_E | s)$.
+# **Behaviour cloning** (BC) is supervised learning, without rewards: the input is a state s, the right
+# answer $a_E$ the demonstrator's action. The loss is the mean of $-\log \pi(a_E | s)$.
 #
 # **Exercise (5 min, ●○○).** Write it, in torch.
 
@@ -94,7 +91,8 @@ check.cloning_loss(cloning_loss)
 # %% [markdown]
 # Train five clones on each of three data sets: your drives, {{ SETTINGS.demonstration_episodes
 # }} drives of the rule, as many of the stochastic rule. Each clone then drives 100 new roads and takes
-# its most probable action. Its **agreement** is the share of its data where that is the label.
+# its most probable action. Its **agreement** is the share of its data in which that is the
+# demonstrator's action.
 #
 # > **Predict.** Clones of which 200 drives have more accidents?
 
@@ -116,14 +114,15 @@ bc.show(figures.clones(measured))
 
 # %% [markdown]
 # **See.** *Agreement with its data does not say who drives well.* Our clones of one drive know it
-# almost by heart, and mostly crash. (Yours may differ.) No clone can foresee what the stochastic rule
-# draws; yet its clones crash less than the rule's.
+# almost by heart, and mostly crash. (Yours may differ.) No clone can foresee the one decision in ten
+# that the stochastic rule draws; yet its clones crash less than the rule's. (Its drives are shorter, but
+# clones of the rule's, cut to the same lengths, crashed as often.)
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
 #
-# All this is after {{ UPDATES | , }} updates. The study's clones, with over 40 times as many, have
-# the other order: ten of the rule all escape, crash in {{ 100 * accidents('bc') | .1f }} % of their
-# drives (and earn {{ of('bc').scores('returns').mean() | .0f }}, less than the rule's {{
-# of('rule').scores('returns').mean() | .0f }}), ten of the stochastic rule in {{ 100 *
+# All this is after {{ UPDATES | , }} updates. With over 40 times as many, the study's clones have the
+# other order: ten of the rule all escape and crash in {{ 100 * accidents('bc') | .1f }} % of their
+# drives (but earn {{ of('bc').scores('returns').mean() | .0f }}, the rule {{
+# of('rule').scores('returns').mean() | .0f }}), ten of the stochastic rule crash in {{ 100 *
 # clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %.
 # <!-- claim: of('bc').scores('returns').mean() < of('rule').scores('returns').mean() -->
 # <!-- claim: UPDATES == 1500 -->
@@ -135,9 +134,8 @@ bc.show(figures.clones(measured))
 
 # %% [markdown] tags=["instructor"] minutes=11
 # With a class: everybody keeps one drive that gets out, and you pool them. Return to the hands of
-# *Look first*. The stochastic rule's drives are also shorter: a group can cut the rule's drives to
-# the same lengths (`bc.demonstrate` keeps them drive by drive) and train twenty clones of each.
-# When we did, the cut drives' clones crashed as often as those of the whole drives. Then ask what
+# *Look first*. A group can cut the rule's drives to the lengths of the stochastic rule's
+# (`bc.demonstrate` keeps them drive by drive) and train twenty clones of each, as we did. Then ask what
 # the study's clones do and do not show: all ten of the rule escape (lesson [[recorded_drives]])
 # after a longer training. But the loss does not say when it is long enough.
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 -->
@@ -145,13 +143,13 @@ bc.show(figures.clones(measured))
 # %% [markdown]
 # ## Round 2: how does one error lead to the next?
 #
-# An **error** of a clone is a decision unlike its teacher's. The rule falls back behind the traps and
-# changes to the free left lane.
+# A decision unlike the rule's counts as an **error** of a clone. The rule falls back behind the traps
+# and changes to the free left lane.
 #
 # > **Predict.** Where do most accidents of its clones happen?
 
 # %%
-where = ["behind the traps", "in the lane change", "off the edge of the road"]
+where = ["behind the traps", "into another car in the lane change", "off the edge of the road"]
 predict("demonstrations.2", "Where do most accidents of the rule's clones happen?", where)
 
 # %%
@@ -162,19 +160,20 @@ bc.show(figures.off_the_road(alone, driven["the rule"]))
 
 # %% [markdown]
 # **See.** *The clone drifts off a free lane.* Its errors take it left of the rule's path, where the
-# rule's drives have no row. There it errs again, and a second later it is farther off: these are
-# **compounding errors** (Ross and Bagnell 2010).
+# rule's drives have no row. There it errs again and drifts farther: these are **compounding errors**
+# (Ross and Bagnell 2010). Even mid-lane it errs about twice as often as in its data: a state has more
+# than a place, such as heading and speed.
 #
-# How many can it be? Let a clone err with probability ε in its teacher's states, and in the worst
-# case in each decision after its first error. **Drag** ε down from 20 %: how many times as many
-# errors has a drive twice as long?
+# Let a clone err with probability ε in its teacher's states, and in the worst case in each decision
+# after its first error. **Drag** ε down from 20 %: how many times as many errors has a drive twice as
+# long?
 
 # %%
 explorable.compounding()
 
 # %% [markdown]
-# Four times as many where errors are rare: of $T$ decisions at most $\epsilon \, T (T + 1) / 2$ are
-# errors on average. If errors stay alone, these are $\epsilon \, T$ (the dashed line).
+# Four times as many where errors are rare: of $T$ decisions on average at most $\epsilon \, T (T + 1) / 2$
+# are errors. If errors stay alone, $\epsilon \, T$ are (dashed). Our clones make more (next picture).
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Draw both bounds, T and T²: the first error comes at decision t with a probability of at most ε,
@@ -186,9 +185,9 @@ explorable.compounding()
 # %% [markdown]
 # ## Round 3: which rows are missing?
 #
-# The stochastic rule's drives hold a few states farther left than any in the rule's drives. Label
-# them with the rule's actions and add them to its drives, five times each. For comparison, add as many
-# others instead.
+# The stochastic rule's drives hold a few states farther left than any of the rule's. Label them with
+# the rule's actions and add them to its drives, five times each. For comparison, add as many others
+# instead.
 #
 # > **Predict.** How many of the accidents remain with the rows from the edge?
 
@@ -209,11 +208,12 @@ fed_crash = {name: cloning.measure(fed[name], by_rule[::10]) for name in fed}
 bc.show(figures.added({name: measured[name] for name in KINDS}, fed_crash))
 
 # %% [markdown]
-# **See.** *The rows from the edge prevent most accidents; as many others do not.* What a data set
-# shows, places and headings, is its **coverage**.
+# **See.** *The rows from the edge prevent most accidents; as many others do not.* The states that a data
+# set holds are its **coverage**. So accidents have two remedies: fewer errors (longer training, as in the
+# study), or rows from where errors lead.
 #
-# The clones of the last row err most in their own states, and yet crash less than half as often as
-# those of the first: a count of errors misleads.
+# Counts of errors mislead: the last row's clones err most in their own states, and crash less than half
+# as often as the first's.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The rows from the edge suffice. Must it be these? A group can add the rows from 1 m left of the middle
@@ -224,13 +224,13 @@ bc.show(figures.added({name: measured[name] for name in KINDS}, fed_crash))
 # %% [markdown]
 # ## Round 4: what if the rule labels the clone's own states?
 #
-# We knew which rows to add; in general nobody does. So let your clone drive, ask the rule what it
-# would have done there, add these labelled states to the data, and train again: **DAgger**, for data
-# aggregation. It needs a teacher that answers in any state, as a rule controller does.
+# We knew which rows to add. If you do not, let your clone drive, ask the rule what it would have done
+# there, add these labelled states to the data, and train again. This **DAgger** ("data aggregation")
+# needs a teacher that answers in any state.
 #
-# > **Predict.** You begin with 20 drives of the rule, and in each of two rounds you add 20 labelled
-# > drives of the newest clone. All clones have equally many updates. Where does the last agree with
-# > the rule more often than the first?
+# > **Predict.** Begin with 20 drives of the rule, and in each of two rounds add 20 labelled drives of the
+# > newest clone. All clones have equally many updates. Where does the last agree with the rule more
+# > often than the first?
 
 # %%
 choices = ["in the rule's states and its own", "in its own alone", "in the rule's alone", "nowhere"]
@@ -238,8 +238,8 @@ predict("demonstrations.4", "Where does the last clone agree more than the first
 
 # %% [markdown]
 # **Exercise (12 min, ●●○).** Write DAgger. `train(rows)` returns a driver, `drive(driver)` the
-# transitions of its drives. Column `ACTION` holds what was done, which a clone copies;
-# `RULE_ACTION` holds what the rule would have done.
+# transitions of its drives. Column `ACTION` holds what was done, which a clone copies, `RULE_ACTION`
+# what the rule would have done.
 
 
 # %%
@@ -265,14 +265,12 @@ bc.show(figures.taught(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
 # **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom
-# crash.* In the clone's *own* states ε already counts the errors that errors led to: ε T in T
-# decisions, no T².
+# crash.* Counted in the clone's *own* states, ε includes the errors that errors led to: T decisions bring
+# ε T errors, no T². DAgger trains on these states and lowers this ε. (It stays far from 0 here: which
+# errors remain matters, too.)
 #
-# Must the states be its *own*? No: in Round 3 the stochastic rule supplied them. But with DAgger nobody
-# needs to know which states to supply.
-#
-# A clone's loss does not ask what an action leads to. A learner that does: lesson
-# [[learning_from_demonstrations]].
+# A clone's loss does not ask what an action leads to. The learner of lesson
+# [[learning_from_demonstrations]] does.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody
@@ -298,24 +296,23 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. A clone learns to predict the demonstrator's action. Its agreement with its data does not say
-#    how well it drives.
-# 2. A clone is trained on the teacher's states and drives in its own, where errors lead to errors:
-#    ours drift to where the rule's drives have no row.
+# 1. A clone learns to predict the demonstrator's action. Its agreement with its data does not say how
+#    well it drives.
+# 2. It is trained on the teacher's states and drives in its own, where errors lead to errors: ours
+#    drift to where the rule's drives have no row.
 # 3. A few rows from there prevent most of their accidents. Longer training can, too: the study's ten
 #    clones of the rule all escape.
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 and accidents('bc') < 0.01 -->
 # 4. DAgger finds such rows: the clone drives, the teacher labels.
 #
 # **Three questions to think about**
-# - On the right of the lane's middle the clones err as often as on the left. Why do they not crash
-#   there?
+# - Right of the lane's middle the clones err as often as left of it. Why do they not crash there?
 # - The teacher is a person, who watches and says "left now". What becomes hard in DAgger?
-# - A demonstrator that crashes at the end of each drive: which of its rows would you keep?
+# - A demonstrator crashes at the end of each drive. Which of its rows would you keep?
 #
-# **Read on**: Pomerleau, *ALVINN* (1989), an early clone that drove; Ross, Gordon and Bagnell on
-# *DAgger* (arXiv 1011.0686); Laskey et al., *DART* (arXiv 1703.09327), which disturbs the teacher.
-# Next: [the soft constraint](soft_constraint.ipynb).
+# **Read on**: [the next lesson](soft_constraint.ipynb). Pomerleau, *ALVINN* (1989), an early clone;
+# Ross, Gordon and Bagnell on *DAgger* (arXiv 1011.0686); Laskey et al., *DART* (arXiv 1703.09327), which
+# disturbs the teacher.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # **Model answers.**

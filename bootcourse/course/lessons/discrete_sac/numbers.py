@@ -29,6 +29,12 @@ def highest(actions: int) -> tuple[float, float]:
     return tuple(float(each[actions - 1]) for each in highest_estimates())
 
 
+def too_high() -> float:
+    """What nine actions, each worth 0, seem to be worth to softmax(Q), if each Q errs by 1: a mean of 4,000 states."""
+    q = np.random.default_rng(0).normal(size=(4000, 9))
+    return float((np.exp(q) * q).sum(axis=1) @ (1 / np.exp(q).sum(axis=1)) / len(q))
+
+
 def wished() -> float:
     """What going straight seems to be worth to an actor that moves Q, too."""
     return float(descended(lambda log_pi, q, alpha: -sac.soft_value(log_pi, q, alpha).mean()).q[1])
@@ -82,8 +88,8 @@ def trained() -> tuple[np.ndarray, np.ndarray]:
 
 
 def decided() -> tuple[np.ndarray, np.ndarray]:
-    """After which drive the mean entropy of 20 is first below half of log 9, for each of these agents, and α then."""
+    """From which drive on the mean entropy of 20 stays below half of log 9, for each of these agents, and α then."""
     alphas, entropies = trained()
     at, means = rolling_means(entropies, 20, entropies.shape[1])
-    drives = at[(means < math.log(9) / 2).argmax(axis=1)]
+    drives = at[[np.flatnonzero(each >= math.log(9) / 2)[-1] + 1 for each in means]]
     return drives, alphas[range(len(drives)), drives - 1]

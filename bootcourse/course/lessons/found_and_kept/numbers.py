@@ -11,7 +11,7 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
-from bootcourse.statistics import HAD, IN_A_ROW, LOST, Estimate, lost, rolling_means
+from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost, rolling_means
 from tools.course.known import in_training, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
@@ -76,20 +76,21 @@ def earns_less(both: Group, *others: Group) -> bool:
     return all(bool(both.earned.max() < each.earned[each.keep].min()) for each in others)
 
 
-def with_one_road() -> list[Estimate]:
-    """The chances of round 3, with their intervals, in the settings with one road at a time."""
-    settings = study_clocks.choices(shipped_experiment("clocks"))
-    return [study_clocks.pattern(each) for (updates, _), each in settings.items() if updates != "1/4"]
+def with_teacher(updates: str) -> float:
+    """The chance of round 3 with these updates per decision, where the stochastic rule demonstrates."""
+    return study_clocks.pattern(study_clocks.choices(shipped_experiment("clocks"))[updates, "π̃"]).value
 
 
-def one_road() -> list[float]:
-    """Those chances alone."""
-    return [chance.value for chance in with_one_road()]
+def crash(words: str) -> float:
+    """The share of drives with an accident, of the agents of a group of round 2 that keep the way out."""
+    results = groups()[words].of("bootstrapped")
+    return float(results.scores("accident")[results.found_and_kept("bootstrapped")[1]].mean())
 
 
-def lowest_bound() -> float:
-    """The lowest end of their intervals."""
-    return min(chance.low for chance in with_one_road())
+def alone_and_ending() -> Counted:
+    """Of twenty agents with demonstrations alone and a β that ends: how many find the way out, and keep it."""
+    each = [way(agents, "demos") for agents in (shipped_results(), shipped_experiment("stress")["demos"])]
+    return Counted(sum(one.found for one in each), sum(one.kept for one in each))
 
 
 def alone_and_staying() -> tuple[int, int, int]:

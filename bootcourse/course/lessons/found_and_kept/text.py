@@ -17,7 +17,7 @@
 #
 # **What you will be able to do**
 # - tell an agent that never found the way out from one that found it and lost it;
-# - say what prevents that loss here, and what it costs;
+# - say which agents lose it least here, and what that costs;
 # - compute how likely a table of single agents is.
 #
 # **Time** 45 minutes; running it takes under one minute. **It builds on** the seeds (lesson
@@ -54,7 +54,7 @@ drive = bc.record(bc.shipped_agents("demos")[best].as_policy(), [10], label="dem
 bc.recording([shipped.beginning(drive, 30)], height=240)
 
 # %% [markdown]
-# It stays behind trap 1. Yet in the middle of the training it was the best of the ten:
+# It stays behind trap 1. Yet in mid-training it was the best of the ten:
 # <!-- claim: not of_the_agent_shown().success -->
 
 # %%
@@ -62,17 +62,17 @@ title = "This agent learned the way out, and lost it"
 bc.show(figures.one_agent(study.of("demos"), best, title))
 
 # %% [markdown]
-# At the end it fails like an agent of plain SAC that never found the way out. The paper's table
-# shows only the end:
+# At the end it fails like an agent that never found the way out. The paper's table shows only the end:
 # <!-- claim: (in_training('sac', 0, 2000) == 0).any() -->
 
 # %%
 table(counts.BOTH_TABLES, counts.both_tables(study))
 
 # %% [markdown]
-# With one aid alone, the paper's agents get out with demonstrations, and ours with the soft
-# constraint. Three things could explain it: agents lose the way out (Rounds 1 and 2), one agent stands
-# behind each of the paper's rates (lesson [[how_many_seeds]]), or its training differs (Round 3).
+# With one aid alone, the paper's agents get out with demonstrations, ours with the soft constraint.
+# Four things could explain it: agents lose the way out (Rounds 1 and 2), one agent stands behind each
+# of the paper's rates (lesson [[how_many_seeds]]), its training differs (Round 3), or its traffic,
+# which is printed only in part (not tested here).
 # <!-- claim: escaped('demos') == 0 < escaped('soft') and PRINTED['demos']['success'].mean == 100
 #   and PRINTED['soft']['success'].mean == 0 -->
 
@@ -84,15 +84,13 @@ table(counts.BOTH_TABLES, counts.both_tables(study))
 # %% [markdown]
 # ## Round 1: found, and kept
 #
-# Two words:
-#
 # - **Found**: in at least one *window*, {{ WINDOW }} training episodes in a row, more than half ended
 #   ahead of trap 1. Such a window is *good*.
-# - **Kept**: the agent found the way out and escapes after training: it is ahead on at least
+# - **Kept**: it found the way out and escapes after training: it is ahead on at least
 #   {{ 100 * ESCAPES | .0f }} % of the held-out roads.
 #
-# > **Predict.** With demonstrations alone none of our ten agents escapes at the end, and you saw one
-# > of them that had found the way out. Is it an exception? How many of the ten find it?
+# > **Predict.** With demonstrations alone none of our ten agents escapes, and you saw one that had
+# > found the way out. How many of the ten find it?
 # <!-- claim: (escaped('demos'), len(of('demos'))) == (0, 10) -->
 
 # %%
@@ -108,8 +106,7 @@ bc.show(figures.found_and_kept({"": study}, figures.IN_THE_STUDY))
 # out. With demonstrations alone half of these ten find it, and none keeps it.
 #
 # Of *ten others* (lesson [[learning_from_demonstrations]]: other seeds, implementation and length)
-# {{ way(others('demos'), 'demos').found }} find it and {{ way(others('demos'), 'demos').kept }} keep
-# it. So "none" holds for these ten.
+# {{ way(others('demos'), 'demos').found }} find it and {{ way(others('demos'), 'demos').kept }} keep it.
 # <!-- claim: [way(of_all(), m).found for m in ('sac', 'soft', 'bootstrapped', 'demos')] == [1, 10,
 #   10, 5] and way(of_all(), 'demos').kept == 0 and min(way(of_all(), m).kept for m in ('soft',
 #   'bootstrapped')) > 5 -->
@@ -121,26 +118,25 @@ bc.show(figures.found_and_kept({"": study}, figures.IN_THE_STUDY))
 # buffer.
 
 # %% [markdown]
-# ## Round 2: what prevents the loss?
+# ## Round 2: who loses it?
 #
 # The agent of the first curve lost the way out as its demonstrations ran out: their share β of each
-# batch falls to 0 by episode {{ SETTINGS.beta_episodes | , }}. Would it help if they stayed? Or does it
-# take the bonus c, which each demonstrated second is paid?
+# batch falls to 0 by episode {{ SETTINGS.beta_episodes | , }}. Each demonstrated second is paid a bonus c.
 #
-# With both aids (bootstrapped SAC) all ten find the way out, so we can count who loses it. Four
-# groups of ten: β ends by episode 1,000, as in the study, or never (it stays {{ SETTINGS.beta_start }}); with
-# the bonus, or without (c = 0).
+# With both aids (bootstrapped SAC) all ten find the way out, in each of four groups: β ends by episode
+# 1,000, as in the study, or never (it stays {{ SETTINGS.beta_start }}); with the bonus, or without (c =
+# 0).
 # <!-- claim: [(each.agents[0]['beta_episodes'], each.agents[0]['bonus']) for each in
 #   groups().values()] == [(1000, 2), (None, 2), (1000, 0), (None, 0)] and SETTINGS.beta_episodes ==
 #   1000 and {len(each) for each in groups().values()} == {10} and
 #   {each.found_and_kept('bootstrapped')[0].sum() for each in groups().values()} == {10} -->
 #
 # - **Lost**: after a window with at least {{ HAD }} of {{ WINDOW }} ahead comes one that is not good.
-#   *Kept* looks only at the end: an agent can lose the way out, find it again, and count as kept.
+#   An agent can lose the way out, find it again, and count as kept.
 # <!-- claim: LOST == WINDOW / 2 -->
 #
 # **Exercise (12 min, ●●●).** Which agents lose the way out at least once: after a window with at least
-# `had` of {{ WINDOW }} ahead comes one with `limit` or fewer? The next panel counts with your function.
+# `had` ahead comes one with `limit` or fewer? The next panel counts with your function.
 
 
 # %%
@@ -155,16 +151,16 @@ def ever_lost(success, had, limit):
 check.ever_lost(ever_lost)
 
 # %% [markdown]
-# > **Predict.** Demonstrations that stay show the way out in each batch; the bonus pays for it. What
-# > prevents the loss?
+# > **Predict.** Demonstrations that stay show the way out in each batch; the bonus pays for it. Where
+# > do none of our ten lose it?
 
 # %%
 choices = [
-    "demonstrations that stay, with or without the bonus",
-    "the bonus, whether or not β ends",
-    "only both together",
+    "where β never ends, with or without the bonus",
+    "where the bonus is paid, whether or not β ends",
+    "only where β never ends and the bonus is paid",
 ]
-predict("found_and_kept.2", "What prevents the loss?", choices)
+predict("found_and_kept.2", "Where do none of our ten lose the way out?", choices)
 
 # %% [markdown]
 # **Drag** the limit. Which group loses the way out least? When do the others lose it?
@@ -174,37 +170,38 @@ predicted("found_and_kept.2")
 explorable.losing()
 
 # %% [markdown]
-# **See.** *Only both together.* With the bonus and a β that never ends none of these ten loses the
-# way out (of ten others {{ group('others: never').lost.sum() }}); in each other group at least eight do.
+# **See.** *Only where β never ends and the bonus is paid* (of ten others {{
+# group('others: never').lost.sum() }} lose it). In each other group at least eight do.
 #
-# No agent of the first group loses it before episode {{ group('β ends, bonus').first.min() | .0f }}, when
-# little is still paid. Without the bonus six have lost it by 550, long before β ends.
+# With the bonus and a β that ends, none loses it before episode {{ group('β ends, bonus').first.min() |
+# .0f }}, when little is still paid. Without the bonus, if β ends, six have lost it by 550, long before
+# it does.
 # <!-- claim: [each.lost.sum() for each in map(group, groups())] == [10, 0, 8, 10] and
 #   lost_least_if_both(5, 35) and demonstration_share(900, 0.6, 1000) < 0.07 -->
 # <!-- claim: (group('β ends, no bonus').first <= 550).sum() == 6 and
 #   group('others: ends').first.min() > 900 > np.sort(group('others: no bonus').first)[2] -->
-# <!-- claim: group('β never ends, no bonus').earned[group('β never ends, no bonus').keep].min() > 120
-#   -->
 #
-# *Both together have a price.* Each agent earns less than every agent of the other groups that
-# keeps the way out: {{ group('β never ends, bonus').earned.mean() | .0f }} on average; the rule
-# earns {{ of('rule').scores('returns').mean() | .0f }}. Whether they lose nothing because they
-# drive more like the rule is open.
-# <!-- claim: earns_less(*map(group, ('β never ends, bonus', 'β ends, bonus', 'β ends, no bonus', 'β
-#   never ends, no bonus'))) and earns_less(group('others: never'), group('others: ends')) -->
+# *A β that never ends, with the bonus, has a price.* Each agent earns less than every agent of the other
+# groups that keeps the way out: {{ group('β never ends, bonus').earned.mean() | .0f }} on average; the rule earns {{
+# of('rule').scores('returns').mean() | .0f }}. (They crash in {{ 100 * crash('β never ends, bonus') |
+# .0f }} % of their drives; if β ends, those with the bonus that keep it in {{ 100 * crash('β ends,
+# bonus') | .0f }} %.)
+# <!-- claim: group('β never ends, bonus').keep.all() and earns_less(*map(group, ('β never ends, bonus',
+#   'β ends, bonus', 'β ends, no bonus', 'β never ends, no bonus'))) and earns_less(group('others: never'),
+#   group('others: ends')) -->
 #
-# *A loss need not last.* In the third group eight lose the way out, and all ten keep it by our
-# definition (of ten others all lose it, and {{ group('others: no bonus').keep.sum() }} keep it).
+# *A loss need not last.* If β ends and there is no bonus, eight lose the way out, and all ten keep it
+# (of ten others all lose it, {{ group('others: no bonus').keep.sum() }} keep it).
 # <!-- claim: group('β ends, no bonus').keep.sum() == 10 == group('others: no bonus').lost.sum() -->
 #
-# *And it takes the soft constraint.* Of twenty agents with the bonus and a β that stays, but
-# without it, 17 find the way out, and 13 of them lose it. So the first agent, too, might have.
-# <!-- claim: alone_and_staying()[:2] == (13, 17) -->
+# *It takes the soft constraint, too.* Of twenty agents without it, but with the bonus and a β that
+# stays, 17 find the way out, and 13 of them lose it at least once. Yet 14 keep it at the end.
+# <!-- claim: alone_and_staying() == (13, 17, 14) -->
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Return to the guesses from the start. Ask why the picture may not be quoted as "without
-# demonstrations agents forget": in the fourth group they stay, and in the third all ten have it at
-# the end without them.
+# demonstrations agents forget": without the bonus, all ten lose the way out if β never ends, and all
+# ten have it at the end if it ends.
 
 # %% [markdown]
 # ## Round 3: how likely is the paper's table?
@@ -220,7 +217,7 @@ explorable.losing()
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 -->
 #
 # So we trained in {{ len(clocks()) }} settings for {{ SHORTER | , }} episodes: each driver, with ¼ update
-# and four roads, and with 1, 2 and 4 updates and one road. Two of them:
+# and four roads, and with 1, 2 and 4 updates and one road. Two of these:
 # <!-- claim: {(u, a['envs_per_agent'], a['updates']) for (u, _), r in clocks().items() for a in
 #   r.agents} == {('1/4', 4, 1), ('1', 1, 1), ('2', 1, 2), ('4', 1, 4)} -->
 # <!-- claim: {r.curves['success'].shape[1] for r in clocks().values()} == {SHORTER} -->
@@ -231,9 +228,9 @@ panels = {"¼ update, driver μ": cells["1/4", "μ"], "2 updates, driver π̃": 
 bc.show(figures.found_and_kept(panels, figures.OF_TWO_GROUPS))
 
 # %% [markdown]
-# **See.** *On the right the order of the two aids alone is the paper's.* One row differs: with the soft
-# constraint, where the paper prints 0 %, half of our agents keep the way out. (β has been 0 for the
-# last 200 episodes only. Who keeps it longer is open.)
+# **See.** *On the right, as in the paper, demonstrations alone do better than the soft constraint alone.*
+# But with the latter, where the paper prints 0 %, half of our agents keep the way out. (β has been 0 for
+# the last 200 episodes only.)
 # <!-- claim: [way(clocks()[of], 'soft').kept for of in (('1/4', 'μ'), ('2', 'π̃'))] == [6, 5] and
 #   [way(clocks()[of], 'demos').kept for of in (('1/4', 'μ'), ('2', 'π̃'))] == [2, 10] -->
 # <!-- claim: [way(clocks()['2', 'π̃'], m).kept for m in ('sac', 'soft', 'demos', 'bootstrapped')]
@@ -249,9 +246,9 @@ how_often = ["in under 1 %", "in 10 to 60 %", "in over 90 %"]
 predict("found_and_kept.3", "How often do the four rates read as the paper's?", how_often)
 
 # %% [markdown]
-# **Exercise (10 min, ●●○).** Compute it. For each row you get the success rates of its agents, one
-# of which is drawn. A row prints 100 % (1) if all of the drawn agent's `episodes` drives succeed,
-# and 0 % (0) if none does. The rows are independent.
+# **Exercise (10 min, ●●○).** Compute it. For each row you get the success rates of its agents, one of
+# which is drawn. A row prints 100 % (1) if all `episodes` drives of this agent succeed, 0 % (0) if
+# none does. The rows are independent.
 
 
 # %%
@@ -272,17 +269,13 @@ for setting, agents in cells.items():
 bc.show(figures.chances(cells, chance, figures.OF_EIGHT))
 
 # %% [markdown]
-# **See.** *The setting on the right is no exception.* With one road at a time the paper's four rates
-# come in {{ 100 * min(one_road()) | .0f }} to {{ 100 * max(one_road()) | .0f }} % of the draws; with four
-# roads in {{ 100 * pattern(clocks()['1/4', 'μ']).value | .0f }} and {{
-# 100 * pattern(clocks()['1/4', 'π̃']).value | .0f }} %.
-# <!-- claim: len(one_road()) == 6 and min(one_road()) > 0.1 > pattern(clocks()['1/4', 'π̃']).value -->
-#
-# Which of the three changes does it is open: roads and updates change together, and the bars overlap.
-# The two highest have three agents a row.
-# <!-- claim: {len(clocks()['4', d].of(m)) for d in ('μ', 'π̃') for m in ('sac', 'soft', 'demos',
-#   'bootstrapped')} == {3} and sorted(one_road())[-2:] == sorted(pattern(clocks()['4', d]).value for
-#   d in ('μ', 'π̃')) and pattern(clocks()['1/4', 'μ']).high > pattern(clocks()['4', 'μ']).low -->
+# **See.** *The setting on the right is no exception.* With the paper's driver, π̃, the four rates come
+# in {{ 100 * with_teacher('1') | .0f }}, {{ 100 * with_teacher('2') | .0f }} and {{ 100 *
+# with_teacher('4') | .0f }} % of the draws with one road (the last from three agents a row), and in {{
+# 100 * with_teacher('1/4') | .0f }} % with four. The bars, 95 % intervals that allow for the few agents,
+# are wide. Roads and updates change together: which of them does it is open.
+# <!-- claim: {len(clocks()['4', 'π̃'].of(m)) for m in ('sac', 'soft', 'demos', 'bootstrapped')} == {3}
+#   and all(pattern(clocks()[u, 'π̃']).high - pattern(clocks()[u, 'π̃']).low > 0.35 for u in '124') -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask for the experiment that would separate the updates from the driver and from the roads: which
@@ -291,21 +284,23 @@ bc.show(figures.chances(cells, chance, figures.OF_EIGHT))
 # %% [markdown]
 # ## So why is our table not the paper's?
 #
-# - *Shown*: the *success rates* of the two tables need not contradict each other. If one agent
-#   stands behind each row, the paper's come in {{ 100 * min(one_road()) | .0f }} to {{ 100 *
-#   max(one_road()) | .0f }} % of the draws in six of our eight settings (the lowest bound is {{ 100
-#   * lowest_bound() | .0f }} %).
+# - *The loss is a part of it.* Of twenty agents with demonstrations alone {{ alone_and_ending().found
+#   }} find the way out and {{ alone_and_ending().kept }} keep it; if β never ends, 17 and 14.
+# - *Shown*: settings that the paper does not rule out (one road, π̃) give its four success rates in {{
+#   100 * with_teacher('1') | .0f }} to {{ 100 * with_teacher('4') | .0f }} % of the draws of one agent a
+#   row. The agents of our own table never do: none of its ten with demonstrations alone succeeds.
+# <!-- claim: of('demos').scores('success').max() == 0 == pattern(of_all()).value and with_teacher('1') <
+#   with_teacher('2') < with_teacher('4') -->
 # - *Not shown*: that the authors used one of them. The returns differ: with both aids, two updates and
-#   π̃ our agents earn {{ clocks()['2', 'π̃'].of('bootstrapped').scores('returns').mean() | .0f }}, and
-#   theirs {{ PRINTED['bootstrapped']['returns'].mean | .0f }}.
-#
-# `bc.settings_for(method, "paper")` is that setting.
+#   π̃ (`bc.settings_for(method, "paper")`) our agents earn {{
+#   clocks()['2', 'π̃'].of('bootstrapped').scores('returns').mean() | .0f }}, theirs {{
+#   PRINTED['bootstrapped']['returns'].mean | .0f }}.
 # <!-- claim: (settings_for('demos', 'paper').updates, settings_for('demos', 'paper').envs_per_agent,
 #   settings_for('demos', 'paper').stochastic_demonstrations) == (2, 1, True) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Write the two sentences, "shown" and "not shown", on the board before the last paragraph, and let
-# the class fill them in. What would the authors have to print so that nobody had to guess? (Updates
+# Write "shown" and "not shown" on the board before they read this section, and let the class fill
+# them in. What would the authors have to print so that nobody had to guess? (Updates
 # for a decision, agents behind a row, all seeds.)
 
 # %%
@@ -315,7 +310,7 @@ compare_predictions(
     "found_and_kept",
     {
         1: f"about half: {finders}",
-        2: "only both together",
+        2: choices[2],
         3: f"in 10 to 60 %: {of_100:.0f} %",
     },
 )
@@ -325,23 +320,20 @@ compare_predictions(
 #
 # 1. To find the way out and to keep it are two things, and one rate at the end mixes them.
 # 2. With both aids none of these ten agents loses the way out if β never ends and the bonus is paid;
-#    with one of them or none at least eight do. Both together cost half the return.
-# 3. With two updates, π̃ and one road the two aids alone change places: demonstrations 10 of 10
-#    (before: 2), the soft constraint 5 (before: 6).
-# 4. In six of eight settings {{ 100 * min(one_road()) | .0f }} to {{ 100 * max(one_road()) | .0f }}
-#    % of the draws read as the paper's. So print each agent, the updates, the roads at a time, and
-#    who demonstrated.
-# <!-- claim: group('β never ends, bonus').earned.mean() < 0.55 * group('β ends, bonus').earned[
-#   group('β ends, bonus').keep].mean() -->
+#    in the other groups at least eight do. Those that keep it there earn nearly twice as much.
+# 3. With two updates, π̃ and one road 10 of 10 keep it with demonstrations alone, 5 with the soft
+#    constraint alone; with ¼ update, μ and four roads, after as many episodes, 2 and 6.
+# 4. Print each agent, the updates, the roads at a time, and who demonstrated.
+# <!-- claim: all(0.5 < group('β never ends, bonus').earned.mean() / group(g).earned[group(g).keep].mean()
+#   < 0.55 for g in ('β ends, bonus', 'β ends, no bonus', 'β never ends, no bonus')) -->
 #
 # **Three questions to think about**
 # - Would you let β end at 0? What would you watch to decide it?
 # - We chose the setting of prediction 3 after we had seen the counts. How would you test it fairly?
 # - A reviewer asks for "the success rate". Which two numbers do you give, and over what?
 #
-# **Read on**: [lesson [[your_teacher]]](your_teacher.ipynb) trains agents from a teacher of
-# your own. Christodoulou, *Soft Actor-Critic for Discrete Action Settings* (arXiv 1910.07207);
-# Ecoffet et al., *First return, then explore* (arXiv 2004.12919).
+# **Read on**: [lesson [[your_teacher]]](your_teacher.ipynb) trains agents from a teacher of your own.
+# Christodoulou (arXiv 1910.07207); Ecoffet et al. (arXiv 2004.12919).
 
 # %% [markdown] tags=["instructor"] minutes=3
 # **Model answers.**

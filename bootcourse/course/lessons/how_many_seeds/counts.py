@@ -1,20 +1,28 @@
 """Computed for the lesson: two groups of an ablation, and comparisons in which nothing was changed."""
 
+from collections.abc import Callable
+
 import numpy as np
 
-from bootcourse.statistics import Estimate, all_resamples, bracketed, difference, iqm
+from bootcourse.statistics import Estimate, all_resamples, bracketed, iqm
 
 ABLATION = ["success, %", "IQM", "the agents, sorted"]
+RESAMPLES = 10_000
 
 
-def ablation(success: dict[str, np.ndarray]) -> tuple[list[list[str]], str]:
-    """The rows below `ABLATION` of two groups of agents (success 0 to 1), and their difference as a sentence."""
+def ablation(success: dict[str, np.ndarray], interval_of: Callable) -> tuple[list[list[str]], str]:
+    """The rows below `ABLATION` of two groups of agents (success 0 to 1), and their difference as a sentence.
+
+    interval_of: the exercise `difference_interval`, the student's or ours.
+    """
     groups = {name: 100 * np.sort(group) for name, group in success.items()}
     rows = [[name, f"{iqm(each):.0f}", ", ".join(f"{one:.0f}" for one in each)] for name, each in groups.items()]
     unchanged, changed = groups.values()
-    effect = difference(changed, unchanged)
-    holds = "leaves out 0" if leaves_out_0(effect) else "holds 0"
-    return rows, f"Changed less unchanged: {bracketed(effect)} points. The interval {holds}."
+    rng = np.random.default_rng(0)
+    draws = [rng.integers(len(each), size=(RESAMPLES, len(each))) for each in (changed, unchanged)]
+    effect = Estimate(*map(float, interval_of(changed, unchanged, *draws)))
+    says = "leaves out 0" if leaves_out_0(effect) else "contains 0"
+    return rows, f"Changed less unchanged: {bracketed(effect)} points. The interval {says}."
 
 
 def leaves_out_0(effect: Estimate) -> bool:

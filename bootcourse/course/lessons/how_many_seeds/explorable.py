@@ -51,7 +51,7 @@ def certainty() -> Explorable:
         return drawing(WIDTH, 300, [*words, *counts.parts, *below.parts], f"{says} {bar}.")
 
     numbers = {
-        "true": Number("true rate", 50, 0, 100, 1, "So many of a hundred agents would escape in truth.", "%"),
+        "true": Number("true rate", 50, 0, 100, 0.5, "So many of a hundred agents would escape in truth.", "%"),
         "agents": Number("agents", 10, 5, MOST, 5, f"So many were trained, and {100 * SHARE:.0f} % of them escape.",
                          check=whole_number("agents", 5, MOST)),
     }  # fmt: skip
@@ -107,7 +107,7 @@ def studies() -> Explorable:
 
 @lru_cache
 def drawn(seeds: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Studies of so many of our bootstrapped agents: the interval of the mean, low and high, and whether it holds it.
+    """Studies of so many of our agents: the interval of the mean, low and high; whether it contains the mean of all.
 
     Of many studies in the order of their means each 400th is taken, so that these stand for all.
     """
@@ -120,18 +120,18 @@ def drawn(seeds: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def holding(seeds: int) -> int:
-    """Of 100 such intervals so many hold the mean."""
+    """Of 100 such intervals so many contain the mean."""
     return int(drawn(seeds)[2].sum())
 
 
 def intervals() -> Explorable:
-    """The intervals of a hundred studies of few seeds, drawn from our ten, and which hold the mean of the ten."""
+    """The intervals of a hundred studies of few seeds, drawn from our ten, and which contain the mean of the ten."""
     returns = shipped_results().of("bootstrapped").scores("returns")
     mean, colour = float(returns.mean()), style("bootstrapped").colour
 
     def draw(seeds: float) -> Drawing:
         low, high, holds = drawn(int(seeds))
-        says = f"{seeds:g} seeds: {holds.sum()} of {STUDIES} intervals hold the mean of all, {mean:.0f}."
+        says = f"{seeds:g} seeds: {holds.sum()} of {STUDIES} intervals contain the mean of all, {mean:.0f}."
         chart = SvgAxes(*CHART, (0.0, STUDIES), (-20.0, 140.0))
         chart.scale("95 % bootstrap interval of the mean return (vermilion: misses; line: the mean of all)", 4)
         for place, (bottom, top, inside) in enumerate(zip(low, high, holds, strict=True)):

@@ -6,6 +6,7 @@ from itertools import combinations, combinations_with_replacement
 from math import factorial, prod
 
 import numpy as np
+import scipy
 
 from bootcourse.course.lessons.how_many_seeds import counts, explorable  # noqa: F401 (for the expressions)
 from bootcourse.statistics import Estimate, interval, power, rate
@@ -20,6 +21,14 @@ def half_as_wide() -> int:
         return high - low
 
     return min(range(2, 61), key=lambda n: abs(width(n) - width(10) / 2))
+
+
+def rarest_cover(n: int) -> float:
+    """How often the exact interval of n agents contains the true rate, at the rate where it does so least."""
+    _, low, high = np.transpose([rate(np.arange(n) < k) for k in range(n + 1)])
+    true = np.linspace(0, 1, 1001)[:, None]
+    chances = scipy.stats.binom.pmf(np.arange(n + 1), n, true)
+    return float((chances * ((low <= true) & (true <= high))).sum(axis=1).min())
 
 
 def enough(first: float, second: float, wanted: float = 0.8) -> int:

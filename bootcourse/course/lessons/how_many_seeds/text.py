@@ -28,6 +28,7 @@ import scipy.stats
 from bootcourse.course import (
     check,
     compare_predictions,
+    own_code,
     predict,
     predicted,
     progress,
@@ -55,22 +56,20 @@ for seed in (0, 3):
 bc.recording(drives, height=360)
 
 # %% [markdown]
-# Had you trained the second one alone, you would write that plain SAC leaves the trap. Of our ten,
-# the other nine do not.
+# Had you trained the second one alone, you would write that plain SAC leaves the trap. Our other nine
+# do not.
 # <!-- claim: escaped('sac') == 1 -->
 #
-# Here are all ten, and ten each with one aid, with the other, and with both. This is an
-# **ablation**: leave out parts of a method, train again, and see what gets worse. An agent
-# *escapes* if it ends ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of roads that it has
-# never seen.
+# Here are all ten, and ten each with one aid, the other, and both. This is an **ablation**: leave out
+# parts of a method, train again, and see what gets worse. An agent *escapes* if it ends ahead of trap
+# 1 on at least {{ 100 * ESCAPES | .0f }} % of the held-out roads.
 
 # %%
 study = bc.shipped_results()
 bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 
 # %% [markdown]
-# Each of these 40 gets out nearly always or nearly never: here yes or no says nearly all about
-# success.
+# So yes or no says nearly all about an agent's success.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask how many of them have published or handed in a figure with one training behind each line.
@@ -107,15 +106,14 @@ explorable.certainty()
 # <!-- claim: half_as_wide() == 40 and [round(100 * each) for each in
 #   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
-# This is the **exact interval** of k out of n. At its low end, k *or more* have a chance of 2.5 %;
-# at its high end, k *or fewer* have. If none escapes it begins at 0; if all do it ends at 100 %.
-# <!-- claim: rate(np.zeros(10)).low == 0 and rate(np.ones(10)).high == 1 -->
+# This is the **exact 95 % interval** of k out of n: at its low end, k *or more* have a chance of
+# 2.5 %; at its high end, k *or fewer* have. At least 95 of 100 such intervals contain the true rate.
+# <!-- claim: rarest_cover(10) >= 0.95 -->
 #
 # For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes (of
-# ten others {{ escapers(others('demos'), 'demos') }}). It does not print how many agents or drives
-# it used. But another of its rates, {{ PRINTED['gail']['collision'].mean | g }} ± {{
-# PRINTED['gail']['collision'].sd }} % (standard deviation), is exactly what one accident in {{
-# EPISODES }} drives gives.
+# ten others {{ escapers(others('demos'), 'demos') }}). It does not say how many agents drove, or how
+# often; another of its rates, {{ PRINTED['gail']['collision'].mean | g }} ± {{
+# PRINTED['gail']['collision'].sd }} %, fits one accident in {{ EPISODES }} drives.
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
 # <!-- claim: (lambda x: round(x.mean(), 2) == PRINTED['gail']['collision'].mean and
 #   round(x.std(ddof=1), 2) == PRINTED['gail']['collision'].sd)(100.0 * (np.arange(EPISODES) < 1))
@@ -150,12 +148,11 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # %% [markdown]
 # ## Round 2: how many agents does it take?
 #
-# With the soft constraint alone eight of ten agents escape, with both aids seven (an eighth, the
-# hollow dot, gets out on {{ 100 * np.sort(of('bootstrapped').scores('success'))[2] | .0f }} %).
-# *Fisher's exact test* deals these fifteen escapes out to the twenty agents at random. Its
-# **p value** is how often the split is at least as improbable as the one seen; below 0.05 it counts
-# as a difference. Here it is {{ fisher(8, 7) | .0f }}. Eight against three would give
-# {{ fisher(8, 3) | .2f }}, eight against two {{ fisher(8, 2) | .2f }}.
+# With the soft constraint alone eight of ten agents escape, with both aids seven. *Fisher's exact
+# test* deals these fifteen escapes out to the twenty agents at random. Its **p value** is how often
+# the split is at least as improbable as the one seen; below 0.05 it counts as a difference. Here it
+# is {{ fisher(8, 7) | .0f }}; eight against three would give {{ fisher(8, 3) | .2f }}, against two {{
+# fisher(8, 2) | .2f }}.
 # <!-- claim: escaped('soft') == 8 and escaped('bootstrapped') == 7 -->
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
@@ -177,9 +174,9 @@ predicted("how_many_seeds.3")
 explorable.studies()
 
 # %% [markdown]
-# **See.** Ten against ten miss even this large difference in more than half of the studies; with 80
-# against 60 % so do thirty. So our eight against seven shows neither that one method is better nor
-# that the two are alike.
+# **See.** Ten against ten miss even this large difference in more than half of the studies. At 80
+# against 60 %, thirty against thirty do, too. So our eight against seven shows neither that one method
+# is better nor that the two are alike.
 # <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 30) < 0.4 and fisher(8, 7) > 0.5 -->
 #
 # The share of studies that find it is the **power** of the comparison. Compute it before you train:
@@ -217,19 +214,18 @@ print(f"{', '.join(f'{each:.0f}' for each in returns)}; mean {returns.mean():.0f
 # <!-- claim: np.diff(np.sort(of('bootstrapped').scores('returns'))).max() > 40 and
 #   (of('bootstrapped').scores('returns') < 60).sum() == 3 -->
 #
-# How sure is a mean? From the agents *you trained* (your three, not our ten) draw as many again,
-# *uniformly with replacement*: some come twice, others not at all. Take the mean, and repeat this
-# some thousand times. The middle 95 % of these means are the **bootstrap interval** (nothing to do
-# with bootstrapped SAC).
+# How sure is a mean? From the agents *you trained* draw as many again, *uniformly with replacement*:
+# some come twice, others not at all. Take the mean, and repeat this some thousand times. The middle
+# 95 % of these means are the **bootstrap interval** (nothing to do with bootstrapped SAC).
 #
-# > **Predict.** Suppose that our ten stand for all agents. Somebody trains three, and computes the
-# > interval from these three. In how many of 100 such studies does it hold the mean of all? (How
+# > **Predict.** Suppose that our ten stand for all agents. Somebody trains three, and computes their
+# > interval. In how many of 100 such studies does it contain the mean of all? (How
 # > often do all three do well, and where is their interval then?)
 
 # %%
 predict(
     "how_many_seeds.4",
-    "How many of 100 intervals, of three seeds each, hold the mean of all?",
+    "How many of 100 intervals, of three seeds each, contain the mean of all?",
     unit="of 100",
 )
 
@@ -241,9 +237,9 @@ predicted("how_many_seeds.4")
 explorable.intervals()
 
 # %% [markdown]
-# **See.** In {{ 100 * 0.7**3 | .0f }} of 100 studies all three do well. Resampling knows these
-# three alone, so the interval is short, and lies above the mean of all. *The shortest intervals
-# miss.* Of ten seeds about nine intervals in ten hold it.
+# **See.** *{{ explorable.holding(3) }} of 100, not 95.* In {{ 100 * 0.7**3 | .0f }} of 100 studies all
+# three do well. Resampling knows these three alone, so the interval is short, and lies above the mean
+# of all: *the shortest intervals miss.* Of ten seeds about nine intervals in ten contain it.
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 and 88 <=
 #   explorable.holding(10) <= 92 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
@@ -267,39 +263,17 @@ check.bootstrap_interval(bootstrap_interval)
 # %% [markdown]
 # ## Round 4: what do your five seeds show?
 #
-# Change one number of the method, and train five agents with the change and five without.
+# Change one number of the method, and train five agents with the change, five without.
 # `bonus=0.0` takes the bonus from the demonstrations; other numbers are `xi_multiplier`, `rule_p`,
 # `beta_start`, `gamma`. The score is an agent's success on 200 roads after 150 episodes: who learns
 # the way out early?
 #
 # The score of a group is its **interquartile mean** (IQM), the mean of the middle half: sort, and
 # leave out a quarter, rounded down, at each end. Of five the middle three remain: one lucky agent
-# barely moves the score, and if only one learns early, it does not show.
-
-# %%
-CHANGE = {"bonus": 0.0}  # yours
-settings = {
-    "as it is": bc.settings_for("bootstrapped"),
-    "changed": bc.settings_for("bootstrapped", **CHANGE),
-}
-mine = bc.compare(settings, episodes=150, seeds=5, tests=200, learner="compiled", progress=False)
-success = {name: mine.scores(name, "success") for name in settings}
-table(counts.ABLATION, *counts.ablation(success))
-
-# %% [markdown]
-# **Explain.** If the interval of the difference holds 0, as in our run, five seeds do not say which
-# group learns earlier. If it leaves out 0, see below how often luck does that.
-#
-# How many agents would tell? Do not ask this run: its difference may be luck. Score each agent yes
-# or no, choose the limit and the smallest effect of interest, and ask `bc.statistics.power`. Then
-# train a *new* set. (Without and with the bonus {{ escapers(shipped_experiment('ablations')['c =
-# 0'], 'bootstrapped') }} and {{ escaped('bootstrapped') }} of our ten escape, of ten others {{
-# escapers(others('bootstrapped, c = 0'), 'bootstrapped') }} and {{ escapers(others('bootstrapped'),
-# 'bootstrapped') }}.) If you add agents until the interval does not hold 0, you err more often than
-# it says.
+# barely moves their mean.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each
-# resample draws both groups anew.
+# resample draws both groups anew. The next cell uses it.
 
 
 # %%
@@ -313,6 +287,25 @@ def difference_interval(x, y, draws_x, draws_y):
 
 check.difference_interval(difference_interval)
 
+# %%
+CHANGE = {"bonus": 0.0}  # yours
+settings = {
+    "as it is": bc.settings_for("bootstrapped"),
+    "changed": bc.settings_for("bootstrapped", **CHANGE),
+}
+mine = bc.compare(settings, episodes=150, seeds=5, tests=200, learner="compiled", progress=False)
+success = {name: mine.scores(name, "success") for name in settings}
+interval_of = own_code.yours_or_ours("difference_interval", doing="Comparing")
+table(counts.ABLATION, *counts.ablation(success, interval_of))
+
+# %% [markdown]
+# **Explain.** If the interval of the difference contains 0, five seeds do not say which group learns
+# earlier. If it leaves out 0, that may be luck: below you see how often, for another score.
+#
+# How many agents would tell? Do not ask this run. Choose from which success on an agent counts as yes,
+# and the smallest effect of interest, and ask `bc.statistics.power(first, second, n)`. Then train a
+# *new* set. If you add agents until the interval leaves out 0, you err more often than it says.
+
 # %% [markdown]
 # ### If you try many changes
 #
@@ -324,13 +317,14 @@ bc.show(figures.nothing_changed(study))
 # %% [markdown]
 # **See.** Read as ablations, the first says that your change costs {{ -halves()[0].value | .0f }}
 # points of return. It is luck: all three bad agents came into one half. Of all possible splits
-# {{ 100 * left_out() | .0f }} % leave out 0, not 5: intervals of few seeds are too short.
+# {{ 100 * left_out() | .0f }} % leave out 0, not 5: these intervals of five are too short, as those
+# of three were.
 # <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
 # <!-- claim: all(bad in (0, 3) for bad, effect in splits() if counts.leaves_out_0(effect)) -->
 #
-# Even at 5 % each, one or more of twenty independent ones would, in
+# Even at 5 % each, at least one of twenty independent comparisons leaves out 0 in
 # {{ 100 * (1 - 0.95**20) | .0f }} % of all cases: **multiplicity**. Say beforehand which comparison
-# counts, or correct p in *Holm's* way: multiply the smallest p by their number n, the next by n − 1,
+# counts, or correct p in *Holm's* way: multiply the smallest of n p values by n, the next by n − 1,
 # and so on. No corrected p may be smaller than the one before it, or larger than 1.
 
 # %%
@@ -344,8 +338,8 @@ table(["7 of 10 with both aids, against", "p", "after Holm"], rows)
 # %% [markdown]
 # Two of the three survive. Of ten other agents of each (lesson [[learning_from_demonstrations]]) {{
 # escapers(others('bootstrapped'), 'bootstrapped') }} escape with both aids, {{
-# escapers(others('demos'), 'demos') }} with demonstrations only: these alone would not show the
-# first.
+# escapers(others('demos'), 'demos') }} with demonstrations only: on these alone p is {{
+# fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('demos'), 'demos')) | .2f }}.
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 # <!-- claim: 3 * fisher(7, 0) < 0.05 and 2 * fisher(7, 1) < 0.05 and fisher(7, 8) > 0.05 and
 #   fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('demos'), 'demos')) > 0.05 -->

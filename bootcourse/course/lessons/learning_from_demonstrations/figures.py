@@ -46,7 +46,7 @@ def returns(groups: dict[str, Results]) -> Figure:
 
     A thin line for each agent, a thick one for their mean, the mean of the first group in grey in each other panel.
     """
-    title = "The sooner the bonus ends, the sooner the return leaves the rule's"
+    title = "With less bonus, or none, the return leaves the rule's sooner"
     figure, rule, means = new_figure(3.6), evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value, {}
     words = f"return without the bonus, mean of {WINDOW} episodes; thin: an agent, thick: all ten; grey: as on the left"
     figure.text(0.012, 1 - 0.42 / 3.6, words, fontsize=TEXT, color=INK, va="top")

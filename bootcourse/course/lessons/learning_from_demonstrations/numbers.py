@@ -5,9 +5,10 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.learning_from_demonstrations import measures
+from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.research.results import Results
-from bootcourse.statistics import rolling_means
-from tools.course.known import shipped_experiment, shipped_results
+from bootcourse.statistics import lost, rolling_means
+from tools.course.known import SETTINGS, by_rule, idle, shipped_experiment, shipped_results
 
 
 @cache
@@ -71,3 +72,13 @@ def training(name: str, curve: str, first: int, last: int, others: bool = False)
 def fall(name: str) -> np.ndarray:
     """By how much the return of each of the study's ten falls as β reaches 0, (agents,)."""
     return training(name, "return", 800, 900) - training(name, "return", 1000, 1100)
+
+
+def lost_by(name: str, episode: int) -> np.ndarray:
+    """Which of the study's ten lose the way out at least once before this training episode, (agents,)."""
+    return lost(_with(name)[0][0].curves["success"][:, :episode])
+
+
+def bonus_needed() -> np.ndarray:
+    """The smallest c with which the rest of the rule's drive is worth more than staying behind, in each second."""
+    return bonus_numbers(by_rule(), idle(), SETTINGS).crossing

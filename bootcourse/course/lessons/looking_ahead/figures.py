@@ -36,6 +36,7 @@ MEANINGS = {  # of the wrong models that the lesson shows, for readers
 }
 ERRORS = [f"{name}: {meaning}" for name, meaning in MEANINGS.items()]  # to choose from
 LEARNED_FORM = "mean of five"  # of the look-ahead in a learned model, as the lesson shows it
+LED = 0.1  # the look-ahead leads an agent out that gets out in more than this share of its drives
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
 NAMES = {"rollouts": "look-ahead", "shield": "shield"}  # as the lesson calls the forms
 
@@ -100,6 +101,13 @@ def out_of_nine(study: Mapping[str, Results], gamma: float, with_worth: bool) ->
     return study[ahead.name].measured["success"][study[alone.name].measured["success"] < 0.01]
 
 
+def accidents_of_nine(study: Mapping[str, Results], gamma: float, with_worth: bool) -> float:
+    """Accidents in 1,000 drives of these nine together."""
+    stuck = study[Cell("sac", "alone").name].measured["success"] < 0.01
+    of = study[Cell("sac", gamma=gamma, with_worth=with_worth).name].measured
+    return float(1000 * of["accidents"][stuck].sum() / of["roads"][stuck].sum())
+
+
 def out_of_trap(
     drivers: Mapping[str, Policy], roads: Sequence[int], study: Mapping[str, Results]
 ) -> tuple[list[str], list[list]]:
@@ -109,11 +117,11 @@ def out_of_trap(
     """
     rows = []
     for (name, driver), (gamma, with_worth) in zip(drivers.items(), AIMS, strict=True):
-        out = out_of_nine(study, gamma, with_worth)
-        some = f"{(out > 0).sum()} of {len(out)}"
-        rows.append([name, int(drive_episodes(driver, roads).success.sum()), f"{100 * out.mean():.0f} %", some])
-    headings = ["what counts", f"this agent is out in {len(roads)}", "all nine, mean", "out in some drives"]
-    return headings, rows
+        out, hurt = out_of_nine(study, gamma, with_worth), accidents_of_nine(study, gamma, with_worth)
+        here, led = int(drive_episodes(driver, roads).success.sum()), f"{(out > LED).sum()} of {len(out)}"
+        rows.append([name, here, f"{100 * out.mean():.0f} %", led, f"{hurt:.0f}"])
+    headings = ["what counts", f"this agent's drives out, of {len(roads)}", "drives out, mean of the nine"]
+    return [*headings, "agents out in more than a tenth", "accidents in 1,000 drives"], rows
 
 
 def _judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

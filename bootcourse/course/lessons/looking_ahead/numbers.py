@@ -13,7 +13,7 @@ from bootcourse.learn.road_model import learned_from, transitions_of
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research.computed import experiment
 from bootcourse.research.experiments import learned_model
-from bootcourse.research.experiments.lookahead import Cell, shipped_actors
+from bootcourse.research.experiments.lookahead import AIMS, Cell, shipped_actors  # noqa: F401 (for the expressions)
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, TRAP_1, Accident, X
 from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS
@@ -76,6 +76,21 @@ def worths() -> np.ndarray:
 def aim(gamma: float, with_worth: bool) -> np.ndarray:
     """How often the nine that stay behind alone get out, by what the look-ahead counts: shares, (9,)."""
     return figures.out_of_nine(shipped(), gamma, with_worth)
+
+
+def led_out(gamma: float, with_worth: bool) -> int:
+    """How many of them get out in more than a tenth of their drives."""
+    return int((aim(gamma, with_worth) > figures.LED).sum())
+
+
+def stuck_accidents(gamma: float, with_worth: bool) -> float:
+    """Their accidents in 1,000 drives."""
+    return figures.accidents_of_nine(shipped(), gamma, with_worth)
+
+
+def wrong_but_late() -> list[float]:
+    """Accidents in 1,000 drives of Round 1's agents with the look-ahead, in each wrong model but the late one."""
+    return [per_thousand("bootstrapped", model=model) for model in WRONG if model != LATE]
 
 
 @cache
@@ -157,12 +172,6 @@ def learned_returns(form: str = "mean of five") -> float:
     return float(learning().notes[f"{form}, returns"][:, -1].mean())
 
 
-def shield_returns() -> list[float]:
-    """The mean return of the shield in the models of the last round, and in those of the controls."""
-    controls = [learning(share).measured["shield, returns"].mean() for share in (None, *learned_model.RANDOM)]
-    return [learned_returns("shield"), *map(float, controls)]
-
-
 def last_round() -> np.ndarray:
     """Accidents in 1,000 drives with the look-ahead in the model of the last round, (agents,)."""
     return learned_model.per_thousand(learning(), "mean of five")[:, -1]
@@ -179,9 +188,9 @@ def own_better(share: float) -> int:
     return int((last_round() < control).sum())
 
 
-def learned_rows(share: float | None = None, after: int = learned_model.ROUNDS) -> np.ndarray:
-    """The decisions that each model after a round, or of a control with random actions, learned from, (agents,)."""
-    return learning().notes["rows"][:, after - 1] if share is None else learning(share).measured["rows"]
+def learned_rows(share: float | None = None) -> np.ndarray:
+    """The decisions that each model of the last round, or of a control with random actions, learned from, (agents,)."""
+    return learning().notes["rows"][:, -1] if share is None else learning(share).measured["rows"]
 
 
 @cache

@@ -8,18 +8,20 @@ import numpy as np
 from bootcourse.course.lessons.other_ways import explorable, figures
 from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
+from bootcourse.episodes.record import record
 from bootcourse.learn.settings import settings_for
 from bootcourse.methods import METHODS  # noqa: F401 (for the expressions)
+from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
+from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import Estimate, holm, interval
+from bootcourse.statistics import ESCAPES, Estimate, holm, interval
 from tools.course.known import shipped_experiment
 
-FIRST, SECOND, _ = BUDGETS
+FIRST, SECOND, LONGEST = BUDGETS
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
-APART = {"method", "seed", "bonus"}  # SAC has no demonstrations that a bonus could reward
 
 
 @cache
@@ -33,15 +35,26 @@ def later(method: str) -> Results:
     return compared()[method]
 
 
-def taught_by(method: str) -> set[str]:
-    """The settings of a method's agents that SAC's do not have, or have with another value."""
-    agents, plain = later(method).agents[0], later("sac").agents[0]
-    return {name for name in agents | plain if agents.get(name) != plain.get(name)} - APART
-
-
 def at(method: str, measure: str, budget: int = FIRST) -> np.ndarray:
     """Each agent's mean return, success or accidents after so many decisions, or its seconds until then: (agents,)."""
     return equal_decisions.at(later(method), measure, budget)
+
+
+def escaping(method: str, budget: int) -> int:
+    """How many of these agents escape."""
+    return int((at(method, "success", budget) >= ESCAPES).sum())
+
+
+def computing(budget: int) -> list[float]:
+    """The mean seconds of a core for an agent of each method with a teacher."""
+    return [float(at(method, "seconds", budget).mean()) for method in TAUGHT]
+
+
+@cache
+def rule_is_ahead() -> float:
+    """The median of the decisions after which the rule is ahead of trap 1, on 20 roads."""
+    cars = [drive.cars for drive in record(rule_policy(DEFAULT), range(20))]
+    return float(np.median([(each[:, EGO, X] > each[:, TRAP_1, X]).argmax() for each in cars]))
 
 
 def score_at(method: str, budget: int = FIRST) -> Estimate:
@@ -122,10 +135,3 @@ def left_of(method: str) -> float:
     """The smallest share that a learning curve over the decisions keeps of its best until then."""
     curve = explorable.learning_curve(later(method), explorable.DECISIONS)
     return float(np.nanmin(curve / np.fmax.accumulate(curve)))
-
-
-def first_may_be_chance(spent: float, count: str) -> bool:
-    """Whether a rank test shows no difference in training between the first and the second of the five."""
-    scores = training_scores(spent, count)
-    first = sorted(scores, key=lambda one: -scores[one].value)[:2]
-    return p_value(*(explorable.in_training(later(method), spent, count) for method in first)) > 0.05

@@ -71,7 +71,8 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
     of what an agent would do, beside what the rule went on to earn in these seconds.
     """
     data, names = choosing.recorded(), ["the rule"]
-    taken, colours, words = [data.actions], [style("rule").colour], [f"no crash\nearned {choosing.earned(data):.1f}"]
+    taken, colours = [data.actions], [style("rule").colour]
+    words = [f"no crash\nearned {choosing.earned(data):.1f} from there on"]
     crashes = {name: [] for name in learners}
     for name, learner in learners.items():
         for row, settings in enumerate(learner.settings):
@@ -82,7 +83,7 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
             taken.append(actions)
             names.append(f"{name}, seed {settings.seed}")
             colours.append(style("cql").colour if name == WITH else OTHER.colour)
-            words.append(f"{crashes[name][-1]} crash on 100 roads\npromises {promise:.1f}")
+            words.append(f"crashes on {crashes[name][-1]} of 100 roads\npromises {promise:.1f}")
     shares = [torch.bincount(each, minlength=9).reshape(3, 3).numpy() / len(each) for each in taken]
     faster = [share[2].sum() for share in shares[1:]]
     title = "What the rule did, and what the agents would do"

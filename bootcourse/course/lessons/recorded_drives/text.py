@@ -49,8 +49,7 @@ progress("recorded_drives")
 bc.recording(figures.three_drives(), height=480)
 
 # %% [markdown]
-# All get ahead of trap 1, the clone last. GAIL's car then leaves the road: we chose its drive for
-# that.
+# All get ahead of trap 1. GAIL's car then leaves the road: we chose its drive for that.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Let people say which of the three copies the rule and which only looks as if. Ask what each was
@@ -68,7 +67,7 @@ bc.recording(figures.three_drives(), height=480)
 #   of('gail').agents[0]['beta_start'] < 1 -->
 #
 # BC and CQL learn **offline**: recorded drives are all they have. CQL learns Q and takes the action
-# with the highest. (The figure adds *CQL with an actor*, as SAC has one.)
+# with the highest. GAIL is paid for driving so that a second network cannot tell it from the rule.
 #
 # > **Predict.** The rule's return on the held-out roads is
 # > {{ of('rule').scores('returns').mean() | .0f }}. Which of the three earn more than that?
@@ -84,7 +83,7 @@ bc.show(figures.returns(study))
 
 # %% [markdown]
 # **See.** *Each CQL agent earns more than its teacher*, each clone a little less, GAIL much less on
-# average. Of these three CQL alone is told the rewards.
+# average.
 # <!-- claim: escaped('cql') == len(of('cql')) == 10 and of('cql').scores('returns').min() >
 #   of('rule').scores('returns').max() -->
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 and of('bc').scores('returns').max() <
@@ -97,8 +96,8 @@ bc.show(figures.returns(study))
 # }} % of its drives: *a success rate that counts who is ahead hides later accidents.*
 # <!-- claim: escaped('gail') == len(accidents_of_escapers()) == 6 -->
 #
-# The paper prints 0 % success for CQL, but not which CQL. Of our ten *with an actor*, told the
-# rewards too, none escapes.
+# *CQL with an actor*, as SAC has one, is told the rewards too, and none of its ten escapes: to be
+# told them is not enough. (The paper prints 0 % success for CQL, but not which CQL.)
 # <!-- claim: escaped('cql_sac') == 0 and len(of('cql_sac')) == 10 -->
 # <!-- claim: of('cql_sac').scores('returns').mean() < of('gail').scores('returns').mean() -->
 # <!-- claim: PRINTED['cql']['success'].mean == 0 and of('cql_sac').scores('success').max() == 0 -->
@@ -112,11 +111,9 @@ bc.show(figures.returns(study))
 # %% [markdown]
 # ## Round 2: Q-learning without driving
 #
-# Two agents now learn by Q-learning, from the recorded drives only. Each target is r + γ times the
-# value of the *best* of the nine next actions. Then they drive, with the highest Q.
-#
-# Each recorded second shows what *one* of nine actions led to. No recorded drive ends in an
-# accident.
+# Two agents now learn by Q-learning from the recorded drives alone, then drive with the highest Q.
+# Each target is r + γ times the value of the *best* of the nine next actions.
+# A recorded second shows what *one* of the nine led to. No recorded drive ends in an accident.
 # <!-- claim: float(choosing.recorded().terminated.sum()) == 0 -->
 #
 # > **Predict.** What will the two do?
@@ -144,20 +141,17 @@ bc.show(figures.would_do({"Q-learning": without}))
 # %% [markdown]
 # **See.** *Both would accelerate in every recorded second, and crash on every road.* No row shows
 # where accelerating leads in the seconds when the rule did not accelerate. There Q is a guess, and
-# the highest of nine tends to be a guess that is too high. Why both guess so everywhere is open.
-# <!-- claim: min(short(0.0)[0]) == 1 and short(0.0)[1] == [100, 100] -->
-#
-# Driving would correct the guess. The target alone is not to blame: two agents whose target has the
-# *recorded* next action instead of the best, and which drive with the highest Q, crash on every
-# road too.
-# <!-- claim: crashes_without_the_best() == [100, 100] -->
+# the highest of nine tends to be a guess that is too high: Q promises over 2.5 on average, where the
+# rule went on to earn {{ choosing.earned(choosing.recorded()) | .1f }}. Why they do in every
+# second is open.
+# <!-- claim: min(short(0.0)[0]) == 1 and short(0.0)[1] == [100, 100] and min(short(0.0)[2]) > 2.5 -->
 #
 # CQL's remedy is a term in the critic's loss, the mean of
 #
 # $$ \log \sum_a e^{Q(s,a)} - Q(s, a_\text{data}) $$
 #
-# The first part, a soft maximum of the nine Q, pushes all nine down, the highest most. The second
-# pulls up the Q of the data's action.
+# The first part, a soft maximum, pushes all nine Q down, the highest most. The second pulls up that
+# of the data's action.
 #
 # **Exercise (6 min, ●●○).** Write it, in torch.
 
@@ -181,7 +175,8 @@ check.conservative_loss(conservative_loss)
 #
 # **Exercise (20 min, ●●●).** Write the whole loss of CQL's critic. The target y is that of *double*
 # Q-learning: the critic chooses the next action, and a slower copy of it, the target critic, says
-# what that is worth. Which part must have no gradient? What comes after an accident?
+# what that is worth. Which part must have no gradient? What comes after an accident (other data may
+# hold some)?
 
 
 # %%
@@ -197,21 +192,18 @@ def offline_loss(q, next_q, next_target, actions, rewards, terminated, gamma, we
 check.offline_loss(offline_loss)
 
 # %% [markdown]
-# Now train two with the term, by your loss, from the same seeds and batches.
+# Now train two by your loss, from the same seeds and batches.
 
 # %%
 with_term = learn(own_code.training(bc.with_seeds(bc.settings_for("cql"), 2)))
 bc.show(figures.would_do({"with CQL's term": with_term}))
 
 # %% [markdown]
-# **See.** *With the term both accelerate in about a third of the seconds, the rule in a quarter,
-# and they crash far less.* The data still show no crash: the term keeps the agent to actions that
-# they do show.
-# <!-- claim: max(short(1.0)[1]) < 30 and max(short(1.0)[0]) < 0.45 -->
-#
-# It need not suffice: one agent, seed 3, chosen for that, crashes on {{ crashes_of_seed_3() }} of
-# 100 roads after twice the updates; the study's ten escape.
-# <!-- claim: crashes_of_seed_3() > 50 -->
+# **See.** *With the term they crash on fewer than 30 of 100 roads, not on all*, though nobody showed
+# them a crash: the term keeps them to actions that the data show. Both accelerate in about a third
+# of the seconds, the rule in a quarter, and Q promises less than the rule earned.
+# <!-- claim: max(short(1.0)[1]) < 30 and 0.3 < min(short(1.0)[0]) < max(short(1.0)[0]) < 0.45 and
+#   max(short(1.0)[2]) < choosing.earned(choosing.recorded()) -->
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Let each group say in one sentence what the term does to an action that is missing from the data,
@@ -221,8 +213,8 @@ bc.show(figures.would_do({"with CQL's term": with_term}))
 # %% [markdown]
 # ## Round 3: choosing without a simulator
 #
-# You have 30 trained agents, the recorded drives, and no simulator. What is each agent worth, in
-# discounted rewards from the start of a drive (γ = 0.8)?
+# You have 30 trained agents and the recorded drives. What is each agent worth, in discounted rewards
+# from the start of a drive (γ = 0.8)?
 #
 # **Fitted Q evaluation** (FQE) estimates it: it learns Q of a *given* policy π from the recorded
 # seconds, with the target r + γ Q(s', π(s')).
@@ -244,41 +236,42 @@ bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, tru
 
 # %% [markdown]
 # **See.** *The less an agent acts as the data do, the further off its estimate can be.* For clones
-# and CQL it misses by less than 0.1 (so would the rule's worth, {{ choosing.rule_worth() | .2f }},
-# as a guess). For agents that do as the data in under 40 % of the seconds, it misses by up to
-# {{ abs(off()[overlaps() < 0.4]).max() | .1f }}, too high or too low; the 30 are worth {{
-# truth().min() | .1f }} to {{ truth().max() | .1f }}.
+# and CQL it misses by less than 0.1 (so would the rule's own worth from the start of a drive, {{
+# choosing.rule_worth() | .2f }}, as a guess). Of the agents that do as the data in under 40 % of
+# the seconds, one is put more than 1 too high, another about 0.5 too low; the 30 are worth
+# {{ truth().min() | .1f }} to {{ truth().max() | .1f }}. CQL with an actor, trained offline, earns
+# least in each set, and is less than 0.5 off.
 # <!-- claim: abs(off()[:, :2]).max() < 0.1 and overlaps()[:, :2].min() > 0.85 -->
 # <!-- claim: overlaps()[:, 2:].max() < 0.7 and abs(choosing.rule_worth() - truth()[:, :2]).max() < 0.1 -->
-# <!-- claim: off()[overlaps() < 0.4].min() < -0.3 and off()[overlaps() < 0.4].max() > 1 -->
+# <!-- claim: -0.6 < off()[overlaps() < 0.4].min() < -0.45 and off()[overlaps() < 0.4].max() > 1 -->
+# <!-- claim: (returns().argmin(1) == 2).all() and abs(off()[:, 2]).max() < 0.5 -->
 #
 # Now choose. In each set of six, one of each method, **best of N** takes the largest estimate: a
-# filled dot. *All five taken act as the data do in less than 60 % of the seconds*, as do most
-# agents here. {{ (of_taken(successes()) == 0).sum() }} of the five stay in the trap; {{
-# (of_taken(truth()) == truth().max(1)).sum() }} are truly worth most of their six.
-# <!-- claim: of_taken(overlaps()).max() < 0.6 -->
+# filled dot. *It takes neither a clone nor CQL*, whose estimates are good. Three of the five that it
+# takes are truly worth most of their six; three stay in the trap.
+# <!-- claim: estimated().argmax(1).min() > 1 and (of_taken(truth()) == truth().max(1)).sum() == 3 ==
+#   (of_taken(successes()) == 0).sum() -->
 #
 # A perfect estimate would not suffice: at γ = 0.8 worth looks about five seconds ahead, and by it
 # plain SAC, mostly stuck, is worth more than the rule.
 # <!-- claim: truth()[:, 4].min() > choosing.rule_worth() and (successes()[:, 4] == 0).sum() == 4 -->
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Ask who would let the agent with the largest estimate drive, and who CQL. The choice is not always
-# bad: in {{ (of_taken(truth())[0] == truth().max(1)).sum() }} of the five sets it is in truth worth
-# most. Then ask for a second look that needs no simulator: overlap, more fits, γ nearer to 1.
+# Ask who would let the agent with the largest estimate drive, and who CQL. Then ask for a second
+# look that needs no simulator: overlap, more fits, γ nearer to 1.
 
 # %% [markdown]
 # ## Further: a reward that is learned
 #
-# In GAIL a second network, the **discriminator**, learns to tell the rule's pairs (s, a) from the
+# GAIL's second network, the **discriminator**, learns to tell the rule's pairs (s, a) from the
 # agent's. D is its probability that a pair is the rule's. SAC (lesson [[update_and_loop]]) is paid
 #
 # $$ r(s,a) = -\log (1 - D(s,a)) $$
 #
-# The aim is the rule's **occupancy measure**: the same share of decisions in each state and action.
+# GAIL aims at the rule's **occupancy measure**, its share of decisions in each state and action.
 #
-# > **Predict.** Other programs pay log D, which also grows with D. Suppose that D = ½ at every
-# > second. With which reward is a drive of 150 s worth more than a crash after 5 s?
+# > **Predict.** Other programs pay log D, which also grows with D. If D = ½ at every second, with
+# > which reward is a drive of 150 s worth more than a crash after 5 s?
 
 # %%
 predict(
@@ -321,7 +314,7 @@ table(["reward at D = ½", "crash after 5 s", "drive of 150 s"], rows)
 # **Explain.** *The sign decides.* −log (1 − D) is above 0 for each D, so it pays to go on. log D is
 # below 0: each second costs, and at equal D an early crash is cheapest.
 #
-# With ours a crash costs only the pay that it cuts off: GAIL is not told that the road charges extra.
+# With ours a crash costs GAIL only the pay that it cuts off; the road charges extra.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let them say in one sentence what a clone is told in a state that no demonstration holds, and what
@@ -337,21 +330,20 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. BC and CQL learn without driving; GAIL has to drive. BC and GAIL do not use the road's reward.
-# 2. A success rate that counts who is ahead hides later accidents.
-# 3. Without driving, Q of an action that the data do not show is a guess: our two agents crashed on
-#    every road. CQL adds the cloning loss of softmax(Q); with it they crashed less.
-# 4. FQE's estimate is checked by data where the agent acts as the data do; the largest may be
-#    checked least. Worth at γ = 0.8 is not escape.
+# 1. BC and CQL learn without driving, GAIL by driving. BC and GAIL do not use the road's reward.
+# 2. A success rate that counts who is ahead hides accidents.
+# 3. Without driving, Q of an action that the data lack is a guess: two agents crashed on every road.
+#    With CQL's term, the cloning loss of softmax(Q), they crashed less.
+# 4. Recorded drives check FQE's estimate only where the agent acts as they do; the largest estimate
+#    may be the least checked. Worth at γ = 0.8 is not escape.
 # 5. *Further:* GAIL is paid by its discriminator; with a reward above 0 it pays to go on.
 #
 # **Three questions to think about**
 # - Why does GAIL often leave the road (*Further*), and how would you find out?
 # - Take `choosing.fits(agents, data, times=2)[1]` in Round 3, a fit from other first weights and
 #   batches. Which choices change? Which errors do not?
-# - In a second study the teacher is the stochastic rule, and each of ten clones earns more than
-#   twice its teacher's return. A clone takes its likeliest action. How would you find out whether
-#   that is why?
+# - In a second study each of ten clones of the stochastic rule earns more than twice its teacher's
+#   return. A clone takes its likeliest action. Is that why? How would you find out?
 # <!-- claim: of('gail').scores('road_departure').mean() > 0.25 -->
 # <!-- claim: len(of_paper('bc')) == 10 and
 #   of_paper('bc').agents[0]['stochastic_demonstrations'] -->
@@ -363,18 +355,18 @@ compare_predictions(
 # nothing: compare −log (1 − D) at D = 0.1 and D = ½. With γ = 0.8 the agent looks about five
 # seconds ahead.
 # Train again with a larger γ, or let the discriminator see what follows an accident (absorbing
-# states, as in Kostrikov et al.), one change at a time. (2) Of the five taken {{ (of_taken(off()) > 0).sum() }} are put
-# too high and {{ (of_taken(off()) < 0).sum() }} too low: the largest estimate need not be too large. Five sets show how
-# it can go, not how often.
+# states, as in Kostrikov et al.), one change at a time. (2) Of the five taken one is put too low by
+# more than 0.1: the largest estimate need not be too large. Five sets show how it can go, not how
+# often.
+# <!-- claim: (of_taken(off()) < -0.1).sum() == 1 -->
 #
 # (3) Let the clones draw their actions, as the teacher does, and drive
 # the same roads.
 
 # %% [markdown]
-# **Read on**: on CQL, Kumar et al. (arXiv 2006.04779), and on when it beats a clone (arXiv
-# 2204.05618); on FQE, Le et al. (arXiv 1903.08738); on GAIL, Ho and Ermon (arXiv 1606.03476),
-# Kostrikov et al. (arXiv 1809.02925) and Orsini et al. (arXiv 2106.00672). Next: [the bug
-# hunt](bug_hunt.ipynb).
+# **Read on**: CQL: Kumar et al. (arXiv 2006.04779); when it beats a clone: arXiv 2204.05618; FQE: Le
+# et al. (arXiv 1903.08738); GAIL: Ho and Ermon (arXiv 1606.03476), Kostrikov et al. (arXiv
+# 1809.02925), Orsini et al. (arXiv 2106.00672). Next: [the bug hunt](bug_hunt.ipynb).
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** Three agents as rows; columns: sees actions, sees rewards, drives itself. Then Q

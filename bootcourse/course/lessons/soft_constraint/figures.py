@@ -92,7 +92,7 @@ def courses(kinds: Sequence[str]) -> Figure:
     kinds: as in `twenty`. An agent of `FADING` is that of `FLOOR` until ξ reaches 0.1; from there on its ξ is not kept.
     """
     changed = shipped.shipped_experiment("ablations") | {FADING: shipped.shipped_results().of("soft")}
-    title = "Where ξ falls, the return rises first, and drops again in some agents"
+    title = "Where ξ falls, the mean return is soon the highest, but some agents drop again"
     figure, looks = new_figure(4.4), (QUIET, INK, style("soft").colour)
     above, below = axes_at(figure, 0.6, 0.75, 4.9, 0.9), axes_at(figure, 0.6, 2.0, 4.9, 1.85)
     plain_axes(above, "mean ξ of ten agents")

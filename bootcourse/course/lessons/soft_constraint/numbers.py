@@ -83,6 +83,11 @@ def losing(agents: list[Results]) -> int:
     return sum(int(lost(each.of("soft").curves["success"]).sum()) for each in agents)
 
 
+def losing_and_keeping() -> int:
+    """How many of the study's agents whose ξ fades lose the way out in their training, and escape after it."""
+    return int((lost(of("soft").curves["success"]) & of("soft").found_and_kept("soft")[1]).sum())
+
+
 def crashes_with_the_floor() -> float:
     """The share of the drives of `floored` that end in an accident."""
     return float(np.mean([each.scores("accident") for each in floored()]))

@@ -33,13 +33,6 @@ def lucky(gamma: float = 1.0) -> np.ndarray:
     return np.concatenate([each.values(gamma)[each.ahead] for each in by_chance()])
 
 
-@cache
-def at_random(kind: str) -> float:
-    """What a random drive on a kind of road is worth at γ = 0.8, mean of 1,000 roads."""
-    policy = random_policy(np.random.default_rng(1))
-    return float(attempts.drive(policy, held_out_seeds(7, 1000), easier.KINDS[kind][0]).values(0.8).mean())
-
-
 hill = explorable.hill
 
 
@@ -93,16 +86,28 @@ def earn_more(kind: str, longer: bool = False) -> int:
     return int((agents.scores("returns") > easier.staying(kind)).sum())
 
 
-def earn_and(crash: bool) -> int:
-    """How many of the agents that escape and earn with both changes have an accident on most roads, or have not."""
+def earn_unhurt() -> int:
+    """How many of the agents that escape and earn with both changes do not have an accident on most roads."""
     success, earned, accident = (easy(BOTH).scores(name) for name in ("success", "returns", "accident"))
-    return int(((success >= ESCAPES) & (earned > easier.staying(BOTH)) & ((accident > 0.5) == crash)).sum())
+    return int(((success >= ESCAPES) & (earned > easier.staying(BOTH)) & (accident <= 0.5)).sum())
 
 
 @cache
 def wished() -> attempts.Outcome:
     """What comes of the text's wishes with a lane keeper, slower 1, left 5, faster 5, on 100 roads."""
     return attempts.drive(PlanPolicy([3, *[1] * 5, *[5] * 5]), held_out_seeds(7, 100), easier.LaneKeeper)
+
+
+def escape_and_earn(kind: str) -> int:
+    """How many agents of a kind escape, and earn more than by staying."""
+    success, earned = easy(kind).scores("success"), easy(kind).scores("returns")
+    return int(((success >= ESCAPES) & (earned > easier.staying(kind))).sum())
+
+
+@cache
+def step_to_the_left() -> attempts.Outcome:
+    """What comes of steering left where the plan ends, on 100 roads."""
+    return attempts.drive(PlanPolicy([3]), held_out_seeds(7, 100), easier.LaterStart)
 
 
 @cache
@@ -123,17 +128,10 @@ def helped_better() -> np.ndarray:
     return helped()[helped() > discounted(idle(), 0.8)]
 
 
-def farther(alone: bool = False) -> np.ndarray:
-    """Which agents of plain SAC with a larger γ than the paper's escape on the road as it is.
-
-    alone: only those of which nothing else is changed.
-    """
+def farther() -> np.ndarray:
+    """Which agents of plain SAC with a larger γ than the paper's, and nothing else changed, escape."""
     sensitivity = shipped_experiment("sensitivity")
     found = [easy("as it is"), *(sensitivity[f"γ = {gamma}"].of("sac") for gamma in (0.9, 0.95, 0.99))]
-    if not alone:
-        found = [easy("as it is")]
-        for name in ("sensitivity", "beyond", "beyond-search", "others"):
-            found += [each.of("sac") for each in shipped_experiment(name).values() if "sac" in each.methods]
     escaping = [agents.scores("success") >= ESCAPES for agents in found]
     return np.concatenate([e[[one["gamma"] > 0.8 for one in a.agents]] for a, e in zip(found, escaping, strict=True)])
 

@@ -88,16 +88,18 @@ figures.how_they_drive(alone.agents, tests)
 
 # %% [markdown]
 # **See.** An agent **escapes** if it ends ahead on {{ 100 * ESCAPES | .0f }} % of the roads or
-# more, crashed or not. Of twenty agents like these {{ easy('as it is').escapers('sac') }} escapes,
-# {{ crash_on_most('as it is') }} crash on most roads, and {{ 19 - crash_on_most('as it is') }} do
-# neither. None earns more than a car that does nothing.
+# more, crashed or not. Of twenty agents like these, ten with each γ, {{
+# easy('as it is').escapers('sac') }} escapes (γ = 0.8), {{ crash_on_most('as it is') }} crash on most
+# roads, and {{ 19 - crash_on_most('as it is') }} do neither. None earns more than a car that does
+# nothing.
 # <!-- claim: easy('as it is').escapers('sac') == 1 and len(easy('as it is')) == 20 and not
 #   escape_and_crash('as it is') -->
+# <!-- claim: all(one['gamma'] == 0.8 for one, out in zip(easy('as it is').agents,
+#   easy('as it is').scores('success') >= ESCAPES) if out) -->
 # <!-- claim: easy('as it is').scores('returns').max() < easier.staying('as it is') -->
 #
 # Is staying perhaps best? A learner maximises a discounted sum: the reward after t seconds counts
-# $\gamma^t$. At γ = 0.8 a reward in 20 s hardly counts. Let the planner search for the largest such
-# sum.
+# $\gamma^t$, at γ = 0.8 hardly anything after 20 s. Let the planner search for the largest such sum.
 # <!-- claim: 0.8 ** 20 < 0.02 and SETTINGS.gamma == 0.8 -->
 #
 # > **Predict.** At γ = 0.8, does the planner's best drive stay behind trap 1? (There a second earns
@@ -117,21 +119,20 @@ predicted("the_barrier.1")
 found = planner.is_staying_optimal(range(4), gamma=0.8, beam=50)
 drives = {"doing nothing": found.idle, "best in its lane": found.keep_lane, "best": found.best}
 rows = [[name, f"{drive.value:.2f}"] for name, drive in drives.items()]
-below = f"Means of four roads. {100 * found.leaves.value:.0f} % of the best drives end ahead."
+below = f"Means of four roads. {100 * found.leaves.value:.0f} % of the best drives end ahead. "
+below += "In its lane the best drive speeds up towards trap 1, then brakes."
 table(["drive", "worth at γ = 0.8"], rows, below=below)
 
 # %% [markdown]
 # **Explain.** *Staying is not best, even at γ = 0.8.* The planner knows the future, but
 # that is not needed: {{ len(helped_better()) }} of the ten shipped agents with the rule's help
-# (lessons [[soft_constraint]] and [[learning_from_demonstrations]]) earn a larger sum than staying.
+# (lessons [[soft_constraint]] and [[learning_from_demonstrations]]) earn a larger sum than doing
+# nothing.
 # <!-- claim: searched().best.value > 2 * searched().keep_lane.value -->
 # <!-- claim: searched().leaves.value == 1 and len(helped()) == 10 -->
 #
-# A larger γ alone is not enough: {{ 'none' if not farther(alone=True).any() else
-# farther(alone=True).sum() }} of {{ len(farther(alone=True)) }} agents of plain SAC with γ from 0.9
-# to 0.99 escapes. (With other settings changed as well, {{ farther().sum() }} of {{ len(farther())
-# - len(farther(alone=True)) }}.)
-# <!-- claim: len(farther()) > 50 and farther().sum() == 1 -->
+# A larger γ alone is not enough: {{ 'none' if not farther().any() else farther().sum() }} of {{
+# len(farther()) }} agents of plain SAC with γ from 0.9 to 0.99 escapes.
 #
 # What else could keep agents in?
 #
@@ -202,15 +203,14 @@ by_chance = chance_of(9 * tried.success.mean(), 1, 400)  # one decision, right w
 bc.show(figures.while_they_learned(trained["as it is"], by_chance))
 
 # %% [markdown]
-# **Explain.** *Luck is not what most agents lack: {{ (times_ahead() > 0).sum() }} of twenty ended
-# ahead while they learned, and one escapes.*
+# **Explain.** *To end ahead once is not what most agents lack: {{ (times_ahead() > 0).sum() }} of
+# twenty did, {{ (times_ahead() == 1).sum() }} of them just once, and one escapes.*
 # <!-- claim: abs(20 * (1 - np.exp(-400 * len(lucky()) / 5000)) - (times_ahead() > 0).sum()) < 3 -->
 # <!-- claim: (times_ahead() > 0).sum() > 15 and len(times_ahead()) == 20 -->
 #
-# But ahead is not yet good. All {{ len(lucky()) }} random drives that ended ahead crashed.
-# At γ = 0.8, {{ (lucky(0.8) < discounted(idle(), 0.8)).sum() }} of them are worth less than staying;
-# at γ = 0.95, {{ (lucky(0.95) < discounted(idle(), 0.95)).sum() }}. (Whether the agents' drives
-# crashed is not recorded.)
+# But ahead is not yet good: all {{ len(lucky()) }} random drives that ended ahead crashed. {{
+# (lucky(0.8) < discounted(idle(), 0.8)).sum() }} of them are worth less than staying at γ = 0.8, and {{
+# (lucky(0.95) < discounted(idle(), 0.95)).sum() }} at γ = 0.95.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask what the marks of an agent that learns look like, and which rows are chance.
@@ -218,24 +218,22 @@ bc.show(figures.while_they_learned(trained["as it is"], by_chance))
 # %% [markdown]
 # ## Round 3: the steering, the price, or both?
 #
-# You have driven some seconds of lesson [[the_trap]]'s plan. What is it worth to go on? **Drag** the
-# price of an accident and γ: when does the plan pay?
+# What is it worth to go on after some seconds of lesson [[the_trap]]'s plan? **Drag** the price of an
+# accident and γ: when does the plan pay?
 
 # %%
 explorable.barrier()
 
 # %% [markdown]
-# **See.** *The way out leads through a dip*: like the chain of lesson [[values]], this is a
-# **barrier**. At the price of 10 and γ = 0.8 the plan is worth {{ hill(10, 0.8)[0] | .1f }} of staying
-# at its start. After 4 s going on is worth less than nothing: in the next second {{ crash_by(5).sum()
-# / 10 | .0f }} % of the drives crash. Past the traps it is worth {{ hill(10, 0.8)[-1] | .0f }} times
-# staying.
+# **See.** *The way out leads through a dip*, a **barrier**. At the price of 10 and γ = 0.8 the plan is
+# worth {{ hill(10, 0.8)[0] | .1f }} of staying at its start, and less than nothing after 4 s: it is
+# driven blind, and in the next second {{ crash_by(5).sum() / 10 | .0f }} % of the drives crash. Past
+# the traps it is worth {{ hill(10, 0.8)[-1] | .0f }} times staying.
 # <!-- claim: hill(10, 0.8).argmin() == 4 and hill(10, 0.8)[4] < 0 and not crash_by(4).any() and
 #   len(crash_by(5)) == 1000 -->
 #
-# With a price of 1, or with γ = 0.95, the plan pays from its start. But a larger γ alone freed {{
-# 'none' if not farther(alone=True).any() else farther(alone=True).sum() }} of {{
-# len(farther(alone=True)) }} agents (Round 1). What does free them?
+# With a price of 1, or with γ = 0.95, the plan pays from its start. But a larger γ alone is not enough
+# (Round 1). What frees agents?
 # <!-- claim: min(hill(1, 0.8)) > 1 and min(hill(10, 0.95)) > 1 -->
 #
 # Three easier roads:
@@ -244,13 +242,14 @@ explorable.barrier()
 #   faster 5* ended ahead on each of 100 roads, with {{ wished().accident.sum() }} accidents.
 # - *A start mid-lane*, beyond the dip: an episode begins after {{ easier.LATER }} s, in the middle
 #   of the free lane, behind the traps and as fast as they are. One acceleration ended ahead on each
-#   of 100 roads, without an accident. (The plan is beside the middle then. From its own place {{
-#   'none' if not easy('a later start').escapers('sac') else easy('a later start').escapers('sac')
-#   }} of twenty agents escapes.)
+#   of 100 roads, without an accident. (The plan's steering ends at the road's edge, where a step to
+#   the left ends the drive. From there {{ 'none' if not easy('a later start').escapers('sac') else
+#   easy('a later start').escapers('sac') }} of twenty agents escapes.)
 # - *Accidents cost 1* in place of 10.
 # <!-- claim: wished().ahead.all() and len(wished().ahead) == 100 and 2 * wished().accident.mean() <
 #   explorable.by_plan().accident.mean() -->
 # <!-- claim: one_acceleration().ahead.all() and not one_acceleration().accident.any() -->
+# <!-- claim: step_to_the_left().accident.all() and step_to_the_left().lasted.max() == 1 -->
 #
 # > **Predict.** Twenty agents learn on each road, for as long as in Round 1. What frees more than half
 # > of them?
@@ -270,9 +269,11 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 
 # %% [markdown]
 # **Explain.** *Neither price nor start is enough; together they free {{
-# easy(BOTH).escapers('sac') }} of twenty agents.* Alone, cheap accidents free {{
-# easy(CHEAP).escapers('sac') }}, and {{ crash_on_most(CHEAP) }} crash on most roads; the start frees {{
-# easy(MIDDLE).escapers('sac') }}.
+# easy(BOTH).escapers('sac') }} of twenty agents.* The start alone frees {{
+# easy(MIDDLE).escapers('sac') }}, of which {{ escape_and_earn(MIDDLE) }} earn more than by staying.
+# Cheap accidents alone free {{ easy(CHEAP).escapers('sac') }}, and {{ crash_on_most(CHEAP) }} crash on
+# most roads. The plan's dip is gone at this price, so it is not all that holds agents.
+# <!-- claim: (np.diff(hill(1, 0.8)[:12]) > 0).all() -->
 # <!-- claim: all(len(easy(kind)) == 20 for kind in (KEPT, BOTH, CHEAP, MIDDLE, 'a lane keeper')) -->
 # <!-- claim: all(stats.fisher_exact([[easy(kind).escapers('sac'), 20 - easy(kind).escapers('sac')]
 #   for kind in (one, BOTH)]).pvalue < 0.001 for one in (MIDDLE, CHEAP, KEPT)) -->
@@ -282,23 +283,15 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 #   DEFAULT.reward.accident == -10 and 0 == easy(KEPT).escapers('sac') ==
 #   easy('a lane keeper').escapers('sac') -->
 #
-# Why is a start beyond the dip not enough? The dip is the plan's, but a learner begins nearly at
-# random. At γ = 0.8 a random drive from mid-lane is worth {{ at_random(MIDDLE) | .2f }} at a price of
-# 10 and {{ at_random(BOTH) | .2f }} at a price of 1; staying is worth {{ discounted(idle(), 0.8) |
-# .2f }}. That may be why.
-# <!-- claim: at_random(MIDDLE) < at_random(BOTH) < discounted(idle(), 0.8) -->
-#
-# The steering counts, but slowly. With cheap accidents and a lane keeper {{ crash_on_most(KEPT) }} of
-# twenty agents crash on most roads. Of twenty others with twice the updates {{ earn_more(KEPT,
-# longer=True) }} earn more than by staying (with cheap accidents alone {{ earn_more(CHEAP,
-# longer=True) }}), and none escapes: the best ends ahead on {{ 100 *
-# easy(stressed(KEPT)).scores('success').max() | .0f }} % of the roads.
+# Help with the steering pays off late. With a lane keeper and cheap accidents none of twenty escapes;
+# after twice the updates {{ earn_more(KEPT, longer=True) }} of twenty others earn more than by staying
+# (with cheap accidents alone {{ earn_more(CHEAP, longer=True) }}).
 # <!-- claim: easy(stressed(KEPT)).escapers('sac') == 0 and stats.fisher_exact([[earn_more(kind,
 #   longer=True), 20 - earn_more(kind, longer=True)] for kind in (KEPT, CHEAP)]).pvalue < 0.001 -->
 #
-# To escape is not to earn. Of the {{ easy(BOTH).escapers('sac') }} that escape {{
-# len(freed_and_slower()) }} earn more than a car that stays ({{ earn_and(crash=True) }} of these crash
-# on most roads). The {{ too_fast() }} others drive faster than 20 m/s, which pays little.
+# To escape is not to earn. Of the {{ easy(BOTH).escapers('sac') }} that both changes free, {{
+# len(freed_and_slower()) }} earn more than a car that stays. The {{ too_fast() }} others drive faster
+# than 20 m/s, which pays little.
 # <!-- claim: freed_and_slower().min() > easier.staying(BOTH) -->
 # <!-- claim: max(second_pays(v) for v in np.arange(20, 26)) < second_pays(15) / 15 -->
 
@@ -324,12 +317,13 @@ compare_predictions(
 # ## What you now know
 #
 # 1. Plain SAC seldom escapes: 1 of the twenty agents above, {{ escaped('sac') }} of the study's {{
-#    len(of('sac')) }}; with faster traps {{ escaped('sac', 'calibrated') }} of 10.
+#    len(of('sac')) }}.
 # 2. Staying is not best, even at γ = 0.8. A larger γ alone is not enough.
-# 3. Luck to end ahead once is not what most lack. A lucky drive is seldom a good one.
-# 4. The plan's way out is a barrier: it costs now and pays later. After {{ easier.UPDATES | , }}
-#    updates no change alone frees half of twenty agents. With cheap accidents mid-lane {{
-#    easy(BOTH).escapers('sac') }} escape; {{ earn_and(crash=False) }} of these earn more than by
+# 3. Most agents end ahead while they learn, and do not escape. All random drives that ended ahead crashed.
+# 4. The plan's way out leads through a dip: at γ = 0.8 it is worth {{ hill(10, 0.8)[0] | .1f }} of
+#    staying at its start, and {{ hill(10, 0.8)[-1] | .0f }} times staying past the traps. After {{
+#    easier.UPDATES | , }} updates no change alone frees half of twenty agents. With cheap accidents mid-lane {{
+#    easy(BOTH).escapers('sac') }} escape; {{ earn_unhurt() }} of these earn more than by
 #    staying without crashing on most roads.
 # 5. With the rule as a constraint and as data {{ escaped('bootstrapped') }} of the study's {{
 #    len(of('bootstrapped')) }} agents escape: lessons [[soft_constraint]] and
@@ -338,7 +332,7 @@ compare_predictions(
 #
 # **Three questions to think about**
 # - Cheap accidents mid-lane free most agents. Which of the two could a demonstration replace?
-# - How would you find out what of the start mid-lane counts?
+# - Which part of the start mid-lane matters? How would you find out?
 # - Where would you let each drive begin, so that an agent learns what a free road is worth?
 #
 # **Read on**: [the rule](the_rule.ipynb). Ecoffet et al., *First return, then explore*
@@ -348,7 +342,7 @@ compare_predictions(
 # **Model answers.**
 #
 # - *A demonstration* can replace the start: it shows states ahead of the traps. The price stays.
-# - *What counts.* Keep the lane keeper and the cheap accidents, and begin after 2, 4 and 6 of the
+# - *Which part.* Keep the lane keeper and the cheap accidents, and begin after 2, 4 and 6 of the
 #   plan's seconds. Count who escapes: that tells the wait and the risk from the steering.
 # - *Where to begin.* Near the end of a drive that ends ahead, and then earlier and earlier: a value
 #   comes back from states that were visited. It needs a simulator that can begin anywhere.

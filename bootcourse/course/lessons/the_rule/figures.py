@@ -3,9 +3,11 @@
 from collections.abc import Sequence
 
 import numpy as np
+from IPython.display import Markdown
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, Style
+from bootcourse.course import table
 from bootcourse.course.charts import lines
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.rollout import Rollout
@@ -13,7 +15,7 @@ from bootcourse.episodes.words import overtaken
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, TEXT, finish, one_axes
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
-from bootcourse.rule import safety_distance
+from bootcourse.rule import SENTENCES, Reason, safety_distance
 
 
 def when_to_change(drive: Rollout) -> Figure:
@@ -83,6 +85,16 @@ def speeds_by_sight(far: Rollout, near: Rollout, alone: Rollout) -> Figure:
         for speeds in [drive.states[drive.times > overtaken(drive), EGO, SPEED]]
     )
     return finish(figure, title, f"Three drives on one road. {'; '.join(said)}.")
+
+
+def reasons(drive: Rollout) -> Markdown:
+    """A table of the rule's reasons in a drive, as they change: from when, its speed, how far ahead trap 1 is."""
+    steps, given, rows = drive.scenario.clock.steps, drive.rule_reasons, []
+    for second in [0, *(1 + np.flatnonzero(np.diff(given)))]:
+        ego, trap = drive.states[second * steps, [EGO, TRAP_1]]
+        ahead = f"{trap[X] - ego[X]:.0f} m"
+        rows.append([f"{second} s", SENTENCES[Reason(given[second])], f"{ego[SPEED]:.0f} m/s", ahead])
+    return table(["from", "the rule's reason", "its speed", "trap 1 is ahead by"], rows)
 
 
 def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure:

@@ -52,17 +52,23 @@ def ppo_gap() -> np.ndarray:
     return cars[:, EGO, X] - cars[:, TRAP_1, X]
 
 
-def credit(lam: float) -> np.ndarray:
-    """The advantages of that drive, paid by r_v, where V is what a steady 10 m/s pays for ever: (decisions,)."""
+def credit(lam: float, horizon: int | None = None) -> np.ndarray:
+    """The advantages of that drive, paid by r_v, where V is what a steady 10 m/s pays for ever: (decisions,).
+
+    horizon: after so many decisions the data end, again and again; None: with the drive.
+    """
     rewards = torch.tensor([[speed_reward(v)] for v in ppo_speeds()])
     values = torch.full_like(rewards, speed_reward(10.0) / (1 - ppo_kinds.GAMMA))
-    no = torch.zeros_like(rewards)  # accident, nor other end
-    return advantages(rewards, values, values, no, no, ppo_kinds.GAMMA, lam)[:, 0].numpy()
+    no = torch.zeros_like(rewards)  # accident
+    ends = no.clone()
+    if horizon:
+        ends[horizon - 1 :: horizon] = 1
+    return advantages(rewards, values, values, no, ends, ppo_kinds.GAMMA, lam)[:, 0].numpy()
 
 
-def judged_good(lam: float) -> int:
+def judged_good(lam: float, horizon: int | None = None) -> int:
     """In how many of its seconds below 10 m/s the advantage is above 0."""
-    return int((credit(lam)[ppo_speeds() < 10] > 0).sum())
+    return int((credit(lam, horizon)[ppo_speeds() < 10] > 0).sum())
 
 
 def cloned_escape(teacher: str) -> int:

@@ -7,6 +7,7 @@ import numpy as np
 from highway_env.envs.common.abstract import AbstractEnv
 
 from bootcourse.course.lessons.the_trap.driving import all_plans, on_road
+from bootcourse.course.lessons.the_trap.exercises import bearable_risk
 from bootcourse.course.lessons.the_trap.figures import RIGHT_FIRST
 from bootcourse.course.lessons.the_trap.time_step import unhurt
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
@@ -15,10 +16,11 @@ from bootcourse.policies import plan_policy
 from bootcourse.road.formulas import bicycle_step
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
-from tools.course.known import by_rule, discounted, idle, shipped_results
+from tools.course.known import by_rule, discounted, escaped_with, idle, shipped_results
 
 PLAN = [*RIGHT_FIRST, ("accelerate straight", 5)]  # it looks at nothing
 BLIND = plan_policy(PLAN)
+FARTHER = 0.9, 0.95, 0.99  # γ of the study's agents that look farther ahead
 
 
 @cache
@@ -56,12 +58,6 @@ def on_ten():
 
 
 @cache
-def crashes_of_plan():
-    """Its drives on those roads that end in an accident."""
-    return record(BLIND, np.array(held_out_seeds(1, 1000))[blind_plan().accident > 0].tolist())
-
-
-@cache
 def pays_from() -> float:
     """The smallest γ, in steps of 0.01, from which on the rule's way out is worth more than staying."""
     gammas = np.arange(50, 101) / 100
@@ -76,9 +72,21 @@ def worth_of_plan(gamma: float = 0.8, seconds: int = 60) -> float:
     return float(np.mean([discounted(drive, gamma) for drive in record(BLIND, held_out_seeds(1, 1000), shorter)]))
 
 
-def gained(tau: float) -> float:
-    """How much more often the plan gets out unhurt in half the steps, by the traffic's time constant: a share."""
-    return unhurt(PLAN, tau, 0.25) - unhurt(PLAN, tau, 0.5)
+@cache
+def in_steps(tau: float, step: float) -> float:
+    """On which share of those roads the plan gets out unhurt, by the traffic's time constant and the time step (s)."""
+    return unhurt(PLAN, tau, step)
+
+
+def bearable_by_plan(gamma: float = 0.8) -> float:
+    """The share of attempts that may crash after 3 s, if the others drive like the plan on road 10."""
+    crash = float(gamma ** np.arange(4) @ [*by_rule().rewards[:3], DEFAULT.reward.accident])
+    return bearable_risk.solution(discounted(idle(), gamma), discounted(on_ten(), gamma), crash)
+
+
+def farther_escape() -> int:
+    """How many of the study's agents of plain SAC that look farther ahead escape."""
+    return sum(escaped_with(f"γ = {gamma}", "sac") for gamma in FARTHER)
 
 
 def staying() -> np.ndarray:

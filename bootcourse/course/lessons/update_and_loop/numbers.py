@@ -49,11 +49,6 @@ def pushes() -> list[int]:
     return [BLOCK * (len(each) - 1) for each in tests()]
 
 
-def with_setbacks() -> int:
-    """How many had a test that was worse than the one before."""
-    return sum(min(np.diff(each)) < 0 for each in tests())
-
-
 def fell_at_once() -> int:
     """How many of those without marks balance the pole for less than 10 pushes after their block."""
     return int((after_a_block("unmarked") < 10).sum())

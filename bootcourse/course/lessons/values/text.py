@@ -18,7 +18,7 @@
 # - write a learner that finds these values from its own decisions: Q-learning;
 # - say why such a learner can stay in a trap although leaving is worth more.
 #
-# **Time** 55 minutes; the machine computes for seconds. **It builds on** lesson [[the_trap]].
+# **Time** 55 minutes. **It builds on** lesson [[the_trap]].
 
 # %%
 import bootcourse as bc
@@ -37,9 +37,8 @@ progress("values")
 # <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
 #   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
 #
-# One walker goes to the trap and stays, the other goes on to the free road. A reward that comes t
-# decisions later counts γᵗ as much (γ: "gamma"). **Drag** what the trap pays: how much makes
-# staying worth more? Then, at 0.16 again, drag γ: from which value on is leaving worth more?
+# A reward t decisions later counts γᵗ as much. **Drag** what the trap pays, and then γ: when is
+# leaving worth more?
 
 # %%
 explorable.worths()
@@ -72,9 +71,7 @@ check.discounted_return(discounted_return)
 # %% [markdown]
 # Staying is worth $0.16 + 0.16\,\gamma + 0.16\,\gamma^2 + \dots = 0.16 / (1 - \gamma)$. Leaving
 # pays nothing for four decisions, and then 1 at each: it is worth $\gamma^4 / (1 - \gamma)$. So
-# leaving is worth more where $\gamma^4 > 0.16$: how far you look decides. At the paper's γ, {{
-# SETTINGS.gamma }}, leaving is worth {{ 0.8**4 / 0.16 | .1f }} times as much.
-# <!-- claim: 0.8**4 > 2.5 * 0.16 and SETTINGS.gamma == 0.8 -->
+# leaving is worth more where $\gamma^4 > 0.16$.
 #
 # > **Predict.** The way out gets one state longer. From which γ on is leaving worth more now?
 
@@ -89,8 +86,8 @@ better = [g for g in gammas if worth([0.0] * 5 + [1.0] * 495, g) > worth([0.16] 
 print(f"γ = {min(better):.2f}")
 
 # %% [markdown]
-# **Explain.** Now $\gamma^5 > 0.16$ decides, from {{ 0.16**0.2 | .2f }} on instead of {{
-# 0.16**0.25 | .2f }}: a longer way out needs a longer view.
+# **Explain.** With one state more $\gamma^5 > 0.16$ decides: from {{ 0.16**0.2 | .2f }} on, not {{
+# 0.16**0.25 | .2f }}.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what γ means in seconds: at 0.8 a reward in ten decisions counts {{ 0.8**10 | .2f }}. Nothing
@@ -99,15 +96,21 @@ print(f"γ = {min(better):.2f}")
 # %% [markdown]
 # ## Round 2: a value from the next value
 #
+# A **state** says all that matters of the present: what may come next depends on it and the action
+# alone. Such a world is a *Markov decision process* (MDP). On the road our learners take the 26
+# numbers that they see for the state, although it holds more, such as the seconds that are left.
+# <!-- claim: DEFAULT.observation_size == 26 and not any('time' in name for name in
+#   observation.names(DEFAULT)) -->
+#
 # The **value** of action a in state s, **Q(s, a)**, is the return if you take a once and then act
-# as well as possible. Q is the reward, plus γ times what the next state s' is worth, which is the
-# larger of its two values. This is the **Bellman equation**:
+# as well as possible. It is the reward, plus γ times the value of the next state, V(s'), the larger
+# of its two Q. This is the **Bellman equation** of acting as well as possible (the *optimality*
+# equation; lesson [[discrete_sac]] has that of a given policy):
 #
 # $$ Q(s, a) = r(s, a) + \gamma \max_{a'} Q(s', a') $$
 #
-# (Where chance decides what comes next, it takes the mean over the next states.)
-# It says what Q *is*, not how to find it. So begin with Q = 0 everywhere and compute the right side
-# for all ten pairs (s, a) at once. This is one **sweep**; the next begins with the new Q.
+# To find Q, begin with Q = 0 everywhere and compute the right side for all ten pairs (s, a) at once.
+# This is one **sweep**; the next begins with the new Q.
 #
 # > **Predict.** After which sweep does Q(0, 1), the value of leaving the trap, first contain a part
 # > of the free road's reward?
@@ -141,16 +144,17 @@ bc.show(diagrams.sweeps(found))
 # %% [markdown]
 # **Explain.** A sweep looks one decision ahead, so each one carries the free road's value one state
 # back. (White above 0: the trap's pay.) At sweep 40 the row has the heights of the blue bars in
-# *Look first* at γ = 0.8: each sweep leaves at most γ times the largest error before.
-# <!-- claim: np.abs(sweeps(11, 0.8) - sweeps(300, 0.8)).max()
-#   <= 0.8 * np.abs(sweeps(10, 0.8) - sweeps(300, 0.8)).max() + 1e-9 -->
+# *Look first* at γ = 0.8.
 # <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
 # <!-- claim: (np.abs(sweeps(40, 0.8)[:, 1] - 5 * 0.8 ** np.arange(4, -1, -1)) < 0.005).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Do two sweeps on the board with γ = 1/2. Ask why the error shrinks: two maxima differ by no more
-# than their numbers do, and γ times that is left. Ask why "at once" matters: with new values in the
-# same sweep the result comes sooner, but it is another algorithm.
+# Do two sweeps on the board with γ = 1/2. Each sweep multiplies the largest distance from the true
+# values by γ or less. Ask why: two maxima differ by no more than their numbers do, and γ times that
+# is left. Ask why "at once" matters: with new values in the same sweep the result comes sooner, but
+# it is another algorithm.
+# <!-- claim: np.abs(sweeps(11, 0.8) - sweeps(300, 0.8)).max()
+#   <= 0.8 * np.abs(sweeps(10, 0.8) - sweeps(300, 0.8)).max() + 1e-9 -->
 
 # %% [markdown]
 # ## Round 3: learning from one decision
@@ -208,8 +212,8 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 
 # %% [markdown]
 # **Explain.** On the first walk the free road pays after the other four decisions have been
-# learned, so only Q(4, 1) rises. Each further walk carries the value one state back. In the last
-# row the five decisions are learned in reverse: each next state already has a value.
+# learned, so only Q(4, 1) rises. In the last row the five decisions are learned in reverse: each
+# next state already has a value.
 # <!-- claim: walked(1) == [False] * 4 + [True] and all(walked(1, backwards=True)) -->
 # <!-- claim: not walked(4)[0] and walked(5)[0] -->
 
@@ -223,11 +227,13 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 # The learner is **ε-greedy** ("epsilon"): with probability 1 − ε it takes the action with the larger
 # Q, else it **explores**: it draws one at random.
 #
-# **Exercise (20 min, ●●●).** Write this learner. The random decisions have been drawn beforehand
-# (`chances`). After each decision of its own it replays a demonstration (`taught`): it learns from
-# each pair (s, a), with the chain's reward and next state, and stays where it is. Every 20
-# decisions the time is up, and the walk starts again in state 0. Does that change the target of the
-# last decision?
+# **Exercise (20 min, ●●●).** Write this learner.
+#
+# - `chances` holds the random decisions, drawn beforehand.
+# - After each decision of its own it learns from each pair (s, a) of a demonstration, `taught`, too;
+#   its walk goes on from its own state.
+# - Every 20 decisions the time is up, and the walk starts again in state 0. Does that change the
+#   target of the last decision?
 
 
 # %%
@@ -255,12 +261,10 @@ def learn_chain(chances, gamma, step, taught):
 check.learn_chain(learn_chain)
 
 # %% [markdown]
-# The end of the time changes no target: the chain goes on.
-#
 # Thirty learners of each kind make 1,000 decisions with a step of 0.3. A learner has learned to
 # leave if in the end Q(0, 1) > Q(0, 0).
 #
-# - *A*: ε = 0.1 and γ = 0.8;
+# - *A*: ε = 0.1 and the paper's γ = {{ SETTINGS.gamma }};
 # - *B*: as A, with γ = 0.95;
 # - *C* and *D*: as A, with ε = 0.5 and with ε = 1;
 # - *E*: as A, with a demonstration of the way out, replayed after each decision.
@@ -295,18 +299,18 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps Q here (D itself goes on driving at random): one attempt in {{ 4**4 }} gets
-# through in C, one in {{ 2**4 }} in D. Once is not enough: a walk moves the value one state back
-# (Round 3), and in each it must beat going back. {{ free_road_seen(0.5, 0.8) }} of C were on the
-# free road, {{ leaving(0.5, 0.8) }} learn to leave; the second picture shows one of each. On the
-# road a random decision can also cost an accident.
+# More exploration helps the values (D itself goes on driving at random). One attempt in {{ 4**4 }} gets
+# through in C, one in {{ 2**4 }} in D, and each decision in the trap begins an attempt. Once is not
+# enough: a walk moves the value one state back (Round 3), and in each state going on must come to be
+# worth more than going back. {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{
+# leaving(0.5, 0.8) }} learn to leave. Lesson [[the_barrier]] asks what chance does on the road, where
+# it also causes accidents.
 # <!-- claim: chain.leaves(chain.over_walks(0.5, 0.8, 1)[-1]) -->
 # <!-- claim: chain.has_been_free(chain.over_walks(0.5, 0.8, 16)[-1]) and
 #   not chain.leaves(chain.over_walks(0.5, 0.8, 16)[-1]) -->
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 #
-# A replayed demonstration teaches all thirty (E). A's own decisions could not, however often
-# replayed: none was made on the free road. Q-learning can learn from decisions that it did not
+# A replayed demonstration teaches all thirty (E). Q-learning can learn from decisions that it did not
 # make: it is **off-policy**, and so is the learner of the next lessons.
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
 
@@ -328,9 +332,9 @@ compare_predictions(
 # 2. The Bellman equation says what a value is; sweeps of it find it.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves
 #    Q(s, a) by a part of it, and needs no map.
-# 4. On a walk forwards a value moves one state back; learned backwards, it moves all the way.
-# 5. On the chain none of A's thirty learners, which take 0 of two equal actions, gets past the
-#    barrier. More random decisions help, and so does a replayed demonstration.
+# 4. Learned in the order of a walk, a value moves one state back; in reverse order, all the way.
+# 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and
+#    so does a replayed demonstration.
 #
 # **Three questions to think about**
 # - After 40 sweeps Q(0, 0) is {{ sweeps(40, 0.8)[0, 0] | .2f }}. Staying for ever is worth {{

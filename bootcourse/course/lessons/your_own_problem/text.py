@@ -13,7 +13,7 @@
 # %% [markdown]
 # # Your own problem
 #
-# Does a teacher help elsewhere, too? Each round asks a question of our problem, then of yours.
+# Each round asks a question of our problem, then of yours.
 #
 # **What you will be able to do**
 # - give an agent a teacher in an environment of your choice, and compare methods fairly;
@@ -43,15 +43,15 @@ progress("your_own_problem")
 # %% [markdown]
 # ## Look first
 #
-# MountainCar is a car in a valley. It pays −1 per decision until the flag, at position 0.5, or for 200
-# decisions.
+# MountainCar is a car in a valley. It pays −1 per decision until the flag, at position 0.5, for at most
+# 200 decisions.
 
 # %%
 bc.show(figures.climbs())
 
 # %% [markdown]
 # **See.** Pushed to the right only, the car stays in the valley: it first has to drive *away* from the
-# flag. The reward does not say so: all drives that miss the flag earn the same.
+# flag. The reward does not say so.
 # <!-- claim: loops.climbed(lambda position, speed: 2).max() < 0 -->
 # <!-- claim: loops.climbed(lambda position, speed: 2 if speed >= 0 else 0)[-1] >= 0.5 -->
 
@@ -71,8 +71,8 @@ check.climb_rule(climb_rule)
 
 # %% [markdown]
 # Your rule is the teacher. `bc.compare` trains five agents of each method for equally many
-# *decisions*; demonstrations are free. Two methods are controls: plain SAC has no teacher, the
-# clone nothing else.
+# *decisions*; demonstrations are free. Two methods are controls: plain SAC has no teacher, the clone only
+# the teacher.
 
 # %% tags=["nbval-ignore-output"]
 climb = own_code.yours_or_ours("climb_rule", doing="Teaching")
@@ -86,15 +86,14 @@ car, teacher = PROBLEMS["mountain-car"].make_env, loops.teacher(climb)
 bc.compare(methods, decisions=1_000, make_env=car, teacher=teacher, **how)
 
 # %% [markdown]
-# **See.** Without a teacher hardly any drive reaches the flag. With one many do; the clone, without
-# any reward, earns no less.
+# **See.** Without a teacher hardly any drive reaches the flag. With one many do; the clone, without any
+# reward, earns no less.
 # <!-- claim: score('mountain-car', 'good', 'SAC') == 0 and min(score('mountain-car', 'good', m) for
 #   m in ('cloning', 'soft')) > 0.9 and abs(score('mountain-car', 'good', 'soft', 'returns') -
 #   score('mountain-car', 'good', 'cloning', 'returns')) < 5 -->
 #
-# **On yours.** Take a gymnasium environment with discrete actions, and vectors of numbers near 1 in
-# size as observations, and write a rule. Ours is CartPole: balance a pole, for 1 per decision, at most
-# 500 times.
+# **On yours.** Take a gymnasium environment with discrete actions and vectors of numbers near 1 in size as
+# observations, and write a rule. Ours is CartPole: balance a pole, for 1 per decision, at most 500 times.
 
 
 # %% tags=["nbval-ignore-output"]
@@ -118,11 +117,10 @@ bc.compare(methods, decisions=1_000, make_env=my_env, teacher=own_rule, **how)
 # %% [markdown]
 # ## Round 2: did the agents need the reward?
 #
-# Five agents learn CartPole with the soft constraint alone: all rewards are 0, and with γ = 0 they do
-# not look ahead.
+# Five agents learn CartPole with the soft constraint alone: rewards are 0, and γ = 0.
 #
-# > **Predict.** We test them after 500, 1,000 and 3,000 decisions. How do they compare with
-# > the angle rule?
+# > **Predict.** We test them after 500, 1,000 and 3,000 decisions. How do they compare with the angle
+# > rule?
 
 # %%
 choices = ["they earn less", "about as much, once they copy it", "far more, for a while"]
@@ -134,24 +132,23 @@ predicted("your_own_problem.1")
 bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0)))
 
 # %% [markdown]
-# **Explain.** They did not need it: after 1,000 decisions they earn about what Round 1's did with
-# reward. A half-learned copy heeds not the angle alone but the speed, too. Its edge lies near the
-# dashes, and a rule with that edge earns {{ speed_rule_earns() | .0f }}.
-#
-# Better copies earn less: *one budget can mislead.*
+# **Explain.** A half-learned copy follows the speed as well as the angle. Its edge lies near the dashes,
+# and a rule with that edge earns {{ speed_rule_earns() | .0f }}. Better copies earn less: *one budget can
+# mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
-# **On yours**, with reward or without:
+# At 1,000 decisions they did not need the reward: they earn about what Round 1's did with it. At 3,000?
 
 # %% tags=["nbval-ignore-output"]
-loops.returns(budgets, my_env, own_rule, pays=0, gamma=0)  # with reward: pays=1, gamma=0.99
+# On yours, with reward; without it: pays=0, gamma=0
+loops.returns(budgets, my_env, own_rule, pays=1, gamma=0.99)
 
 # %% [markdown]
 # ## Round 3: which errors does a clone outvote?
 #
-# A **random** teacher errs in states picked as if at random, always the same there. A **systematic** one
-# errs everywhere in one region. The **good** one is the rule without these errors; CartPole's heeds the
-# speed, too.
+# A **random** teacher errs in states picked as if at random; in one state it always makes the same error. A
+# **systematic** one errs everywhere in one region. The **good** one is the rule without these errors;
+# CartPole's follows the speed a little, too.
 #
 # > **Predict.** On MountainCar the good teacher earns {{ earned('good') | .0f }}, the random one, right in
 # > {{ 100 * elsewhere_claims.PROBLEMS['mountain-car'].right | .0f }} % of the states,
@@ -166,7 +163,8 @@ predicted("your_own_problem.2")
 bc.show(figures.clones())
 
 # %% [markdown]
-# **See.** Clones of these random teachers earn about what the good one does, or more.
+# **See.** Clones of these random teachers earn about what the good one does. On CartPole some earn
+# more.
 # <!-- claim: {len(cells().scores(p, t, 'cloning')) for p, t in SHOWN} == {10} -->
 # <!-- claim: all(score(p, 'random', 'cloning', 'returns') > score(p, 'random', 'the teacher',
 #   'returns') + 20 and score(p, 'random', 'cloning', 'returns') > score(p, 'good', 'the teacher',
@@ -185,8 +183,8 @@ explorable.votes()
 # <!-- claim: [explorable.reached(t, 70, r) for t, r in (('random', 0), ('random', 1), ('systematic',
 #   0), ('systematic', 1))] == [8, 20, 15, 15] -->
 #
-# > **Predict.** Is a clone such a vote? Its π gives each action a probability; so far it took the most
-# > probable one. Now the random teachers' clones *draw* from π. What do they earn?
+# > **Predict.** Is a clone such a vote? So far it took the most probable action of its π. Now the random
+# > teachers' clones *draw* from π. What do they earn?
 
 # %%
 choices = ["as much as the good teacher", "about as much as their teacher", "less than both"]
@@ -197,13 +195,11 @@ predicted("your_own_problem.3")
 bc.show(figures.clones_that_draw())
 
 # %% [markdown]
-# **Explain.** The errors are still in π: the good teacher's clones lose nothing by drawing. The
-# most probable action is the majority's answer; a drawn one is a single voter's.
+# **Explain.** The errors are still in π: the good teacher's clones (not shown) earn about the same drawn.
+# The most probable action is the majority's answer; a drawn one is a single voter's.
 # <!-- claim: all(abs(score(p, 'random', 'cloning', 'drawn_returns') - score(p, 'random', 'the
 #   teacher', 'returns')) < 15 and
 #   abs(score(p, 'good', 'cloning', 'drawn_returns') - score(p, 'good', 'cloning', 'returns')) < 5 for p in THREE) -->
-#
-# **On yours.** Would alike states outvote an error of your rule?
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask before the panel: what does a clone do with two labels that contradict each other?
@@ -218,8 +214,8 @@ bc.show(figures.clones_that_draw())
 bc.show(figures.room(loops.drive_in_a_loop(), "Here DoorKey's random teacher ends in a loop"))
 
 # %% [markdown]
-# The teacher errs in a state *whenever it comes back to it*. Does its clone outvote the error? Count
-# where only the clone is right:
+# The teacher errs in a state *whenever it comes back to it*. How many of the teacher's wrong labels does
+# its clone outvote, that is, get right?
 
 # %% tags=["nbval-ignore-output"]
 for name in ("mountain-car", "doorkey"):
@@ -228,19 +224,14 @@ for name in ("mountain-car", "doorkey"):
     print(f"{name}: {len(seen):,} labels, {loops.states(seen):,} states, {outvoted:.0%} outvoted")
 
 # %% [markdown]
-# **See.** In DoorKey the clone outvotes none: its labels come from a few states, which are hardly
-# alike. Ten clones earn {{ score('doorkey', 'random', 'cloning', 'returns') | .2f }}, their teacher
-# {{ score('doorkey', 'random', 'the teacher', 'returns') | .2f }}, the good one {{ score('doorkey',
-# 'good', 'the teacher', 'returns') | .2f }}.
-# <!-- claim: cells().scores('doorkey', 'random', 'cloning').max() < score('doorkey', 'random',
-#   'the teacher', 'returns') -->
+# **See.** In DoorKey the clone outvotes none. Its inputs are one-hot: the network can tell the few states
+# apart. An error in a state that comes back becomes a loop.
 # <!-- claim: [((cloned == good)[taught != good].mean() > 0.9, (cloned == good)[taught != good].any(),
 #   len(seen) > 50 * loops.states(seen)) for seen, taught, cloned, good in
 #   map(loops.labels, ('mountain-car', 'doorkey'))] == [(True, True, False), (False, False, True)] -->
-#
-# **On yours.** Do the states of your rule come back?
 
 # %% tags=["nbval-ignore-output"]
+# On yours: do the states of your rule come back?
 seen = bc.demonstrate(50, None, teacher=own_rule, make_env=my_env).observations
 print(f"{len(seen):,} labels, {loops.states(seen):,} states")
 
@@ -265,12 +256,14 @@ predicted("your_own_problem.4")
 bc.show(figures.bonuses())
 
 # %% [markdown]
-# **See.** With c = 2 and a flawed teacher hardly any drive reaches the goal. With the good teacher
-# nearly all do at each c.
+# **See.** With c = 2 and a flawed teacher hardly any drive reaches the goal; with the good teacher nearly
+# all do, at each c.
 # <!-- claim: all(np.diff(by_bonus(t)).max() < 0 and round(100 * by_bonus(t)[-1]) == 0 for t in
 #   ('random', 'systematic')) and by_bonus('good').min() > 0.99 -->
 #
-# By most probable actions both flawed teachers' agents do worse than plain SAC, even with c = 0.
+# Drawn actions can leave a loop by chance. By most probable ones, even with c = 0, the flawed teachers'
+# agents reach the goal in {{ 100 * without_bonus('random') | .0f }} % and
+# {{ 100 * without_bonus('systematic') | .0f }} %, plain SAC in {{ 100 * score('doorkey', 'none', 'SAC') | .0f }} %.
 # <!-- claim: max(without_bonus(t) for t in ('random', 'systematic')) < 0.75 * score('doorkey', 'none', 'SAC')
 #   and list(BONUSES.values())[0] == 'both, c = 0' -->
 
@@ -283,8 +276,8 @@ explorable.loop_or_goal()
 # %% [markdown]
 # **Exercise (15 min, ●●●).** A demonstrated loop earns `reward` + c in each decision, for ever: the
 # time limit is no end for the critic (lesson [[update_and_loop]]). The way to the goal has `decisions`
-# decisions. Each earns `reward` + c, too, and the last one also `goal`; then the episode ends. At
-# which c are both worth the same, discounted?
+# decisions. Each earns `reward` + c, the last one also `goal`; then the episode ends. At which c are both
+# worth the same, discounted?
 
 
 # %%
@@ -297,27 +290,24 @@ check.drowning_bonus(drowning_bonus)
 
 # %% [markdown]
 # **Explain.** Your threshold, here at most {{ drowning_bonus(0, 1, 1, PROBLEMS['doorkey'].gamma) |
-# .2f }}, is the same however long the way is. *It is a warning, not an edge*: an agent's own turns
-# in a loop pay no c, and with c = 0.1 most drives by drawn actions still reach the goal.
+# .2f }}, is the same however long the way is. *It is a warning, not an edge*: with
+# c = 0.1 most drives by drawn actions still reach the goal.
 # <!-- claim: math.isclose(drowning_bonus(0, 1, 1, 0.97), drowning_bonus(0, 1, 90, 0.97)) -->
 # <!-- claim: list(BONUSES)[2] == 'c = 0.1' and min(by_bonus(t)[2] for t in TEACHERS) > 0.5 -->
 #
-# **Is it the loop?** With the random teacher's demonstrations that reach the goal, and c = 2, {{
-# 100 * without_loops('drawn_success') | .0f }} % of the drives reach it by drawn actions, {{ 100 *
-# without_loops('success') | .0f }} % by most probable ones. But a bonus can harm without a
-# demonstrated loop, too. With the good teacher's demonstrations *alone* {{ 100 * alone(', c = 0') |
-# .0f }} % reach it with c = 0, and {{ 100 * alone('') | .0f }} % with c = 2.
-#
-# **On yours.** Which loop is there, and what is its threshold?
+# **Is it the loop?** Without the random teacher's demonstrations that miss the goal,
+# {{ 100 * without_loops('drawn_success') | .0f }} % of the drives by drawn actions reach it with c = 2.
 
 # %%
-# MountainCar's threshold; put in your numbers:
+# On yours: which loop is there, and what is its threshold? Put in your numbers:
 # drowning_bonus(reward=-1, goal=0, decisions=120, gamma=0.99)
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask for a bonus that cannot be earned in a circle. A potential (lesson [[the_second_trap]]) is
-# one: what a circle gains it gives back. With the good teacher's demonstrations alone an agent can close
-# a loop of its own: a demonstrated decision, and the way back.
+# one: what a circle gains it gives back. Ask how a bonus harms without a demonstrated loop: with the good
+# teacher's demonstrations alone {{ 100 * alone(', c = 0') | .0f }} % of the drives by drawn actions reach
+# the goal with c = 0, {{ 100 * alone('') | .0f }} % with c = 2. *Perhaps* the agent closes a loop of its
+# own: a demonstrated decision, which pays c, and the way back.
 
 # %%
 compare_predictions(
@@ -346,12 +336,17 @@ bc.show(figures.ranking())
 #   places(5).items() if place == 1} == set(entries()) - {'ppo', 'sac'} -->
 #
 # - **Budget**: five agents of one setting, seeds 0 to 4; {{ BOARD | , }} decisions each; demonstrations are free.
-# - **Test**: 1,000 held-out roads, drawn when all have handed in; most probable actions, no teacher.
+# - **Test**: 1,000 held-out roads, drawn when all have handed in; most probable actions. An entry that asks
+#   its teacher there says so (IBRL's does).
 # - **Hand in**: one page, and the folder that `bc.save_runs(result, "challenge")` writes.
 # - **Clone**: an entry with a teacher must beat the teacher's clone.
 #
-# **The page** says what you predicted and changed, and why. It shows plain SAC, the clone, a failed try
-# and the decisions of all tries, and answers the questions below. It may be about your own problem.
+# **The page** has
+# - your predictions;
+# - your changes, and why;
+# - plain SAC, the clone and a failed try;
+# - the decisions of all tries;
+# - answers to the five questions below.
 
 
 # %%
@@ -367,10 +362,10 @@ def enter(decisions):
 # %% [markdown]
 # ## What you now know
 #
-# 1. *Does a teacher help?* Compare at equal decisions and several budgets, with plain SAC and the clone.
+# 1. *Does a teacher help?* Compare with plain SAC and the clone, at equal decisions and several budgets.
 # 2. *Did the agents need the reward?* Train without it.
 # 3. *Which errors does the teacher make?* The most probable action can outvote random ones.
-# 4. *Do states come back?* In DoorKey a clone outvoted no error.
+# 4. *Do states come back, and are they alike?* In DoorKey a clone outvoted no error.
 # 5. *What pays in a loop?* With a bonus it can be worth more than the goal.
 #
 # **Three questions to think about**
@@ -387,7 +382,7 @@ def enter(decisions):
 # Open. Let each group name a result, and the control that it would train.
 
 # %% [markdown]
-# **Read on**: the whole study, `assets/report/elsewhere.md`. Chevalier-Boisvert et al., *Minigrid &
+# **Read on**: where else a teacher helps, `assets/report/elsewhere.md`. Chevalier-Boisvert et al., *Minigrid &
 # Miniworld* (arXiv 2306.13831), where DoorKey is from.
 
 # %% [markdown] tags=["instructor"]
