@@ -51,7 +51,7 @@ class Page:
 
 
 @contextlib.contextmanager
-def open_browser(width: int = 1280, height: int = 720, offline: bool = False):
+def open_browser(width: int = 640, height: int = 360, offline: bool = False):
     """A `new_page()` in a fresh Chromium. offline: every request that leaves the page is cut off."""
     from playwright.sync_api import sync_playwright
 

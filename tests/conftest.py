@@ -18,6 +18,20 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # a shell ignores Ctrl-C 
 os.environ["BOOTCOURSE_NO_ANSWERS"] = "1"
 
 
+def pytest_configure(config):
+    """The kernels of notebooks come from one warm process, begun before the workers."""
+    if sys.platform != "linux":
+        return
+    from jupyter_client.provisioning import local_provisioner
+
+    from tests import warm_kernels
+
+    local_provisioner.launch_kernel = warm_kernels.launch
+    if not hasattr(config, "workerinput") and any("notebooks" in given for given in config.args):
+        process = warm_kernels.begin()
+        config.add_cleanup(process.stdin.close)
+
+
 @pytest.hookimpl(wrapper=True, optionalhook=True)
 def pytest_xdist_auto_num_workers(config):
     """One more than pytest-xdist takes: a quarter of the time a test waits, for a kernel, a browser or a process."""
@@ -27,7 +41,7 @@ def pytest_xdist_auto_num_workers(config):
 # What takes each process a minute to compute, one process computes for all files that need it: the numbers in the
 # lessons' texts, and the right answers to the exercises.
 TOGETHER = {
-    **dict.fromkeys(("test_book", "test_classroom", "test_course", "test_teaching"), "texts"),
+    **dict.fromkeys(("test_book", "test_classroom", "test_course", "test_stress", "test_teaching"), "texts"),
     **dict.fromkeys(("test_lessons_checks", "test_lessons_values", "test_answer_forms"), "answers"),
 }
 

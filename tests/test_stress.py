@@ -6,17 +6,17 @@ import pytest
 from bootcourse.course.lessons import LESSONS
 from bootcourse.research import claimed, claims
 from bootcourse.research.claims import Claim
-from bootcourse.research.computed import StudyResults, in_assets
+from bootcourse.research.computed import StudyResults
 from bootcourse.research.experiments import stress
 from bootcourse.research.results import Results
 from bootcourse.statistics import holm
 from bootcourse.storage.assets import FOLDER
-from tools.course.stressed import survived
+from tools.course.stressed import computed, survived
 
 
 @pytest.fixture(scope="module")
 def shipped() -> StudyResults:
-    return in_assets(FOLDER)
+    return computed(FOLDER)
 
 
 def group(method: str, successes: list[float], returns: float = 0.0) -> Results:

@@ -9,6 +9,7 @@ import contextlib
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import scipy
@@ -43,8 +44,14 @@ def claims(study: StudyResults, lesson: str = "") -> list[Claim]:
     made = []
     for claim in CLAIMS.get(lesson, ()) if lesson else (claim for own in CLAIMS.values() for claim in own):
         with contextlib.suppress(KeyError):  # a study or an experiment that was not computed
-            made.append(claim(study))
+            made.append(computed(claim, study))
     return made
+
+
+@cache
+def computed(claim: Callable[[StudyResults], Claim], study: StudyResults) -> Claim:
+    """A claim, once for each study: the report and the lessons name it."""
+    return claim(study)
 
 
 # Numbers --------------------------------------------------------------------------------------------

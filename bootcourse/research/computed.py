@@ -17,7 +17,7 @@ from bootcourse.research.studies import STUDIES
 from bootcourse.storage.assets import FOLDER
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class StudyResults:
     """Everything is by name, and absent if it was not computed."""
 

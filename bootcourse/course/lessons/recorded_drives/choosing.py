@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import torch
@@ -26,6 +27,7 @@ def agents(which: int = 0) -> dict[str, Policy]:
     return {display_name(method): shipped_agents(method)[which].as_policy() for method in METHODS}
 
 
+@cache
 def recorded(drives: int = 200) -> Batch:
     """The rule's drives, as the lesson's three agents learned from them: every field (transitions, ...)."""
     rows = collect(drives)
