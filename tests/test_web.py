@@ -269,6 +269,14 @@ def test_the_end_of_a_drive_is_one_picture_and_one_sentence(visit):
         assert not end.is_visible() and state(page)["actions"] == []
 
 
+def test_a_ghost_that_is_at_the_wheel_too_is_not_reported_twice(visit):
+    with visit("#road=7&ghost=soft&driver=soft&pace=5") as page:
+        page.page.get_by_role("button", name="Start").click()
+        drive_to_the_end(page)
+        end = page.page.locator("#end")
+        assert end.locator("svg polyline").count() == 2 and "ghost" not in end.inner_text()
+
+
 def test_the_third_failure_brings_a_hint(visit):
     with visit() as page:
         for attempt in range(3):

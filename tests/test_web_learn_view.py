@@ -34,7 +34,7 @@ def test_agents_learn_at_a_press_of_start_and_their_curves_grow(visit):
             "() => document.querySelectorAll('#curves polyline').length >= 15"
         )  # 2 and their mean
         assert len(page.page.query_selector_all("#curves figure")) == 5
-        assert "After " in text(page, "#story") or "found a way out" in text(page, "#story")
+        assert "After " in text(page, "#story") or "got out on more than half" in text(page, "#story")
         page.page.wait_for_function("() => document.getElementById('moment-words').textContent.endsWith('drives, now')")
         page.page.wait_for_function("() => trap.view.watch?.drivers.present.label.startsWith('the agent after')")
         page.page.click("#start")
@@ -169,18 +169,37 @@ def test_the_pages_interval_is_clopper_and_pearsons(visit, k, n):
     assert there == pytest.approx([*binomtest(k, n).proportion_ci()], abs=1e-6)
 
 
+OUT = "got out on more than half of 50 drives"
 STORIES = {  # what the agents' drives were, 1 for out of the trap -> how the sentence begins
     ((0,) * 30, (0,) * 30): "Their first drives",
-    ((0,) * 100, (0,) * 100): "After 100 drives none of two agents has found a way out. They stay",
-    ((0,) * 100, (0,) * 60 + (1,) * 40): "One of two agents has found",
+    ((0,) * 100, (0,) * 100): f"After 100 drives none of two agents has {OUT} yet. They stay",
+    (
+        (0,) * 100,
+        (0,) * 80 + (1,) * 20,
+    ): f"After 100 drives none of two agents has {OUT} yet. In their last 50 they got out 0 and 20 times.",
+    ((0,) * 100, (0,) * 60 + (1,) * 40): f"One of two agents has {OUT}, after 86 drives. It got out on 40",
     (
         (1,) * 300,
         (1,) * 300,
-    ): "Both agents have found a way out, the first after 50 drives. They got out on 100",
+    ): f"Both agents have {OUT}, the first after 50 drives. They got out on 50 and 50 of the last 50.",
+    # what failed before an agent found the way out does not say that it has lost it
+    (
+        (0,) * 150 + (1,) * 31,
+        (0,) * 150 + (1,) * 37,
+    ): f"Both agents have {OUT}, the first after 176 drives. They got out on 31 and 37",
+    (
+        (0,) * 100 + (1,) * 26 + (0,) * 49,
+        (0,) * 175,
+    ): f"One of two agents has {OUT}, after 126 drives. It got out on 1 of",
+    (
+        (0,) * 100 + (1,) * 26 + (0,) * 50,
+        (0,) * 176,
+    ): f"One of two agents has {OUT}, after 126 drives. It no longer does: 0",
     (
         (1,) * 200 + (0,) * 100,
-        (0,) * 300,
-    ): "One of two agents has found a way out, after 50 drives. One forgets it",
+        (1,) * 300,
+    ): f"Both agents have {OUT}, the first after 50 drives. One of these got out on 50 of "
+    "the last 50. One of these no longer does: 0 of the last 50.",
 }
 
 

@@ -36,8 +36,8 @@ function makeDrivers(data, networks, settings) {
     ppo: driver("PPO after cloning", "PPO", "ppo", "It imitated the rule, and then learned by PPO.", agent("ppo"), "ppo"),
     lookahead: driver("look-ahead", "the look-ahead", "ppo",
       "At each decision it imagines nine drives of ten seconds by PPO, and takes the best.", lookAhead),
-    soft: driver("SAC’s Q with the rule", "the compromise", "soft",
-      "It drives by your p, ξ and c: see the sliders.", compromise),
+    soft: driver("the compromise", "the compromise", "soft",
+      "It drives by plain SAC’s Q and the rule, with your p, ξ and c: see the sliders.", compromise),
   };
   for (const [id, each] of Object.entries(drivers)) each.id = id;
   return drivers;

@@ -1,7 +1,8 @@
-// Curves that grow: small charts of the agents' drives, each agent a thin line, their mean a thick one.
+// Curves that grow: small charts of the agents' drives, each agent a thin line, dashed for the one on the road, and their
+// mean a thick one.
 
 const POINTS = 140; // of a line, at most
-const PLOT = { left: 40, right: 10, top: 22, bottom: 24 }; // px
+const PLOT = { left: 56, right: 10, top: 28, bottom: 24 }; // px
 const MEASURES = {
   success: { title: "gets out of the trap, %", factor: 100, range: [0, 100], mean: true, marks: [0, 50, 100] },
   return: { title: "return of a drive", factor: 1, mean: true },
@@ -66,7 +67,7 @@ class Charts {
       + `<text x="${PLOT.left - 6}" y="${down(value) + 4}" text-anchor="end">${signed(value)}</text>`).join("");
     const path = spots => spots.map(([episode, value]) => `${across(episode).toFixed(1)},${down(value).toFixed(1)}`).join(" ");
     const thin = lines.map(({ colour, learner, spots }) => (`<polyline points="${path(spots)}" fill="none" stroke="${colour}" `
-      + `stroke-width="${learner === pointed.learner ? 1.8 : 0.9}" opacity="${learner === pointed.learner ? 1 : 0.65}"/>`)).join("");
+      + (learner === pointed.learner ? 'stroke-width="1.8" stroke-dasharray="5 3"/>' : 'stroke-width="0.9" opacity="0.65"/>'))).join("");
     const thick = groups.filter(({ learners }) => learners.length > 1 && learners.every(({ curves }) => curves[name].length))
       .map(({ colour, learners }) => `<polyline points="${path(meanLine(learners, name))}" fill="none" stroke="${colour}" stroke-width="2.6"/>`);
     const changed = (pointed.learner?.marks ?? []).map(({ episode, changes }) => {

@@ -1,20 +1,21 @@
 // What the curves of agents that learn say, in words for somebody who has not heard of reinforcement learning.
 
-const RECENT = 100, WINDOW = 50; // drives
+const WINDOW = 50; // drives, over which the curves are means
 const NUMBERS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+const GETTING_OUT = `got out on more than half of ${WINDOW} drives`;
 
-const share = (values, from, to) => values.slice(from, to).reduce((sum, value) => sum + value, 0) / Math.max(to - from, 1);
-
-// What an agent has come to: { found, recent, driven, drives }. found: the drive that ends the first 50 in a row of which
-// more than half got out, or null; recent: how many of its last 100 drives got out; driven: of how many, if it has fewer.
+// What an agent has come to: { drives, found, recent, lost }. found: the drive that ends the first 50 in a row of which
+// more than half got out, or null; recent: how many of its last 50 drives got out; lost: whether these are no longer
+// more than half, all of them after it had found a way out.
 function progressOf({ curves }) {
-  const { success } = curves, drives = success.length, driven = Math.min(drives, RECENT);
+  const { success } = curves, drives = success.length;
   let found = null, sum = 0;
   success.forEach((out, i) => {
     sum += out - (i >= WINDOW ? success[i - WINDOW] : 0);
     if (found === null && i >= WINDOW - 1 && sum > WINDOW / 2) found = i + 1;
   });
-  return { found, driven, drives, recent: Math.round(share(success, drives - driven, drives) * driven) };
+  const lost = found !== null && drives - found >= WINDOW && sum <= WINDOW / 2;
+  return { drives, found, recent: sum, lost };
 }
 
 const inWords = n => NUMBERS[n] ?? String(n);
@@ -30,29 +31,25 @@ function storyOf(learners) {
   }
   if (driven < WINDOW) return `Their first drives: they try actions at random, and most drives end in an accident.`;
   const finders = all.filter(({ found }) => found !== null);
-  const recents = each => listed(each.map(({ recent }) => String(recent)), "and");
-  const last = Math.min(...all.map(({ driven: last }) => last));
+  const recents = some => listed(some.map(({ recent }) => String(recent)), "and");
   if (!finders.length) {
     const some = all.some(({ recent }) => recent > 0);
-    return `After ${driven} drives ${counted(0, n)} agents has found a way out. `
-      + (some ? `In their last ${last} drives they got out ${recents(all)} times.` : "They stay behind the slow cars, or have an accident.");
+    return `After ${driven} drives ${counted(0, n)} agents has ${GETTING_OUT} yet. `
+      + (some ? `In their last ${WINDOW} they got out ${recents(all)} times.` : "They stay behind the slow cars, or have an accident.");
   }
-  const lost = finders.filter(({ recent, driven: of }) => recent < of / 2), kept = finders.length - lost.length;
+  const [kept, lost] = [false, true].map(is => finders.filter(each => each.lost === is)), one = finders.length === 1;
+  const who = some => (some.length < finders.length ? `${capital(inWords(some.length))} of these` : one ? "It" : "They");
   const first = Math.min(...finders.map(({ found }) => found));
-  const beginning = `${capital(counted(finders.length, n))} agents ${finders.length === 1 ? "has" : "have"} found a way out, `
-    + `${finders.length === 1 ? "" : "the first "}after ${first} drives. `;
-  const holding = kept ? `${lost.length ? `${capital(inWords(kept))} of these` : finders.length === 1 ? "It" : "They"} `
-    + `got out on ${recents(finders.filter(each => !lost.includes(each)))} of the last ${RECENT} roads. ` : "";
-  const losing = lost.length ? `${lost.length === 1 ? "One forgets" : `${capital(inWords(lost.length))} forget`} it again: `
-    + `${recents(lost)} of the last ${RECENT}.` : "";
-  return beginning + holding + losing;
+  return `${capital(counted(finders.length, n))} agents ${one ? "has" : "have"} ${GETTING_OUT}, ${one ? "" : "the first "}after ${first} drives. `
+    + (kept.length ? `${who(kept)} got out on ${recents(kept)} of the last ${WINDOW}. ` : "")
+    + (lost.length ? `${who(lost)} no longer ${lost.length === 1 ? "does" : "do"}: ${recents(lost)} of the last ${WINDOW}.` : "");
 }
 
-// Of several methods, how many agents of each have found a way out.
+// Of several methods, how many agents of each have got out so often.
 function finders(groups) {
   const each = groups.map(({ name, agents, learners }) => {
     const k = learners.filter(learner => progressOf(learner).found !== null).length;
     return `${name}: ${inWords(k)} of ${inWords(agents.length)}`;
   });
-  return `Agents that have found a way out so far. ${capital(each.join("; "))}.`;
+  return `Agents that have ${GETTING_OUT} so far. ${capital(each.join("; "))}.`;
 }

@@ -184,7 +184,7 @@ class Game {
     this.list();
     const seat = driver => new Seat(this.road, this.number, driver);
     this.seat = seat(this.mine ?? { decide: () => ({ action: IDLE }) });
-    this.ghosts = this.rivals.map(seat);
+    this.ghosts = this.rivals.filter(driver => driver !== this.mine).map(seat); // the same driver would drive the same
     this.shown = this.arrived = 0;
     this.wasAhead = this.finished = false;
     this.controls.forget();
