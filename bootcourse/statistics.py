@@ -80,6 +80,15 @@ def interval(scores: Sequence[float] | np.ndarray, statistic=iqm, seed: int = 0)
     scores = np.asarray(scores, dtype=np.float64)
     if not 1 < len(scores) <= EXACT:
         return _bootstrap((scores,), statistic, seed)
+    return _exact(tuple(scores.tolist()), statistic)
+
+
+@lru_cache(maxsize=1024)
+def _exact(each: tuple[float, ...], statistic) -> Estimate:
+    """The exact interval, which tables ask for again; equal scores need no resamples."""
+    scores = np.array(each)
+    if np.ptp(scores) == 0:
+        return Estimate(*3 * [float(statistic(scores, axis=-1))])
     rows, probabilities = all_resamples(len(scores))
     resampled = statistic(scores[rows], axis=-1)
     order = np.argsort(resampled)

@@ -15,10 +15,9 @@ import nbformat
 
 from tests.browser import Page, open_browser
 
-CALM = {  # nothing that moves, asks or hides cells while a test looks
+CALM = {  # nothing that moves or asks while a test looks; cells far away are not drawn, as a student's are not
     "@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": False},
     "@jupyterlab/docmanager-extension:plugin": {"autosave": False},
-    "@jupyterlab/notebook-extension:tracker": {"windowingMode": "none"},
 }
 
 
@@ -99,7 +98,7 @@ class Notebook:
         self.page.wait_for_timeout(300)
         self.page.wait_for_function(
             "() => document.querySelectorAll('.jp-InputPrompt').length > 0 && "
-            "![...document.querySelectorAll('.jp-InputPrompt')].some(p => p.innerText.includes('*'))",
+            "![...document.querySelectorAll('.jp-InputPrompt')].some(p => p.textContent.includes('*'))",
             timeout=1000 * timeout,
         )
         errors = self.page.locator('.jp-OutputArea-output[data-mime-type="application/vnd.jupyter.error"]')

@@ -95,7 +95,7 @@ def test_what_answers_a_prediction_is_folded_outputs_and_text_and_what_comes_nex
     hidden = {"outputs_hidden": True}, {"source_hidden": True}
     marks = [cell.metadata.get("jupyter") for cell in cells]
     assert marks == [None, None, hidden[0], None, hidden[0], hidden[1], None, None, None, hidden[0]]
-    assert [cell.source for cell in cells[5:7]] == ["**See.**\nIt is 7.\n\nSo there.", "> **Predict.** And now?"]
+    assert [cell.source for cell in cells[5:7]] == ["See.\nIt is 7.\n\nSo there.", "> **Predict.** And now?"]
 
 
 # The example of the writers' README -----------------------------------------------------------------

@@ -75,7 +75,7 @@ CELLS = {  # of one notebook, so that the tests wait for one page and one kernel
     "predictions": (
         "from bootcourse.course import predict, predicted, progress\nprogress('the_rule')",
         'predict("the_rule.1", "Which?", ["none", "some"])',
-        'predicted("the_rule.1")\nprint(7)',
+        'predicted("the_rule.1")\nprint(7)' + 150 * "\n#",  # the next question is far off screen
         'predict("the_rule.2", "Which?", ["none", "some"])',
         'predicted("the_rule.2")\nprint(7)',
     ),

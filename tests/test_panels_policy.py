@@ -87,6 +87,7 @@ def test_the_car_drives_on_by_the_compromise_between_the_agent_s_way_and_the_rul
         metres.append(int(chosen))
         driven = drive.states[46 * drive.scenario.clock.steps, EGO, X] - drive.cars[6, EGO, X]
         assert abs(int(own) - driven) < 1, "its own way is the recorded one"
+        assert words(panel).endswith(f"this compromise: {chosen} m in 40 s. "), "below the picture, where it wraps"
     assert abs(metres[0] - int(own)) < 10 and metres[1] == int(rule) < int(own) - 100
     [by_rule] = record(compromise(agent, DEFAULT, 0.9, 1e6, 0.01), [10])
     assert np.array_equal(by_rule.actions, record(rule_policy(DEFAULT), [10])[0].actions), "a large ξ is the rule"

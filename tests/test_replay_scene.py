@@ -9,6 +9,7 @@ import pytest
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.errors import BootcourseError
+from bootcourse.methods import style
 from bootcourse.policies import idle_policy, random_policy, rule_policy
 from bootcourse.replay3d import hud, scene
 from bootcourse.replay3d.timeline import Timeline
@@ -67,6 +68,13 @@ def test_the_path_and_the_distance_to_a_trap_are_those_of_the_drive(rule_drive):
     np.testing.assert_allclose(shown[:, 1], -rule_drive.states[:7, EGO, Y])
     ahead = rule_drive.states[0, TRAP_1, X] - rule_drive.states[0, EGO, X] - 5.0  # from bumper to bumper
     assert scene.view(Timeline(rule_drive), 0.0).labels[TRAP_1] == f"trap 1: {ahead:.1f} m ahead"
+
+
+def test_drivers_of_your_own_get_different_colours(rule_drive):
+    drives = [replace(rule_drive, label=name) for name in ("mine", "another", "rule")]
+    mine, another, rule = (timeline.colour for timeline in scene.timelines_of(drives))
+    assert len({mine, another, rule}) == 3 and rule == style("rule").colour
+    assert mine in hud.table(scene.timelines_of(drives), 1.0)
 
 
 def with_nan(rollout):

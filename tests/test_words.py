@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 
+from bootcourse.course.shipped import beginning
 from bootcourse.episodes.record import record
 from bootcourse.episodes.words import doing, overtaken, transcript
 from bootcourse.policies import plan_policy
@@ -40,6 +41,11 @@ def test_doing_nothing_is_told_in_a_few_lines(idle):
     sentences = transcript(idle)
     assert len(sentences) < 12 and "still behind trap 1 after 150 s" in sentences[-1]
     assert "Return 23.4 over 1500 m" in sentences[-1]
+
+
+def test_of_a_recording_that_stops_the_end_is_not_told(idle):
+    *_, stops, until = transcript(beginning(idle, 60))
+    assert "here the recording stops" in stops and until.startswith("Until here: still behind trap 1 after 60 s.")
 
 
 def test_patience_is_in_seconds_whatever_the_decision_rate():

@@ -1,6 +1,7 @@
 """What only the notebooks need: exercises and their checks, the library's own source, live curves, small figures."""
 
 import inspect
+import re
 import textwrap
 from collections.abc import Sequence
 from pkgutil import resolve_name
@@ -27,7 +28,8 @@ def table(headings: Sequence[str], rows: Sequence[Sequence[str]], below: str = "
 
     from bootcourse.research.tables import markdown
 
-    return Markdown(f"{markdown(headings, rows)}\n{below}" if below else markdown(headings, rows))
+    shown = f"{markdown(headings, rows)}\n{below}" if below else markdown(headings, rows)
+    return Markdown(re.sub(r"(?<=[\s\[(])-(?=\d)", "−", shown))
 
 
 def source(module: str, *names: str):

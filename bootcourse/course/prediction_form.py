@@ -30,7 +30,8 @@ KEYS = """
   }, true);  // on the way in: the field itself lets no key out
 """
 # What answers this prediction is folded in the notebook's file, outputs and text: open it once the form is locked. The
-# locked button loses the focus, now or at the browser's next picture, and without it the notebook would hear no key.
+# locked button loses the focus, now or at the browser's next picture, and without it the notebook would hear no key. A
+# cell far off screen is not drawn and has no innerText.
 UNFOLD = """
   const waits = setInterval(() => {
     if (!panel.isConnected) { clearInterval(waits); return; }
@@ -41,7 +42,7 @@ UNFOLD = """
     for (const at of ['.jp-Cell', '.jp-Notebook']) {
       if (lost()) panel.closest(at)?.focus({preventScroll: true});
     }
-    const asks = cell => cell.querySelector('.cm-content')?.innerText.match(/\\bpredict\\(/);
+    const asks = cell => [...cell.querySelectorAll('.cm-line')].some(line => /\\bpredict\\(/.test(line.textContent));
     let cell = panel.closest('.jp-Cell')?.nextElementSibling;
     for (; cell && !asks(cell); cell = cell.nextElementSibling) {
       const text = cell.matches('.jp-MarkdownCell') ? cell.querySelector('.jp-InputPlaceholder') : null;

@@ -90,7 +90,10 @@ def transcript(rollout: Rollout) -> list[str]:
         last_lane = lane
     end = rollout.times[-1]
     lines.append(f"t = {end:g} s: {_ending(rollout)}. {_state(rollout, end)}")
-    lines.append(f"In the end: {outcome(rollout)}. Return {rollout.rewards.sum():.1f} over {rollout.distance:.0f} m.")
+    lines.append(
+        f"{'In the end' if _is_over(rollout) else 'Until here'}: {outcome(rollout)}. "
+        f"Return {rollout.rewards.sum():.1f} over {rollout.distance:.0f} m."
+    )
     return lines
 
 
@@ -106,8 +109,12 @@ def _ending(rollout: Rollout) -> str:
         return f"collision with {names_of(np.flatnonzero(rollout.states[-1, 1:, CRASHED]) + 1)}, the drive is over"
     if rollout.accident:
         return f"{ACCIDENTS[Accident(rollout.accident)]}, the drive is over"
-    whole = len(rollout.rewards) >= rollout.scenario.clock.decisions
-    return "the time is up" if whole else "here the recording stops"
+    return "the time is up" if _is_over(rollout) else "here the recording stops"
+
+
+def _is_over(rollout: Rollout) -> bool:
+    """Whether the drive ended, and not its recording alone."""
+    return bool(rollout.accident) or len(rollout.rewards) >= rollout.scenario.clock.decisions
 
 
 def names_of(cars: np.ndarray) -> str:

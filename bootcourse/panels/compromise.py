@@ -11,6 +11,7 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.bootstrap import log_stochastic_rule, regularised_policy
+from bootcourse.markup import Markup, html, joined
 from bootcourse.methods import style
 from bootcourse.plots.futures import Trail
 from bootcourse.plots.svg import INK
@@ -20,7 +21,7 @@ from bootcourse.rule import rule
 from bootcourse.scenario import Scenario
 
 SECONDS = 40  # driven on, about 10 ms of computing
-OWN, BY_RULE, CHOSEN = "its own way", "the rule's way", "this compromise"
+OWN, BY_RULE, CHOSEN = "the agent's way", "the rule's way", "this compromise"
 
 
 class Way(NamedTuple):
@@ -91,5 +92,13 @@ class Ways:
 
 
 def in_words(ways: dict[str, Way]) -> str:
-    """ "From here, its own way: 599 m in 40 s; the rule's way: 449 m in 40 s; ...": one sentence."""
+    """ "From here, the agent's way: 599 m in 40 s; the rule's way: 449 m in 40 s; ...": one sentence."""
     return "From here, " + "; ".join(f"{name}: {way.words}" for name, way in ways.items()) + "."
+
+
+def in_page(ways: dict[str, Way], drawn: list[Trail]) -> Markup:
+    """The same for a page, each way behind a piece of its line on the road."""
+    page = '<i style="display:inline-block;width:22px;height:{}px;background:{};vertical-align:middle"></i> {}: {}'
+    looks = ((4 if trail.chosen else 2, "currentColor" if trail.colour == INK else trail.colour) for trail in drawn)
+    named = (html(page, *look, name, way.words) for look, (name, way) in zip(looks, ways.items(), strict=True))
+    return html('<div class="bc-says">From here, {}.</div>', joined(named, "; "))

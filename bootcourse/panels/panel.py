@@ -25,9 +25,9 @@ STYLE = """<style>
 .bc-panel .bc-says {font: 600 13px/1.4 system-ui, sans-serif; min-height: 18px}
 .bc-panel .bc-wrong {color: @ALARM@}
 .bc-panel svg {display: block; max-width: 100%; height: auto}
-@container (max-width: 640px) {  /* a drawing keeps a size that can be read, and its box scrolls */
+@container (max-width: 860px) {  /* a drawing keeps a size that can be read, and its box scrolls */
   .bc-panel .widget-html-content {overflow-x: auto}
-  .bc-panel .widget-html-content > svg {max-width: none; width: 640px}
+  .bc-panel .widget-html-content > svg {max-width: max(100%, var(--least))}
 }
 .bc-panel .jupyter-widgets-disconnected::before {content: none}  /* one sentence in place of a mark at each part */
 .bc-panel.jupyter-widgets-disconnected::before {content: "The kernel has ended: run this cell again."; padding: 0;
@@ -40,10 +40,11 @@ STYLE = """<style>
 class Panel(widgets.VBox):
     """A titled column of widgets. When its notebook cell runs again, the panel is closed.
 
-    `svg` is the drawing that it shows, and what readers without a kernel see.
+    `svg` is the drawing that it shows, and `below` what stands under it: what readers without a kernel see.
     """
 
     svg: Drawing
+    below = Markup("")
     closed = False  # of the class: `close` may be called on a panel whose __init__ raised an error
 
     def __init__(self, title: str, *parts: widgets.Widget):
@@ -98,7 +99,7 @@ class Panel(widgets.VBox):
     def _repr_mimebundle_(self, **kwargs) -> dict:
         data = base64.b64encode(printed(self.svg)).decode()
         img = html('<img src="data:image/svg+xml;base64,{}" alt="{}" style="max-width:100%">', data, self.svg.alt)
-        return super()._repr_mimebundle_(**kwargs) | {"text/html": str(img), "text/plain": self.svg.alt}
+        return super()._repr_mimebundle_(**kwargs) | {"text/html": str(img + self.below), "text/plain": self.svg.alt}
 
 
 def beside(*parts: widgets.Widget) -> widgets.Box:

@@ -13,6 +13,7 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.errors import BootcourseError, require
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import Settings
+from bootcourse.markup import Markup
 from bootcourse.methods import display_name, style
 from bootcourse.panels import compromise
 from bootcourse.panels.number import Number
@@ -51,9 +52,9 @@ class PolicyPanel(Panel):
         self.p = Number("p", p, 0.12, 0.99, 0.01, "Probability that π̃ gives to the rule's own action.", check=check_p)
         self.xi = Number("ξ", xi, 0.001, 10, 0.1, "Weight of the KL, which pulls π to the rule; 0 may be typed.",
                          check=lambda xi: check_weights(xi, alpha), logarithmic=True)  # fmt: skip
-        self.alpha, self.view = alpha, widgets.HTML()
+        self.alpha, self.view, self.under = alpha, widgets.HTML(), widgets.HTML()
         numbers = (self.moment, self.p, self.xi)
-        super().__init__("What the rule's pull does to each action", beside(*numbers), self.view)
+        super().__init__("What the rule's pull does to each action", beside(*numbers), self.view, self.under)
         self.update_with(*numbers)
         self.say(missing(rollout))
 
@@ -79,17 +80,16 @@ class PolicyPanel(Panel):
         scale = ROAD / (scenario.road.lanes * scenario.road.lane_width)
         ways = {} if self.ways is None else self.ways.at(k, p, xi, alpha)
         ahead = self.ways.trails(ways) if ways else []
+        self.below = self.under.value = compromise.in_page(ways, ahead) if ways else Markup("")
         if self.imagined is not None:
             ahead = trails(self.imagined, int(self.rollout.actions[k]), k)
         road, _ = road_svg(self.rollout.cars[k], scenario, colour, self.width, scale, trails=ahead)
         table = action_table(self.seen, p, xi, alpha, display_name(self.rollout.label), colour)
         if self.imagined is not None:
             table += rollout_bars(self.imagined.values[k], self.imagined.accidents[k] > 0)
-        words = compromise.in_words(ways) if ways else ""
-        on = [text(0, BOTTOM + 58, words, bold=True)] if words else []
-        inner = ['<g transform="translate(8 0)">', *road, *self._head(k), *table, *self._marks(k, colour), *on, "</g>"]
-        alt = f"{self._alt(k)} {words}".strip()
-        self.svg = self.view.value = drawing(self.width + 16, BOTTOM + (70 if words else 50), inner, alt)
+        inner = ['<g transform="translate(8 0)">', *road, *self._head(k), *table, *self._marks(k, colour), "</g>"]
+        alt = f"{self._alt(k)} {compromise.in_words(ways) if ways else ''}".strip()
+        self.svg = self.view.value = drawing(self.width + 16, BOTTOM + 50, inner, alt)
 
     def _head(self, k: int) -> list[str]:
         """The time, the car's speed, and why the rule does what it does."""

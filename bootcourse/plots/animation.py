@@ -17,8 +17,8 @@ from bootcourse.colours import ALARM
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import cars_at, doing, outcome, overtaken, sentence
 from bootcourse.files import check_replaceable, write_bytes
-from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, WIDTH, as_written, axes_at, new_figure
+from bootcourse.methods import display_name
+from bootcourse.plots.figure import INK, QUIET, WIDTH, as_written, axes_at, new_figure, styles
 from bootcourse.plots.top_view import draw_moment
 from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 
@@ -39,18 +39,19 @@ def frame(rollouts: Sequence[Rollout], time: float) -> Figure:
     row, head, foot = (road.lanes * road.lane_width + 0.8) * width / VIEW, 0.33, 0.12
     total = len(rollouts) * (row + head) + foot
     figure = new_figure(total)
-    for i, rollout in enumerate(rollouts):
+    looks = styles([rollout.label for rollout in rollouts])
+    for i, (rollout, look) in enumerate(zip(rollouts, looks, strict=True)):
         now = min(time, float(rollout.times[-1]))
         cars = cars_at(rollout, now)
         top = i * (row + head) + head
         ax = axes_at(figure, side, top, width, row)
         ax.set_axis_off()
         middle = np.clip((cars[EGO, X] + cars[TRAP_1, X]) / 2, cars[EGO, X] - ROOM, cars[EGO, X] + ROOM)
-        draw_moment(ax, rollout, now, -VIEW / 2, VIEW / 2, origin=middle)
+        draw_moment(ax, rollout, now, -VIEW / 2, VIEW / 2, middle, look.colour)
         over = rollout.accident and now == rollout.times[-1]
         write = {"y": 1 - (top - 0.1) / total, "va": "baseline"}
         bold, driver = {"fontsize": 10.5, "fontweight": "bold"} | write, sentence(display_name(rollout.label))
-        figure.text(side / WIDTH, s=driver, color=style(rollout.label).colour, **bold)
+        figure.text(side / WIDTH, s=driver, color=look.colour, **bold)
         figure.text(0.37, s=doing(rollout, now), fontsize=9, color=ALARM if over else INK, **write)
         figure.text(0.76, s=f"{cars[EGO, SPEED]:.1f} m/s", fontsize=9, color=QUIET, ha="right", **write)
         figure.text(1 - side / WIDTH, s=f"{round(float(now), 1):g} s", color=INK, ha="right", **bold)

@@ -9,7 +9,7 @@ import numpy as np
 
 from bootcourse.colours import ASPHALT, EDGE, INK, PAINT, TRAFFIC, TRAP
 from bootcourse.plots.canvas import Canvas
-from bootcourse.plots.svg import SvgAxes
+from bootcourse.plots.svg import SvgAxes, over
 from bootcourse.road.state import EGO, HEADING, TRAP_1, TRAP_2, X, Y
 from bootcourse.scenario import Car, Road, Scenario
 
@@ -109,10 +109,13 @@ def road_svg(
     left, right, (top, bottom) = -BEHIND * width / scale, (1 - BEHIND) * width / scale, edges_of(scenario.road)
     canvas = SvgAxes(0, 0, width, (bottom - top) * scale, (left, right), (bottom, top))
     draw_road(canvas, scenario, left, right, cars[EGO, X])
-    draw_cars(canvas, cars, scenario, colour, left, right, cars[EGO, X])
     for trail in trails:
         x = np.where(trail.x - cars[EGO, X] <= right, trail.x - cars[EGO, X], np.nan)
         canvas.line(x, trail.y, trail.colour, 2.6 if trail.chosen else 1.1)
-        if trail.hurt and np.isfinite(x[-1]):
-            canvas.words(x[-1], trail.y[-1], "✕", trail.colour, "middle", 11)
+    draw_cars(canvas, cars, scenario, colour, left, right, cars[EGO, X])
+    if trails:  # which run below the names
+        canvas.parts = [over(part, 6) if part.startswith("<text ") else part for part in canvas.parts]
+    for trail in trails:
+        if trail.hurt and trail.x[-1] - cars[EGO, X] <= right:
+            canvas.words(trail.x[-1] - cars[EGO, X], trail.y[-1], "✕", trail.colour, "middle", 11)
     return canvas.parts, canvas.height

@@ -14,6 +14,7 @@ from bootcourse.markup import html
 
 FONT = "system-ui, -apple-system, 'Segoe UI', sans-serif"
 POINT = 1.5  # pixels
+LEAST = 0.86  # of its width, at which letters of a drawing can still be read
 DASHES = {"-": "", "--": "7 4", ":": "2 3", "-.": "7 3 2 3"}
 THEME = {  # what follows JupyterLab's theme, light or dark; outside it, it has the colours of the figures
     INK: "--jp-ui-font-color1",
@@ -38,7 +39,8 @@ def drawing(width: float, height: float, parts: Sequence[str], alt: str) -> Draw
         themed = themed.replace(f'"{colour}"', f'"var({variable}, {colour})"')
     drawn = Drawing(
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{width:g}" '
-        f'height="{height:g}" role="img" aria-label="{escaped}" font-family="{FONT}" font-size="12">'
+        f'height="{height:g}" role="img" aria-label="{escaped}" font-family="{FONT}" font-size="12" '
+        f'style="--least:{LEAST * width:.0f}px">'
         f"<title>{escaped}</title>{themed}</svg>"
     )
     drawn.alt = alt
@@ -47,7 +49,7 @@ def drawing(width: float, height: float, parts: Sequence[str], alt: str) -> Draw
 
 def printed(svg: str) -> bytes:
     """The same for a reader outside JupyterLab: on white, in the figures' colours."""
-    plain = re.sub(r"var\(--[\w-]+, (#\w+)\)", r"\1", svg)
+    plain = re.sub(r"var\(--[\w-]+, (#\w+)\)", r"\1", re.sub(r' style="--least:\w+"', "", svg))
     return plain.replace("</title>", '</title><rect width="100%" height="100%" fill="white"/>', 1).encode()
 
 
@@ -59,9 +61,9 @@ def text(
     return str(html(page, x, y, anchor, fill, size, 650 if bold else 400, words))
 
 
-def over(words: str) -> str:
+def over(words: str, rim: float = 3) -> str:
     """A `text` with a rim of the page's colour, so that it can be read over curves."""
-    return words.replace("<text ", '<text stroke="#FFFFFF" stroke-width="3" paint-order="stroke" ', 1)
+    return words.replace("<text ", f'<text stroke="#FFFFFF" stroke-width="{rim:g}" paint-order="stroke" ', 1)
 
 
 def rect(x: float, y: float, width: float, height: float, fill: str, more: str = "") -> str:

@@ -24,10 +24,15 @@ CLEAR = 15.0  # m; so far ahead of trap 1 the escape is over
 TRAIL = 3.0  # s of the ego's own path behind it
 
 
-def draw_moment(ax, rollout: Rollout, time: float, left: float, right: float, origin: float | None = None) -> None:
-    """The road and its cars at a time; x is in metres from `origin`, a place on the road (None: the ego)."""
+def draw_moment(
+    ax, rollout: Rollout, time: float, left: float, right: float, origin: float | None = None, colour: str = ""
+) -> None:
+    """The road and its cars at a time; x is in metres from `origin`, a place on the road (None: the ego).
+
+    colour: of the ego; its label's own if there is none.
+    """
     canvas, cars, scenario = MplAxes(ax), cars_at(rollout, time), rollout.scenario
-    origin, colour = cars[EGO, X] if origin is None else origin, style(rollout.label).colour
+    origin, colour = cars[EGO, X] if origin is None else origin, colour or style(rollout.label).colour
     draw_road(canvas, scenario, left, right, origin)
     top, bottom = edges_of(scenario.road)
     ax.set(xlim=(left, right), ylim=(bottom + 0.4, top - 0.4), aspect="equal")

@@ -7,7 +7,7 @@ scripts, and takes its text colour from the page.
 import scipy
 
 from bootcourse.colours import ALARM, TRAP
-from bootcourse.episodes.rollout import Rollout, series
+from bootcourse.episodes.rollout import series
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.markup import Markup, html, joined
 from bootcourse.methods import display_name, style
@@ -70,7 +70,7 @@ def card(timeline: Timeline, t: float, details: bool = True) -> Markup:
     rollout, (words, colour) = timeline.rollout, status(timeline, t)
     badge = html('<span class="badge" style="background:{}">{}</span>', colour, words) if words else ""
     road = html('<span class="dim">road {}</span>', rollout.seed)
-    parts = [html("<h4>{}{} {}{}</h4>", _dot(rollout), display_name(rollout.label), road, badge)]
+    parts = [html("<h4>{}{} {}{}</h4>", _dot(timeline), display_name(rollout.label), road, badge)]
     shown = (_numbers, _reward, _choice, _reason) if details else (_numbers, _does)
     parts += [part(timeline, t) for part in shown]
     if not details and rollout.label == "rule":
@@ -80,8 +80,8 @@ def card(timeline: Timeline, t: float, details: bool = True) -> Markup:
     return html('<div class="bc">{}</div>', joined(parts))
 
 
-def _dot(rollout: Rollout) -> Markup:
-    return html('<span class="dot" style="background:{}"></span>', style(rollout.label).colour)
+def _dot(timeline: Timeline) -> Markup:
+    return html('<span class="dot" style="background:{}"></span>', timeline.colour)
 
 
 def _driven(timeline: Timeline, t: float) -> str:
@@ -129,7 +129,7 @@ def _reward(timeline: Timeline, t: float) -> Markup:
 def _choice(timeline: Timeline, t: float) -> Markup:
     """The nine actions with π, π̃ and Q, and KL(π ‖ π̃); π and Q if the driver has them."""
     rollout, k = timeline.rollout, timeline.decision(t)
-    own, columns = style(rollout.label).colour, {}  # {heading: (its colour, the nine numbers)}
+    own, columns = timeline.colour, {}  # {heading: (its colour, the nine numbers)}
     if rollout.policy is not None:
         columns["π"] = own, rollout.policy[k]
     columns["π̃"] = GREEN, stochastic_rule(rollout.rule_actions[k], rollout.rule_p)
@@ -168,7 +168,7 @@ def table(timelines: list[Timeline], t: float) -> Markup:
     for timeline in timelines:
         rollout, ego, (words, colour) = timeline.rollout, timeline.at(t)[EGO], status(timeline, t)
         cells = [
-            html("{} {}", _dot(rollout), display_name(rollout.label)),
+            html("{} {}", _dot(timeline), display_name(rollout.label)),
             f"{ego[SPEED]:.1f}",
             f"{_return(timeline, t):.1f}",
             html('<span style="color:{};font-weight:650">{}</span>', colour, words.removesuffix(" of trap 1"))
@@ -189,7 +189,7 @@ def plots(timelines: list[Timeline]) -> Markup:
         top, bottom = (low, max(high, low + 1e-6)) if what == "lane" else (max(high, low + 1e-6), low)
         axes = SvgAxes(0, 2, 1000, 40, (0, duration), (bottom, top))
         for (seconds, values), timeline in zip(curves, timelines, strict=True):
-            axes.line(seconds, values, style(timeline.rollout.label).colour, 1.1)
+            axes.line(seconds, values, timeline.colour, 1.1)
             if timeline.rollout.accident != Accident.NONE:
                 axes.line([timeline.duration] * 2, axes.y, ALARM, 1.3, ":")
         lines = Markup("".join(axes.parts).replace("<path ", '<path vector-effect="non-scaling-stroke" '))

@@ -18,6 +18,7 @@ from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.errors import BootcourseError
+from bootcourse.plots.figure import styles
 from bootcourse.policies import Policy
 from bootcourse.replay3d.road import SHOULDER
 from bootcourse.replay3d.timeline import Timeline
@@ -82,7 +83,11 @@ def timelines_of(rollouts: Rollout | Sequence[Rollout], futures: Policy | None =
                 f"'{rollout.label}' drove road {rollout.seed} of the scenario '{rollout.scenario.name}', "
                 f"'{first.label}' road {first.seed} of '{first.scenario.name}': compare drives of the same road."
             )
-    return [Timeline(one, nine_drives(one.cars, futures, one.scenario) if futures else None) for one in rollouts]
+    looks = styles([rollout.label for rollout in rollouts])
+    return [
+        Timeline(one, nine_drives(one.cars, futures, one.scenario) if futures else None, look.colour)
+        for one, look in zip(rollouts, looks, strict=True)
+    ]
 
 
 def offsets(count: int, road: Road) -> list[float]:

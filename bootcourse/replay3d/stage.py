@@ -11,7 +11,7 @@ import numpy as np
 from viser import _messages
 
 from bootcourse.colours import ALARM, rgb
-from bootcourse.methods import display_name, style
+from bootcourse.methods import display_name
 from bootcourse.plots.futures import BRIGHT, Trail, trails
 from bootcourse.replay3d import scene
 from bootcourse.replay3d.camera import CHASE, FIELD_OF_VIEW, pose
@@ -103,7 +103,7 @@ class Stage:
 
     def _drive(self, k: int) -> Drive:
         timeline, api, base = self.timelines[k], self.server.scene, f"/drive{k}"
-        rollout, own = timeline.rollout, style(timeline.rollout.label).colour
+        rollout, own = timeline.rollout, timeline.colour
         drive = Drive(display_name(rollout.label))
         place = (0.0, scene.offsets(len(self.timelines), rollout.scenario.road)[k], 0.0)
         api.add_frame(base, show_axes=False, position=place)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bootcourse.colours import OTHER
 from bootcourse.episodes.lookahead import Imagined
 from bootcourse.episodes.rollout import Rollout, interpolate_states
 from bootcourse.road.state import ACCELERATION, CRASHED, LANE
@@ -15,6 +16,7 @@ class Timeline:
 
     rollout: Rollout
     imagined: Imagined | None = None  # nine drives from each decision: (decisions, 9, ...)
+    colour: str = OTHER.colour  # of the driver, "#rrggbb"
 
     @property
     def dt(self) -> float:

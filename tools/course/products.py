@@ -53,8 +53,9 @@ def folded(nodes: list[nbformat.NotebookNode]) -> list[nbformat.NotebookNode]:
     """The cells, of which JupyterLab folds what answers a prediction; a form that is committed opens it again.
 
     That is every output from `predicted(` on, and the text below that says what is to be seen in them, but for its
-    first word: JupyterLab shows the first line of what it folds. Where the text goes on with the next question,
-    exercise or round, this part becomes a cell of its own, which stays open. The table of all answers is folded, too.
+    first word: JupyterLab shows the first line of what it folds, as it is typed, so this word is plain. Where the text
+    goes on with the next question, exercise or round, this part becomes a cell of its own, which stays open. The table
+    of all answers is folded, too.
     """
     shown, answering = [], False
     for cell in nodes:
@@ -66,7 +67,8 @@ def folded(nodes: list[nbformat.NotebookNode]) -> list[nbformat.NotebookNode]:
         elif answering:
             said, *goes_on = GOES_ON.split(cell.source, maxsplit=1)
             if said.startswith(SAYS_THE_ANSWER):
-                cell.source, cell.metadata["jupyter"] = said.replace(".** ", ".**\n", 1), {"source_hidden": True}
+                cell.source = re.sub(r"\A\*\*(\w+\.)\*\*\s", r"\1\n", said)
+                cell.metadata["jupyter"] = {"source_hidden": True}
                 shown += map(nbformat.v4.new_markdown_cell, goes_on)
             answering = not (said.startswith(SAYS_THE_ANSWER) or goes_on or GOES_ON.match("\n\n" + said))
     return shown

@@ -10,6 +10,11 @@ def clones_of_the_stochastic_rule() -> Results:
     return shipped_results("paper").of("bc")
 
 
+def ahead_in_accidents(results: Results) -> float:
+    """The share of the drives with an accident that end ahead of trap 1."""
+    return float(results.episodes("success")[results.episodes("accident") > 0].mean())
+
+
 def updates_of(results: Results) -> float:
     """About how many updates each of these agents had: so many follow each decision on all of its roads."""
     agent, curves = results.agents[0], results.curves

@@ -1,5 +1,5 @@
 """Numbers that the lesson's text prints: the panel of Round 1 as it opens, the best policy of Round 2, the highest
-estimates and the actor that may move them of Round 3, and the chain and our trained agents of Round 4.
+estimates and the actor that may move them of Round 3, and the chain and our agents of Round 4.
 """
 
 import math
@@ -10,10 +10,9 @@ import torch
 
 from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START, highest_estimates
 from bootcourse.course.lessons.discrete_sac.own_parts import Walked, descended, soft_sweeps, walked
-from bootcourse.course.shipped import shipped_runs
 from bootcourse.learn import sac
 from bootcourse.research.computed import experiment
-from bootcourse.statistics import ESCAPES, rolling_means
+from bootcourse.statistics import ESCAPES
 
 q = np.array(START)
 pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
@@ -21,7 +20,7 @@ BY_Q = pi @ q
 WORTH = BY_Q - ALPHA * pi @ np.log(pi)
 SOFTMAX = math.exp(3) / (math.e + math.exp(3))  # of Q = 1 and 3 with α = 1, the second action
 ALPHAS = np.geomspace(0.01, 10, 13)  # the temperatures of Round 4's figure
-SURE = 0.9  # a learner that leaves with a higher probability leaves surely
+SURE = 0.9  # a learner that leaves, or stays, with a higher probability is sure of it
 
 
 def highest(actions: int) -> tuple[float, float]:
@@ -68,28 +67,18 @@ def falling() -> np.ndarray:
     return walked(sac.soft_value, sac.critic_target, torch.tensor(np.geomspace((10, 1), 0.01, 1000))).leaves
 
 
-def sure() -> dict[str, int]:
-    """How many of thirty leave surely in the end: if α falls to 0.01, by equal factors, and at the best constant α."""
-    from_10, from_1 = (falling() > SURE).sum(axis=1)
-    return {"from 10": from_10, "from 1": from_1, "constant": max((constant().leaves > SURE).sum(axis=1))}
+def more_often() -> np.ndarray:
+    """How many of thirty end with Q(0, 1) > Q(0, 0), at each of the ALPHAS."""
+    return (constant().leaves > 0.5).sum(axis=1)
+
+
+def sure() -> dict[str, np.ndarray]:
+    """How many of thirty leave surely in the end, and how many stay so, if α falls from 10, or from 1, by equal factors
+    to 0.01."""
+    return {"leave": (falling() > SURE).sum(axis=1), "stay": (1 - falling() > SURE).sum(axis=1)}
 
 
 def reachable() -> np.ndarray:
     """Which agents of plain SAC with a target entropy of 0.3 or 1 escape on the road."""
     of_two = (experiment("sensitivity")[f"target entropy {eta}"].of("sac") for eta in (0.3, 1))
     return np.concatenate([agents.scores("success") for agents in of_two]) >= ESCAPES
-
-
-@cache
-def trained() -> tuple[np.ndarray, np.ndarray]:
-    """α and the policy's entropy in each drive of our plain SAC agents' training: (agents, drives) each."""
-    runs = shipped_runs("sac")
-    return tuple(np.array([run.curves[name] for run in runs]) for name in ("alpha", "entropy"))
-
-
-def decided() -> tuple[np.ndarray, np.ndarray]:
-    """From which drive on the mean entropy of 20 stays below half of log 9, for each of these agents, and α then."""
-    alphas, entropies = trained()
-    at, means = rolling_means(entropies, 20, entropies.shape[1])
-    drives = at[[np.flatnonzero(each >= math.log(9) / 2)[-1] + 1 for each in means]]
-    return drives, alphas[range(len(drives)), drives - 1]

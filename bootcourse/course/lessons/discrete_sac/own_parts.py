@@ -29,14 +29,14 @@ def descended(loss: Callable[[Tensor, Tensor, Tensor], Tensor]) -> Descent:
     """From an even policy, gradient steps on `loss(log_pi, q, alpha)` for all that it has a gradient for."""
     logits, q = torch.zeros(1, len(START), requires_grad=True), torch.tensor([START], requires_grad=True)
     for _ in range(STEPS):
-        value = loss(logits.log_softmax(-1), q, torch.tensor(ALPHA))
-        value.backward()
+        loss(logits.log_softmax(-1), q, torch.tensor(ALPHA)).backward()
         with torch.no_grad():
             for numbers in (logits, q):
                 if numbers.grad is not None:
                     numbers -= numbers.grad
                     numbers.grad = None
-    return Descent(logits.detach().softmax(-1)[0].numpy(), q.detach()[0].numpy(), value.item())
+    value = loss(logits.log_softmax(-1), q, torch.tensor(ALPHA)).item()
+    return Descent(logits.detach().softmax(-1)[0].numpy(), q.detach()[0].numpy(), value)
 
 
 def soft_sweeps(value: Callable, target: Callable, alpha: float) -> Tensor:

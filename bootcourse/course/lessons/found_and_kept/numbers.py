@@ -82,9 +82,8 @@ def with_teacher(updates: str) -> float:
 
 
 def crash(words: str) -> float:
-    """The share of drives with an accident, of the agents of a group of round 2 that keep the way out."""
-    results = groups()[words].of("bootstrapped")
-    return float(results.scores("accident")[results.found_and_kept("bootstrapped")[1]].mean())
+    """The share of drives with an accident, of all agents of a group of round 2."""
+    return float(groups()[words].scores("accident").mean())
 
 
 def alone_and_ending() -> Counted:

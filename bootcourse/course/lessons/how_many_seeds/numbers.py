@@ -31,6 +31,15 @@ def rarest_cover(n: int) -> float:
     return float((chances * ((low <= true) & (true <= high))).sum(axis=1).min())
 
 
+def fitting(mean: float, sd: float) -> list[tuple[int, int]]:
+    """All (accidents, drives), up to 500 drives, whose rate in % has this mean and standard deviation, as printed."""
+    n, k = np.mgrid[2:501, 0:501]
+    p = np.where(k <= n, k / n, np.nan)
+    sds = 100 * np.sqrt(p * (1 - p) * n / (n - 1))
+    fits = (np.abs(100 * p - mean) < 0.005) & (np.abs(sds - sd) <= 0.005)
+    return list(zip(k[fits].tolist(), n[fits].tolist(), strict=True))
+
+
 def enough(first: float, second: float, wanted: float = 0.8) -> int:
     """The fewest agents of each method with this power, at these true rates."""
     return next(n for n in range(2, 100) if power(first, second, n) >= wanted)

@@ -7,7 +7,7 @@ import numpy as np
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.research.results import Results
-from bootcourse.statistics import lost, rolling_means
+from bootcourse.statistics import rolling_means
 from tools.course.known import SETTINGS, by_rule, idle, shipped_experiment, shipped_results
 
 
@@ -36,11 +36,6 @@ def in_all(name: str) -> str:
 def of_the_study(name: str) -> str:
     """How many of the study's ten agents with the soft constraint and these demonstrations escape."""
     return measures.escape(_with(name)[0][:1])
-
-
-def of_the_others(name: str) -> str:
-    """How many of the ten others."""
-    return measures.escape(_with(name)[0][1:])
 
 
 def alone(name: str) -> str:
@@ -72,11 +67,6 @@ def training(name: str, curve: str, first: int, last: int, others: bool = False)
 def fall(name: str) -> np.ndarray:
     """By how much the return of each of the study's ten falls as β reaches 0, (agents,)."""
     return training(name, "return", 800, 900) - training(name, "return", 1000, 1100)
-
-
-def lost_by(name: str, episode: int) -> np.ndarray:
-    """Which of the study's ten lose the way out at least once before this training episode, (agents,)."""
-    return lost(_with(name)[0][0].curves["success"][:, :episode])
 
 
 def bonus_needed() -> np.ndarray:

@@ -101,27 +101,20 @@ def out_of_nine(study: Mapping[str, Results], gamma: float, with_worth: bool) ->
     return study[ahead.name].measured["success"][study[alone.name].measured["success"] < 0.01]
 
 
-def accidents_of_nine(study: Mapping[str, Results], gamma: float, with_worth: bool) -> float:
-    """Accidents in 1,000 drives of these nine together."""
-    stuck = study[Cell("sac", "alone").name].measured["success"] < 0.01
-    of = study[Cell("sac", gamma=gamma, with_worth=with_worth).name].measured
-    return float(1000 * of["accidents"][stuck].sum() / of["roads"][stuck].sum())
-
-
 def out_of_trap(
     drivers: Mapping[str, Policy], roads: Sequence[int], study: Mapping[str, Results]
 ) -> tuple[list[str], list[list]]:
     """A table of who ends ahead of trap 1, by what the look-ahead counts: its headings and rows.
 
-    drivers: one agent's, in the order of the study's `AIMS`; beside them the study's nine agents that are stuck alone.
+    drivers: of the first agent that is stuck alone, in the order of the study's `AIMS`; beside them the study's nine.
     """
     rows = []
     for (name, driver), (gamma, with_worth) in zip(drivers.items(), AIMS, strict=True):
-        out, hurt = out_of_nine(study, gamma, with_worth), accidents_of_nine(study, gamma, with_worth)
+        out = out_of_nine(study, gamma, with_worth)
         here, led = int(drive_episodes(driver, roads).success.sum()), f"{(out > LED).sum()} of {len(out)}"
-        rows.append([name, here, f"{100 * out.mean():.0f} %", led, f"{hurt:.0f}"])
-    headings = ["what counts", f"this agent's drives out, of {len(roads)}", "drives out, mean of the nine"]
-    return [*headings, "agents out in more than a tenth", "accidents in 1,000 drives"], rows
+        rows.append([name, here, f"{100 * out[0]:.0f} %", led])
+    headings = ["what counts", f"this agent's drives out, of {len(roads)}", "its drives out, in the study"]
+    return [*headings, "agents out in more than a tenth of their drives"], rows
 
 
 def _judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -192,7 +185,7 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
-    title = "Random actions help; the look-ahead's own drives help more, but only in the fourth round"
+    title = "Random actions help; on average the look-ahead's drives help more, by the fourth round"
     agents, base = learned_model.together(computed), learned_model.BASE
     alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)].mean(), style(base).colour
     rounds = agents.notes["rows"] / 1000, learned_model.per_thousand(agents, LEARNED_FORM)  # (agents, rounds)

@@ -13,7 +13,7 @@ from bootcourse.learn.road_model import learned_from, transitions_of
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research.computed import experiment
 from bootcourse.research.experiments import learned_model
-from bootcourse.research.experiments.lookahead import AIMS, Cell, shipped_actors  # noqa: F401 (for the expressions)
+from bootcourse.research.experiments.lookahead import AIMS, Cell, shipped_actors
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, TRAP_1, Accident, X
 from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS
@@ -83,14 +83,15 @@ def led_out(gamma: float, with_worth: bool) -> int:
     return int((aim(gamma, with_worth) > figures.LED).sum())
 
 
-def stuck_accidents(gamma: float, with_worth: bool) -> float:
-    """Their accidents in 1,000 drives."""
-    return figures.accidents_of_nine(shipped(), gamma, with_worth)
+def need_both() -> int:
+    """How many of them get out in more than half of their drives with W and γ = 1, in hardly any with one or none."""
+    both, *less = (aim(*one) for one in AIMS)
+    return int(((both > 0.5) & (np.max(less, axis=0) < 0.02)).sum())
 
 
-def wrong_but_late() -> list[float]:
-    """Accidents in 1,000 drives of Round 1's agents with the look-ahead, in each wrong model but the late one."""
-    return [per_thousand("bootstrapped", model=model) for model in WRONG if model != LATE]
+def wrong_but_late(base: str = "bootstrapped") -> list[float]:
+    """Accidents in 1,000 drives of Round 1's agents, or others, with the look-ahead, in each wrong model but late."""
+    return [per_thousand(base, model=model) for model in WRONG if model != LATE]
 
 
 @cache
@@ -165,11 +166,6 @@ def learned(form: str) -> np.ndarray:
 def learned_without(form: str, share: float | None = None) -> float:
     """The same of a control, whose model learned from drives without a look-ahead."""
     return float(learned_model.per_thousand(learning(share), form, control=True).mean())
-
-
-def learned_returns(form: str = "mean of five") -> float:
-    """The mean return in the models of the last round."""
-    return float(learning().notes[f"{form}, returns"][:, -1].mean())
 
 
 def last_round() -> np.ndarray:

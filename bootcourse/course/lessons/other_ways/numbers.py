@@ -45,11 +45,6 @@ def escaping(method: str, budget: int) -> int:
     return int((at(method, "success", budget) >= ESCAPES).sum())
 
 
-def computing(budget: int) -> list[float]:
-    """The mean seconds of a core for an agent of each method with a teacher."""
-    return [float(at(method, "seconds", budget).mean()) for method in TAUGHT]
-
-
 @cache
 def rule_is_ahead() -> float:
     """The median of the decisions after which the rule is ahead of trap 1, on 20 roads."""

@@ -7,6 +7,7 @@ import numpy as np
 
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
+from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.learner import SACLearner
@@ -16,7 +17,7 @@ from bootcourse.policies import Policy, stochastic_rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
-from tools.course.known import of, shipped_results
+from tools.course.known import of, shipped_experiment, shipped_results
 
 
 def of_paper(method: str) -> Results:
@@ -101,6 +102,12 @@ def crashes(policy: Policy) -> int:
 def accidents_of_escapers() -> np.ndarray:
     """In which share of its drives each GAIL agent that escapes leaves the road, (agents,)."""
     return of("gail").scores("road_departure")[of("gail").scores("success") >= ESCAPES]
+
+
+def departures(which: int) -> str:
+    """In how many % of drives each of five GAIL agents leaves the road: 0, our target entropy; 1, a reachable one."""
+    results = list(by_entropy(shipped_experiment("reachable-entropy")["gail"]).values())[which]
+    return ", ".join(f"{100 * share:.1f}" for share in results.scores("road_departure"))
 
 
 @cache

@@ -16,7 +16,7 @@
 # **What you will be able to do**
 # - say what a clone, CQL and GAIL each learn from the same drives;
 # - write CQL's loss (and, *Further*, GAIL's reward);
-# - say which claims about a driver recorded drives can check.
+# - say when an estimate from recorded drives can be trusted.
 #
 # **Time** 55 minutes, 10 of them voluntary (*Further*); running it takes under half a minute.
 # **It builds on** lesson [[demonstrations]].
@@ -43,7 +43,7 @@ progress("recorded_drives")
 #
 # Three agents learned from the same {{ SETTINGS.demonstration_episodes }} drives of the rule: GAIL
 # (*generative adversarial imitation learning*), a clone (BC, behaviour cloning) and CQL
-# (*conservative Q-learning*). Press play.
+# (*conservative Q-learning*). Watch them.
 
 # %% tags=["nbval-ignore-output"]
 bc.recording(figures.three_drives(), height=480)
@@ -67,7 +67,7 @@ bc.recording(figures.three_drives(), height=480)
 #   of('gail').agents[0]['beta_start'] < 1 -->
 #
 # BC and CQL learn **offline**: recorded drives are all they have. CQL learns Q and takes the action
-# with the highest. GAIL is paid for driving so that a second network cannot tell it from the rule.
+# whose Q is highest. GAIL is paid when a second network takes its driving for the rule's.
 #
 # > **Predict.** The rule's return on the held-out roads is
 # > {{ of('rule').scores('returns').mean() | .0f }}. Which of the three earn more than that?
@@ -96,8 +96,8 @@ bc.show(figures.returns(study))
 # }} % of its drives: *a success rate that counts who is ahead hides later accidents.*
 # <!-- claim: escaped('gail') == len(accidents_of_escapers()) == 6 -->
 #
-# *CQL with an actor*, as SAC has one, is told the rewards too, and none of its ten escapes: to be
-# told them is not enough. (The paper prints 0 % success for CQL, but not which CQL.)
+# *CQL with an actor*, as SAC has one, is told the rewards too, and none of its ten escapes.
+# (The paper prints 0 % success for CQL, but not which CQL.)
 # <!-- claim: escaped('cql_sac') == 0 and len(of('cql_sac')) == 10 -->
 # <!-- claim: of('cql_sac').scores('returns').mean() < of('gail').scores('returns').mean() -->
 # <!-- claim: PRINTED['cql']['success'].mean == 0 and of('cql_sac').scores('success').max() == 0 -->
@@ -139,11 +139,11 @@ without = learn(bc.Training(bc.with_seeds(bc.settings_for("cql", cql_weight=0.0)
 bc.show(figures.would_do({"Q-learning": without}))
 
 # %% [markdown]
-# **See.** *Both would accelerate in every recorded second, and crash on every road.* No row shows
-# where accelerating leads in the seconds when the rule did not accelerate. There Q is a guess, and
-# the highest of nine tends to be a guess that is too high: Q promises over 2.5 on average, where the
-# rule went on to earn {{ choosing.earned(choosing.recorded()) | .1f }}. Why they do in every
-# second is open.
+# **See.** *Both would accelerate in every recorded second, and crash on every road.* When the
+# rule did not accelerate, no recorded second shows where that would have led. There Q is a guess, and
+# the highest of nine tends to be too high: Q promises over 2.5 on average, more than
+# the {{ choosing.earned(choosing.recorded()) | .1f }} that the rule went on to earn, although these
+# agents crash. Why they accelerate in every second is open.
 # <!-- claim: min(short(0.0)[0]) == 1 and short(0.0)[1] == [100, 100] and min(short(0.0)[2]) > 2.5 -->
 #
 # CQL's remedy is a term in the critic's loss, the mean of
@@ -199,10 +199,12 @@ with_term = learn(own_code.training(bc.with_seeds(bc.settings_for("cql"), 2)))
 bc.show(figures.would_do({"with CQL's term": with_term}))
 
 # %% [markdown]
-# **See.** *With the term they crash on fewer than 30 of 100 roads, not on all*, though nobody showed
-# them a crash: the term keeps them to actions that the data show. Both accelerate in about a third
-# of the seconds, the rule in a quarter, and Q promises less than the rule earned.
-# <!-- claim: max(short(1.0)[1]) < 30 and 0.3 < min(short(1.0)[0]) < max(short(1.0)[0]) < 0.45 and
+# **See.** *With the term they crash on fewer than 30 of 100 roads, not on all* (Round 1's, after
+# far more updates, on about one), though nobody showed them a crash: the term keeps them to actions
+# that the data show. Both accelerate in under half of the seconds, and the term has pushed Q below
+# what the rule earned.
+# <!-- claim: 0.5 < 100 * accidents('cql') < 1.5 and of('cql').curves['success'].shape[1] == 2000 -->
+# <!-- claim: max(short(1.0)[1]) < 30 and max(short(1.0)[0]) < 0.5 and
 #   max(short(1.0)[2]) < choosing.earned(choosing.recorded()) -->
 
 # %% [markdown] tags=["instructor"] minutes=6
@@ -236,21 +238,22 @@ bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, tru
 
 # %% [markdown]
 # **See.** *The less an agent acts as the data do, the further off its estimate can be.* For clones
-# and CQL it misses by less than 0.1 (so would the rule's own worth from the start of a drive, {{
-# choosing.rule_worth() | .2f }}, as a guess). Of the agents that do as the data in under 40 % of
-# the seconds, one is put more than 1 too high, another about 0.5 too low; the 30 are worth
+# and CQL it misses by less than 0.1. (So does one guess for all: the rule's own worth from the
+# start, {{ choosing.rule_worth() | .2f }}.) Of the agents that do as the data in under 40 % of
+# the seconds, one is put more than 1 too high, another more than 0.4 too low; the 30 are worth
 # {{ truth().min() | .1f }} to {{ truth().max() | .1f }}. CQL with an actor, trained offline, earns
 # least in each set, and is less than 0.5 off.
 # <!-- claim: abs(off()[:, :2]).max() < 0.1 and overlaps()[:, :2].min() > 0.85 -->
 # <!-- claim: overlaps()[:, 2:].max() < 0.7 and abs(choosing.rule_worth() - truth()[:, :2]).max() < 0.1 -->
-# <!-- claim: -0.6 < off()[overlaps() < 0.4].min() < -0.45 and off()[overlaps() < 0.4].max() > 1 -->
+# <!-- claim: off()[overlaps() < 0.4].min() < -0.4 and off()[overlaps() < 0.4].max() > 1 -->
 # <!-- claim: (returns().argmin(1) == 2).all() and abs(off()[:, 2]).max() < 0.5 -->
 #
 # Now choose. In each set of six, one of each method, **best of N** takes the largest estimate: a
 # filled dot. *It takes neither a clone nor CQL*, whose estimates are good. Three of the five that it
-# takes are truly worth most of their six; three stay in the trap.
+# takes are truly worth most of their six; one of these and both others stay in the trap.
 # <!-- claim: estimated().argmax(1).min() > 1 and (of_taken(truth()) == truth().max(1)).sum() == 3 ==
 #   (of_taken(successes()) == 0).sum() -->
+# <!-- claim: ((of_taken(truth()) == truth().max(1)) & (of_taken(successes()) == 0)).sum() == 1 -->
 #
 # A perfect estimate would not suffice: at γ = 0.8 worth looks about five seconds ahead, and by it
 # plain SAC, mostly stuck, is worth more than the rule.
@@ -267,8 +270,6 @@ bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, tru
 # agent's. D is its probability that a pair is the rule's. SAC (lesson [[update_and_loop]]) is paid
 #
 # $$ r(s,a) = -\log (1 - D(s,a)) $$
-#
-# GAIL aims at the rule's **occupancy measure**, its share of decisions in each state and action.
 #
 # > **Predict.** Other programs pay log D, which also grows with D. If D = ½ at every second, with
 # > which reward is a drive of 150 s worth more than a crash after 5 s?
@@ -334,17 +335,18 @@ compare_predictions(
 # 2. A success rate that counts who is ahead hides accidents.
 # 3. Without driving, Q of an action that the data lack is a guess: two agents crashed on every road.
 #    With CQL's term, the cloning loss of softmax(Q), they crashed less.
-# 4. Recorded drives check FQE's estimate only where the agent acts as they do; the largest estimate
-#    may be the least checked. Worth at γ = 0.8 is not escape.
+# 4. FQE's estimates were close for agents that act as the recorded drives do. Others, even the
+#    largest, can be far off. Worth at γ = 0.8 is not escape.
 # 5. *Further:* GAIL is paid by its discriminator; with a reward above 0 it pays to go on.
 #
 # **Three questions to think about**
-# - Why does GAIL often leave the road (*Further*), and how would you find out?
+# - Why does GAIL often leave the road: its pay (*Further*), or its target entropy below 0, which no
+#   policy has? How would you find out?
 # - Take `choosing.fits(agents, data, times=2)[1]` in Round 3, a fit from other first weights and
 #   batches. Which choices change? Which errors do not?
 # - In a second study each of ten clones of the stochastic rule earns more than twice its teacher's
 #   return. A clone takes its likeliest action. Is that why? How would you find out?
-# <!-- claim: of('gail').scores('road_departure').mean() > 0.25 -->
+# <!-- claim: of('gail').scores('road_departure').mean() > 0.25 and of('gail').agents[0]['target_entropy'] < 0 -->
 # <!-- claim: len(of_paper('bc')) == 10 and
 #   of_paper('bc').agents[0]['stochastic_demonstrations'] -->
 # <!-- claim: of_paper('bc').scores('returns').min() > 2 * np.mean([each.rewards.sum() for each in
@@ -353,7 +355,8 @@ compare_predictions(
 # %% [markdown] tags=["instructor"]
 # Answers to the three questions. (1) Not settled. Where D is near 0 a second more pays nearly
 # nothing: compare −log (1 − D) at D = 0.1 and D = ½. With γ = 0.8 the agent looks about five
-# seconds ahead.
+# seconds ahead. Five agents with a target entropy that a policy can have leave the road in {{
+# departures(1) }} % of their drives, the same seeds without it in {{ departures(0) }} %.
 # Train again with a larger γ, or let the discriminator see what follows an accident (absorbing
 # states, as in Kostrikov et al.), one change at a time. (2) Of the five taken one is put too low by
 # more than 0.1: the largest estimate need not be too large. Five sets show how it can go, not how

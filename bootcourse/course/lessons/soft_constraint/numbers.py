@@ -21,7 +21,7 @@ from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import HAD as HAD
 from bootcourse.statistics import IN_A_ROW as IN_A_ROW
 from bootcourse.statistics import LOST as LOST
-from bootcourse.statistics import lost
+from bootcourse.statistics import found_after, lost
 from tools.course.known import RULE_P, of, others, shipped_experiment
 
 
@@ -44,6 +44,11 @@ def sooner_without() -> bool:
 def found(agents: Results) -> int:
     """How many agents have found the way out in training."""
     return int(agents.found_and_kept("soft")[0].sum())
+
+
+def finding(agents: Results) -> np.ndarray:
+    """The episodes after which these agents have found the way out, (agents,); 0 where they have not."""
+    return found_after(agents.of("soft").curves["success"])
 
 
 def kept(agents: Results) -> int:
@@ -81,11 +86,6 @@ def twenty(count: Callable[[Results], int]) -> int:
 def losing(agents: list[Results]) -> int:
     """How many agents of these studies lose the way out at least once in their training."""
     return sum(int(lost(each.of("soft").curves["success"]).sum()) for each in agents)
-
-
-def losing_and_keeping() -> int:
-    """How many of the study's agents whose ξ fades lose the way out in their training, and escape after it."""
-    return int((lost(of("soft").curves["success"]) & of("soft").found_and_kept("soft")[1]).sum())
 
 
 def crashes_with_the_floor() -> float:

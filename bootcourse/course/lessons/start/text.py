@@ -64,7 +64,8 @@ stays = next(drive for drive in on_this_road("sac") if not drive.success)
 escapes = next(drive for drive in on_this_road("bootstrapped") if drive.success)
 yours = [drive for drive in mine.attempts if drive.success] or mine.attempts
 drives = [*yours[-1:], stays, escapes]
-seconds = max(30, 5 + int(bc.overtaken(drives[0]) or 0))  # long enough to see you out
+end = drives[0].times[-1] if drives[0].accident else bc.overtaken(drives[0]) or 0
+seconds = max(30, 5 + int(end))  # long enough to see you out, or your accident
 bc.recording([shipped.beginning(drive, seconds) for drive in drives], height=480)
 
 # %% [markdown]

@@ -1,6 +1,5 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-import dataclasses
 from functools import cache
 from typing import NamedTuple
 
@@ -16,8 +15,7 @@ from bootcourse.course.lessons.the_rule.rules import split as split
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import overtaken as overtaken
-from bootcourse.policies import PolicyOutput, rule_policy, stochastic_rule_policy
-from bootcourse.road.formulas import bicycle_step
+from bootcourse.policies import PolicyOutput, stochastic_rule_policy
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SETTLED as SETTLED
 from bootcourse.rule import Reason, rule
@@ -81,23 +79,6 @@ def speeds_up_behind() -> np.ndarray:
     reasons, _, _, episodes = decided(20.0, t_safe=2.0)
     free = reasons[:, ~episodes.success & (episodes.accident == 0)] == Reason.FREE
     return (free[1:] & ~free[:-1]).sum(axis=0)
-
-
-def brakes_in(speed: float) -> float:
-    """The way (m) in which the car brakes from a speed (m/s) in its steps: in each it still moves at its old speed."""
-    x, dt = 0.0, DEFAULT.clock.dt
-    while speed > 0:
-        x, _, _, speed = bicycle_step(x, 0.0, 0.0, speed, -DEFAULT.ego.acceleration, 0.0, DEFAULT.car.length, dt)
-    return x
-
-
-@cache
-def in_finer_steps(sight: float = 20.0) -> Episodes:
-    """How the rule drives with half the time step."""
-    scenario = with_numbers(sight)
-    clock = dataclasses.replace(scenario.clock, simulation_rate=2 * scenario.clock.simulation_rate)
-    finer = dataclasses.replace(scenario, clock=clock)
-    return drive_episodes(rule_policy(finer), ROADS, finer)
 
 
 def apart() -> tuple[float, float]:

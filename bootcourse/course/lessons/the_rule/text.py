@@ -41,7 +41,7 @@ progress("the_rule")
 # ## Look first
 #
 # A *rule controller* is a driver that somebody wrote by hand. In the next lessons this one teaches
-# your agent. Once a second it decides, and gives the reason. Press play: the first minute of its
+# your agent. Once a second it decides, and gives the reason. Watch the first minute of its
 # drive in lesson [[the_trap]].
 
 # %%
@@ -176,8 +176,8 @@ bc.show(figures.when_to_change(drive))
 # <!-- claim: (8.25 - 10) * DEFAULT.rule.t_safe < 0 < 12 -->
 #
 # **Exercise (6 min, ●●○).** Decide whether there is room. The gap ahead, *from bumper to bumper*,
-# must be longer than $d_s$. Behind you the roles change: that gap must be longer than what the
-# follower closes in during t_safe, and than the floor.
+# must be longer than $d_s$. Behind you the roles change: that gap must be longer than the floor, and
+# than the distance that the follower gains on you in t_safe.
 
 
 # %%
@@ -198,7 +198,8 @@ check.room_to_change(room_to_change)
 # Then ask what a reviewer could have done to notice. (Work one example, or let it drive.)
 
 # %% [markdown]
-# For the lane, the rule takes the first case that applies (`bootcourse.rule.decide_rule`):
+# The rule always aims at the target speed, 15 m/s with nobody ahead. For the lane, it takes the first case that
+# applies (`bootcourse.rule.decide_rule`):
 #
 # 1. nobody ahead in sight in this lane, or already in the leftmost: stay;
 # 2. more than {{ SETTLED }} m to the right of this lane's middle: finish this lane change first;
@@ -236,14 +237,14 @@ table(["condition", "gets out, of 10 roads"], rows)
 # ## Round 3: what makes it slow?
 #
 # On {{ roads() | , }} roads the rule gets out each time without an accident, but earns about a third
-# of what a free road pays.
+# of the {{ 150 * second_pays(15) | .0f }} that 150 s at 15 m/s pay.
 # <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 -->
 # <!-- claim: 0.3 < of('rule').scores('returns').mean() / (150 * second_pays(15)) < 0.37 -->
 #
 # From 11 s on, in the picture at the top, it follows a car of {{ np.median(followed(by_rule(), 11).speed) | .0f
 # }} m/s in the left lane, more than 150 m ahead: its target is 10.5 m/s, and the dead band stops it at
 # 10. When that car leaves its **sight** ({{ DEFAULT.sight.distance | g }} m), it accelerates, until it
-# sees the car again.
+# sees the car again; from above the dead band stops it at 11.
 # <!-- claim: np.isclose(by_rule().states[22:67, EGO, SPEED], 10).all() and
 #   len(followed(by_rule(), 11, 33).car) == 22 and (by_rule().rule_speeds[11:33] == 10.5).all() -->
 # <!-- claim: set(followed(by_rule(), 11).car) == {4} and
@@ -278,9 +279,9 @@ bc.show(figures.speeds_by_sight(drive, near, alone))
 #
 # In the picture the rule catches up, but the driver {{ makes_way(recorded(ROAD, 30.0), 4) | .0f }} m
 # ahead makes way: drivers here also count what the car behind gains. If they do not (then they also cut
-# in), the rule earns {{ driven(30.0, ALOOF).returns.mean() | .0f }} (with 200 m: {{
-# driven(200.0, ALOOF).returns.mean()
-# | .0f }}). More than half of the gain is their politeness.
+# in), the shorter sight gains {{ driven(30.0, ALOOF).returns.mean() - driven(200.0, ALOOF).returns.mean()
+# | .0f }}, not {{ driven(30.0).returns.mean() - driven(200.0).returns.mean() | .0f }}: more than half of the gain is
+# their politeness.
 # <!-- claim: overtaken(recorded(ROAD, 30.0, ALOOF)) == overtaken(recorded(ROAD, 30.0)) -->
 # <!-- claim: (recorded(ROAD, 30.0).states[34:, EGO, SPEED] > 14.9).all() -->
 # <!-- claim: makes_way(recorded(ROAD, 30.0), 4) < 60 and makes_way(recorded(ROAD, 30.0, ALOOF), 4) > 1e9 -->
@@ -322,11 +323,9 @@ figures.reasons(rules.crash())
 # %% [markdown]
 # **Explain.** It begins to change lane, loses trap 1 from sight ("nobody ahead"), calls the change
 # off and speeds up. Later it changes lane {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster
-# than trap 2, without a margin: t_safe leaves {{ DEFAULT.rule.t_safe * 3 | .1f }} m, just what braking
-# takes (in steps of {{ DEFAULT.clock.dt | g }} s even {{ brakes_in(3.0) | .2f }} m). In {{
-# len(by_the_formula(20.0).speeds) }} of the 200 drives it changes lane that fast: {{
-# by_the_formula(20.0).crashed }} of these crash, and none of the others. How many crash depends on the
-# step: with half of it {{ (in_finer_steps().accident > 0).sum() }} do.
+# than trap 2: t_safe leaves {{ DEFAULT.rule.t_safe * 3 | .1f }} m, just what braking takes, without a
+# margin. {{ len(by_the_formula(20.0).speeds) }} of the 200 drives change lane that fast: {{
+# by_the_formula(20.0).crashed }} of these crash, and none of the others.
 # <!-- claim: called_off()[driven(20.0).accident > 0].all() -->
 # <!-- claim: by_the_formula(20.0).crashed == (driven(20.0).accident > 0).sum() -->
 # <!-- claim: (abs(by_the_formula(20.0).faster - 3) < 0.1).all() -->
@@ -345,8 +344,8 @@ rules.ranked({"the rule": {}, "30 m": {"sight": 30}, "yours": mine})
 # %% [markdown]
 # <details><summary>Two answers</summary>
 #
-# With `lane_sight` = 200 the rule does not lose trap 1 from sight. It ranks first, and all drives get
-# out without an accident.
+# The first: trap 1 must stay in sight. With `lane_sight` = 200 it does: this ranks first, and all drives
+# get out without an accident.
 #
 # So they do with a *smaller* floor, although it is meant for safety: with 0.5 m each drive begins
 # its lane change while trap 1 is in sight. With t_safe = 2 s none crashes, but about half stay
@@ -372,12 +371,10 @@ rules.ranked({"the rule": {}, "30 m": {"sight": 30}, "yours": mine})
 # <!-- claim: driven(20.0).accident.any() and not driven(30.0).accident.any() -->
 #
 # **What if the rule errs?** The **stochastic rule**, $\tilde\pi$ ("pi tilde"), takes the rule's
-# action with probability $p$, each of the other eight with $(1-p)/8$. With p = 0.9, about 15 of a
-# drive's 150 actions would not be the rule's, and {{ 100 * erring(0.9) | .0f }} % of 1,000 drives end in an
-# accident. But $\tilde\pi$ need not drive: lesson [[soft_constraint]] only asks how probable it makes
-# each action.
+# action with probability $p$, else one of the other eight, all equally likely. With p = 0.9, {{
+# 100 * erring(0.9) | .0f }} % of 1,000 drives end in an accident. But $\tilde\pi$ need not drive: lesson
+# [[soft_constraint]] only asks how probable it makes each action.
 # <!-- claim: N_ACTIONS - 1 == 8 -->
-# <!-- claim: np.isclose((1 - 0.9) * DEFAULT.clock.decisions, 15) -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask for the cause of the crash before anybody unfolds it. Which number does it point to? Somebody

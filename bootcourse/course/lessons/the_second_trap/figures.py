@@ -100,7 +100,7 @@ def two_speeds(drives: Mapping[str, Rollout]) -> Figure:
 
 def credit(speed: np.ndarray, found: Mapping[float, torch.Tensor]) -> Figure:
     """A drive's speeds (seconds,), and below them its advantages for each λ, (seconds, 1): good above 0, bad below."""
-    title = "With λ near 1, most seconds of falling back look good"
+    title = "With λ near 1, later sprints raise the A of falling back"
     figure, seconds, alt = new_figure(4.0), np.arange(len(speed)), []
     above, below = axes_at(figure, 0.55, 0.75, 5.5, 0.95), axes_at(figure, 0.55, 2.1, 5.5, 1.35)
     for ax, words in ((above, "speed (m/s)"), (below, "advantage A of the decision at that second")):

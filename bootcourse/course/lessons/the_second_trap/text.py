@@ -49,7 +49,7 @@ choices = ["on almost all", "on about half", "on none"]
 predict("the_second_trap.1", "On how many roads does a PPO agent end ahead of trap 1?", choices)
 
 # %% [markdown]
-# Play one of the ten. What does it do to earn this?
+# What does one of the ten do to earn this?
 
 # %% tags=["nbval-ignore-output"]
 predicted("the_second_trap.1")
@@ -159,9 +159,9 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 # %% [markdown]
 # **See.** None of the ten sprints on this road, and none escapes: nine stay behind the traps, one
 # crashes on {{ 100 * ppo('concave')['accident'].max() | .0f }} % of the roads.
-# **So PPO can stay without sprints, too**, at least where getting out pays less as well: r_v at 15 m/s
-# is now {{ 1 - second_trap.concave_speed_reward(np.float64(10)) | .2f }} above r_v at 10, not {{ 1 -
-# speed_reward(10) | .2f }}.
+# **So PPO can stay without sprints, too**, at least where getting out pays less as well.
+# <!-- claim: 1 - second_trap.concave_speed_reward(np.float64(10)) < (1 - speed_reward(10)) / 2 and
+#   paid_concavely(by_rule()) - paid_concavely(idle()) < by_rule().rewards.sum() - idle().rewards.sum() -->
 # <!-- claim: ppo_escapes('concave') == 0 and abs(ppo('concave')['returns'].mean() /
 #   idle().rewards.sum() - 1) < 0.15 and sum(ppo('concave')['accident'] > 0.01) == 1 -->
 # <!-- claim: all(ppo_speeds('concave', i)[20:].std() < 0.3 * ppo_speeds()[20:].std() for i in
@@ -176,8 +176,8 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 #
 # PPO has no replay buffer. With its policy, π_old, it drives {{ settings_for('ppo').horizon }} decisions on
 # each of {{ ppo_kinds.settings_of('alone').envs_per_agent }} roads, takes {{ ppo_kinds.QUICK['epochs'] }} passes over
-# them, throws them away, and drives again. An action with a positive **advantage** A gets likelier: more
-# came of it than was expected.
+# them in random parts (*minibatches*), throws them away, and drives again. The **advantage** A says how much
+# more came of an action than was expected: a large A makes it likelier.
 #
 # Suppose that PPO expects a steady 10 m/s. The car falls back to 5 m/s for ten seconds, then sprints
 # at 15 for ten. A bar is the *surprise* of one second: what it pays, less what was expected. A of
@@ -195,8 +195,7 @@ explorable.later()
 # <!-- claim: [explorable.weighted(lam).sum() > 0 for lam in (0, 0.5, 0.8, 0.85, 0.95, 1)] ==
 #   [False] * 3 + [True] * 3 -->
 #
-# **In symbols.** V(s), learned by squared error, is the value that PPO expects from a state on. A surprise
-# is the temporal difference
+# **In symbols.** V(s) is the value that PPO expects from a state on. A surprise is the temporal difference
 #
 # $$ \delta_t = r_t + \gamma V(s_{t+1}) - V(s_t) $$
 #
@@ -204,6 +203,8 @@ explorable.later()
 # estimation*):
 #
 # $$ A_t = \delta_t + \gamma\lambda\, \delta_{t+1} + (\gamma\lambda)^2 \delta_{t+2} + \dots $$
+#
+# V learns by squared error; its target is A + V(s).
 #
 # **Two endings need care.** After an accident nothing follows: V is 0. If the time is over, the
 # last state still has its value. At both the sum stops, as it does where the data end.
@@ -242,9 +243,10 @@ bc.show(figures.credit(speeds, found))
 
 # %% [markdown]
 # **See.** With λ = 0 every second below 10 m/s looks bad. With 0.95, {{ judged_good(0.95) }} of these
-# {{ (ppo_speeds() < 10).sum() }} look good. If the data end every {{ settings_for('ppo').horizon }} decisions, as in
-# PPO's training, here from second 0 on, {{ judged_good(0.95, settings_for('ppo').horizon) }} do: later pay
-# reaches A through V, which has to learn it.
+# {{ (ppo_speeds() < 10).sum() }} look good; in most others the drive ends before the sprint pays.
+# If the data end every {{ settings_for('ppo').horizon }} decisions, as in PPO's training, {{
+# judged_good(0.95, settings_for('ppo').horizon) }} do: later pay reaches A through V, which has to learn it.
+# <!-- claim: (np.flatnonzero((ppo_speeds() < 10) & (credit(0.95) <= 0)) > 120).mean() > 0.9 -->
 # <!-- claim: ppo_kinds.settings_of('alone').horizon == settings_for('ppo').horizon -->
 # <!-- claim: judged_good(0.0) == 0 and (credit(0.95)[(ppo_speeds() < 10) & (np.arange(150) < 120)] >
 #   0).mean() > 0.95 and (credit(0.95)[125:140] < 0).all() -->
@@ -253,7 +255,7 @@ bc.show(figures.credit(speeds, found))
 # ## Round 4: how far may one decision push?
 #
 # The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since
-# it was taken. PPO limits how far one decision pushes it: by ε = {{ 100 * settings_for('ppo').clip | .0f }} %.
+# it was taken. PPO limits how far from 1 a decision may push it: ε = {{ 100 * settings_for('ppo').clip | .0f }} %.
 #
 # > **Predict.** An action turned out badly, A = −2, but has become likelier, ρ = 1.5. Does this
 # > decision still change the policy?
@@ -272,7 +274,9 @@ bc.show(figures.hinges(0.2))
 #
 # $$ L = -\,\mathrm{mean}\big[\min(\rho A,\ \mathrm{clip}(\rho, 1 - ε, 1 + ε)\, A)\big] $$
 #
-# Training first gives A mean 0 and deviation 1 in each minibatch, and adds a small bonus for entropy.
+# Training first gives A mean 0 and deviation 1 in each minibatch, so an A *above the mean* makes its action
+# likelier (in Round 3's drive, in {{ (credit(0.95)[ppo_speeds() < 10] > credit(0.95).mean()).sum() }} of the {{
+# (ppo_speeds() < 10).sum() }} slow seconds), and adds a small bonus for entropy.
 # <!-- claim: ppo_kinds.settings_of('alone').entropy_weight > 0 -->
 #
 # **Exercise (8 min, ●●○).** Write the loss.
@@ -297,9 +301,9 @@ check.clipped_loss(clipped_loss)
 # %% [markdown]
 # ## Round 5: start as a clone
 #
-# The rule knows a way out. It drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads,
-# stochastically, to show more states (lesson [[demonstrations]]), and the actor is *cloned*: it learns
-# the rule's own action in each. Then PPO begins; the rule is not asked again.
+# The rule drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads,
+# stochastically, to show more states, and the actor is *cloned*: it learns
+# the rule's own action in each. Then PPO begins, without the rule.
 # <!-- claim: ppo_escapes('alone') == ppo_escapes('concave') == 0 -->
 # <!-- claim: settings_for('ppo_cloned').xi_multiplier == 0 ==
 #   settings_for('ppo_cloned').beta_start -->
@@ -323,8 +327,12 @@ bc.show(figures.plane(clone, ppo_kinds.driven(yours.as_policy())))
 
 # %% [markdown]
 # **See.** The arrow is your training. The ten that ship had {{ ppo_kinds.KINDS['cloned'].decisions |
-# , }} decisions: all ten escape, and crash in {{ 100 * ppo('cloned')['accident'].mean() | .1f }} % of
+# , }} decisions: all ten escape, earn over twice what sprinting earns, and crash in {{
+# 100 * ppo('cloned')['accident'].mean() | .1f }} % of
 # their drives, the rule in none.
+# <!-- claim: ppo('cloned')['returns'].mean() > 2 * ppo('alone')['returns'].mean() and
+#   discounted(ppo_drive('cloned'), settings_for('ppo').gamma) > 2 * discounted(ppo_drive(),
+#   settings_for('ppo').gamma) -->
 # <!-- claim: ppo_escapes('cloned') == ppo_agents() and 1.8 < ppo('cloned')['returns'].mean() /
 #   of('rule').scores('returns')[0] < 2.4 -->
 # <!-- claim: ppo('cloned')['accident'].mean() > 0 and not drive_episodes(rule_policy(DEFAULT),
@@ -339,21 +347,15 @@ ppo_kinds.train(alone, decisions=200_000)
 bc.show(figures.endings({"PPO alone": alone, "PPO after cloning": training}))
 
 # %% [markdown]
-# **See.** Alone, PPO *does* get ahead now and then: the ten that ship in {{ 100 *
+# **See.** Alone, PPO *does* get ahead now and then: each of the ten in {{ 100 *
 # ppo('alone')['escapes'].max(1).min() | .0f }} to {{ 100 * ppo('alone')['escapes'].max(1).max() | .0f }} % of 300
-# drives at best, in the second half of their training in at most {{ 100 *
+# drives in a row at best, in the second half of training in at most {{ 100 *
 # ppo('alone')['escapes'][:, 8:].max() | .0f }} %.
 # <!-- claim: ppo('alone')['at'][0][8] > 400_000 and ppo('alone')['escapes'][:, -1].max() == 0 -->
 #
-# **Explain.** A compares a drive with PPO's *own* drives. After cloning many of them get ahead, alone
-# few. Whether that is the cause is open.
+# **Explain.** A compares with V, learned from PPO's *own* drives. After cloning many of these get ahead, alone
+# few. Whether that, or what these earn, is the cause is open.
 # <!-- claim: ppo('cloned')['escapes'].min() > 0.3 > 3 * ppo('alone')['escapes'].max() -->
-#
-# Getting out *and driving fast* pays over twice what sprinting pays: this is no *reward hacking*, where
-# the reward prefers what nobody meant.
-# <!-- claim: ppo('cloned')['returns'].mean() > 2 * ppo('alone')['returns'].mean() and
-#   discounted(ppo_drive('cloned'), settings_for('ppo').gamma) > 2 * discounted(ppo_drive(),
-#   settings_for('ppo').gamma) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask which of the course's figures would have looked the same for the second trap: those that
@@ -375,12 +377,12 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. After {{ ppo_kinds.KINDS['alone'].decisions | , }} decisions the ten agents of PPO alone earn
-#    twice what keeping straight earns, and none gets out. So look at success, and at a drive.
+# 1. After {{ ppo_kinds.KINDS['alone'].decisions | , }} decisions ten agents of PPO alone earn
+#    twice what keeping straight earns, and none gets out: look at success, and at a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one.
 # 3. With a concave reward ten agents do not sprint on our road, and none escapes.
 # 4. A decision with an A above its minibatch's mean pushes until its action is likelier by ε.
-# 5. PPO compares a drive with its other drives. After cloning the rule, ten of ten agents escape.
+# 5. After cloning the rule, all ten escape; why is open.
 #
 # **Three questions to think about**
 # - Which number, other than success, would have shown the second trap?

@@ -64,8 +64,7 @@ def reward_cases(rng):
     ],
     hints=(
         "Check for an accident first: in that second the reward is -10 and nothing else.",
-        "`formulas.speed_reward(v_lon)`, `formulas.centring_reward(offset)` and `formulas.steering_reward(theta)` are "
-        "the three terms.",
+        "A weighted mean: multiply each term by its weight, add the three, and divide by the sum of the weights.",
     ),
     mistakes={
         "if accident -> if accident == 1":

@@ -98,16 +98,17 @@ print(f"γ = {min(better):.2f}")
 #
 # A **state** says all that matters of the present: what may come next depends on it and the action
 # alone. Such a world is a *Markov decision process* (MDP). On the road our learners take the 26
-# numbers that they see for the state, although it holds more, such as the seconds that are left.
-# <!-- claim: DEFAULT.observation_size == 26 and not any('time' in name for name in
-#   observation.names(DEFAULT)) -->
+# numbers that they see for the state, although cars beyond the four nearest are missing.
+# <!-- claim: DEFAULT.observation_size == 26 and DEFAULT.sight.neighbours == 4 -->
 #
 # The **value** of action a in state s, **Q(s, a)**, is the return if you take a once and then act
 # as well as possible. It is the reward, plus γ times the value of the next state, V(s'), the larger
 # of its two Q. This is the **Bellman equation** of acting as well as possible (the *optimality*
-# equation; lesson [[discrete_sac]] has that of a given policy):
+# equation):
 #
 # $$ Q(s, a) = r(s, a) + \gamma \max_{a'} Q(s', a') $$
+#
+# Where chance decides s', the right side is a mean.
 #
 # To find Q, begin with Q = 0 everywhere and compute the right side for all ten pairs (s, a) at once.
 # This is one **sweep**; the next begins with the new Q.
@@ -143,8 +144,7 @@ bc.show(diagrams.sweeps(found))
 
 # %% [markdown]
 # **Explain.** A sweep looks one decision ahead, so each one carries the free road's value one state
-# back. (White above 0: the trap's pay.) At sweep 40 the row has the heights of the blue bars in
-# *Look first* at γ = 0.8.
+# back. (White above 0: the trap's pay.) Sweep 40 gives the blue bars of *Look first* at γ = 0.8.
 # <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
 # <!-- claim: (np.abs(sweeps(40, 0.8)[:, 1] - 5 * 0.8 ** np.arange(4, -1, -1)) < 0.005).all() -->
 
@@ -261,8 +261,8 @@ def learn_chain(chances, gamma, step, taught):
 check.learn_chain(learn_chain)
 
 # %% [markdown]
-# Thirty learners of each kind make 1,000 decisions with a step of 0.3. A learner has learned to
-# leave if in the end Q(0, 1) > Q(0, 0).
+# Thirty learners of each kind make 1,000 decisions. A learner has learned to leave if in the end
+# Q(0, 1) > Q(0, 0).
 #
 # - *A*: ε = 0.1 and the paper's γ = {{ SETTINGS.gamma }};
 # - *B*: as A, with γ = 0.95;
@@ -270,8 +270,8 @@ check.learn_chain(learn_chain)
 # - *E*: as A, with a demonstration of the way out, replayed after each decision.
 #
 # > **Predict.** In which of the five kinds do more than half of the thirty learn to leave? At first
-# > the greedy action leads back to the trap. Then getting through takes four random decisions in a
-# > row, each right with probability ε / 2.
+# > all Q are equal, and the greedy action, 0, leads to the trap. Getting through takes four random
+# > decisions in a row, each right with probability ε / 2.
 
 # %%
 predict("values.4", "In which kinds do more than half learn to leave? Letters, as in: A, C")
@@ -293,18 +293,20 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # %% [markdown]
 # **Explain.** In A none learns to leave, although leaving is worth more. The way out costs the
 # trap's pay now, and earns at its end: this is a **barrier**. Chance gets through in one attempt in
-# {{ 20**4 | ,.0f }}. A longer view alone does not help here: none of B's thirty was on the free
-# road, so its value is unknown.
+# {{ 20**4 | ,.0f }}. A longer view alone does not help here: none of B's thirty reached the free
+# road, so none knows its value.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps the values (D itself goes on driving at random). One attempt in {{ 4**4 }} gets
-# through in C, one in {{ 2**4 }} in D, and each decision in the trap begins an attempt. Once is not
-# enough: a walk moves the value one state back (Round 3), and in each state going on must come to be
-# worth more than going back. {{ free_road_seen(0.5, 0.8) }} of C were on the free road, {{
-# leaving(0.5, 0.8) }} learn to leave. Lesson [[the_barrier]] asks what chance does on the road, where
-# it also causes accidents.
+# More exploration helps: all of D learn to leave, though they act at random. One attempt in {{ 4**4 }}
+# gets through in C, one in {{ 2**4 }} in D. Once is not enough: in the last picture Q(0, 1) rests at
+# {{ 0.8**2 * 0.16 / 0.2 | .2f }} = γ² · {{ 0.16 / 0.2 | .2f }}, what it is worth to leave, turn back
+# and stay. Each walk moves the free road's value one state back (Round 3). {{ free_road_seen(0.5, 0.8)
+# }} of C reached the free road, {{ leaving(0.5, 0.8) }} learn to leave. On the road chance also causes
+# accidents (lesson [[the_barrier]]).
+# <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
+#   chain.over_walks(0.5, 0.8, seed)[12:36]) -->
 # <!-- claim: chain.leaves(chain.over_walks(0.5, 0.8, 1)[-1]) -->
 # <!-- claim: chain.has_been_free(chain.over_walks(0.5, 0.8, 16)[-1]) and
 #   not chain.leaves(chain.over_walks(0.5, 0.8, 16)[-1]) -->
@@ -313,6 +315,8 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # A replayed demonstration teaches all thirty (E). Q-learning can learn from decisions that it did not
 # make: it is **off-policy**, and so is the learner of the next lessons.
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
+#
+# The time limit changes no target: the road goes on after it.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The question about the last decision separates two ideas that lesson [[update_and_loop]] needs: an

@@ -40,11 +40,6 @@ def by_bonus(teacher: str) -> np.ndarray:
     return np.array([score("doorkey", teacher, name, "drawn_success") for name in BONUSES.values()])
 
 
-def without_bonus(teacher: str) -> float:
-    """The success of both aids with c = 0 on DoorKey, by most probable actions."""
-    return score("doorkey", teacher, BONUSES["c = 0"])
-
-
 def without_loops(measure: str) -> float:
     """The success on DoorKey with c = 2, and drives of the random teacher that reach the goal."""
     return score("doorkey", "random", elsewhere.WITHOUT_LOOPS, measure)

@@ -50,10 +50,10 @@ progress("your_teacher")
 # %% [markdown]
 # ## Look first
 #
-# Here are three teachers beside the rule of lesson [[the_rule]]. `racer` gets out of
+# Here are three teachers. `racer` gets out of
 # the trap, then aims for 20 m/s and ignores the other cars. `timid` keeps straight behind trap 1.
-# **Half random** is the rule, but in half of the states it takes a random action instead, always the
-# same one in the same state. Press play. Which earns most?
+# **Half random** is the rule of lesson [[the_rule]], but in half of the states it takes a random action
+# instead, always the same one in the same state. Watch them. Which earns most?
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
@@ -190,8 +190,8 @@ driven = [bc.record(driver, [ROAD], label=name)[0] for name, driver in both.item
 bc.recording([beginning(drive, 30) for drive in driven], height=360)
 
 # %% [markdown]
-# Two students are no verdict. Ten of each teacher ship, and ten that learned alone, with as many
-# decisions of their own, tested on {{ len(taught_agents.ROADS) }} held-out roads.
+# Two students are no verdict. Ten students of each teacher ship, and ten agents that learned alone from as
+# many decisions of their own. All drove {{ len(taught_agents.ROADS) }} held-out roads.
 # <!-- claim: len({(s.learning_starts, s.envs_per_agent, s.updates) for s in
 #   map(settings_for, ('sac', 'bootstrapped'))}) == 1 -->
 #
@@ -258,19 +258,20 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # **See.** All ten escape, although half random's drives are in the free lane for {{
 # in_free_lane('random-50') | .0f }} s on average. Of the
-# rule's ten, {{ escape_of(['rule']) }} do, no clear difference. (In Round 2 all did; in longer
-# trainings agents can lose the way out again, lesson [[found_and_kept]].)
+# rule's ten, {{ escape_of(['rule']) }} do, no clear difference. (In Round 2 all did; agents can
+# lose the way out again, lesson [[found_and_kept]].)
 # <!-- claim: student_escapes('the rule') == 10 -->
 # <!-- claim: not significant(10)[escape_of(['random-50']), escape_of(['rule'])] -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
 #   TAUGHT['soft'] == TAUGHT['bootstrapped'] -->
 #
 # {{ escape_of(['rule', 'late', 'random-25', 'random-50']) }} of 40 students escape where the drives reach the
-# free lane (the racer's: {{ student_escapes(taught_agents.RACER_LONG) }} of 10), {{ escape_of(['timid',
-# 'mirrored']) }} of 20 where they do not.
+# free lane, {{ escape_of(['timid', 'mirrored']) }} of 20 where they do not. The racer's reach it, too, but {{
+# student_escapes(taught_agents.RACER_LONG) }} of its students escape (Round 2).
 # <!-- claim: escape_of(['timid', 'mirrored']) == 0 and min(escape_of([name]) for name in ('rule',
 #   'late', 'random-25', 'random-50')) > 5 -->
-# <!-- claim: in_free_lane('timid') == in_free_lane('mirrored') == 0 < in_free_lane('random-50') -->
+# <!-- claim: in_free_lane('timid') == in_free_lane('mirrored') == 0 < in_free_lane('random-50') and
+#   seconds_of_racer() > 10 -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].scores('returns').mean() >
 #   worth()['rule', 'bootstrapped'].scores('returns').mean() -->
 # <!-- claim: worth()['timid', 'bootstrapped'].escapers('bootstrapped') == 0 and not
@@ -278,17 +279,18 @@ bc.show(figures.of_six_teachers(taught))
 # <!-- claim: dataclasses.replace(settings_for('soft'), method='bootstrapped', beta_start=0.6) ==
 #   settings_for('bootstrapped') -->
 #
-# The teachers differ in more, such as their labels.
+# From half random's labels alone {{
+# worth()['random-50', 'soft'].escapers('soft') }} of ten escapes.
+# <!-- claim: significant(10)[escape_of(['random-50']), worth()['random-50', 'soft'].escapers('soft')] -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Return to the ranking on the board. Ask which column of the figure would have sorted the students,
-# and what else the six teachers differ in. With half random's labels alone, {{
-# worth()['random-50', 'soft'].escapers('soft') }} of ten escapes.
+# and what else the six teachers differ in.
 
 # %% [markdown]
 # ## Round 4: the free lane, or its accidents?
 #
-# Of half random's drives, {{ gets_ahead('random-50') }} end ahead of trap 1 and are left out here; of
+# Of half random's drives, {{ gets_ahead('random-50') }} end ahead of trap 1 and are left out; of
 # the other {{ len(crashes.crashed()) }}, {{ reach_free_lane() }} reach the free lane. Ten agents learn from
 # all {{ len(crashes.crashed()) }}, ten from the same, *cut* where they reach the free lane. The **control**
 # loses as many decisions ({{ 100 - 100 * rows_left() | .0f }} %) from *before* the free lane.
@@ -298,10 +300,12 @@ parted = shipped_experiment("crashes")
 bc.show(figures.without_a_part(parted))
 
 # %% [markdown]
-# After the cut {{ crash_escapes('cut') }} of ten escape, at hardly more than the traps' speed, and none
-# earns more than {{ crash_returns('cut').max() | .0f }}, about what staying pays. With all drives each earns
-# at least {{ math.floor(crash_returns('all').min()) }}. Fewer decisions do not explain it: the control earns more
-# than the cut (rank tests, after Holm).
+# From all these drives {{ crash_escapes('all') }} of ten escape (in Round 3 ten), without their labels {{
+# crash_escapes('no-labels') }}: no clear differences. After the cut {{ crash_escapes('cut') }} escape, at hardly
+# more than the traps' speed, and none earns more than {{ crash_returns('cut').max() | .0f }}, about what staying
+# pays. Fewer decisions do not explain it: the control earns more (rank test, after Holm).
+# <!-- claim: not any(significant(10)[escape_of(['random-50']), crash_escapes(kind)] for kind in ('all',
+#   'no-labels')) -->
 # <!-- claim: DEFAULT.traps.speed - 0.1 < shipped_experiment('crashes')['cut'].scores('speed').min() and
 #   shipped_experiment('crashes')['cut'].scores('speed').max() < DEFAULT.traps.speed + 0.3 -->
 # <!-- claim: crash_returns('cut').max() < crash_returns('all').min() -->
@@ -324,8 +328,8 @@ choices = ["both pairs", "those with the free lane", "those with its accidents",
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
-# **Exercise (5 min, ●○○).** Keep the free lane, leave out its accident. A drive's last decision ends
-# in the accident: leave it out where the drive has been in lane 0.
+# **Exercise (5 min, ●○○).** Keep the free lane, but leave out its accident: a drive's last decision,
+# if it has been in lane 0.
 
 
 # %%
@@ -350,13 +354,13 @@ passed = check.without_the_accident(without_the_accident).passed
 figures.parted(without_the_accident) if passed else "First the exercise."
 
 # %% [markdown]
-# **Explain.** Of ten agents each, in a whole training, {{ crash_escapes('lane') }} escape with the free lane but
-# without its accidents, and earn {{ crash_returns('lane').mean() | .0f }}; {{ 'none' if
-# crash_escapes('accident') == 0 else crash_escapes('accident') }} with the accidents but without the free lane, and
-# they earn {{ crash_returns('accident').mean() | .0f }}.
+# **Explain.** In a whole training, {{ crash_escapes('lane') }} of ten escape with the free lane but without its
+# accidents, and earn {{ crash_returns('lane').mean() | .0f }}; {{ 'none' if crash_escapes('accident') == 0 else
+# crash_escapes('accident') }} with the accidents but without the free lane, and they earn {{
+# crash_returns('accident').mean() | .0f }}.
 #
-# So most escape if the drives *show the free lane*, crash or not, and the bonus is paid: from all
-# drives without it, {{ crash_escapes('no-bonus') }} of ten do.
+# So most escape if these drives *show the free lane*, crash or not; from all drives without the bonus, {{
+# crash_escapes('no-bonus') }} of ten do.
 # <!-- claim: in_free_lane('rule') > 0 and free_lane.shown('rule')[1] == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=1
@@ -377,7 +381,7 @@ compare_predictions(
 # %% [markdown]
 # ## Further: a road on which blind rules fail
 #
-# Here ten cars fill the left lane, in a queue. They are faster than the traps, so they pass you.
+# Here ten cars queue in the left lane. They are faster than the traps, so they pass you.
 # <!-- claim: example_teachers.DENSE.traffic.cars == 10 and slowest_in_queues() > 10 ==
 #   DEFAULT.traps.speed -->
 
@@ -409,8 +413,8 @@ check.watchful_rule(watchful_rule)
 # 1. A teacher is a function of the true state. It drives, and it labels.
 # 2. A rule that looks at no other car can pass a test. Test it where looking matters.
 # 3. Success and return can give opposite verdicts on a teacher: give both.
-# 4. From half random's drives most students escaped if these showed the free lane and the bonus was
-#    paid, crash or not.
+# 4. Half random was good at reaching the free lane: most students escaped if its drives showed it and the
+#    bonus was paid, crash or not.
 # <!-- claim: {kind for kind in crashes.KINDS if crash_escapes(kind) > 5} == {'all', 'no-labels', 'as-many', 'lane'} -->
 #
 # **Three questions to think about**
@@ -434,8 +438,9 @@ check.watchful_rule(watchful_rule)
 # %% [markdown]
 # ## Further: ask only when unsure
 #
-# Your worse student drives, and asks your rule in each second in which your two students disagree,
-# or about as often at random. Compare the accidents. One pair is few: what does your neighbour see?
+# Your worse student drives, and asks your rule whenever your two students disagree,
+# or about as often at random. Compare the accidents. One pair can show whether asking helps,
+# not whether disagreement picks better seconds than chance.
 
 # %% tags=["nbval-ignore-output"]
 worse_first = [students[place] for place in learned["success"].argsort()]
