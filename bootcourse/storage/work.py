@@ -11,13 +11,15 @@ import uuid
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from filelock import FileLock, SoftFileLease, Timeout
 
 from bootcourse.errors import BootcourseError
 from bootcourse.files import remove_temporary
-from bootcourse.learn.training import Training
-from bootcourse.storage.checkpoint import save_checkpoint
+
+if TYPE_CHECKING:
+    from bootcourse.learn.training import Training
 
 LOCK = ".lock"
 LEASE = 60.0  # s without a sign of life, after which an owner on another machine counts as dead
@@ -114,7 +116,9 @@ class Checkpoints:
     def __init__(self, path: Path, seconds: float):
         self.path, self.seconds, self.last = path, seconds, time.monotonic()
 
-    def __call__(self, training: Training) -> None:
+    def __call__(self, training: "Training") -> None:
+        from bootcourse.storage.checkpoint import save_checkpoint  # loads torch, which who only owns a folder can spare
+
         if time.monotonic() - self.last > self.seconds:
             save_checkpoint(training, self.path)
             self.last = time.monotonic()
