@@ -248,8 +248,9 @@ check.diagnose(diagnose)
 #   likeliest action is the rule's in {{ 100 * alike('C', 1000, 5000) | .0f }} % of the seconds, the
 #   healthy agent's in {{ 100 * alike('healthy', 1000, 5000) | .0f }} %. At the end: {{ 100 *
 #   alike('C', 9000, 10000) | .0f }} % and {{ 100 * alike('healthy', 9000, 10000) | .0f }} %.
-# - **D** adds γ times the value of a car that has just crashed, {{ after_the_end('D') | .0f }} on average. No
-#   row teaches that value: it can come out too high (lesson [[update_and_loop]]) or, as here, too low.
+# - **D** adds γ times the value of a car that has just crashed, {{ after_the_end('D') | .0f }} on average
+#   at the table's accidents. No row teaches that value: it can come out too high
+#   (lesson [[update_and_loop]]) or, as here, too low.
 # - **E** has left the rule: at the end, {{ 100 * alike('E', 9000, 10000) | .0f }} % by that probe.
 #   Why it earns more was not tested.
 # - **F**: the actor's loss changes the critic, and raises the Q of what the policy likes.

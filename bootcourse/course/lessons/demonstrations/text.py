@@ -35,8 +35,8 @@ progress("demonstrations")
 # %% [markdown]
 # ## Look first
 #
-# Drive this road until you get out once: you will train clones of your drive. (If you do not get out,
-# one drive of the rule stands for yours.)
+# Drive this road until you get out once without an accident: you will train clones of your drive. (If you
+# do not, one drive of the rule stands for yours.)
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
@@ -124,8 +124,8 @@ bc.show(figures.clones(measured))
 # updates_of(of('bc')) / UPDATES | .0f }} times as many, all ten escape and crash in {{ 100 *
 # accidents('bc') | .1f }} % of their drives (but earn {{ of('bc').scores('returns').mean() | .0f }}, the
 # rule {{ of('rule').scores('returns').mean() | .0f }}); of the stochastic rule, with {{
-# updates_of(clones_of_the_stochastic_rule()) / UPDATES | .0f }} times as many, nine of ten escape, but crash
-# in {{ 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %, nearly always once ahead.
+# updates_of(clones_of_the_stochastic_rule()) / UPDATES | .0f }} times as many, nine of ten escape; the ten crash in
+# {{ 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %, nearly always after they got ahead.
 # <!-- claim: of('bc').scores('returns').mean() < of('rule').scores('returns').mean() -->
 # <!-- claim: UPDATES == 1500 -->
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 -->
@@ -175,8 +175,8 @@ explorable.compounding()
 
 # %% [markdown]
 # Four times as many where errors are rare: of $T$ decisions on average at most $\epsilon \, T (T + 1) / 2$
-# are errors. If errors stay alone, $\epsilon \, T$ are (dashed). Our clones make more: they agree
-# less in their own states (next picture, left) than in their data.
+# are errors. If errors stay alone, $\epsilon \, T$ are (dashed). Our clones make more: in their own
+# states, which Round 3 shows, they agree less than in their data.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Draw both bounds, T and T²: the first error comes at decision t with a probability of at most ε,

@@ -286,8 +286,8 @@ bc.show(figures.two_jobs(alphas, knows, walked))
 
 # %% [markdown]
 # **Explain.** About 0.5: {{ constant().leaves.mean(1).max() | .2f }}, at α = 10, where the choice stays
-# nearly even. By lesson [[values]]'s measure, Q(0, 1) > Q(0, 0), at most {{ more_often().max() }} of
-# thirty learn to leave at one of these α. **α does two jobs**: it decides how much a learner tries, and
+# nearly even. By lesson [[values]]'s measure, Q(0, 1) > Q(0, 0), at none of these α do more than {{
+# more_often().max() }} of thirty learn to leave. **α does two jobs**: it decides how much a learner tries, and
 # how surely it takes what is better.
 # <!-- claim: ALPHAS[constant().leaves.mean(1).argmax()] == ALPHAS[-1] and more_often().max() < 15 -->
 #
@@ -329,8 +329,8 @@ explorable.thermostat()
 # <details><summary>Why −1? And is that why plain SAC stays in the trap of our road?</summary>
 #
 # The paper gives no reason for −1; with continuous actions, whose entropy can be negative, such targets
-# are usual. On our road a reachable η is not enough: with 0.3 and with 1 {{ 'none' if not reachable().any() else
-# reachable().sum() }} of three agents each escapes.
+# are usual. On our road a reachable η is not enough: three agents learned with η = 0.3 and three with 1:
+# {{ 'none' if not reachable().any() else reachable().sum() }} escapes.
 #
 # </details>
 
@@ -377,8 +377,8 @@ compare_predictions(
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed.
 # 3. The highest of many estimates is too high, so the smaller of two critics counts.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
-# 5. On the chain the pay leads few out: with a small α few find the way, with a large one leaving is as
-#    likely as not. A thermostat can rest if η is between 0 and log n.
+# 5. On the chain no constant α leads out surely: with a small one few find the way, with a large one leaving
+#    is as likely as not. A thermostat can rest if η is between 0 and log n.
 
 # %% [markdown]
 # **Three questions to think about**

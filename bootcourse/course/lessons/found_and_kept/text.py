@@ -157,7 +157,7 @@ check.ever_lost(ever_lost)
 # %%
 choices = [
     "where β never ends, with or without the bonus",
-    "where the bonus is paid, whether or not β ends",
+    "only where β never ends and no bonus is paid",
     "only where β never ends and the bonus is paid",
 ]
 predict("found_and_kept.2", "Where do none of our ten lose the way out?", choices)
@@ -271,8 +271,8 @@ bc.show(figures.chances(cells, chance, figures.OF_EIGHT))
 # **See.** *The setting on the right is no exception.* With the paper's driver, π̃, the four rates come
 # in {{ 100 * with_teacher('1') | .0f }}, {{ 100 * with_teacher('2') | .0f }} and {{ 100 *
 # with_teacher('4') | .0f }} % of the draws with one road, and in {{ 100 * with_teacher('1/4') | .0f }} %
-# with four. The bars, 95 % intervals that allow for the few agents, are wide. Roads and updates
-# change together: which of the two matters is open.
+# with four. The bars, 95 % intervals that allow for the few agents, are wide, and overlap. From ¼ to 1 update
+# the roads change, too: which of the two matters is open.
 # <!-- claim: all(pattern(clocks()[u, 'π̃']).high - pattern(clocks()[u, 'π̃']).low > 0.35 for u in '124') -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -283,10 +283,12 @@ bc.show(figures.chances(cells, chance, figures.OF_EIGHT))
 # ## So why is our table not the paper's?
 #
 # - *The loss is a part of it.* Of twenty agents with demonstrations alone {{ alone_and_ending().found
-#   }} find the way out and {{ alone_and_ending().kept }} keep it; if β never ends, 17 and 14.
-# - *Shown*: settings that the paper does not rule out (one road, π̃) give its four success rates in {{
-#   100 * with_teacher('1') | .0f }} to {{ 100 * with_teacher('4') | .0f }} % of the draws (95 %
-#   intervals: {{ 100 * min(pattern(clocks()[u, 'π̃']).low for u in '124') | .0f }} to {{ 100 *
+#   }} find the way out and {{ alone_and_ending().kept }} keep it; if β never ends,
+#   {{ alone_and_staying()[1] }} and {{ alone_and_staying()[2] }}.
+# - *Shown*: settings that the paper does not rule out give its four success rates: with π̃ in
+#   {{ 100 * with_teacher('1/4') | .0f }} % of the draws with four roads, in {{ 100 * with_teacher('1') | .0f }} to
+#   {{ 100 * with_teacher('4') | .0f }} % with one (95 % intervals of
+#   these: {{ 100 * min(pattern(clocks()[u, 'π̃']).low for u in '124') | .0f }} to {{ 100 *
 #   max(pattern(clocks()[u, 'π̃']).high for u in '124') | .0f }} %). The agents of our own
 #   table never do: none of its ten with demonstrations alone succeeds.
 # <!-- claim: of('demos').scores('success').max() == 0 == pattern(of_all()).value and with_teacher('1') <

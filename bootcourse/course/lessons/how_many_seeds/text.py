@@ -107,7 +107,8 @@ explorable.certainty()
 #   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
 # This is the **exact 95 % interval** of k out of n: at its low end, k *or more* have a chance of
-# 2.5 %; at its high end, k *or fewer* have. At least 95 of 100 such intervals contain the true rate.
+# 2.5 %; at its high end, k *or fewer* have. In the long run at least 95 % of such intervals contain
+# the true rate.
 # <!-- claim: rarest_cover(10) >= 0.95 -->
 #
 # For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes, and of
@@ -267,12 +268,12 @@ check.bootstrap_interval(bootstrap_interval)
 # ## Round 4: what do your five seeds show?
 #
 # Change one number of the method, and train five agents with the change, five without.
-# `bonus=0.0` takes the bonus from the demonstrations; other numbers are `xi_multiplier`, `rule_p`,
-# `beta_start`, `gamma`. The score is an agent's success on 200 roads after 150 episodes: who learns
-# the way out early?
+# `bonus=0.0` takes the bonus from the demonstrations; other numbers are `xi_multiplier` (ξ = 200 α: 200),
+# `rule_p` (p: 0.9), `beta_start` (β at first: 0.6), `gamma` (0.8). The score is an agent's success on 200
+# roads after 150 episodes: who learns the way out early?
 #
 # The score of a group is its **interquartile mean** (IQM), the mean of the middle half: sort, and
-# leave out a quarter, rounded down, at each end. Of five the middle three remain: one lucky agent
+# leave out a quarter, rounded down, at each end. Of five the middle three remain: one agent far from the other four
 # barely moves their mean.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each

@@ -83,6 +83,11 @@ def led_out(gamma: float, with_worth: bool) -> int:
     return int((aim(gamma, with_worth) > figures.LED).sum())
 
 
+def led_out_by_each() -> int:
+    """How many get out in more than a tenth of their drives with W and γ = 1, and with neither."""
+    return int(((aim(1.0, True) > figures.LED) & (aim(0.8, False) > figures.LED)).sum())
+
+
 def need_both() -> int:
     """How many of them get out in more than half of their drives with W and γ = 1, in hardly any with one or none."""
     both, *less = (aim(*one) for one in AIMS)

@@ -187,9 +187,10 @@ drivers = {name: imagined_road.driver(values_of, stuck, 10, *aim) for name, aim 
 table(*figures.out_of_trap(drivers, roads[:10], study))
 
 # %% [markdown]
-# **See.** *Most need neither.* With its own γ and without W the look-ahead still leads
-# {{ led_out(0.8, False) }} of the nine out. But one of the nine needs both.
-# <!-- claim: led_out(0.8, False) > 0.5 * led_out(1.0, True) and need_both() == 1 -->
+# **See.** *Most need neither.* With its own γ and without W the look-ahead leads {{
+# led_out(0.8, False) }} of the nine out: {{ led_out_by_each() }} of the six, and one that stays in with
+# W and γ = 1. But one of the six needs both.
+# <!-- claim: led_out(0.8, False) == led_out_by_each() + 1 and led_out(1.0, True) == 6 and need_both() == 1 -->
 #
 # **Explain.** The look-ahead improves *one* decision; after it the base policy drives. So each step
 # towards the way out has to raise $\hat Q$ by itself: by ten seconds of rewards, or by W of the speed
@@ -340,7 +341,7 @@ bc.show(figures.learned(shipped_experiment("learned-model"), study))
 # <!-- claim: all((learned_rows() > learned_rows(share)).all() for share in learned_model.RANDOM) and
 #   learning().measured['rows'].mean() > learned_rows().mean() -->
 #
-# Even then {{ still_worse() }} of the ten crash more than alone.
+# Even after the look-ahead's drives {{ still_worse() }} of the ten crash more than alone.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what an honest learned model would have to say besides a number: how sure it is. Five networks
@@ -363,8 +364,8 @@ compare_predictions(
 # 1. A rollout takes one action, follows a policy, and adds an estimate of what comes after.
 # 2. The best of nine improves one decision, without training. No future tried led a stuck agent out;
 #    a chain of such decisions led some out.
-# 3. A wrong model harms those that crash rarely alone: PPO's agents with four of six errors, Round 1's
-#    with one. A late road lacks the car's own last action.
+# 3. A wrong model harms those most that crash rarely alone: with four of six errors PPO's agents crash
+#    more, with one Round 1's. A late road lacks the car's own last action.
 # 4. Random actions in the drives help a learned model; the look-ahead's own drives helped these ten
 #    agents more.
 # <!-- claim: worse_than_alone('ppo_cloned', 'rollouts') == 4 and worse_than_alone('bootstrapped',

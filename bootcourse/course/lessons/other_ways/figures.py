@@ -87,7 +87,8 @@ def who_chose(driven: Episodes) -> Figure:
 def handing_over(driven: Episodes, h: np.ndarray, judged: Sequence[Judged]) -> Figure:
     """How a teacher hands over: a column for each episode says who drives; below, how each judgement came out."""
     figure, look, rule, episodes = new_figure(4.9), style("jsrl"), style("rule"), len(h)
-    title = f"h falls from {h[0]:g} s to {h.min():g} s, with {driven.accident.sum()} accidents in {episodes} episodes"
+    shrinks = sum(each.shrinks for each in judged)
+    title = f"h shrinks {shrinks} times, with {driven.accident.sum()} accidents in {episodes} episodes"
     ax, below = axes_at(figure, 0.6, 0.72, 5.0, 1.9), axes_at(figure, 0.6, 3.1, 5.0, 1.2)
     _columns(ax, driven, look)
     ends = [(h[-1] / 2, "the rule", rule.colour), (h[-1] + 30, "then the agent", look.colour)]
@@ -103,7 +104,6 @@ def handing_over(driven: Episodes, h: np.ndarray, judged: Sequence[Judged]) -> F
     says = [("filled: h shrinks", look.colour), ("open: h stays", look.colour), ("bar: the limit", INK)]
     label_ends(below, [(top * place, *each) for place, each in zip((0.9, 0.6, 0.3), says, strict=True)])
     steps = ", ".join(f"{seconds:g} s from {1 + np.argmax(h == seconds)}" for seconds in sorted(set(h), reverse=True))
-    shrinks = sum(each.shrinks for each in judged)
     words = f"h is judged {len(judged)} times and shrinks {shrinks} times, first without a limit"
     return finish(figure, title, f"Columns. h: {steps}. Below, {words}.")
 

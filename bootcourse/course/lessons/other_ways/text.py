@@ -241,7 +241,7 @@ bc.show(figures.handing_over(*measures.handed_over(training)))
 #   jump-start RL has none, and its rule's decisions in training are counted;
 # - IBRL keeps the rule in the test;
 # - RLPD makes half an update a decision, twice the other SACs'; its authors make 20, with ten critics;
-# - the search for PPO was over its roads at once;
+# - PPO has no target entropy: its search was over how many roads it drives at once;
 # - c and β of bootstrapped SAC were chosen by hand.
 # <!-- claim: by_hand() == {'bootstrapped': {'bonus', 'beta_episodes'}} and {decisions_per_update(m) /
 #   decisions_per_update('rlpd') for m in ('bootstrapped', 'jsrl', 'ibrl')} == {2} and
@@ -266,8 +266,8 @@ by_rule = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 200
 bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 
 # %% [markdown]
-# **See.** On average each of the five earns more than twice what the rule earns, PPO and plain SAC without
-# a teacher less. After {{ LONGEST | , }} decisions
+# **See.** On average each of the five earns more than twice what the rule earns; PPO and plain SAC without
+# a teacher earn less than the rule. After {{ LONGEST | , }} decisions
 # {{ sum(escaping(m, LONGEST) for m in ('ppo', 'sac')) }} of the
 # {{ sum(at(m, 'returns', LONGEST).size for m in ('ppo', 'sac')) }} agents without a teacher gets out, and one of
 # bootstrapped SAC's {{ at('bootstrapped', 'returns', LONGEST).size }} has lost the way (lesson

@@ -140,7 +140,7 @@ bc.show(figures.would_do({"Q-learning": without}))
 
 # %% [markdown]
 # **See.** *Both would accelerate in every recorded second, and crash on every road.* When the
-# rule did not accelerate, no recorded second shows where that would have led. There Q is a guess, and
+# rule did not accelerate, no recorded second shows where accelerating would have led. There Q is a guess, and
 # the highest of nine tends to be too high: Q promises over 2.5 on average, more than
 # the {{ choosing.earned(choosing.recorded()) | .1f }} that the rule went on to earn, although these
 # agents crash. Why they accelerate in every second is open.
@@ -224,7 +224,7 @@ bc.show(figures.would_do({"with CQL's term": with_term}))
 # > **Predict.** Of which agents will the estimates be furthest from the truth?
 
 # %%
-whose = ["those that earn least", "those that act least like the rule", "those trained offline"]
+whose = ["those with the least return", "those that act least like the rule", "those trained offline"]
 predict("recorded_drives.3", "Whose estimates will be furthest from the truth?", whose)
 
 # %%
@@ -241,8 +241,8 @@ bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, tru
 # and CQL it misses by less than 0.1. (So does one guess for all: the rule's own worth from the
 # start, {{ choosing.rule_worth() | .2f }}.) Of the agents that do as the data in under 40 % of
 # the seconds, one is put more than 1 too high, another more than 0.4 too low; the 30 are worth
-# {{ truth().min() | .1f }} to {{ truth().max() | .1f }}. CQL with an actor, trained offline, earns
-# least in each set, and is less than 0.5 off.
+# {{ truth().min() | .1f }} to {{ truth().max() | .1f }}. CQL with an actor, trained offline,
+# has the least return in each set, and is less than 0.5 off.
 # <!-- claim: abs(off()[:, :2]).max() < 0.1 and overlaps()[:, :2].min() > 0.85 -->
 # <!-- claim: overlaps()[:, 2:].max() < 0.7 and abs(choosing.rule_worth() - truth()[:, :2]).max() < 0.1 -->
 # <!-- claim: off()[overlaps() < 0.4].min() < -0.4 and off()[overlaps() < 0.4].max() > 1 -->
@@ -315,7 +315,7 @@ table(["reward at D = ½", "crash after 5 s", "drive of 150 s"], rows)
 # **Explain.** *The sign decides.* −log (1 − D) is above 0 for each D, so it pays to go on. log D is
 # below 0: each second costs, and at equal D an early crash is cheapest.
 #
-# With ours a crash costs GAIL only the pay that it cuts off; the road charges extra.
+# Paid −log (1 − D), GAIL loses by a crash only the pay that it cuts off. The road's own −10 it is never told.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let them say in one sentence what a clone is told in a state that no demonstration holds, and what

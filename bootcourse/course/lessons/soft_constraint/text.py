@@ -205,8 +205,8 @@ bc.show(figures.mixed(strengths, *examples.mixed(mix, strengths)))
 
 # %% [markdown]
 # **See.** *None of these four is fast and safe.* With ξ = 1 each returns {{ rule_on_these_roads() | .0f
-# }}, like the rule on these roads. With less they crash, also with Q alone. This Q judges the agent's own
-# policy.
+# }}, like the rule on these roads. With a smaller ξ they crash, with Q alone, too:
+# this Q says what an action is worth if the agent's own policy drives on, not the compromise.
 # <!-- claim: not drives()[1][0].any() and (abs(drives()[0][0] - rule_on_these_roads()) < 1).all() -->
 # <!-- claim: (drives()[1][1:-1] > 0).all() and drives()[0][-1].min() > drives()[0][:-1].max() and
 #   (drives()[1][-1] < drives()[1][-2]).all() -->
@@ -328,7 +328,7 @@ live.show(training)
 
 # %% [markdown]
 # **See.** *The value penalty delays the way out*, although it makes following worth least. Each of the
-# study's ten agents without it finds it before any of the ten with it. Why is open.
+# study's ten agents without the penalty finds the way out before any of the ten with it. Why is open.
 # <!-- claim: len(of('soft')) == len(actor_only()) == found(of('soft')) == found(actor_only()) == 10
 #   and sooner_without() -->
 
@@ -353,7 +353,7 @@ kinds = ["ξ stays at 2", "ξ stays at 0.1", "ξ falls towards 0"]
 bc.show(figures.courses(kinds))
 
 # %% [markdown]
-# **See.** With 2 agents stay slow, and find the way out late (after {{ finding(stays(2)).min() }} to {{
+# **See.** With ξ = 2 the agents stay slow, and find the way out late (after {{ finding(stays(2)).min() }} to {{
 # finding(stays(2)).max() }} episodes; where ξ falls, {{ finding(of('soft')).min() }} to {{
 # finding(of('soft')).max() }}). Where ξ falls, {{ losing([of('soft')]) }} of
 # ten **lose** the way out: of {{ IN_A_ROW }} episodes in a row {{ HAD }} end ahead, later at most {{ LOST }}.

@@ -93,9 +93,9 @@ def escape_and_crash(kind: str) -> int:
 
 
 def earn_more(kind: str, longer: bool = False) -> int:
-    """How many agents of a kind earn more than by staying; longer: of the others, with twice the updates."""
+    """How many agents of a kind end ahead and earn more than by staying; longer: of others, with twice the updates."""
     agents = easy(stressed(kind)) if longer else easy(kind)
-    return int((agents.scores("returns") > easier.staying(kind)).sum())
+    return int(((agents.scores("returns") > easier.staying(kind)) & (agents.scores("success") > 0.01)).sum())
 
 
 def earn_unhurt() -> int:

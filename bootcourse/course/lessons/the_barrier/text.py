@@ -128,9 +128,8 @@ table(["drive", "worth at γ = 0.8"], rows, below=below)
 
 # %% [markdown]
 # **Explain.** *Staying is not best, even at γ = 0.8.* The planner knows the future, but
-# that is not needed: {{ len(helped_better()) }} of the ten shipped agents with the rule's help
-# (lessons [[soft_constraint]] and [[learning_from_demonstrations]]) earn a larger sum than doing
-# nothing.
+# that is not needed: {{ len(helped_better()) }} of the ten agents with the rule's help that ship (five of
+# lesson [[soft_constraint]], five of [[learning_from_demonstrations]]) earn a larger discounted sum than doing nothing.
 # <!-- claim: searched().best.value > 2 * searched().keep_lane.value -->
 # <!-- claim: searched().leaves.value == 1 and len(helped()) == 10 -->
 #
@@ -289,13 +288,14 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 #   easy('a lane keeper').escapers('sac') -->
 #
 # With a lane keeper and cheap accidents none of twenty escapes, and
-# none of twenty others with twice the updates. But {{
-# earn_more(KEPT, longer=True) }} of these earn more than by staying (with cheap accidents alone {{
+# none of twenty others with twice the updates. But {{ earn_more(KEPT, longer=True) }} of these end
+# ahead on some roads, and earn more than by staying (with cheap accidents alone, and twice the updates, {{
 # earn_more(CHEAP, longer=True) }}).
 # <!-- claim: easy(stressed(KEPT)).escapers('sac') == 0 and stats.fisher_exact([[earn_more(kind,
 #   longer=True), 20 - earn_more(kind, longer=True)] for kind in (KEPT, CHEAP)]).pvalue < 0.001 -->
 #
-# To escape is not to earn. Of the {{ easy(BOTH).escapers('sac') }} that both changes free, {{
+# To escape is not to earn (an accident costs what it does on the agent's road). Of the {{
+# easy(BOTH).escapers('sac') }} that both changes free, {{
 # len(freed_and_slower()) }} earn more than a car that stays. The {{ too_fast() }} others drive faster
 # than 20 m/s, which pays little.
 # <!-- claim: freed_and_slower().min() > easier.staying(BOTH) -->

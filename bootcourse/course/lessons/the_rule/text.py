@@ -84,8 +84,8 @@ check.target_speed(target_speed)
 
 # %% [markdown]
 # The **tracker** (`bootcourse.rule.track`) turns the target into actions; it is a choice of this course
-# (§). It ignores a difference of {{ DEFAULT.ego.acceleration / 2 | g }} m/s or less, its *dead band*:
-# the picture shows 8 m/s, not 8.25.
+# (marked § from here on). It ignores a difference of {{ DEFAULT.ego.acceleration / 2 | g }} m/s or less, its
+# *dead band*: the picture shows 8 m/s, not 8.25.
 # <!-- claim: np.isclose(by_rule().states[6:13, EGO, SPEED], 8).all() -->
 #
 # > **Predict.** The rule and both traps start at 10 m/s. Give the rule another number of speeds,
@@ -277,9 +277,10 @@ bc.show(figures.speeds_by_sight(drive, near, alone))
 # <!-- claim: (split(30, 200).returns == driven(30.0).returns).all() and
 #   (split(200, 30).returns == driven(200.0).returns).all() -->
 #
-# In the picture the rule catches up, but the driver {{ makes_way(recorded(ROAD, 30.0), 4) | .0f }} m
-# ahead makes way: drivers here also count what the car behind gains. If they do not (then they also cut
-# in), the shorter sight gains {{ driven(30.0, ALOOF).returns.mean() - driven(200.0, ALOOF).returns.mean()
+# In the picture the rule stays at 15 m/s: the driver ahead (not drawn) makes way {{
+# makes_way(recorded(ROAD, 30.0), 4) | .0f }} m in front of it. Drivers here also count what the car behind gains.
+# If they do not (dashed; then they also cut in), the shorter sight gains {{ driven(30.0, ALOOF).returns.mean()
+# - driven(200.0, ALOOF).returns.mean()
 # | .0f }}, not {{ driven(30.0).returns.mean() - driven(200.0).returns.mean() | .0f }}: more than half of the gain is
 # their politeness.
 # <!-- claim: overtaken(recorded(ROAD, 30.0, ALOOF)) == overtaken(recorded(ROAD, 30.0)) -->
@@ -323,9 +324,10 @@ figures.reasons(rules.crash())
 # %% [markdown]
 # **Explain.** It begins to change lane, loses trap 1 from sight ("nobody ahead"), calls the change
 # off and speeds up. Later it changes lane {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster
-# than trap 2: t_safe leaves {{ DEFAULT.rule.t_safe * 3 | .1f }} m, just what braking takes, without a
-# margin. {{ len(by_the_formula(20.0).speeds) }} of the 200 drives change lane that fast: {{
-# by_the_formula(20.0).crashed }} of these crash, and none of the others.
+# than trap 2: t_safe leaves {{ DEFAULT.rule.t_safe * 3 | .1f }} m. On paper braking takes just
+# that; here, where a car moves at its old speed in each step, {{ DEFAULT.clock.dt * np.arange(3, 0,
+# -DEFAULT.clock.dt).sum() | .2f }} m. {{ len(by_the_formula(20.0).speeds) }} of the 200 drives change lane
+# that fast: {{ by_the_formula(20.0).crashed }} of these crash, and none of the others.
 # <!-- claim: called_off()[driven(20.0).accident > 0].all() -->
 # <!-- claim: by_the_formula(20.0).crashed == (driven(20.0).accident > 0).sum() -->
 # <!-- claim: (abs(by_the_formula(20.0).faster - 3) < 0.1).all() -->

@@ -40,7 +40,7 @@ progress("the_trap")
 # %% [markdown]
 # ## Look first
 #
-# This is the road of lesson [[start]]. The driver, **ego**, starts at {{ DEFAULT.ego.speed }} m/s,
+# This is the trap of lesson [[start]]. The driver, **ego**, starts at {{ DEFAULT.ego.speed }} m/s,
 # boxed in by two dark red cars as fast as itself: **trap 1** is ahead in its lane, **trap 2** in the
 # next lane, a few metres ahead. The left lane is free. Grey cars are traffic.
 # <!-- claim: DEFAULT.traps.speed == DEFAULT.ego.speed -->
@@ -116,7 +116,7 @@ bc.show(figures.nine_actions(decoded, seconds=2))
 # plans that steer left, straight or right in each of eight seconds, and then accelerate for five.
 #
 # > **Predict.** How many of them get out unhurt on road 7? A plan has to bring the car into the
-# > left lane, parallel to the road, without leaving it: {{ into_left_lane().sum() }} plans do.
+# > left lane, parallel to the road, and never off the road: {{ into_left_lane().sum() }} plans do.
 # > And it has to miss trap 2.
 # <!-- claim: not (on_road(7)(all_plans()) & ~into_left_lane()).any() -->
 
@@ -162,7 +162,8 @@ for road in (7, ROAD, 1):  # all plans, on three roads
 # <!-- claim: 70 < getting_out(7) < 150 and 0 < getting_out(ROAD) < 10 and getting_out(1) == 0 -->
 #
 # One of road {{ ROAD }}'s {{ getting_out(ROAD) }} plans now drives {{ roads() | , }} other roads,
-# looking at nothing. To check the simulation, **halve the time step and compare**:
+# looking at nothing. The simulation moves the cars in *time steps* of {{ DEFAULT.clock.dt }} s. To
+# check it, **halve the step and compare**:
 # <!-- claim: on_road(ROAD)(np.array([[5, 3, 3, 3, 3, 5, 5, 5]])).all() and ROAD not in
 #   held_out_seeds(1, roads()) -->
 

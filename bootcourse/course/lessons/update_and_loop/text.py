@@ -153,7 +153,7 @@ soft_value, critic_target, critic_loss, actor_loss, temperature_loss = own_code.
 def update(agent, batch):
     """One update; returns nothing. agent: a by_hand.SAC; batch: a by_hand.Batch of n rows, with
     states, next_states (n, 4), actions, rewards, terminated (n,). A state's four numbers: place (m)
-    and speed (m/s) of the cart, angle (0.1 rad) and angular speed (rad/s) of the pole."""
+    and speed (m/s) of the cart, angle (tenths of a rad) and angular speed (rad/s) of the pole."""
     # solution: the exercise's own
 
 
@@ -277,8 +277,8 @@ print(f"Entropy with the bug, pole upright: {entropy:.2f} nats")
 # **See.** Along 40 falls of poles pushed to one side only, the critics with the bug expect most of the
 # fallen pole. To the actor a fall looks best: it is sure of its push even with the pole upright.
 #
-# Q is even above all that is possible (dotted: with its entropy a push pays at most 1 + α log 2, each
-# agent with its own α). In {{
+# Q is even above all that is possible (dotted, for the agent with the bug: with its entropy a push pays at
+# most 1 + α log 2). In {{
 # unmarked() }} of our {{ len(agents('unmarked')) }} agents with the bug it was, without it in none.
 # <!-- claim: along_falls().max() < 1 / (1 - by_hand.SAC.gamma) -->
 

@@ -48,7 +48,7 @@ explorable.worths()
 # who goes, and add up what they get.
 
 # %% [markdown]
-# ## Round 1: the return
+# ## Round 1: the discounted return
 #
 # The **discounted return** is the sum of all rewards from now on, each times γ to the power of its
 # delay, in decisions:
@@ -60,7 +60,7 @@ explorable.worths()
 
 # %%
 def discounted_return(rewards, gamma):
-    """The return, a float: rewards (decisions,), the first one at once; gamma from 0 to 1."""
+    """The discounted return, a float: rewards (decisions,), the first one at once; gamma from 0 to 1."""
     # solution
     return float(np.sum(gamma ** np.arange(len(rewards)) * np.asarray(rewards)))
     # end solution
@@ -101,7 +101,7 @@ print(f"γ = {min(better):.2f}")
 # numbers that they see for the state, although cars beyond the four nearest are missing.
 # <!-- claim: DEFAULT.observation_size == 26 and DEFAULT.sight.neighbours == 4 -->
 #
-# The **value** of action a in state s, **Q(s, a)**, is the return if you take a once and then act
+# The **value** of action a in state s, **Q(s, a)**, is the discounted return if you take a once and then act
 # as well as possible. It is the reward, plus γ times the value of the next state, V(s'), the larger
 # of its two Q. This is the **Bellman equation** of acting as well as possible (the *optimality*
 # equation):
@@ -299,10 +299,10 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps: all of D learn to leave, though they act at random. One attempt in {{ 4**4 }}
-# gets through in C, one in {{ 2**4 }} in D. Once is not enough: in the last picture Q(0, 1) rests at
+# More exploration helps: all of D learn to leave, though they act at random. At first one attempt in
+# {{ 4**4 }} gets through in C; in D one in {{ 2**4 }}. Once is not enough: in the last picture Q(0, 1) rests at
 # {{ 0.8**2 * 0.16 / 0.2 | .2f }} = γ² · {{ 0.16 / 0.2 | .2f }}, what it is worth to leave, turn back
-# and stay. Each walk moves the free road's value one state back (Round 3). {{ free_road_seen(0.5, 0.8)
+# and stay. Each walk out moves the free road's value one state back (Round 3). {{ free_road_seen(0.5, 0.8)
 # }} of C reached the free road, {{ leaving(0.5, 0.8) }} learn to leave. On the road chance also causes
 # accidents (lesson [[the_barrier]]).
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in

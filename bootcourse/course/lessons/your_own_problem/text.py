@@ -133,9 +133,9 @@ predicted("your_own_problem.1")
 bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0)))
 
 # %% [markdown]
-# **Explain.** A half-learned copy follows the speed as well as the angle. Its edge lies near the dashes,
-# and a rule with that edge earns {{ speed_rule_earns() | .0f }}. Better copies earn less: *one budget can
-# mislead.*
+# **Explain.** A half-learned copy follows the speed as well as the angle. The line at
+# which it changes its push lies near the dashes, and a rule that changes there earns {{ speed_rule_earns() |
+# .0f }}. Better copies earn less: *one budget can mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
 # Did they need the reward? Train with it, and compare.
@@ -195,7 +195,8 @@ predicted("your_own_problem.3")
 bc.show(figures.clones_that_draw())
 
 # %% [markdown]
-# **Explain.** The errors are still in π. Drawing alone costs little, as the good teacher's clones show.
+# **Explain.** The errors are still in π. Drawing alone costs little: clones of the good
+# teachers (not shown) earn about the same drawn.
 # The most probable action is the majority's answer; a drawn one is a single voter's.
 # <!-- claim: all(abs(score(p, 'random', 'cloning', 'drawn_returns') - score(p, 'random', 'the
 #   teacher', 'returns')) < 15 and
@@ -284,15 +285,16 @@ check.drowning_bonus(drowning_bonus)
 
 # %% [markdown]
 # **Explain.** Your threshold, here at most {{ drowning_bonus(0, 1, 1, PROBLEMS['doorkey'].gamma) |
-# .2f }}, is the same however long the way is. *It is a warning, not an edge*: with
+# .2f }}, is the same however long the way is. *It is a warning, not a sharp limit*: with
 # c = 0.1 most drives by drawn actions still reach the goal.
 # <!-- claim: math.isclose(drowning_bonus(0, 1, 1, 0.97), drowning_bonus(0, 1, 90, 0.97)) -->
 # <!-- claim: list(BONUSES)[2] == 'c = 0.1' and min(by_bonus(t)[2] for t in TEACHERS) > 0.5 -->
 #
 # **Is it the loop?** Only in part. With the good teacher's demonstrations alone, which hold none,
-# {{ 100 * alone('') | .0f }} % of the drives reach the goal at c = 2, {{ 100 * alone(', c = 0') | .0f }} % at c = 0.
-# Without the random teacher's demonstrations that miss the goal
-# {{ 100 * without_loops('drawn_success') | .0f }} % do with c = 2 by drawn actions, which can leave a loop, but
+# {{ 100 * alone('') | .0f }} % of the drives by drawn actions reach the goal at c = 2,
+# {{ 100 * alone(', c = 0') | .0f }} % at c = 0. With both aids, but without the random teacher's
+# demonstrations that miss the goal,
+# {{ 100 * without_loops('drawn_success') | .0f }} % do at c = 2 by drawn actions, which can leave a loop, but
 # {{ 100 * without_loops('success') | .0f }} % by most
 # probable ones (plain SAC: {{ 100 * score('doorkey', 'none', 'SAC') | .0f }} %).
 # <!-- claim: without_loops('drawn_success') > 0.8 and without_loops('success') < 0.75 * score('doorkey', 'none',

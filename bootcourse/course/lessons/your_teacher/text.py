@@ -267,7 +267,7 @@ bc.show(figures.of_six_teachers(taught))
 #
 # {{ escape_of(['rule', 'late', 'random-25', 'random-50']) }} of 40 students escape where the drives reach the
 # free lane, {{ escape_of(['timid', 'mirrored']) }} of 20 where they do not. The racer's reach it, too, but {{
-# student_escapes(taught_agents.RACER_LONG) }} of its students escape (Round 2).
+# student_escapes(taught_agents.RACER_LONG) }} of its ten students escape (after 40,000 updates, Round 2).
 # <!-- claim: escape_of(['timid', 'mirrored']) == 0 and min(escape_of([name]) for name in ('rule',
 #   'late', 'random-25', 'random-50')) > 5 -->
 # <!-- claim: in_free_lane('timid') == in_free_lane('mirrored') == 0 < in_free_lane('random-50') and
@@ -328,8 +328,8 @@ choices = ["both pairs", "those with the free lane", "those with its accidents",
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
-# **Exercise (5 min, ●○○).** Keep the free lane, but leave out its accident: a drive's last decision,
-# if it has been in lane 0.
+# **Exercise (5 min, ●○○).** Keep the free lane, but leave out its accident: the last decision of
+# each drive that was ever in lane 0.
 
 
 # %%
@@ -439,8 +439,8 @@ check.watchful_rule(watchful_rule)
 # ## Further: ask only when unsure
 #
 # Your worse student drives, and asks your rule whenever your two students disagree,
-# or about as often at random. Compare the accidents. One pair can show whether asking helps,
-# not whether disagreement picks better seconds than chance.
+# or about as often at random. Compare the accidents. One pair shows whether asking helped
+# this student, not whether it helps others, nor whether disagreement picks better seconds than chance.
 
 # %% tags=["nbval-ignore-output"]
 worse_first = [students[place] for place in learned["success"].argsort()]
