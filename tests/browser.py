@@ -46,7 +46,7 @@ class Page:
     def __init__(self, page):
         self.page, self.errors, self.requests = page, [], []
         page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
-        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("pageerror", lambda error: self.errors.append(error.stack or str(error)))  # and where it was
         page.on("request", lambda request: self.requests.append(request.url))
 
 

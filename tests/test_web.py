@@ -408,3 +408,16 @@ def test_without_webgl_a_sentence_says_so_and_the_road_is_drawn_from_above(visit
         page.page.keyboard.press("ArrowDown")
         page.page.wait_for_function("() => trap.game.drive.time > 0")
         assert page.errors == []
+
+
+def test_a_road_that_was_taken_out_of_its_page_hears_late_calls_in_silence(visit):
+    with visit() as page:
+        page.page.evaluate(
+            """() => {
+                const { game } = trap;
+                game.close();
+                for (const late of ["run", "announce", "setPace", "open", "offer", "again", "fit"]) game[late]({});
+            }"""
+        )
+        page.page.wait_for_timeout(100)
+        assert page.errors == []

@@ -102,10 +102,12 @@ class Game {
     this.host.closest("[tabindex]")?.focus({ preventScroll: true });
   }
 
-  // Take it out of the page.
+  // Take it out of the page. Whatever is told late, by a clock or an answer out of Python, is told to nobody.
   close() {
+    const nobody = document.createElement("template");
     this.stop.abort();
     this.seen.disconnect();
+    this.find = () => nobody;
     this.root.replaceChildren();
   }
 

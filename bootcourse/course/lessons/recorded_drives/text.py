@@ -224,7 +224,11 @@ bc.show(figures.would_do({"with CQL's term": with_term}))
 # > **Predict.** Of which agents will the estimates be furthest from the truth?
 
 # %%
-whose = ["those with the least return", "those that act least like the rule", "those trained offline"]
+whose = [
+    "those with the least return",
+    "those that act least like the rule",
+    "those trained offline",
+]
 predict("recorded_drives.3", "Whose estimates will be furthest from the truth?", whose)
 
 # %%

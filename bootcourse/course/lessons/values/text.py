@@ -60,7 +60,7 @@ explorable.worths()
 
 # %%
 def discounted_return(rewards, gamma):
-    """The discounted return, a float: rewards (decisions,), the first one at once; gamma from 0 to 1."""
+    """The discounted return, a float: rewards (decisions,), the first at once; gamma in [0, 1]."""
     # solution
     return float(np.sum(gamma ** np.arange(len(rewards)) * np.asarray(rewards)))
     # end solution
