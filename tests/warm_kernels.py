@@ -8,6 +8,7 @@ import importlib
 import json
 import os
 import select
+import shutil
 import signal
 import socket
 import subprocess
@@ -87,6 +88,7 @@ def serve(asked: socket.socket) -> None:
             asked.close()
             become_kernel(connection)
         connection.close()
+    shutil.rmtree(Path(asked.getsockname()).parent)
 
 
 def load() -> None:
