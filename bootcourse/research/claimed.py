@@ -44,12 +44,12 @@ def claims(study: StudyResults, lesson: str = "") -> list[Claim]:
     made = []
     for claim in CLAIMS.get(lesson, ()) if lesson else (claim for own in CLAIMS.values() for claim in own):
         with contextlib.suppress(KeyError):  # a study or an experiment that was not computed
-            made.append(computed(claim, study))
+            made.append(judged(claim, study))
     return made
 
 
 @cache
-def computed(claim: Callable[[StudyResults], Claim], study: StudyResults) -> Claim:
+def judged(claim: Callable[[StudyResults], Claim], study: StudyResults) -> Claim:
     """A claim, once for each study: the report and the lessons name it."""
     return claim(study)
 

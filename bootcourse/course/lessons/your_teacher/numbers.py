@@ -13,7 +13,7 @@ from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
 from bootcourse.episodes.record import record
 from bootcourse.learn.teachers import course_rule, teacher_of, teacher_policy
 from bootcourse.research.experiments.teacher_worth import TAUGHT  # noqa: F401 (the text names it)
-from bootcourse.road.state import EGO, LANE, SPEED, TRAFFIC, Accident
+from bootcourse.road.state import SPEED, TRAFFIC, Accident
 from bootcourse.statistics import ESCAPES, holm, significant  # noqa: F401 (the text names it)
 from tools.course.known import ROAD, shipped_experiment, shipped_teachers
 
@@ -120,7 +120,7 @@ def in_free_lane(teacher: str) -> float:
 def seconds_of_racer() -> int:
     """Seconds that the racer's drive on the course's road is in the free lane."""
     drive = record(teacher_policy(example_teachers.racer), [ROAD])[0]
-    return int((drive.cars[: len(drive.actions), EGO, LANE] == 0).sum())
+    return int((crashes.lanes_of(drive) == 0).sum())
 
 
 def escape_of(teachers: list[str]) -> int:
