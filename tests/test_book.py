@@ -12,7 +12,6 @@ import bootcourse as bc
 from bootcourse.course.lessons import LESSONS, stem
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book
-from tools.course import claims
 from tools.course.source import lesson_of, sources
 
 FILES = [stem(name) for name in LESSONS]
@@ -33,9 +32,7 @@ TOO_WIDE = """() => {
 def made(tmp_path_factory):
     """The whole book, made once."""
     folder = tmp_path_factory.mktemp("book")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(claims, "claims_page", lambda: "# Where the numbers come from\n")  # test_claims.py makes it
-        book.gather(folder / "source", "instructor")
+    book.gather(folder / "source", "instructor")
     assert book.build(folder / "source", folder / "html") == 0, "Sphinx has something to say: see above"
     return folder / "html"
 

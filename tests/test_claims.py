@@ -5,7 +5,7 @@ That the lessons themselves are made from what the expressions yield now is test
 
 import pytest
 
-from tools.course.claims import check_claims, entry, fill_in
+from tools.course.claims import check_claims, entry, fill_in, paragraphs
 
 TEXT = """\
 The rule falls back at {{ 8.2479 | .2f }} m/s, and pays {{ 999.6 | ,.0f }} times,
@@ -51,3 +51,8 @@ def test_what_is_wrong_with_an_expression_is_said(text, words):
 def test_the_page_of_claims_has_no_links_to_lessons_and_a_list_is_not_printed_twice():
     page = entry("Lessons:\n\n{{ way('evening') }}", "start")
     assert "](" not in page and "- `way('evening')`: the list above" in page
+
+
+def test_an_expression_with_a_minus_at_the_beginning_of_a_line_is_no_list():
+    text = "It gains {{ 28\n- 3 }}.\n<!-- claim: 28\n  - 3 > 0 -->\n- a point"
+    assert paragraphs(text) == ["It gains {{ 28 - 3 }}.<!-- claim: 28 - 3 > 0 -->", "- a point"]

@@ -86,10 +86,17 @@ def claims_page() -> str:
     parts = [HEAD]
     for path in sources():
         cells = read(path)
-        paragraphs = [part for cell in cells for part in re.split(r"\n\s*\n|\n(?=- |\d+\. |#)", cell.text)]
-        entries = [entry(part, lesson_of(path)) for part in paragraphs if NUMBER.search(part) or CLAIM.search(part)]
+        parts_of_cells = [part for cell in cells for part in paragraphs(cell.text)]
+        entries = [entry(part, lesson_of(path)) for part in parts_of_cells if NUMBER.search(part) or CLAIM.search(part)]
         parts += [f"## {title(cells)}", *entries] if entries else []
     return "\n\n".join(parts) + "\n"
+
+
+def paragraphs(text: str) -> list[str]:
+    """A text's paragraphs, list items and headings. An expression stays whole, though a line in it begins with `- `."""
+    for expression in (NUMBER, CLAIM):
+        text = expression.sub(lambda match: re.sub(r"\n\s*", " ", match[0].lstrip()), text)
+    return re.split(r"\n\s*\n|\n(?=- |\d+\. |#)", text)
 
 
 def without_links(text: str) -> str:
