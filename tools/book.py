@@ -18,11 +18,6 @@ sys.path.insert(0, str(ROOT))  # so that `tools.course` is found
 
 BUILD = ROOT / "build/book"
 INSTRUCTOR = re.compile(r"<!-- instructor -->\n(.*?)<!-- end -->\n", re.S)  # in a page, for this edition only
-DRIVEN = {  # lesson -> where its page in the book begins: the address of trap.html
-    "the_trap": "road=10&ghost=sac",
-    "the_rule": "driver=rule&ghost=none&pace=0",
-    "soft_constraint": "road=10&driver=soft&ghost=sac",
-}
 # lesson -> where it trains, its reader in the book trains in the page: {words: the address of trap.html}
 LEARNED = {
     "the_trap": {"both aids": "learn=bootstrapped&agents=2&drives=500", "plain SAC": "learn=sac&agents=2&drives=500"},
@@ -70,8 +65,6 @@ def gather(to: Path, edition: str = "student") -> None:
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
         with_live_worlds(notebook, to / "lessons" / notebook.name)
         lesson = notebook.stem.partition("_")[2]
-        if lesson in DRIVEN:
-            add_drive(to / "lessons" / notebook.name, DRIVEN[lesson])
         if lesson in LEARNED:
             add_learning(to / "lessons" / notebook.name, LEARNED[lesson])
         if edition != "instructor":
@@ -114,14 +107,6 @@ def add_learning(notebook: Path, addresses: dict[str, str]) -> None:
     said = f"<p>Train agents here, in this page, and move the sliders while they learn: {links}</p>{shown}"
     output = {"output_type": "display_data", "metadata": {}, "data": {"text/html": said, "text/plain": "Agents learn."}}
     next(trains)["outputs"].append(output)
-    notebook.write_text(json.dumps(content), encoding="utf-8")
-
-
-def add_drive(notebook: Path, address: str) -> None:
-    """Let a lesson's page in the book show the page that drives, below the lesson's first cell."""
-    content = json.loads(notebook.read_text(encoding="utf-8"))
-    text = frame(address)
-    content["cells"].insert(1, {"cell_type": "markdown", "id": "trap", "metadata": {}, "source": [text]})
     notebook.write_text(json.dumps(content), encoding="utf-8")
 
 

@@ -68,7 +68,7 @@ def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = No
 
 def verdict_and_print(exercise: Exercise, answer: Callable | str, seconds: float, begin: float) -> tuple[Verdict, str]:
     """The verdict, and what the answer printed. begin: when the check began, by the monotonic clock."""
-    todo = f"Nothing to check yet: write `{exercise.name}` where the `...` stands, and end with `return`."
+    todo = f"Nothing to check yet: your code for `{exercise.name}` goes where the `...` stands."
     if does_nothing(answer):  # an untouched stub needs no process
         return Verdict("todo", todo), ""
     runner.get_ready()

@@ -7,8 +7,8 @@ const MEASURES = {
   success: { title: "gets out of the trap, %", factor: 100, range: [0, 100], mean: true, marks: [0, 50, 100] },
   return: { title: "return of a drive", factor: 1, mean: true },
   accident: { title: "accidents, %", factor: 100, range: [0, 100], mean: true, marks: [0, 50, 100], of: value => Number(value > 0) },
-  entropy: { title: "entropy: how undecided it is, nats", factor: 1, range: [0, 2.2], marks: [0, 1, 2] },
-  xi: { title: "ξ: pull towards the rule (logarithmic)", factor: 1, log: true },
+  entropy: { title: "entropy, nats", factor: 1, range: [0, 2.2], marks: [0, 1, 2] },
+  xi: { title: "ξ (logarithmic)", factor: 1, log: true },
 };
 
 // The points of an agent's line, [[episode, value]]: means of the last 50 drives, or single values.

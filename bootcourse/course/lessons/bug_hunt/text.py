@@ -45,14 +45,16 @@ progress("bug_hunt")
 bc.recording(figures.two_drives(hunt), height=360)
 
 # %% [markdown]
-# The answer is in Round 1. The bugs:
+# The answer is in Round 1. Here are the right lines, and what each bug makes of them:
 #
-# - `flipped_kl`: the KL divergence is taken the other way round;
-# - `no_end`: (1 − terminated) is missing in the critic's target;
-# - `sampled`: one drawn action stands for the expectation over all nine;
-# - `no_stop`: the stop-gradient on Q is missing in the actor's loss;
-# - `bonus_for_all`: the bonus c is paid for the agent's own driving as well;
-# - `shifted_labels`: the rule was asked after the step: each label is the next second's.
+# ```python
+# label = rule(s)                              # shifted_labels: rule(next_s)
+# kl = (pi * (log_pi - log_rule)).sum(-1)      # flipped_kl: pi and rule exchanged
+# value = (pi * (q - alpha * log_pi)).sum(-1)  # sampled: of one drawn action, not of all nine
+# actor_loss = xi * kl - value                 # here with q.detach(); no_stop: with q
+# target = r + c * demo + gamma * (1 - end) * next_value
+# # bonus_for_all: c without demo;  no_end: without (1 - end)
+# ```
 
 # %% [markdown] tags=["instructor"] minutes=1
 # Let them vote which of the two has the bug, and say why. Do not tell.
@@ -86,8 +88,8 @@ bc.show(figures.returns(hunt))
 # %% [markdown]
 # ## Round 2: what is an accident worth?
 #
-# A **probe** asks one part of a learner something whose right answer is known. Where an accident
-# ends the episode, the right Q is the reward, {{ DEFAULT.reward.accident }}.
+# A **probe** asks one part of a learner something of which you know the right answer, or a healthy agent's.
+# Where an accident ends the episode, the right Q is the reward, {{ DEFAULT.reward.accident }}.
 #
 # > **Predict.** Two of the six bugs change the target there. One of them can only raise it. Which one
 # > may pull Q *below* {{ DEFAULT.reward.accident }}?
@@ -116,8 +118,8 @@ def end_error(q, actions, rewards, terminated):
 check.end_error(end_error)
 
 # %% [markdown]
-# The table asks the first seed of each version about {{ ended().sum() }} accidents of the stochastic rule. The picture
-# asks both seeds, every {{ bugs.EVERY }} updates, about their own accidents:
+# The table: Q − r of each version's first seed, at {{ ended().sum() }} accidents of the stochastic rule. The
+# picture: Q of both seeds at their own accidents, every {{ bugs.EVERY }} updates:
 # <!-- claim: set(np.diff(hunt().updates)) == {bugs.EVERY} -->
 
 # %%
@@ -147,8 +149,7 @@ bc.show(figures.accidents(hunt))
 # %% [markdown]
 # ## Round 3: how much does the critic promise?
 #
-# The value that a critic gives to a state is what it *promises*, here in seconds that the *rule*
-# drove.
+# What a critic *promises* in a state is Σ π Q. The picture has its mean over seconds of the *rule's* drives.
 #
 # > **Predict.** The road pays at most about 1 a second, and γ = {{ SETTINGS.gamma }}. What is the
 # > most that a critic may promise if it adds the bonus c = {{ SETTINGS.bonus | .0f }} in *every*
@@ -214,8 +215,8 @@ bc.show(figures.rarest(hunt))
 # %% [markdown]
 # ## The verdict
 #
-# **Exercise (12 min, ●●●).** Name the bug of each agent. Five show in Rounds 2 to 4, two of them
-# only with a second picture; the sixth is what is left.
+# **Exercise (12 min, ●●●).** Name the bug of each agent. Three show in one picture of Rounds 2 to 4. Two more share
+# a picture: a second one tells them apart. The sixth is left over.
 
 
 # %%
@@ -229,16 +230,16 @@ check.diagnose(diagnose)
 # %% [markdown]
 # What would show the bug of the agent that was left?
 #
-# <details><summary>After your verdict: what decides, and what the right line has</summary>
+# <details><summary>After your verdict: what decides</summary>
 #
-# | agent | bug | what decides | the right line has |
-# | --- | --- | --- | --- |
-# | A | `flipped_kl` | rarest action likelier; return and promise healthy | Σ π (log π − log π̃) |
-# | B | `sampled` | rarest action likelier; return low, promise falls | the expectation |
-# | C | `shifted_labels` | what is left (and its return rises late) | the rule asked before the step |
-# | D | `no_end` | Q at accidents far below the grey lines | (1 − terminated) |
-# | E | `bonus_for_all` | promise between 10 and 15 | the bonus for demonstrations alone |
-# | F | `no_stop` | promise beyond 15 | `q.detach()` |
+# | agent | bug | what decides |
+# | --- | --- | --- |
+# | A | `flipped_kl` | rarest action likelier; return and promise healthy |
+# | B | `sampled` | rarest action likelier; return low, promise falls |
+# | C | `shifted_labels` | what is left (and its return rises late) |
+# | D | `no_end` | Q at accidents far below the grey lines |
+# | E | `bonus_for_all` | promise between 10 and 15 |
+# | F | `no_stop` | promise beyond 15 |
 #
 # - **B**: no gradient passes through a draw among nine actions: the KL alone teaches the actor,
 #   towards the stochastic rule, which crashes in {{ ended().sum() }} of 50 drives.

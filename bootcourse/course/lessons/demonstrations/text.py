@@ -92,7 +92,7 @@ check.cloning_loss(cloning_loss)
 # Train five clones on each of three data sets: your drives, {{ SETTINGS.demonstration_episodes
 # }} drives of the rule, as many of the stochastic rule. Each clone then drives 100 new roads and takes
 # its most probable action. Its **agreement** is the share of its data in which that is the
-# demonstrator's action.
+# demonstrator's action (of the stochastic rule's, {{ SETTINGS.rule_p | .0% }} at best on new data).
 #
 # > **Predict.** Clones of which 200 drives have more accidents?
 
@@ -114,18 +114,18 @@ bc.show(figures.clones(measured))
 
 # %% [markdown]
 # **See.** *Agreement with its data does not say who drives well.* Our clones of one drive know it
-# almost by heart, and mostly crash. (Yours may differ.) Nearly all drives of the stochastic rule crash,
-# yet its clones crash less than the rule's. They take their most probable action, and do not copy its
-# one random decision in ten. (Shorter drives are not why: clones of the rule's drives, cut to the same
-# lengths, crashed as often as those of the whole.)
+# almost by heart, and mostly crash. Nearly all drives of the stochastic rule crash,
+# yet its clones crash less than the rule's. They take their most probable action, so they do not copy its one
+# random decision in ten; why they crash less than the rule's clones, Round 3 asks. (Not because the drives are
+# shorter: clones of the rule's drives, cut to the same lengths, crashed as often as those of the whole.)
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
 #
-# All this is after {{ UPDATES | , }} updates. The study's clones have the other order: of the rule, with {{
-# updates_of(of('bc')) / UPDATES | .0f }} times as many, all ten escape and crash in {{ 100 *
-# accidents('bc') | .1f }} % of their drives (but earn {{ of('bc').scores('returns').mean() | .0f }}, the
-# rule {{ of('rule').scores('returns').mean() | .0f }}); of the stochastic rule, with {{
-# updates_of(clones_of_the_stochastic_rule()) / UPDATES | .0f }} times as many, nine of ten escape; the ten crash in
-# {{ 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %, nearly always after they got ahead.
+# All this is after {{ UPDATES | , }} updates. After long training the order is the other one. The study's
+# ten clones of the rule ({{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates) all escape and crash in {{
+# 100 * accidents('bc') | .1f }} % of their drives (but earn {{ of('bc').scores('returns').mean() | .0f }}, the rule {{
+# of('rule').scores('returns').mean() | .0f }}). Of the stochastic rule's ({{
+# updates_of(clones_of_the_stochastic_rule()) / UPDATES | .0f }} times) nine escape, and they crash in {{
+# 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %, nearly always once ahead.
 # <!-- claim: of('bc').scores('returns').mean() < of('rule').scores('returns').mean() -->
 # <!-- claim: UPDATES == 1500 -->
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 -->
@@ -167,16 +167,16 @@ bc.show(figures.off_the_road(alone, driven["the rule"]))
 # (Ross and Bagnell 2010).
 #
 # Let a clone err with probability ε in its teacher's states, and in the worst case in each decision
-# after its first error. **Drag** ε down from 20 %: how many times as many errors has a drive twice as
-# long?
+# after its first error. A drive twice as long then has up to four times as many errors.
+# **Drag** ε up to our clones' 20 %: what is left of that?
 
 # %%
 explorable.compounding()
 
 # %% [markdown]
-# Four times as many where errors are rare: of $T$ decisions on average at most $\epsilon \, T (T + 1) / 2$
-# are errors. If errors stay alone, $\epsilon \, T$ are (dashed). Our clones make more: in their own
-# states, which Round 3 shows, they agree less than in their data.
+# Half: at 20 % nearly every decision may be an error, and twice as long is then twice as many. Where errors
+# are rare, of $T$ decisions on average at most $\epsilon \, T (T + 1) / 2$ are errors; if errors stay alone (dashed),
+# $\epsilon \, T$. Our clones lie between: in their own states, which Round 3 shows, they agree less than in their data.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Draw both bounds, T and T²: the first error comes at decision t with a probability of at most ε,
@@ -189,8 +189,8 @@ explorable.compounding()
 # ## Round 3: which rows are missing?
 #
 # The stochastic rule's drives hold a few states farther left than any of the rule's. Label them with
-# the rule's actions and add them to its drives, five times each. For comparison, add as many others
-# instead.
+# the rule's actions and add them to its drives, five times each. For comparison, add as many of its
+# other rows instead.
 #
 # > **Predict.** How many of the accidents remain with the rows from the edge?
 
@@ -212,10 +212,10 @@ bc.show(figures.added({name: measured[name] for name in KINDS}, fed_crash))
 
 # %% [markdown]
 # **See.** *The rows from the edge prevent most accidents; as many others do not.* The states that a data
-# set holds are its **coverage**. Two remedies help the rule's clones: longer training (the study's), or
-# rows from where errors lead.
+# set holds are its **coverage**. Two things help the rule's clones: longer training, as in the study, or rows from
+# where their errors take them.
 #
-# Counts of errors mislead: the last row's clones err most in their own states, and crash less than half
+# The last row's clones err most in their own states, and crash less than half
 # as often as the first's.
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -268,8 +268,9 @@ bc.show(figures.taught(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
 # **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom
-# crash.* Counted in the clone's *own* states, ε includes the errors that errors led to: T decisions bring
-# ε T errors. DAgger adds earlier clones' states to the data, and this ε falls.
+# crash.* DAgger adds the states that earlier clones came to, with what the rule does there. So errors
+# in the clone's *own* states, which include those that errors led to, get fewer. (Which errors are left
+# matters, too: Round 3.)
 #
 # A clone's loss does not ask what an action leads to. The learner of lesson
 # [[learning_from_demonstrations]] does.

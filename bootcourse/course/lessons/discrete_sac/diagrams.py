@@ -26,7 +26,7 @@ def sac_diagram() -> Diagram:
         arrow(300, 218, 300, 97), label(308, 200, "min Q", "start"),
         arrow(370, 50, 450, 50), label(411, 42, "entropy"),
         arrow(452, 76, 372, 76), label(411, 96, "α"),
-        arrow(452, 240, 372, 240), label(411, 232, "targets"),
+        arrow(452, 240, 372, 240), label(411, 216, "min Q:"), label(411, 232, "targets"),
         arrow(370, 268, 450, 268, dashed=True), label(411, 290, "copied"),
         arrow(366, 96, 470, 218), label(426, 150, "π in s′", "start"),
         arrow(566, 96, 566, 218), label(574, 150, "α", "start"),

@@ -30,9 +30,9 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
     """
     title = "With a small α few find the way out, with a large one leaving is about as likely as not"
     named = {
-        "leaves, with the map": np.array(knows),
-        "finds the free road": walked.found.mean(axis=1),
-        "leaves, as learned": walked.leaves.mean(axis=1),
+        "takes: leaves, knowing the map": np.array(knows),
+        "tries: finds the free road": walked.found.mean(axis=1),
+        "both: leaves, as learned": walked.leaves.mean(axis=1),
     }
     looks = [Style(INK, "--"), Style(OTHER.colour, "--"), style("sac")]
     ends = (f"{name}: {line[0]:.2f} at {alphas[0]:g}, {line[-1]:.2f} at {alphas[-1]:g}" for name, line in named.items())

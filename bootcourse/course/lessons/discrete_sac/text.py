@@ -77,8 +77,9 @@ explorable.undecided()
 
 # %% [markdown]
 # **Explain.** More than {{ max(q) | g }}. The agent could always go straight, but the pay outweighs
-# the loss: as the panel opens, Q gives {{ BY_Q | .2f }} and the pay {{ WORTH - BY_Q | .2f }}, together
-# {{ WORTH | .2f }}.
+# the loss: with Q = {{ q[0] | g }}, {{ q[1] | g }} and {{ q[2] | g }} and α = {{ ALPHA }}, as the panel
+# opens, Q gives {{ BY_Q | .2f }} and the
+# pay {{ WORTH - BY_Q | .2f }}.
 
 # %% [markdown]
 # The policy's **entropy** says how undecided it is, in *nats* (natural logarithm; 0 · log 0 = 0):
@@ -225,7 +226,7 @@ explorable.overestimated()
 # $$ L_\text{actor} = -\,\text{mean over } s \text{ of } \sum_a \pi(a|s)\,
 # \big(Q(s,a) - \alpha \log \pi(a|s)\big) $$
 #
-# A better policy lowers it. So does a higher Q, by which no action gets better. So Q is **detached**
+# A better policy lowers it. So does a higher Q, though that makes no action better. So Q is **detached**
 # (`q.detach()`): its value counts, and the gradient stops.
 #
 # **Exercise (5 min, ●●○).** Write the actor's loss.
@@ -243,8 +244,8 @@ def actor_loss(log_pi, q, alpha):
 check.actor_loss(actor_loss)
 
 # %% [markdown]
-# Now 100 gradient steps move all that a loss has a gradient for: first with your actor's loss, then
-# with minus your soft value, where Q is not detached. Where does Q(straight) go?
+# Now 100 gradient steps change the policy, and Q too unless it is detached: first down your actor's loss,
+# then down minus your soft value, where Q is not detached. Where does Q(straight) go?
 
 # %%
 value, loss = own_code.yours_or_ours("soft_value", "actor_loss", doing="Descending")
@@ -285,20 +286,19 @@ knows = own_parts.would_leave(value, target, alphas)
 bc.show(figures.two_jobs(alphas, knows, walked))
 
 # %% [markdown]
-# **Explain.** About 0.5: {{ constant().leaves.mean(1).max() | .2f }}, at α = 10, where the choice stays
-# nearly even. By lesson [[values]]'s measure, Q(0, 1) > Q(0, 0), at none of these α do more than {{
-# more_often().max() }} of thirty learn to leave. **α does two jobs**: it decides how much a learner tries, and
-# how surely it takes what is better.
-# <!-- claim: ALPHAS[constant().leaves.mean(1).argmax()] == ALPHAS[-1] and more_often().max() < 15 -->
+# **Explain.** About 0.5, at α = 10. But there every choice is nearly even: none of the thirty has learned that
+# leaving is worth more, Q(0, 1) > Q(0, 0). At the other α at most {{ more_often().max() }} have.
+# <!-- claim: ALPHAS[constant().leaves.mean(1).argmax()] == ALPHAS[-1] and more_often()[-1] == 0 -->
 #
-# With α = 0.01 {{ found(0.01) }} of thirty reached the free road, with α = 1 {{ found(1) }}. But then
-# even an agent with the map leaves with probability {{ leave(1) | .2f }}: the softmax divides the lead
-# of leaving by α, and the critic judges a policy that often turns back (Round 2).
+# **α does two jobs.** It decides how much a learner *tries*: {{ found(0.01) }} of thirty find the free road with
+# α = 0.01, {{ found(1) }} with α = 1 (purple). And it decides how surely it *takes* what is better: an agent that knows
+# the whole chain leaves with probability {{ leave(0.01) | .2f }} with α = 0.01, with {{ leave(1) | .2f }} with α = 1
+# (black). A learner needs both (blue), and no α here gives both.
 # <!-- claim: 0.5 < leave(1) < 0.55 and max(abs(leave(a) - 0.5) for a in (2, 3, 5, 7, 10)) < 0.01 -->
 #
-# If α falls from 10 to 0.01 over the 1,000 decisions, {{ sure()["leave"][0] }} of thirty leave with a
-# probability above {{ SURE }}, and {{ sure()["stay"][0] }} stay as surely; from 1, {{
-# sure()["leave"][1] }} and {{ sure()["stay"][1] }}.
+# Let α fall, then, from 10 to 0.01 over the 1,000 decisions: {{ sure()["leave"][0] }} of thirty leave with a
+# probability above {{ SURE }}, and {{ sure()["stay"][0] }} stay as surely (from 1: {{ sure()["leave"][1] }} and {{
+# sure()["stay"][1] }}).
 # <!-- claim: (sure()["leave"] + sure()["stay"] > 24).all() -->
 
 # %% [markdown]
@@ -335,7 +335,7 @@ explorable.thermostat()
 # </details>
 
 # %% [markdown]
-# Gradient steps on this loss move α that way:
+# Adam's nearly equal steps on this loss move α that way:
 #
 # $$ L_\alpha = \alpha\, (\mathcal{H}(\pi) - \eta) $$
 #

@@ -76,6 +76,12 @@ def earns_less(both: Group, *others: Group) -> bool:
     return all(bool(both.earned.max() < each.earned[each.keep].min()) for each in others)
 
 
+def tenth(updates: str) -> float:
+    """By which episode ξ is down to a tenth in the agents with the soft constraint alone: the median."""
+    xi = study_clocks.choices(shipped_experiment("clocks"))[updates, "μ"].of("soft").curves["xi"]
+    return float(np.median(np.argmax(xi <= xi[:, :1] / 10, axis=1)))
+
+
 def with_teacher(updates: str) -> float:
     """The chance of round 3 with these updates per decision, where the stochastic rule demonstrates."""
     return study_clocks.pattern(study_clocks.choices(shipped_experiment("clocks"))[updates, "π̃"]).value

@@ -9,7 +9,7 @@ from bootcourse.colours import INK
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.how_many_seeds import counts
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import QUIET, SMALL, axes_at, finish, new_figure, plain_axes
+from bootcourse.plots.figure import GRID, QUIET, SMALL, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
 from bootcourse.statistics import ESCAPES, bracketed
@@ -22,8 +22,10 @@ def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
     ax = figure.add_axes((0.24, 0.5 / height, 0.57, 1 - 1.1 / height))
     ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
     for row, method in enumerate(methods):
+        if row:
+            ax.axhline(row - 0.5, color=GRID, linewidth=1, zorder=0)
         success, colour = 100 * results.of(method).scores("success"), style(method).colour
-        dots(ax, success, row, colour, success >= 100 * ESCAPES, spread=0.38)
+        dots(ax, success, row, colour, success >= 100 * ESCAPES, spread=0.27)
         one = (success >= 100 * ESCAPES).sum() == 1
         words = f"{escaped(results, method)} escape{'s' if one else ''}"
         beside(ax, row, words)

@@ -60,7 +60,8 @@ bc.recording(drives, height=360)
 # do not.
 # <!-- claim: escaped('sac') == 1 -->
 #
-# Here are all ten, and ten each with one aid, the other, and both. This is an **ablation**: leave out
+# Here are all ten, and ten more with the soft constraint, ten with demonstrations, ten with both. This is an
+# **ablation**: leave out
 # parts of a method, train again, and see what gets worse. An agent *escapes* if it ends ahead of trap
 # 1 on at least {{ 100 * ESCAPES | .0f }} % of the held-out roads.
 
@@ -78,17 +79,18 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # ## Round 1: what does eight of ten say?
 #
 # With the soft constraint alone, eight of ten agents escape. Had you trained thousands, the share
-# that escapes would be the *true rate*. It need not be 80 %.
+# that escapes would be the *true rate*. How low may it be, before eight of ten would be luck that you do
+# not believe?
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
-# > **Predict.** At which true rate do eight or more of ten escape in only 2.5 % of all studies?
-# > (Ten fair coins show eight or more heads in {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of
-# > all throws.)
+# > **Predict.** Say you believe no luck rarer than 2.5 %. At which true rate do eight or more
+# > of ten escape in 2.5 % of all studies? (Ten fair coins show eight or more heads in
+# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all throws.)
 
 # %%
 predict(
     "how_many_seeds.1",
-    "At which true rate do 8 or more of 10 escape in only 2.5 % of all studies?",
+    "At which true rate do 8 or more of 10 escape in 2.5 % of all studies?",
     unit="%",
 )
 
@@ -113,10 +115,8 @@ explorable.certainty()
 #
 # For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes, and of
 # ten others (lesson [[learning_from_demonstrations]]) {{ escapers(others('demos'), 'demos') }}.
-# The paper does not say how many agents drove, or how often. Another row's accidents, {{
-# PRINTED['gail']['collision'].mean | g }} ± {{ PRINTED['gail']['collision'].sd }} %, fit one in {{
-# EPISODES }} drives; this row's, {{ PRINTED['demos']['collision'].mean | g }} ± {{
-# PRINTED['demos']['collision'].sd }} %, fit no number of drives.
+# The paper does not say how many agents drove, or how often; one of its rows fits {{ EPISODES }} drives, another
+# no number of drives.
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
 # <!-- claim: (lambda x: round(x.mean(), 2) == PRINTED['gail']['collision'].mean and
 #   round(x.std(ddof=1), 2) == PRINTED['gail']['collision'].sd)(100.0 * (np.arange(EPISODES) < 1))
@@ -243,7 +243,8 @@ explorable.intervals()
 # %% [markdown]
 # **See.** *{{ explorable.holding(3) }} of 100, not 95.* In {{ 100 * 0.7**3 | .0f }} of 100 studies all
 # three do well. Resampling knows these three alone, so the interval is short, and lies above the mean
-# of all: *the shortest intervals miss.* Of ten seeds about nine intervals in ten contain it.
+# of all: *the shortest intervals miss.* With ten seeds instead of three, about nine
+# intervals in ten contain it.
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 and 88 <=
 #   explorable.holding(10) <= 92 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
@@ -268,8 +269,8 @@ check.bootstrap_interval(bootstrap_interval)
 # ## Round 4: what do your five seeds show?
 #
 # Change one number of the method, and train five agents with the change, five without.
-# `bonus=0.0` takes the bonus from the demonstrations; other numbers are `xi_multiplier` (ξ = 200 α: 200),
-# `rule_p` (p: 0.9), `beta_start` (β at first: 0.6), `gamma` (0.8). The score is an agent's success on 200
+# `bonus=0.0` takes the bonus from the demonstrations. Or change `rule_p` (now 0.9), `beta_start` (0.6),
+# `gamma` (0.8), `xi_multiplier` (200). The score is an agent's success on 200
 # roads after 150 episodes: who learns the way out early?
 #
 # The score of a group is its **interquartile mean** (IQM), the mean of the middle half: sort, and
@@ -322,14 +323,14 @@ bc.show(figures.nothing_changed(study))
 # %% [markdown]
 # **See.** Read as ablations, the first says that your change costs {{ -halves()[0].value | .0f }}
 # points of return. It is luck: all three bad agents came into one half. Of all possible splits
-# {{ 100 * left_out() | .0f }} % leave out 0, not 5: these intervals of five are too short.
+# of the ten, the interval leaves out 0 in {{ 100 * left_out() | .0f }} %, not in 5 %: with five agents it is too short.
 # <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
 # <!-- claim: all(bad in (0, 3) for bad, effect in splits() if counts.leaves_out_0(effect)) -->
 #
 # Even at 5 % each, at least one of twenty independent comparisons leaves out 0 in
 # {{ 100 * (1 - 0.95**20) | .0f }} % of cases: **multiplicity**. Say beforehand which comparison
-# counts, or correct p in *Holm's* way: multiply the smallest of n p values by n, the next by n − 1,
-# and so on.
+# counts, or correct p in *Holm's* way: take the n p values from the smallest up, times n, n − 1, …, 1, none
+# below the one before.
 
 # %%
 # NBVAL_CHECK_OUTPUT

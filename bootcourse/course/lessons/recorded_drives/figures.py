@@ -44,7 +44,7 @@ def returns(study: Results) -> Figure:
     by_rule, alt = rule_results(DEFAULT, study.tested["returns"].shape[1]).scores("returns").mean(), []
     ax.axvline(by_rule, color=style("rule").colour, linewidth=1.5, zorder=1)
     ax.text(by_rule + 0.6, 79, "the rule", fontsize=TEXT, color=style("rule").colour, va="top")
-    places = {"bc": (50.6, 20, "right"), "cql": (59, 6, "center"), "cql_sac": (12.5, 7, "center")}
+    places = {"bc": (50.6, 12, "right"), "cql": (59, 6, "center"), "cql_sac": (12.5, 7, "center")}
     places["gail"] = (16, 72, "left")
     for method, (x, y, side) in places.items():
         mine, look = study.of(method), style(method)
@@ -90,7 +90,7 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
     if min(faster) == 1 and all(each == 100 for many in crashes.values() for each in many):
         title = "Both would always accelerate, and crash on every road"
     elif set(learners) == {WITH} and max(abs(each - shares[0][2].sum()) for each in faster) < 0.15:
-        title = "With CQL's term agents stay near what the data show"
+        title = "With CQL's term they take the nine actions about as often as the rule"
     figure, height = new_figure(2.95), 2.95
     for place, (name, share, colour, below) in enumerate(zip(names, shares, colours, words, strict=True)):
         ax = axes_at(figure, 0.85 + 2.1 * place, 0.92, 1.7, 1.2)

@@ -4,10 +4,12 @@ from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
+import torch
 
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
+from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.learner import SACLearner
@@ -71,6 +73,22 @@ def successes() -> np.ndarray:
 def returns() -> np.ndarray:
     """What each earns on the held-out roads, (sets, agents)."""
     return np.array([of(method).scores("returns")[:SETS] for method in choosing.METHODS]).T
+
+
+def shares(actions: torch.Tensor) -> tuple[float, float]:
+    """How often these actions accelerate, and brake."""
+    return float((actions >= 6).float().mean()), float((actions < 3).float().mean())
+
+
+def did() -> tuple[float, float]:
+    """How often the rule accelerated in the recorded seconds, and braked."""
+    return shares(choosing.recorded().actions)
+
+
+def would_do() -> np.ndarray:
+    """How often each of CQL's agents that ship would accelerate in these seconds, and brake: (agents, 2)."""
+    agents = [agent.as_policy() for agent in shipped_agents("cql")]
+    return np.array([shares(choosing.actions_of(agent, choosing.recorded().states)) for agent in agents])
 
 
 @cache

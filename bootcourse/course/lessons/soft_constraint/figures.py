@@ -108,9 +108,11 @@ def courses(kinds: Sequence[str]) -> Figure:
         below.plot(episodes, window.mean(0), color=colour, linewidth=2.2)
         ends.append((window[:, -1].mean(), kind, colour))
         alt.append(f"{kind}: {window[:, 1000 - IN_A_ROW].mean():.0f}, at last {ends[-1][0]:.0f}")
-    above.set(yscale="log", xlim=(0, returns.shape[1]), ylim=(0.06, 3))
+    above.set(yscale="log", xlim=(0, returns.shape[1]), ylim=(0.02, 3))
     above.set_yticks((0.1, 1, 2), ("0.1", "1", "2"))
-    above.annotate("towards 0", (until, 0.1), (until + 20, 0.16), fontsize=SMALL, color=looks[-1])
+    arrow = {"arrowstyle": "->", "color": looks[-1], "linewidth": 2, "shrinkB": 0}
+    above.annotate("", (until + 90, 0.03), (until, 0.1), arrowprops=arrow)
+    above.text(until + 100, 0.03, "towards 0", va="center", fontsize=SMALL, color=looks[-1])
     above.minorticks_off()
     above.set_xticklabels([])
     below.set(xlim=(0, returns.shape[1]))

@@ -88,9 +88,9 @@ def losing(agents: list[Results]) -> int:
     return sum(int(lost(each.of("soft").curves["success"]).sum()) for each in agents)
 
 
-def crashes_with_the_floor() -> float:
-    """The share of the drives of `floored` that end in an accident."""
-    return float(np.mean([each.scores("accident") for each in floored()]))
+def crashes(agents: list[Results]) -> float:
+    """The share of their drives that end in an accident."""
+    return float(np.mean([each.of("soft").scores("accident") for each in agents]))
 
 
 def returning_more() -> int:

@@ -88,13 +88,13 @@ def speeds_by_sight(far: Rollout, near: Rollout, alone: Rollout) -> Figure:
 
 
 def reasons(drive: Rollout) -> Markdown:
-    """A table of the rule's reasons in a drive, as they change: from when, its speed, how far ahead trap 1 is."""
+    """A table of the rule's reasons in a drive, as they change: from when, its speed, how far ahead the traps are."""
     steps, given, rows = drive.scenario.clock.steps, drive.rule_reasons, []
     for second in [0, *(1 + np.flatnonzero(np.diff(given)))]:
-        ego, trap = drive.states[second * steps, [EGO, TRAP_1]]
-        ahead = f"{trap[X] - ego[X]:.0f} m"
-        rows.append([f"{second} s", SENTENCES[Reason(given[second])], f"{ego[SPEED]:.0f} m/s", ahead])
-    return table(["from", "the rule's reason", "its speed", "trap 1 is ahead by"], rows)
+        ego, trap, other = drive.states[second * steps, [EGO, TRAP_1, TRAP_2]]
+        ahead, gap = f"{trap[X] - ego[X]:.0f} m", f"{other[X] - ego[X] - drive.scenario.car.length:.1f} m"
+        rows.append([f"{second} s", SENTENCES[Reason(given[second])], f"{ego[SPEED]:.0f} m/s", ahead, gap])
+    return table(["from", "the rule's reason", "its speed", "trap 1 is ahead by", "gap to trap 2"], rows)
 
 
 def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure:

@@ -30,6 +30,12 @@ class Changes(NamedTuple):
     crashed: int  # how many of these roads end in an accident
 
 
+def gap(drive: Rollout, second: int) -> float:
+    """The room (m) between the ego and trap 2, from bumper to bumper."""
+    ego, trap = drive.states[second * drive.scenario.clock.steps, [EGO, TRAP_2], X]
+    return trap - ego - drive.scenario.car.length
+
+
 @cache
 def decided(sight: float, **numbers) -> tuple[np.ndarray, np.ndarray, np.ndarray, Episodes]:
     """Each decision on the lesson's roads with these numbers: reasons and safety distances (decisions, roads), the cars

@@ -98,9 +98,12 @@ def two_speeds(drives: Mapping[str, Rollout]) -> Figure:
     return lines(seconds, named, title, "time (s)", "speed (m/s)", marks=marks, looks=looks)
 
 
-def credit(speed: np.ndarray, found: Mapping[float, torch.Tensor]) -> Figure:
-    """A drive's speeds (seconds,), and below them its advantages for each λ, (seconds, 1): good above 0, bad below."""
-    title = "With λ near 1, later sprints raise the A of falling back"
+def credit(speed: np.ndarray, found: Mapping[str, torch.Tensor], horizon: int) -> Figure:
+    """A drive's speeds (seconds,), and below them its advantages, (seconds, 1): good above 0, bad below.
+
+    found: {what A sees: the advantages}; horizon: after so many decisions the data end, dotted.
+    """
+    title = f"Cut every {horizon} decisions, most of falling back looks bad"
     figure, seconds, alt = new_figure(4.0), np.arange(len(speed)), []
     above, below = axes_at(figure, 0.55, 0.75, 5.5, 0.95), axes_at(figure, 0.55, 2.1, 5.5, 1.35)
     for ax, words in ((above, "speed (m/s)"), (below, "advantage A of the decision at that second")):
@@ -113,11 +116,13 @@ def credit(speed: np.ndarray, found: Mapping[float, torch.Tensor]) -> Figure:
     above.set(ylim=(0, 17), yticks=(0, 5, 10, 15), xticklabels=[])
     label_ends(above, [(DEFAULT.traps.speed, "the traps", QUIET)])
     ends, slow = [], np.asarray(speed) < DEFAULT.traps.speed
-    for lam, colour in zip(found, (INK, style("ppo").colour), strict=True):
-        values = np.asarray(found[lam])[:, 0]
+    for name, colour in zip(found, (INK, style("ppo").colour), strict=True):
+        values = np.asarray(found[name])[:, 0]
         below.plot(seconds, values, color=colour, linewidth=2)
-        ends.append((values[-1], f"λ = {lam:g}", colour))
-        alt.append(f"{(values[slow] > 0).sum()} for λ = {lam:g}")
+        ends.append((values[-1], name, colour))
+        alt.append(f"{(values[slow] > 0).sum()} ({name})")
+    for end in range(horizon, len(speed), horizon):
+        below.axvline(end, color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
     below.axhline(0, color=INK, linewidth=0.8)
     below.set_xlabel("time (s); grey: slower than the traps", fontsize=TEXT, color=INK)
     label_ends(below, ends)

@@ -84,7 +84,7 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
 def bearable_risks(gammas: np.ndarray, risks: np.ndarray) -> Figure:
     """The share of early crashes that the rule's way and the plan bear at each γ, (gammas, 2)."""
     at = {gamma: 100 * risks[np.argmin(abs(gammas - gamma))] for gamma in (0.8, 0.95, 1.0)}
-    title = f"At γ = 0.8 the plan breaks even if {at[0.8][1]:.0f} % of attempts crash early"
+    title = f"At γ = 0.8 the plan bears {at[0.8][1]:.0f} % of early crashes, compared with doing nothing"
     figure, ax = one_axes(3.6, title, "γ, what a reward a second later is worth", "bearable risk of an early crash (%)")
     ways = (("the rule's way", style("rule").colour, (0.928, 4)), ("the plan", INK, (0.93, 48)))
     for (name, colour, place), risk in zip(ways, 100 * risks.T, strict=True):

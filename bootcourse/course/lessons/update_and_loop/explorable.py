@@ -10,7 +10,6 @@ import torch
 from bootcourse.colours import INK, OTHER, QUIET, STRANGERS, Style
 from bootcourse.course.lessons.update_and_loop import by_hand, numbers
 from bootcourse.learn import sac
-from bootcourse.methods import style
 from bootcourse.panels.explorable import WIDTH, Axes, Curve, Explorable, curves
 from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing, drawing, line, rect, text
@@ -33,8 +32,8 @@ def the_end() -> Explorable:
         forgets = np.full(LAST, 1 / (1 - gamma))
         knows = knows[::-1]  # in the order of time
         named = {
-            "the fall is marked": Curve(knows, style("sac").colour),
-            "it is not": Curve(forgets, OTHER.colour, "--"),
+            "the fall is marked": Curve(knows, OTHER.colour),
+            "it is not": Curve(forgets, STRANGERS[1].colour, "--"),
         }
         says = f"γ = {gamma:g}: before the last push the two are {knows[-1]:.3g} and {forgets[-1]:.3g}."
         return curves(says, AXES, np.arange(-LAST, 0), named, mark=-1)
@@ -68,7 +67,7 @@ def of_an_agent(agent: by_hand.SAC) -> np.ndarray:
 def two_poles() -> Explorable:
     """The pole of an untrained agent and the rule's, while the push moves."""
     rule = episode(lambda state: int(checks.balance(state[None])[0]))
-    return beside({"untrained agent": of_an_agent(by_hand.SAC(seed=0)), "rule": rule}, (OTHER, style("rule")))
+    return beside({"untrained agent": of_an_agent(by_hand.SAC(seed=0)), "rule": rule}, (Style(QUIET), Style(INK)))
 
 
 def trained_poles(marked: by_hand.SAC, unmarked: by_hand.SAC) -> Explorable:

@@ -67,7 +67,7 @@ explorable.the_end()
 # **uniformly with replacement**, at each draw each row with the same chance.
 #
 # Most rows come from earlier policies: SAC learns **off-policy**, as Q-learning does (lesson
-# [[values]]). That works where the rows cover the states: a row says what the *world* did, and the
+# [[values]]). That works where the rows cover states and actions: a row says what the *world* did, and the
 # target asks what the *present* policy would do in s'.
 #
 # **Exercise (4 min, ●○○).** Write `sample`, with the generator `rng`. Training calls it thousands of
@@ -202,8 +202,8 @@ lost = worlds.learn(loop, step, lambda size: worlds.Unmarked(buffer(size)))
 figures.small_worlds(right, lost)
 
 # %% [markdown]
-# **See.** Without the bug each Q is right within 0.1. With it all but the third, where no row is
-# marked anyway, are too high.
+# **See.** Without the bug each Q is right within 0.1. With it all are too high but the third, which has no
+# marks to lose.
 #
 # The target now counts the fallen state. No row begins there, so no row says what it is worth: the
 # network makes it up.
@@ -214,7 +214,7 @@ figures.small_worlds(right, lost)
 # second a lost γ, the third an end of the time that counts as a fall, the fourth exchanged actions.
 
 # %% [markdown]
-# ## Round 3: is the pole solved, and with the bug?
+# ## Round 3: is the pole solved without the bug, and with it?
 #
 # Gymnasium calls the pole *solved* at a mean of {{
 # gym.spec('CartPole-v1').reward_threshold | .0f }} of {{
@@ -244,7 +244,7 @@ explorable.trained_poles(agent, unmarked)
 
 # %% [markdown]
 # **See.** **Drag** the push. {{ fell_at_once() }} of our {{ len(agents('unmarked')) }} agents with
-# the bug let the pole fall after {{ after_a_block('unmarked').max() | .0f }} pushes, about as when
+# the bug let the pole fall after {{ after_a_block('unmarked').max() | .0f }} pushes on average, as when
 # untrained ({{ agents('unmarked').notes['tests'][:, 0].min() | .0f }} to {{
 # agents('unmarked').notes['tests'][:, 0].max() | .0f }}). Without it ours then balance it for {{
 # after_a_block().min() | .0f }} to {{ after_a_block().max() | .0f }}.
@@ -277,8 +277,8 @@ print(f"Entropy with the bug, pole upright: {entropy:.2f} nats")
 # **See.** Along 40 falls of poles pushed to one side only, the critics with the bug expect most of the
 # fallen pole. To the actor a fall looks best: it is sure of its push even with the pole upright.
 #
-# Q is even above all that is possible (dotted, for the agent with the bug: with its entropy a push pays at
-# most 1 + α log 2). In {{
+# Q is even above the dotted line, the most that is possible: with its entropy the agent with the bug gets at
+# most 1 + α log 2 a push. In {{
 # unmarked() }} of our {{ len(agents('unmarked')) }} agents with the bug it was, without it in none.
 # <!-- claim: along_falls().max() < 1 / (1 - by_hand.SAC.gamma) -->
 

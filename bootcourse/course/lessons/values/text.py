@@ -37,7 +37,7 @@ progress("values")
 # <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
 #   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
 #
-# A reward t decisions later counts γᵗ as much. **Drag** what the trap pays, and then γ: when is
+# A reward t decisions later counts γᵗ times what it pays. **Drag** what the trap pays, and then γ: when is
 # leaving worth more?
 
 # %%
@@ -98,7 +98,7 @@ print(f"γ = {min(better):.2f}")
 #
 # A **state** says all that matters of the present: what may come next depends on it and the action
 # alone. Such a world is a *Markov decision process* (MDP). On the road our learners take the 26
-# numbers that they see for the state, although cars beyond the four nearest are missing.
+# numbers that they see for the state, although they leave out all but the four nearest cars.
 # <!-- claim: DEFAULT.observation_size == 26 and DEFAULT.sight.neighbours == 4 -->
 #
 # The **value** of action a in state s, **Q(s, a)**, is the discounted return if you take a once and then act
@@ -144,7 +144,7 @@ bc.show(diagrams.sweeps(found))
 
 # %% [markdown]
 # **Explain.** A sweep looks one decision ahead, so each one carries the free road's value one state
-# back. (White above 0: the trap's pay.) Sweep 40 gives the blue bars of *Look first* at γ = 0.8.
+# back. (White numbers above 0 come from the trap's pay.) Sweep 40 gives the blue bars of *Look first* at γ = 0.8.
 # <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
 # <!-- claim: (np.abs(sweeps(40, 0.8)[:, 1] - 5 * 0.8 ** np.arange(4, -1, -1)) < 0.005).all() -->
 
@@ -299,12 +299,13 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps: all of D learn to leave, though they act at random. At first one attempt in
-# {{ 4**4 }} gets through in C; in D one in {{ 2**4 }}. Once is not enough: in the last picture Q(0, 1) rests at
-# {{ 0.8**2 * 0.16 / 0.2 | .2f }} = γ² · {{ 0.16 / 0.2 | .2f }}, what it is worth to leave, turn back
-# and stay. Each walk out moves the free road's value one state back (Round 3). {{ free_road_seen(0.5, 0.8)
-# }} of C reached the free road, {{ leaving(0.5, 0.8) }} learn to leave. On the road chance also causes
-# accidents (lesson [[the_barrier]]).
+# More exploration helps: all of D, which act at random, learn to leave. In C {{ free_road_seen(0.5, 0.8)
+# }} reach the free road, and {{ leaving(0.5, 0.8) }} learn to leave: once is not enough. In the last picture
+# Q(0, 1) rests at
+# {{ 0.8**2 * 0.16 / 0.2 | .2f }} = γ² · {{ 0.16 / 0.2 | .2f }}, what it is worth to leave, turn back and stay.
+# A target takes
+# the larger Q, so in each state going on must first beat turning back (at most {{ 0.8 * 0.16 / 0.2 | .2f }}).
+# On the road chance also causes accidents (lesson [[the_barrier]]).
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
 #   chain.over_walks(0.5, 0.8, seed)[12:36]) -->
 # <!-- claim: chain.leaves(chain.over_walks(0.5, 0.8, 1)[-1]) -->
@@ -336,7 +337,7 @@ compare_predictions(
 # 2. The Bellman equation says what a value is; sweeps of it find it.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves
 #    Q(s, a) by a part of it, and needs no map.
-# 4. Learned in the order of a walk, a value moves one state back; in reverse order, all the way.
+# 4. From zeros, a walk learned in its order moves a value one state back; in reverse, all the way.
 # 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and
 #    so does a replayed demonstration.
 #

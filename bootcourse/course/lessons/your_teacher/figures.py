@@ -27,11 +27,6 @@ SIX = {  # teacher of the experiment `teachers`: the name of its row
     "timid": "timid",
     "mirrored": "mirrored",
 }
-PARTS = {  # kind of the experiment `crashes`: the name of its row
-    "all": "all",
-    "cut": "no free lane",
-    "as-many": "the control",
-}
 
 
 def exam_of_all() -> Markdown:
@@ -95,13 +90,24 @@ def of_six_teachers(computed: Cells) -> Figure:
 
 
 def without_a_part(computed: Mapping[str, Results]) -> Figure:
-    """Each agent's return as a dot, a row for each kind of the experiment `crashes`.
+    """Each agent's return as a dot: from all the crashing drives, without the free lane, and without as much before it.
 
-    computed: {kind: agents}, as it ships.
+    computed: {kind of the experiment `crashes`: agents}, as it ships.
     """
     title = "These crashing drives teach agents to earn; cut before the free lane, they do not"
-    groups = {name: scores(computed[kind]) for kind, name in PARTS.items()}
-    return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in PARTS], "returns", left=1.5)
+    return of_kinds(title, computed, {"all": "all", "cut": "no free lane", "as-many": "the control"})
+
+
+def lane_or_accident(computed: Mapping[str, Results]) -> Figure:
+    """The same of agents from drives with the free lane without its accident, and with the accident alone."""
+    title = "The free lane teaches the way out, its accidents do not"
+    return of_kinds(title, computed, {"lane": "lane, no accident", "accident": "accident, no lane"})
+
+
+def of_kinds(title: str, computed: Mapping[str, Results], kinds: Mapping[str, str]) -> Figure:
+    """Each agent's return as a dot, a row for each kind of the experiment `crashes`. kinds: {kind: its row's name}."""
+    groups = {name: scores(computed[kind]) for kind, name in kinds.items()}
+    return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in kinds], "returns", left=1.5)
 
 
 def parted(kept: Callable[[np.ndarray], np.ndarray]) -> Markdown:
