@@ -56,4 +56,4 @@ def test_patience_is_in_seconds_whatever_the_decision_rate():
     assert {doing(drive, time) for time in (2.0, 2.5, 3.0)} == {"catches up"}
     sentences = transcript(drive)
     assert not any("catches up" in line for line in sentences) and moments(sentences)[-1] == 15.0
-    assert "t = 3.5 s: follows" in "\n".join(sentences)
+    assert "t = 3.5 s: about as fast as trap 1" in "\n".join(sentences)

@@ -59,7 +59,7 @@ def doing(rollout: Rollout, time: float) -> str:
         return "ahead of trap 1" if now[EGO, X] - now[TRAP_1, X] >= BESIDE else "passes trap 1"
     if abs(sideways) > 1.0:
         return f"moves {side}"
-    return "as fast as trap 1" if abs(faster) < 0.3 else ("catches up" if faster > 0 else "falls back")
+    return "about as fast as trap 1" if abs(faster) < 0.3 else ("catches up" if faster > 0 else "falls back")
 
 
 def outcome(rollout: Rollout) -> str:

@@ -111,10 +111,10 @@ def out_of_trap(
     rows = []
     for (name, driver), (gamma, with_worth) in zip(drivers.items(), AIMS, strict=True):
         out = out_of_nine(study, gamma, with_worth)
-        here, led = int(drive_episodes(driver, roads).success.sum()), f"{(out > LED).sum()} of {len(out)}"
-        rows.append([name, here, f"{100 * out[0]:.0f} %", led])
+        here = int(drive_episodes(driver, roads).success.sum())
+        rows.append([name, here, f"{100 * out[0]:.0f} %", f"{100 * out.mean():.0f} %"])
     headings = ["what counts", f"this agent's drives out, of {len(roads)}", "its drives out, in the study"]
-    return [*headings, "agents out in more than a tenth of their drives"], rows
+    return [*headings, "drives out, mean of the nine agents"], rows
 
 
 def _judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

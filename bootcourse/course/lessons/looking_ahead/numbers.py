@@ -13,7 +13,7 @@ from bootcourse.learn.road_model import learned_from, transitions_of
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research.computed import experiment
 from bootcourse.research.experiments import learned_model
-from bootcourse.research.experiments.lookahead import AIMS, Cell, shipped_actors
+from bootcourse.research.experiments.lookahead import Cell, shipped_actors
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, TRAP_1, Accident, X
 from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS
@@ -81,17 +81,6 @@ def aim(gamma: float, with_worth: bool) -> np.ndarray:
 def led_out(gamma: float, with_worth: bool) -> int:
     """How many of them get out in more than a tenth of their drives."""
     return int((aim(gamma, with_worth) > figures.LED).sum())
-
-
-def led_out_by_each() -> int:
-    """How many get out in more than a tenth of their drives with W and γ = 1, and with neither."""
-    return int(((aim(1.0, True) > figures.LED) & (aim(0.8, False) > figures.LED)).sum())
-
-
-def need_both() -> int:
-    """How many of them get out in more than half of their drives with W and γ = 1, in hardly any with one or none."""
-    both, *less = (aim(*one) for one in AIMS)
-    return int(((both > 0.5) & (np.max(less, axis=0) < 0.02)).sum())
 
 
 def wrong_but_late(base: str = "bootstrapped") -> list[float]:

@@ -116,6 +116,23 @@ def training_scores(spent: float, count: str) -> dict[str, Estimate]:
     return {method: interval(explorable.in_training(later(method), spent, count)) for method in TAUGHT}
 
 
+def spent_table() -> str:
+    """What each method with a teacher earns in training by three clocks, as Markdown; bold: shown to be above PPO."""
+    kinds, clocks = ["ppo_cloned", "bootstrapped", "jsrl", "rlpd", "ibrl"], {
+        f"{equal_decisions.SECONDS} s of computing": (equal_decisions.SECONDS, explorable.SECONDS),
+        f"{on_road(explorable.EARLY):.0f} h on a road": (explorable.EARLY, explorable.DECISIONS),
+        f"{FIRST:,} decisions": (FIRST, explorable.DECISIONS),
+    }  # fmt: skip
+    lines = ["| after | PPO | bootstrapped | jump-start | RLPD | IBRL |", "|---|---|---|---|---|---|"]
+    for words, spent in clocks.items():
+        scores = training_scores(*spent)
+        bar = dict.fromkeys(kinds, scores["ppo_cloned"].high)
+        bar["ppo_cloned"] = max(scores[method].high for method in kinds[1:])
+        cells = (f"**{scores[m].value:.0f}**" if scores[m].low > bar[m] else f"{scores[m].value:.0f}" for m in kinds)
+        lines.append(f"| {words} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
 def below_all_others(method: str, spent: float, count: str) -> bool:
     """Whether rank tests, corrected for all pairs of the five, show that it earns less in training than each other."""
     returns = {one: explorable.in_training(later(one), spent, count) for one in TAUGHT}

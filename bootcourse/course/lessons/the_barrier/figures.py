@@ -30,7 +30,7 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str
                 ax.set_title(road, fontsize=TEXT, color=INK)
             if not column:
                 left = {"rotation": 90, "ha": "center", "va": "center", "color": INK}
-                ax.text(-40, 48, f"{price}\nreturn", fontsize=TEXT, linespacing=1.4, **left)
+                ax.text(-40, 48, f"return if\n{price}", fontsize=TEXT, linespacing=1.4, **left)
             if not row + column:
                 ax.text(45, 27, "staying", fontsize=SMALL, color=style("idle").colour)
             if row and column == 1:
@@ -39,7 +39,7 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str
     title = f"Cheap accidents with a start mid-lane free {escaping} of {len(trained[easier.BOTH])} agents; "
     title += f"{earning} of them earn more than by staying"
     words = "A dot: an agent. A cross: one with an accident on most roads. "
-    words += f"In the blue band, from {100 * ESCAPES:.0f} % on, it escapes. An accident costs what its row says."
+    words += f"In the blue band, from {100 * ESCAPES:.0f} % on, it escapes. (Spread a little sideways.)"
     figure.text(0.012, 0.015, words, fontsize=SMALL, color=QUIET)
     what = "Escape, of these earn more than by staying, crash on most roads:"
     return finish(figure, title, f"{words}\n{what} {'; '.join(listed)}.")

@@ -50,6 +50,23 @@ def alone(bonus: str) -> float:
     return score("doorkey", "good", f"demonstrations{bonus}", "drawn_success")
 
 
+def loops_table() -> str:
+    """How many drives of DoorKey reach the goal, by drawn and by most probable actions, as Markdown."""
+    kinds = {
+        "plain SAC": ("none", "SAC"),
+        "both aids, random teacher, c = 2": ("random", "both"),
+        "the same, c = 0": ("random", "both, c = 0"),
+        "the same, c = 2, without the drives that miss the goal": ("random", elsewhere.WITHOUT_LOOPS),
+        "good teacher's demonstrations alone, c = 2": ("good", "demonstrations"),
+        "these alone, c = 0": ("good", "demonstrations, c = 0"),
+    }
+    lines = ["| drives that reach the goal, % | drawn | most probable |", "|---|---|---|"]
+    for name, kind in kinds.items():
+        drawn, likeliest = (100 * score("doorkey", *kind, measure) for measure in ("drawn_success", "success"))
+        lines.append(f"| {name} | {drawn:.0f} | {likeliest:.0f} |")
+    return "\n".join(lines)
+
+
 def drowning_bonus(*arguments: float) -> float:
     """The exercise's solution."""
     return registry()["drowning_bonus"](*arguments)
