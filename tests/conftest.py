@@ -1,5 +1,6 @@
 """What every test shares."""
 
+import gc
 import os
 import signal
 import sys
@@ -30,6 +31,13 @@ def pytest_configure(config):
     if not hasattr(config, "workerinput") and any("notebooks" in given for given in config.args):
         process = warm_kernels.begin()
         config.add_cleanup(process.stdin.close)
+
+
+def pytest_collection_finish(session):
+    """What is loaded stays: the garbage collector looks at it no more, and looks less often."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000, 50, 100)
 
 
 @pytest.hookimpl(wrapper=True, optionalhook=True)

@@ -17,7 +17,7 @@ from tools.course import problems as problems_module
 from tools.course.numbering import BY_HAND, LESSON_FOLDERS, ROOT, refreshed, resolved, text_file
 from tools.course.problems import dead_names, problems
 from tools.course.products import folded, instructor_file, make, make_solved, refresh_prose, solved_file, student_file
-from tools.course.source import lesson_of, read, sources
+from tools.course.source import lesson_of, numbered, read, sources
 
 EXAMPLE = re.search(r"```python\n(.*?)```", (LESSON_FOLDERS / "README.md").read_text(encoding="utf-8"), re.S)[1]
 PAGES = [*ROOT.glob("book/*.md"), *ROOT.glob("book/teaching/*.md")]
@@ -57,6 +57,11 @@ def test_a_text_names_lessons_and_its_tables_are_in_their_order():
     assert resolved("[[the_rule]]", "lessons/") == f"[{rule}](lessons/{stem('the_rule')}.ipynb)"
     with pytest.raises(ValueError, match="no such lesson"):
         resolved("[[nothing]]")
+
+
+def test_only_a_lesson_s_title_gets_its_number_not_a_comment_in_its_code():
+    text, _ = numbered("# The rule\n\n```python\n# a comment\n```", "the_rule", 0)
+    assert text == f"# {number('the_rule')} · The rule\n\n```python\n# a comment\n```"
 
 
 def test_two_lessons_that_change_places_change_their_numbers(monkeypatch):

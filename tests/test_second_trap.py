@@ -1,7 +1,5 @@
 """Roads that pay otherwise, and the agents of the lesson on the second trap that ship."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -55,16 +53,6 @@ def test_the_agents_that_ship_drive_as_their_results_say():
     driven = drive_episodes(ppo_kinds.agent_of("alone", 1).as_policy(), ppo_kinds.ROADS[:60])
     assert abs(driven.returns.mean() - ships["returns"][1]) < 5
     assert abs(driven.success.mean() - ships["success"][1]) < 0.05
-
-
-def test_the_drives_of_a_training_are_put_in_blocks_by_how_they_ended():
-    values = {"return": [-9, 20, 30, 40], "success": [0, 0, 1, 1], "accident": [1, 0, 0, 2], "decisions": [2, 7, 6, 4]}
-    curves = SimpleNamespace(values={name: np.array([each]) for name, each in values.items()}, finished=[4])
-    found = ppo_kinds.by_ending(SimpleNamespace(curves=curves), block=10)  # the drives end after 2, 9, 15 and 19
-    assert list(found) == ["gets ahead", "stays", "crashes behind"]
-    assert all(at.tolist() == [5, 15] for at, *_ in found.values())
-    np.testing.assert_array_equal([means for _, means, _ in found.values()], [[np.nan, 35], [20, np.nan], [-9, np.nan]])
-    assert np.array([shares for *_, shares in found.values()]).tolist() == [[0, 1], [0.5, 0], [0.5, 0]]
 
 
 def test_a_training_of_a_kind_keeps_what_the_lesson_reads(monkeypatch):

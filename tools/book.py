@@ -66,7 +66,7 @@ def gather(to: Path, edition: str = "student") -> None:
         with_live_worlds(notebook, to / "lessons" / notebook.name)
         lesson = notebook.stem.partition("_")[2]
         if lesson in LEARNED:
-            add_learning(to / "lessons" / notebook.name, LEARNED[lesson])
+            add_learning(to / "lessons" / notebook.name, LEARNED[lesson], folded=lesson == "the_trap")
         if edition != "instructor":
             continue
         # The solved notebooks are not in the book: the page has the solutions itself, and says where they lie.
@@ -93,8 +93,11 @@ def with_live_worlds(notebook: Path, to: Path) -> None:
     to.write_text(json.dumps(content), encoding="utf-8")
 
 
-def add_learning(notebook: Path, addresses: dict[str, str]) -> None:
-    """Let agents learn in a lesson's page in the book, below the first cell that trains: one page, several links."""
+def add_learning(notebook: Path, addresses: dict[str, str], folded: bool = False) -> None:
+    """Let agents learn in a lesson's page in the book, below the first cell that trains: one page, several links.
+
+    folded: its sliders are not explained yet.
+    """
     from bootcourse.markup import html
 
     content = json.loads(notebook.read_text(encoding="utf-8"))
@@ -105,6 +108,9 @@ def add_learning(notebook: Path, addresses: dict[str, str]) -> None:
     first = next(iter(addresses.values())).replace("&", "&amp;")
     shown = frame(first).replace("<iframe ", '<iframe name="learn" ')
     said = f"<p>Train agents here, in this page, and move the sliders while they learn: {links}</p>{shown}"
+    if folded:
+        summary = "<summary>Train agents in this page (later lessons explain the sliders)</summary>"
+        said = f"<details>{summary}{said}</details>"
     output = {"output_type": "display_data", "metadata": {}, "data": {"text/html": said, "text/plain": "Agents learn."}}
     next(trains)["outputs"].append(output)
     notebook.write_text(json.dumps(content), encoding="utf-8")

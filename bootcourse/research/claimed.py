@@ -488,11 +488,11 @@ def discount(study: StudyResults) -> Claim:
             values.append(float(np.mean([weights[: len(d.rewards)] @ d.rewards for d in drives])))
         return values[0], values[1]
 
-    lesson, other, half, far = at(DEFAULT, 0.8, 1), at(DEFAULT, 0.8), at(FINER, 0.8), at(DEFAULT, 0.99)
+    lesson, other, half, far = at(DEFAULT, 0.8, 1), at(DEFAULT, 0.8), at(FINER, 0.8), at(DEFAULT, 0.99, 1)
     return Claim(
         "discount",
         "At the paper's γ = 0.8 the rule's way out is worth less than staying behind, at γ = 0.99 more.",
-        f"{lesson[0]:.2f} against {lesson[1]:.2f}; at 0.99 {far[0]:.1f} against {far[1]:.1f}",
+        f"means of {ROADS} roads: {lesson[0]:.2f} against {lesson[1]:.2f}; at 0.99 {far[0]:.1f} against {far[1]:.1f}",
         {
             OTHER_ROADS: (other[0] < other[1] and far[0] > far[1], f"{other[0]:.2f} against {other[1]:.2f}"),
             HALF: (half[0] < half[1], f"{half[0]:.2f} against {half[1]:.2f}"),

@@ -87,7 +87,7 @@ def read(path: Path) -> list[Cell]:
 
 def numbered(text: str, lesson: str, exercises: int) -> tuple[str, int]:
     """A text with its numbers, and how many exercises the lesson has had so far."""
-    title, *parts = re.split(r"(?<=\*\*Exercise) (?=\()", re.sub(r"^# ", f"# {number(lesson)} · ", text, flags=re.M))
+    title, *parts = re.split(r"(?<=\*\*Exercise) (?=\()", re.sub(r"\A# ", f"# {number(lesson)} · ", text))
     for part in parts:
         exercises += 1
         title += f" {number(lesson)}.{exercises} {part}"

@@ -28,11 +28,11 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
 
     knows: π(leave | trap) of an agent that knows the whole chain; walked: the learners at each temperature.
     """
-    title = "With a small α few find the way out, with a large one leaving is about as likely as not"
+    title = "With a small α few find the way out, with a large one leaving pays no more than staying"
     named = {
         "takes: leaves, knowing the map": np.array(knows),
         "tries: finds the free road": walked.found.mean(axis=1),
-        "both: leaves, as learned": walked.leaves.mean(axis=1),
+        "both: learned to leave": (walked.leaves > 0.5).mean(axis=1),
     }
     looks = [Style(INK, "--"), Style(OTHER.colour, "--"), style("sac")]
     ends = (f"{name}: {line[0]:.2f} at {alphas[0]:g}, {line[-1]:.2f} at {alphas[-1]:g}" for name, line in named.items())

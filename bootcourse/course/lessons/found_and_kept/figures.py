@@ -17,7 +17,7 @@ from bootcourse.statistics import IN_A_ROW, rolling_means
 
 # Titles that answer a prediction stand here, so that the student's cell does not give it away.
 IN_THE_STUDY = "With demonstrations alone half of the agents find the way out, and none keeps it"
-OF_TWO_GROUPS = "With two updates and π̃ all ten with demonstrations keep it, five with the soft constraint"
+OF_TWO_GROUPS = "On the right all ten with demonstrations keep it, five with the soft constraint"
 OF_EIGHT = "With one road and π̃, a quarter to a half of the draws have the paper's four rates"
 
 

@@ -79,12 +79,11 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # ## Round 1: what does eight of ten say?
 #
 # With the soft constraint alone, eight of ten agents escape. Had you trained thousands, the share
-# that escapes would be the *true rate*. How low may it be, before eight of ten would be luck that you do
-# not believe?
+# that escapes would be the *true rate*.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
-# > **Predict.** Say you believe no luck rarer than 2.5 %. At which true rate do eight or more
-# > of ten escape in 2.5 % of all studies? (Ten fair coins show eight or more heads in
+# > **Predict.** Call luck that comes in under 2.5 % of studies too rare to believe. How low may the true rate
+# > be, so that eight or more of ten escape in 2.5 % of all studies? (Ten fair coins show eight or more heads in
 # > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all throws.)
 
 # %%
@@ -115,8 +114,8 @@ explorable.certainty()
 #
 # For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes, and of
 # ten others (lesson [[learning_from_demonstrations]]) {{ escapers(others('demos'), 'demos') }}.
-# The paper does not say how many agents drove, or how often; one of its rows fits {{ EPISODES }} drives, another
-# no number of drives.
+# The paper does not say how many agents drove, or how often. One row's accidents, {{
+# PRINTED['gail']['collision'].mean | g }} ± {{ PRINTED['gail']['collision'].sd }} %, fit one in {{ EPISODES }} drives.
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
 # <!-- claim: (lambda x: round(x.mean(), 2) == PRINTED['gail']['collision'].mean and
 #   round(x.std(ddof=1), 2) == PRINTED['gail']['collision'].sd)(100.0 * (np.arange(EPISODES) < 1))
@@ -124,13 +123,13 @@ explorable.certainty()
 # <!-- claim: fitting(*PRINTED['gail']['collision']) == [(1, EPISODES)] and
 #   fitting(*PRINTED['demos']['collision']) == [] -->
 #
-# > **Predict.** Suppose that *one* agent made all 20 drives, and all succeed. You want the rate of
-# > the *method*: how many of its agents escape. Where does its exact interval begin?
+# > **Predict.** Suppose that *one* agent made all 20 drives, and that it escapes. You want the rate of the *method*:
+# > how many of its agents do. Where does its exact interval begin?
 
 # %%
 predict(
     "how_many_seeds.2",
-    "All 20 drives of one agent succeed. Where does the interval of the method's rate begin?",
+    "One agent of one escapes. Where does the interval of the method's rate begin?",
     ["at 83 %", "at 50 %", "at 2.5 %"],
 )
 
@@ -153,10 +152,11 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # %% [markdown]
 # ## Round 2: how many agents does it take?
 #
-# With the soft constraint alone eight of ten agents escape, with both aids seven. *Fisher's exact
-# test* deals these fifteen escapes out to the twenty agents at random. Its **p value** is how often
-# the split is at least as improbable as the one seen; below 0.05 it counts as a difference. Here it
-# is {{ fisher(8, 7) | .0f }}; eight against two would give {{ fisher(8, 2) | .2f }}.
+# With the soft constraint alone eight of ten agents escape, with both aids seven. If the methods were alike,
+# how often would
+# luck split these fifteen escapes at least this unevenly? *Fisher's exact test* counts it: the **p value**;
+# below 0.05 we call it a difference. Here it is {{ fisher(8, 7) | .0f }}, as no split is more even; eight
+# against two would give {{ fisher(8, 2) | .2f }}.
 # <!-- claim: escaped('soft') == 8 and escaped('bootstrapped') == 7 -->
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
@@ -271,7 +271,9 @@ check.bootstrap_interval(bootstrap_interval)
 # Change one number of the method, and train five agents with the change, five without.
 # `bonus=0.0` takes the bonus from the demonstrations. Or change `rule_p` (now 0.9), `beta_start` (0.6),
 # `gamma` (0.8), `xi_multiplier` (200). The score is an agent's success on 200
-# roads after 150 episodes: who learns the way out early?
+# roads after 150 episodes: who learns the way out early? First
+# the power (Round 2): five against five tell 80 from 30 % in {{ 100 * power(0.8, 0.3, 5) | .0f }} of 100
+# studies. So a 0 in your interval says little.
 #
 # The score of a group is its **interquartile mean** (IQM), the mean of the middle half: sort, and
 # leave out a quarter, rounded down, at each end. Of five the middle three remain: one agent far from the other four
@@ -305,12 +307,10 @@ table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
 # **Explain.** If the interval of the difference contains 0, five seeds do not say which group learns
-# earlier. If it leaves out 0, that may be luck: below you see how often.
+# earlier. If it leaves out 0, that may be luck, as below.
 #
-# How many agents would tell? Do not compute it from this run's difference, which may be luck. Say which
-# success counts as a yes and which difference would matter, and ask
-# `bc.statistics.power(first, second, n)`. Then train a *new* set. If you add agents until the interval
-# leaves out 0, you take luck for an effect too often.
+# For an answer train a *new* set, large enough for your smallest effect of interest. If you add agents until
+# the interval leaves out 0, you take luck for an effect too often.
 
 # %% [markdown]
 # ### If you try many changes
@@ -323,14 +323,15 @@ bc.show(figures.nothing_changed(study))
 # %% [markdown]
 # **See.** Read as ablations, the first says that your change costs {{ -halves()[0].value | .0f }}
 # points of return. It is luck: all three bad agents came into one half. Of all possible splits
-# of the ten, the interval leaves out 0 in {{ 100 * left_out() | .0f }} %, not in 5 %: with five agents it is too short.
+# of the ten, the interval leaves out 0 in {{ 100 * left_out() | .0f }} %, not in 5 %: here five agents give
+# too short an interval.
 # <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
 # <!-- claim: all(bad in (0, 3) for bad, effect in splits() if counts.leaves_out_0(effect)) -->
 #
 # Even at 5 % each, at least one of twenty independent comparisons leaves out 0 in
 # {{ 100 * (1 - 0.95**20) | .0f }} % of cases: **multiplicity**. Say beforehand which comparison
-# counts, or correct p in *Holm's* way: take the n p values from the smallest up, times n, n − 1, …, 1, none
-# below the one before.
+# counts, or correct p in *Holm's* way: multiply the smallest of n p values by n, the next by n − 1, and so on;
+# none may come out below the one before.
 
 # %%
 # NBVAL_CHECK_OUTPUT

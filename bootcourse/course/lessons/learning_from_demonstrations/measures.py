@@ -48,7 +48,7 @@ def paid_until(study: Results, changed: Computed) -> dict[str, Results]:
     }
 
 
-FOUND = ["with the soft constraint", "find the way out after (median)", "escape, of the study's", "of the others"]
+FOUND = ["with the soft constraint", "find the way out after (median of 20)", "escape, of the study's", "of the others"]
 
 
 def found_and_escaped(agents: Kinds) -> list[list[str]]:

@@ -43,6 +43,12 @@ def alone(name: str) -> str:
     return measures.escape(_with(name)[1])
 
 
+def staying_alone() -> str:
+    """The same where c = 2 and β stays, the rule drives the demonstrations, and there is no soft constraint."""
+    study, others = (shipped_experiment(name) for name in ("ablations", "stress"))
+    return measures.escape([study["β for ever"].of("demos"), others["demos, β for ever"]])
+
+
 def found(name: str) -> np.ndarray:
     """The training episodes after which the agents with the soft constraint have found the way out, (agents,)."""
     return measures.found(_with(name)[0])

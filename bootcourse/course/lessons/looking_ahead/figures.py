@@ -112,9 +112,8 @@ def out_of_trap(
     for (name, driver), (gamma, with_worth) in zip(drivers.items(), AIMS, strict=True):
         out = out_of_nine(study, gamma, with_worth)
         here = int(drive_episodes(driver, roads).success.sum())
-        rows.append([name, here, f"{100 * out[0]:.0f} %", f"{100 * out.mean():.0f} %"])
-    headings = ["what counts", f"this agent's drives out, of {len(roads)}", "its drives out, in the study"]
-    return [*headings, "drives out, mean of the nine agents"], rows
+        rows.append([name, here, f"{100 * out.mean():.0f} %"])
+    return ["what counts", f"this agent's drives out, of {len(roads)}", "drives out, of all nine agents"], rows
 
 
 def _judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -187,16 +187,16 @@ drivers = {name: imagined_road.driver(values_of, stuck, 10, *aim) for name, aim 
 table(*figures.out_of_trap(drivers, roads[:10], study))
 
 # %% [markdown]
-# **See.** *Neither explains it all.* With neither, {{ 100 * aim(0.8, False).mean() | .0f }} % of the nine's
-# drives still
-# get out; with both {{ 100 * aim(1.0, True).mean() | .0f }} %, with γ = 1 alone no more than with neither. But
-# the agents differ: {{ (aim(1.0, True) > aim(0.8, False)).sum() }} get out more often with both, {{ (aim(1.0, True) <
-# aim(0.8, False)).sum() }} with neither.
+# **See.** *Partly W.* Of the nine's drives (last column) γ = 1 alone leads no more out than neither, W alone {{
+# 100 * (aim(0.8, True).mean() - aim(0.8, False).mean()) | .0f }} points more, both {{
+# 100 * (aim(1.0, True).mean() - aim(0.8, False).mean()) | .0f }}. But with neither {{ 100 * aim(0.8,
+# False).mean() | .0f
+# }} % still get out: the chain of decisions does this much by itself. Agents differ: {{ (aim(1.0, True) <
+# aim(0.8, False)).sum() }} of the nine get out more often with neither than with both.
 # <!-- claim: abs(aim(1.0, False).mean() - aim(0.8, False).mean()) < 0.01 -->
 #
-# **Explain.** The look-ahead changes *one* decision; after it the base policy drives. So each step
-# towards the way out has to raise $\hat Q$ by itself: by ten seconds of rewards, or by W of the speed
-# at their end.
+# **Explain.** The look-ahead changes *one* decision; after it the base policy drives. So each single step on
+# the way out must already pay: within ten seconds, or by a higher last speed.
 #
 # Rollouts to the episode's end (true road, γ = 1, no W) would promise at least the base's return:
 # **policy improvement**. Ten decisions do not promise it: a drive can be lost after them.
@@ -291,8 +291,8 @@ bc.show(figures.wrong_models(study))
 # learn the next observation, the reward, and whether an accident ends the drive.
 #
 # Our agent learns such a model from 200 of its drives. The figure shows the first decision of Round 1's
-# drive at which the model misleads the look-ahead. Its last line is about ten drives, at the decisions where
-# at least one action is safe.
+# drive at which the model misleads the look-ahead. Its last line: how often an action ends in an accident, in
+# ten drives, wherever a safe action exists.
 
 # %% tags=["nbval-ignore-output"]
 own_drives = transitions_of(agent.as_policy(), bc.held_out_seeds(41, 200))
@@ -342,7 +342,8 @@ bc.show(figures.learned(shipped_experiment("learned-model"), study))
 # <!-- claim: all((learned_rows() > learned_rows(share)).all() for share in learned_model.RANDOM) and
 #   learning().measured['rows'].mean() > learned_rows().mean() -->
 #
-# Even after the look-ahead's drives {{ still_worse() }} of the ten crash more than alone.
+# Even so {{ still_worse() }} of the ten crash more than *they themselves* do alone (the dashed line is the mean of
+# all).
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what an honest learned model would have to say besides a number: how sure it is. Five networks
@@ -366,9 +367,10 @@ compare_predictions(
 # 2. The best of nine changes one decision, without training. No future tried led a stuck agent out;
 #    a chain of such decisions led some out.
 # 3. A wrong model harms most the agents that rarely crash alone: four of the six errors make PPO's crash
-#    more, one makes Round 1's. A late road lacks the car's own last action.
+#    more, one makes Round 1's. A late road harms because the car's
+#    own last action is missing from it.
 # 4. Random actions in its drives help a learned model, the look-ahead's own drives perhaps more. Even then {{
-#    still_worse() }} of ten agents crash more than alone.
+#    still_worse() }} of ten crash more than they do alone.
 # <!-- claim: worse_than_alone('ppo_cloned', 'rollouts') == 4 and worse_than_alone('bootstrapped',
 #   'rollouts') == 1 and len(WRONG) == 6 -->
 #

@@ -90,7 +90,7 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
     if min(faster) == 1 and all(each == 100 for many in crashes.values() for each in many):
         title = "Both would always accelerate, and crash on every road"
     elif set(learners) == {WITH} and max(abs(each - shares[0][2].sum()) for each in faster) < 0.15:
-        title = "With CQL's term they take the nine actions about as often as the rule"
+        title = "With CQL's term they stay near what the rule did"
     figure, height = new_figure(2.95), 2.95
     for place, (name, share, colour, below) in enumerate(zip(names, shares, colours, words, strict=True)):
         ax = axes_at(figure, 0.85 + 2.1 * place, 0.92, 1.7, 1.2)

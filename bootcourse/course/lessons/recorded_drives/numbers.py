@@ -85,9 +85,9 @@ def did() -> tuple[float, float]:
     return shares(choosing.recorded().actions)
 
 
-def would_do() -> np.ndarray:
-    """How often each of CQL's agents that ship would accelerate in these seconds, and brake: (agents, 2)."""
-    agents = [agent.as_policy() for agent in shipped_agents("cql")]
+def would_do(method: str) -> np.ndarray:
+    """How often each of a method's agents that ship would accelerate in these seconds, and brake: (agents, 2)."""
+    agents = [agent.as_policy() for agent in shipped_agents(method)]
     return np.array([shares(choosing.actions_of(agent, choosing.recorded().states)) for agent in agents])
 
 

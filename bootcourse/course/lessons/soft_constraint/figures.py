@@ -96,7 +96,7 @@ def courses(kinds: Sequence[str]) -> Figure:
     figure, looks = new_figure(4.4), (QUIET, INK, style("soft").colour)
     above, below = axes_at(figure, 0.6, 0.75, 4.9, 0.9), axes_at(figure, 0.6, 2.0, 4.9, 1.85)
     plain_axes(above, "mean ξ of ten agents")
-    plain_axes(below, f"return in training, with drawn actions: mean of {IN_A_ROW} episodes; thick: of ten agents")
+    plain_axes(below, f"return in training, with drawn actions: mean of {IN_A_ROW} episodes; thick: mean of ten agents")
     ends, alt = [], []
     for kind, colour in zip(kinds, looks, strict=True):
         xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
@@ -104,7 +104,8 @@ def courses(kinds: Sequence[str]) -> Figure:
         above.plot(np.arange(until), xi[:until], color=colour, linewidth=2)
         returns = changed[kind].of("soft").curves["return"]
         episodes, window = rolling_means(returns, IN_A_ROW, returns.shape[1])
-        below.plot(episodes, window.T, color=colour, linewidth=0.5, alpha=0.45)
+        if kind == FADING:
+            below.plot(episodes, window.T, color=colour, linewidth=0.5, alpha=0.45)
         below.plot(episodes, window.mean(0), color=colour, linewidth=2.2)
         ends.append((window[:, -1].mean(), kind, colour))
         alt.append(f"{kind}: {window[:, 1000 - IN_A_ROW].mean():.0f}, at last {ends[-1][0]:.0f}")

@@ -39,7 +39,7 @@ def barrier() -> Explorable:
         worth = hill(price, gamma)
         lowest = int(worth.argmin())
         dip = f"after {lowest} s {worth[lowest]:.1f}" if lowest else "no dip"
-        says = f"Price {price:g}, γ = {gamma:g}: the plan is worth {worth[0]:.1f} of staying, {dip}, "
+        says = f"Price {price:g}, γ = {gamma:g}: the plan is worth {worth[0]:.1f} times staying, {dip}, "
         says = f"{says}after {SECONDS} s {worth[-1]:.1f}.".replace("-", "−")
         axes = Axes("seconds of the plan that are driven", "worth of going on, as a multiple of staying", (-2.0, 7.0))
         named = {

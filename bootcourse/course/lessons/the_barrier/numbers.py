@@ -63,6 +63,12 @@ def too_fast() -> int:
     return int(fast.sum())
 
 
+def fast_and_crash() -> int:
+    """How many of these have an accident on most roads."""
+    out, agents = easy(BOTH).scores("success") >= ESCAPES, easy(BOTH)
+    return int((out & (agents.scores("speed") > 20) & (agents.scores("accident") > 0.5)).sum())
+
+
 def freed_and_slower() -> np.ndarray:
     """What the others of them earn."""
     returns, fast = _freed()

@@ -128,9 +128,9 @@ table(["drive", "worth at γ = 0.8"], rows, below=below)
 
 # %% [markdown]
 # **Explain.** *Staying is not best, even at γ = 0.8.* The planner knows the future, but
-# that is not needed: ten agents
-# that the rule helped ship with the course (lessons [[soft_constraint]] and [[learning_from_demonstrations]]), and {{
-# len(helped_better()) }} of them earn a larger discounted sum than doing nothing.
+# that is not needed: of the ten shipped agents
+# that learned with the rule (lessons [[soft_constraint]] and [[learning_from_demonstrations]]), {{
+# len(helped_better()) }} earn a larger discounted sum than doing nothing.
 # <!-- claim: searched().best.value > 2 * searched().keep_lane.value -->
 # <!-- claim: searched().leaves.value == 1 and len(helped()) == 10 -->
 #
@@ -206,8 +206,8 @@ by_chance = chance_of(9 * tried.success.mean(), 1, 400)  # one decision, right w
 bc.show(figures.while_they_learned(trained["as it is"], by_chance))
 
 # %% [markdown]
-# **Explain.** *To end ahead once is not what most agents lack: {{ (times_ahead() > 0).sum() }} of
-# twenty did, {{ (times_ahead() == 1).sum() }} of them just once, and one escapes.*
+# **Explain.** *Most agents do end ahead: {{ (times_ahead() > 0).sum() }} of twenty at least once ({{
+# (times_ahead() == 1).sum() }} just once). Yet only one escapes.*
 # <!-- claim: abs(20 * (1 - np.exp(-400 * len(lucky()) / 5000)) - (times_ahead() > 0).sum()) < 3 -->
 # <!-- claim: (times_ahead() > 0).sum() > 15 and len(times_ahead()) == 20 -->
 #
@@ -270,19 +270,23 @@ predicted("the_barrier.3")
 bc.show(figures.escapes(trained, easier.SHOWN))
 
 # %% [markdown]
-# **Explain.** *Neither price nor start is enough; together they free {{
-# easy(BOTH).escapers('sac') }} of twenty agents.*
+# **Explain.** *Neither price nor start is enough; together they free {{ easy(BOTH).escapers('sac') }}
+# of twenty agents.* The suspects of Round 1:
 #
-# - *Cheap accidents alone* take away the plan's dip: {{ stay(CHEAP) }} stay behind, not {{ stay('as it is') }}. The {{
+# - **Price**, alone: {{ stay(CHEAP) }} stay behind, not {{ stay('as it is') }}, but the {{
 #   crash_on_most(CHEAP) }} others crash on most roads, even the {{ easy(CHEAP).escapers('sac') }} that escape.
-# - *The start alone* frees {{ easy(MIDDLE).escapers('sac') }}, of which {{ escape_and_earn(MIDDLE) }} earn more than by
-#   staying. (This lesson does not show why the others do not learn the one acceleration.)
-# - *Both* free {{ easy(BOTH).escapers('sac') }}, of which {{ len(freed_and_slower()) }} earn more than by
-#   staying. The {{ too_fast() }} others drive faster than 20 m/s, which pays little: to escape is not to earn.
-# - *A lane keeper with cheap accidents* frees none, nor any of twenty others with twice the updates. But {{
-#   earn_more(KEPT, longer=True) }} of those others end ahead on some roads, and earn more than by staying; with cheap
-#   accidents alone {{ earn_more(CHEAP, longer=True) }}.
-#
+# - **Steering**, alone: with a lane keeper none escapes, at either price. (With cheap accidents and twice the
+#   updates {{
+#   earn_more(KEPT, longer=True) }} of twenty others end ahead on some roads, and earn more than by staying;
+#   without the lane keeper {{ earn_more(CHEAP, longer=True) }}.)
+# - **Steering and the wait before it**: a start mid-lane frees {{ easy(MIDDLE).escapers('sac') }}; {{
+#   escape_and_earn(MIDDLE) }} of these earn more than by staying. (This lesson does not show why the {{
+#   20 - easy(MIDDLE).escapers('sac') }} others do not learn the one acceleration.)
+# - **This and the price**: {{ easy(BOTH).escapers('sac') }} are free, and {{ len(freed_and_slower()) }} of
+#   them earn more
+#   than by staying. The {{ too_fast() }} others drive faster than 20 m/s, which pays little, and {{
+#   fast_and_crash() }} of them crash on most roads: to escape is not to earn.
+# - **Luck** is not cleared: no random drive ended ahead without an accident.
 # <!-- claim: stay(CHEAP) + crash_on_most(CHEAP) == 20 and
 #   escape_and_crash(CHEAP) == easy(CHEAP).escapers('sac') > 0 -->
 # <!-- claim: (np.diff(hill(1, 0.8)[:12]) > 0).all() -->

@@ -1,4 +1,4 @@
-"""Two drives' speeds, a drive's advantages, PPO's clipped loss, return against success, and what each ending paid."""
+"""Two drives' speeds, a drive's advantages, PPO's clipped loss, return against success, who gets ahead in training."""
 
 from collections.abc import Mapping
 
@@ -6,13 +6,12 @@ import numpy as np
 import torch
 from matplotlib.figure import Figure
 
-from bootcourse.colours import ALARM, Style
+from bootcourse.colours import Style
 from bootcourse.course.charts import lines
-from bootcourse.course.lessons.the_second_trap.ppo_kinds import ENDINGS, ROADS, by_ending, compared
+from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, compared
 from bootcourse.course.lessons.the_second_trap.second_trap import speeds
 from bootcourse.episodes.record import Rollout
 from bootcourse.learn.ppo import clipped_loss
-from bootcourse.learn.training import Training
 from bootcourse.methods import style
 from bootcourse.plots.figure import (
     INK,
@@ -30,8 +29,6 @@ from bootcourse.scenario import DEFAULT
 
 RATIOS = np.linspace(0.3, 1.7, 141)
 POINTS = (0.5, 1.5)  # where a dot says what the gradient does
-BLOCK = 25_000  # decisions that a dot of `endings` stands for
-LARGEST = 160.0  # area of the dot of an ending that all drives of a block have, points²
 
 
 def plane(clone: tuple[float, float], trained: tuple[float, float]) -> Figure:
@@ -136,25 +133,20 @@ def slow_stretches(speed: np.ndarray) -> list[tuple[int, int]]:
     return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 
 
-def endings(trainings: Mapping[str, Training]) -> Figure:
-    """What the drives of each training earned while the agent learned, by how they ended; a dot's area: how many."""
-    title = "What each agent's own drives earned while it learned, by how they ended"
-    looks = dict(zip(ENDINGS, (style("ppo").colour, style("idle").colour, ALARM), strict=True))
-    figure, alt_parts = new_figure(3.7), []
-    for left, (name, training) in zip((0.5, 3.85), trainings.items(), strict=True):
-        ax, ends, said = axes_at(figure, left, 0.95, 2.25, 2.0), [], []
-        plain_axes(ax, f"mean return: {name}")
-        ax.set(xlim=(0, 210), ylim=(-20, 85), xticks=(0, 100, 200))
-        ax.set_xlabel("decisions (thousands)", fontsize=TEXT, color=INK)
-        for ending, (at, returns, shares) in by_ending(training, BLOCK).items():
-            there = shares > 0
-            if not there.any():
-                continue
-            ax.plot(at[there] / 1000, returns[there], color=looks[ending], linewidth=1)
-            ax.scatter(at[there] / 1000, returns[there], s=3 + LARGEST * shares[there], color=looks[ending], zorder=3)
-            ends.append((returns[there][-1], ending, looks[ending]))
-            said.append(f"{ending} {100 * shares[-1]:.0f} % (return {returns[there][-1]:.0f})")
-        label_ends(ax, ends, wrap=10, gap=0.04)
-        alt_parts.append(f"{name}, at the end: {', '.join(said)}.")
-    figure.text(0.012, 0.1 / 3.7, "A larger dot: more of the drives end so.", fontsize=SMALL, color=INK)
-    return finish(figure, title, " ".join(alt_parts))
+def ahead_in_training(agents: Mapping[str, Mapping[str, np.ndarray]]) -> Figure:
+    """How many of the last 300 training drives got ahead of trap 1: a line for each agent of two kinds.
+
+    agents: as `ppo_kinds.reference` returns them.
+    """
+    title = "After cloning many drives get ahead in training, alone few"
+    figure, ax = one_axes(3.2, title, "decisions in training (thousands)", "of the last 300 drives these got ahead, %")
+    alt, ends = [], []
+    for name, kind, colour in (("PPO after cloning", "cloned", style("ppo").colour), ("PPO alone", "alone", INK)):
+        at, shares = agents[kind]["at"] / 1000, 100 * agents[kind]["escapes"]
+        ax.plot(at.T, shares.T, color=colour, linewidth=1, alpha=0.8, clip_on=False)
+        ends.append((shares[:, -1].mean(), name, colour))
+        alt.append(f"{name}: {shares.min():.0f} to {shares.max():.0f} %, at the end {shares[:, -1].mean():.0f} %")
+    ax.set(xlim=(0, max(kind["at"].max() for kind in (agents["alone"], agents["cloned"])) / 1000), ylim=(0, 100))
+    ax.set_position((0.09, 0.17, 0.68, 0.62))
+    label_ends(ax, ends)
+    return finish(figure, title, f"A line for each agent. {'; '.join(alt)}.")

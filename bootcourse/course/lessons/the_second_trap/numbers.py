@@ -8,6 +8,7 @@ import torch
 from bootcourse.course.lessons.the_second_trap import explorable, ppo_kinds, second_trap  # noqa: F401 (for the text)
 from bootcourse.episodes.record import record
 from bootcourse.learn.ppo import advantages
+from bootcourse.learn.settings import settings_for
 from bootcourse.road.formulas import speed_reward
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.statistics import ESCAPES
@@ -52,23 +53,31 @@ def ppo_gap() -> np.ndarray:
     return cars[:, EGO, X] - cars[:, TRAP_1, X]
 
 
-def credit(lam: float, horizon: int | None = None) -> np.ndarray:
+def credit(lam: float, horizon: int | None = None, first: int | None = None) -> np.ndarray:
     """The advantages of that drive, paid by r_v, where V is what a steady 10 m/s pays for ever: (decisions,).
 
-    horizon: after so many decisions the data end, again and again; None: with the drive.
+    horizon: after so many decisions the data end, again and again; None: with the drive. first: after so many the first
+    time.
     """
     rewards = torch.tensor([[speed_reward(v)] for v in ppo_speeds()])
     values = torch.full_like(rewards, speed_reward(10.0) / (1 - ppo_kinds.GAMMA))
     no = torch.zeros_like(rewards)  # accident
     ends = no.clone()
     if horizon:
-        ends[horizon - 1 :: horizon] = 1
+        ends[(first or horizon) - 1 :: horizon] = 1
     return advantages(rewards, values, values, no, ends, ppo_kinds.GAMMA, lam)[:, 0].numpy()
 
 
 def judged_good(lam: float, horizon: int | None = None) -> int:
     """In how many of its seconds below 10 m/s the advantage is above 0."""
     return int((credit(lam, horizon)[ppo_speeds() < 10] > 0).sum())
+
+
+def wherever_cut() -> np.ndarray:
+    """The same with λ = 0.95, for each place of the first cut within PPO's data."""
+    horizon = settings_for("ppo").horizon
+    each = (credit(0.95, horizon, first)[ppo_speeds() < 10] > 0 for first in range(1, horizon + 1))
+    return np.array([good.sum() for good in each])
 
 
 def cloned_escape(teacher: str) -> int:

@@ -33,7 +33,6 @@ SEEDS, EVERY = 10, 50_000  # agents of each kind; decisions between two points o
 ROADS = held_out_seeds(14, 200)  # that every agent is tested on
 QUICK = {"hidden": (32, 32), "actor_lr": 2e-3, "critic_lr": 2e-3, "epochs": 3}  # in place of the settings of `ppo`
 GAMMA = settings_for("ppo").gamma
-ENDINGS = ("gets ahead", "stays", "crashes behind")  # how a drive of a training ends; ahead: of trap 1, also in a crash
 Driven = tuple[np.ndarray, np.ndarray]  # return, share of the roads ahead in the end: of each agent, (agents,)
 
 
@@ -99,27 +98,6 @@ def diagnostics(training: Training) -> tuple[float, float, float]:
     outside = (ratio - 1).abs() > training.settings[0].clip
     explained = 1 - columns.advantages.var() / columns.returns.var()  # the advantage is R - V
     return float((ratio - 1 - ratio.log()).mean()), float(outside.float().mean()), float(explained)
-
-
-def by_ending(training: Training, block: int) -> dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """{ending: (at, mean returns, shares)} of one agent's finished training drives, each (blocks,).
-
-    A block is so many decisions, `at` its middle; the mean return is NaN where no drive of a block ended so.
-    """
-    curves = training.curves
-    columns = ("return", "success", "accident", "decisions")
-    returns, success, accident, decisions = (curves.values[name][0, : curves.finished[0]] for name in columns)
-    blocks = np.cumsum(decisions).astype(int) // block
-    ahead = success > 0
-    which = np.where(ahead, 0, np.where(accident > 0, 2, 1))  # places in ENDINGS
-    count = np.zeros((len(ENDINGS), blocks.max() + 1))
-    total = count.copy()
-    np.add.at(count, (which, blocks), 1)
-    np.add.at(total, (which, blocks), returns)
-    with np.errstate(invalid="ignore"):
-        means, shares = total / count, count / count.sum(0)
-    at = block * (np.arange(count.shape[1]) + 0.5)
-    return {ending: (at, *each) for ending, *each in zip(ENDINGS, means, shares, strict=True)}
 
 
 def tested(agent: Agent) -> dict[str, float]:

@@ -115,8 +115,8 @@ bc.show(figures.nine_actions(decoded, seconds=2))
 # A **plan** is a list of actions; after the last the car goes straight on. Take the {{ 3 ** 8 | , }}
 # plans that steer left, straight or right in each of eight seconds, and then accelerate for five.
 #
-# > **Predict.** How many of them get out unhurt on road 7? {{ into_left_lane().sum() }} of the plans
-# > end in the left lane, parallel to the road, without leaving it. How many of these also miss trap 2?
+# > **Predict.** How many of them get out unhurt on road 7? Only {{ into_left_lane().sum() }} of them end in
+# > the left lane, parallel to the road, and never leave the road; and they must miss trap 2.
 # <!-- claim: not (on_road(7)(all_plans()) & ~into_left_lane()).any() -->
 
 # %%
@@ -161,8 +161,8 @@ for road in (7, ROAD, 1):  # all plans, on three roads
 # <!-- claim: 70 < getting_out(7) < 150 and 0 < getting_out(ROAD) < 10 and getting_out(1) == 0 -->
 #
 # One of road {{ ROAD }}'s {{ getting_out(ROAD) }} plans now drives {{ roads() | , }} other roads,
-# looking at nothing. The simulation moves the cars in *time steps* of {{ DEFAULT.clock.dt }} s. To
-# check it, **halve the step and compare**:
+# looking at nothing. The simulation moves the cars in *time steps* of {{ DEFAULT.clock.dt }} s. Is that
+# fine enough? **Halve the step and compare**:
 # <!-- claim: on_road(ROAD)(np.array([[5, 3, 3, 3, 3, 5, 5, 5]])).all() and ROAD not in
 #   held_out_seeds(1, roads()) -->
 
@@ -269,8 +269,8 @@ print(f"the rule's way out, 150 s: {driving.paid(pay, by_rule).sum():.4f}")
 
 # %% [markdown]
 # **Explain.** Staying behind trap 1 returns about {{ idle().rewards.sum() | .0f }}, and the rule's
-# way out about twice as much. An accident costs about what a minute behind the traps earns, and ends
-# the drive: after 3 s this returns {{ idle().rewards.sum() - DEFAULT.reward.accident - 3 *
+# way out about twice as much. An accident costs about what a minute behind the traps earns, and ends the drive: a crash
+# after 3 s returns {{ idle().rewards.sum() - DEFAULT.reward.accident - 3 *
 # idle().rewards[0] | .0f }} less than staying.
 # <!-- claim: 1.8 < by_rule().rewards.sum() / idle().rewards.sum() < 2.2 -->
 # <!-- claim: np.ptp(idle().rewards) < 1e-9 and idle().rewards.min() > 0 -->
@@ -425,9 +425,10 @@ bc.show(figures.bearable_risks(gammas, np.array(risks)))
 
 # %% [markdown]
 # **Explain.** At γ = 0.8 the rule's way out is worth less than staying even if it never crashes. The
-# plan beats doing nothing if fewer than {{ 100 * bearable_by_plan() | .0f }} % of attempts crash early. But it
-# crashes on {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % of the {{ roads() | , }} roads. Averaged over all
-# of them it is worth {{ worth_of_plan() | .2f }}, staying {{ discounted(idle(), 0.8) | .2f }}.
+# plan beats doing nothing if fewer than {{ 100 * bearable_by_plan() | .0f }} % of attempts crash early. It
+# crashes on {{ 100 *
+# np.mean(blind_plan().accident > 0) | .0f }} % of the {{ roads() | , }} roads, if later than after 3 s.
+# Averaged over all of them it is worth {{ worth_of_plan() | .2f }}, staying {{ discounted(idle(), 0.8) | .2f }}.
 # <!-- claim: discounted(idle(), 0.8) > worth_of_plan() -->
 #
 # That is not the whole answer to why so many stay: of nine agents of plain SAC with γ = 0.9, 0.95 or

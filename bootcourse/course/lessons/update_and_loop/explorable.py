@@ -16,7 +16,7 @@ from bootcourse.plots.svg import Drawing, drawing, line, rect, text
 from bootcourse.research.experiments import checks
 
 LAST = 40  # pushes before the fall that are shown
-AXES = Axes("pushes from the fall (−1: the last push)", "value at which the target no longer changes", (0.0, 55.0))
+AXES = Axes("pushes from the fall (−1: the last push)", "what a push is worth, once learned", (0.0, 55.0))
 
 
 def the_end() -> Explorable:
@@ -72,7 +72,7 @@ def two_poles() -> Explorable:
 
 def trained_poles(marked: by_hand.SAC, unmarked: by_hand.SAC) -> Explorable:
     """The pole of the student's agent and of one that has learned with the bug."""
-    drives = {"buggy agent": of_an_agent(unmarked), "your agent": of_an_agent(marked)}
+    drives = {"agent with the bug": of_an_agent(unmarked), "your agent": of_an_agent(marked)}
     return beside(drives, (STRANGERS[1], OTHER), first=min(SHOWN, *(len(states) - 1 for states in drives.values())))
 
 

@@ -32,8 +32,8 @@ def tests_in_training(tests: Sequence[float], block: int, lost: float) -> Figure
     """
     pushes, with_bug = np.arange(len(tests)) * block, np.array([tests[0], lost, *[np.nan] * (len(tests) - 2)])
     ended = "Solved after" if min(tests[-2:]) >= 475 else "Not solved in"
-    title = f"{ended} {pushes[-1]:,} pushes; with the bug {lost:.0f} balanced"
-    named = {"your agent": np.array(tests), "terminated is lost": with_bug}
+    title = f"{ended} {pushes[-1]:,} pushes; with the bug it falls after {lost:.0f}"
+    named = {"your agent": np.array(tests), "with the bug": with_bug}
     looks = [OTHER._replace(marker="o"), STRANGERS[1]._replace(marker="o")]
     says = f"Your agent: {', '.join(f'{test:.3g}' for test in tests)}; with the bug: {lost:.3g}."
     figure = charts.lines(pushes, named, title, "pushes in training", "pushes balanced (thin: five of ours)",
@@ -48,20 +48,20 @@ def tests_in_training(tests: Sequence[float], block: int, lost: float) -> Figure
 def along_falls(yours: np.ndarray, unmarked: by_hand.SAC) -> Figure:
     """What two agents' critics expect along a fall, see `worlds.along_falls`, and the most that Q can be."""
     impossible = worlds.along_falls(unmarked).min() > worlds.most_possible(unmarked)
-    title = "Without marks, Q is above all that is possible" if impossible else OF_A_FALL
-    return falls(title, yours, "terminated is lost", unmarked, STRANGERS[1])
+    title = "With the bug, Q is above its limit" if impossible else OF_A_FALL
+    return falls(title, yours, "with the bug", unmarked, STRANGERS[1])
 
 
 def with_rows(yours: np.ndarray, added: by_hand.SAC) -> Figure:
     """The same of an agent without marks whose buffer has rows of fallen poles."""
-    title = "With rows of fallen poles, Q is possible again" if worlds.possible(added) else OF_A_FALL
-    return falls(title, yours, "rows of fallen poles", added, STRANGERS[2])
+    title = "With rows of fallen poles, Q stays below its limit" if worlds.possible(added) else OF_A_FALL
+    return falls(title, yours, "bug, with rows added", added, STRANGERS[2])
 
 
 def falls(title: str, yours: np.ndarray, name: str, agent: by_hand.SAC, look: Style) -> Figure:
     """A line for the student's agent and one for another, and the most that the other's Q can be."""
     named = {name: worlds.along_falls(agent), "your agent": yours}
-    marks, looks = {"nothing above this is possible": worlds.most_possible(agent)}, [look, OTHER]
+    marks, looks = {"the limit of its Q": worlds.most_possible(agent)}, [look, OTHER]
     says = "; ".join(f"{words}: {q[0]:.3g}, then {q[-1]:.3g}" for words, q in named.items())
     pushes, x_label = np.arange(-worlds.BEFORE, 1), "pushes from the fall (0: the pole has fallen)"
     return charts.lines(pushes, named, title, x_label, "Q, mean of 40 falls", marks=marks, looks=looks, alt=f"{says}.")

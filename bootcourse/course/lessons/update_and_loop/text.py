@@ -67,8 +67,8 @@ explorable.the_end()
 # **uniformly with replacement**, at each draw each row with the same chance.
 #
 # Most rows come from earlier policies: SAC learns **off-policy**, as Q-learning does (lesson
-# [[values]]). That works where the rows cover states and actions: a row says what the *world* did, and the
-# target asks what the *present* policy would do in s'.
+# [[values]]). That works because a row says only what the *world* did; the target asks the *present* policy what it
+# would do in s'. The rows must cover the states and actions.
 #
 # **Exercise (4 min, ●○○).** Write `sample`, with the generator `rng`. Training calls it thousands of
 # times: do not copy the whole buffer.
@@ -167,8 +167,8 @@ check.update(update)
 #   Reset after either.
 # - `agent.draw(state, rng)` draws an action, `by_hand.row(s, a, r, terminated, s')` makes a row.
 # - `by_hand.batch_of(buffer.sample(256, rng))` is a batch for `update`.
-# - A call begins with a reset. It makes no update in its first 256 pushes, whatever the buffer holds,
-#   and then one after every fourth push.
+# - A call begins with a reset. Whatever the buffer holds, it makes no update in its first 256 pushes, and then
+#   one after every fourth push (the first after push 260).
 
 
 # %%
@@ -257,9 +257,9 @@ explorable.trained_poles(agent, unmarked)
 # %% [markdown]
 # ## Round 4: why does it fall?
 #
-# The actor learns from its critics alone, so look at Q. With γ = {{ by_hand.SAC.gamma }},
-# entropy apart, no Q can be above 1 / (1 − γ) = {{ 1 / (1 - by_hand.SAC.gamma) | .0f }}, the value of a
-# pole that stands for ever.
+# The actor learns from its critics alone, so look at Q. It has a **limit**, a pole that stands for
+# ever: a push pays 1 and at most α log 2 for its entropy, so with γ = {{ by_hand.SAC.gamma }} no Q can be above {{
+# 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2).
 #
 # > **Predict.** What do the critics with the bug expect of a fallen pole, compared with a standing one?
 
@@ -277,9 +277,8 @@ print(f"Entropy with the bug, pole upright: {entropy:.2f} nats")
 # **See.** Along 40 falls of poles pushed to one side only, the critics with the bug expect most of the
 # fallen pole. To the actor a fall looks best: it is sure of its push even with the pole upright.
 #
-# Q is even above the dotted line, the most that is possible: with its entropy the agent with the bug gets at
-# most 1 + α log 2 a push. In {{
-# unmarked() }} of our {{ len(agents('unmarked')) }} agents with the bug it was, without it in none.
+# Q is even above its limit (dotted; each agent has its own α): so it is in {{ unmarked() }} of our {{
+# len(agents('unmarked')) }} agents with the bug, and in none without it.
 # <!-- claim: along_falls().max() < 1 / (1 - by_hand.SAC.gamma) -->
 
 # %% [markdown]
@@ -302,8 +301,9 @@ print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {t
 
 # %% [markdown]
 # **Explain.** Rows are all that was added, and Q is possible. Before, the network's guess
-# for the fallen pole raised the target of the last push, and a higher Q there raised the guess. Apart from
-# the entropy, a mark says the same as these rows: from here on every reward is 0. (Q is possible in all five of
+# for the fallen pole raised the target of the last push, and a higher Q there raised the guess. Once they are
+# learned, these rows say the same as a mark, apart from the entropy: from here on
+# every reward is 0. (Q is possible in all five of
 # ours; they balance {{ after_a_block('paid-0').min() | .0f }} to {{
 # after_a_block('paid-0').max() | .0f }} pushes, this seed most.)
 # <!-- claim: possible('paid-0') == 5 == len(agents('paid-0')) and after_a_block('paid-0').argmax() == 1 -->

@@ -151,6 +151,11 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
         ax.plot(decisions[arrived], np.full(len(arrived), -0.14), "|", color=INK, markersize=8)
         ax.set(xlim=(0, decisions[-1]), ylim=(-0.26, 2.1), yticks=(0, 1, 2))
         ax.set_xlabel("decisions", fontsize=TEXT, color=INK)
+        if q[-1, 0, 1] > q[-1, 0, 0]:
+            beaten = decisions[np.argmax(q[:, 1, 1] > q[:, 1, 0])]
+            ax.axvline(beaten, color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
+            words = {"fontsize": SMALL, "color": QUIET, "ha": "right", "va": "top"}
+            ax.text(beaten - 15, 2.05, "in state 1 going on\nbeats turning back", **words)
         ends = [(q[-1, 0, 0], "Q(0, 0), stay", OTHER.colour), (q[-1, 0, 1], "Q(0, 1), leave", ON.colour)]
         label_ends(ax, ends)
         listed.append(

@@ -102,9 +102,8 @@ print(f"γ = {min(better):.2f}")
 # <!-- claim: DEFAULT.observation_size == 26 and DEFAULT.sight.neighbours == 4 -->
 #
 # The **value** of action a in state s, **Q(s, a)**, is the discounted return if you take a once and then act
-# as well as possible. It is the reward, plus γ times the value of the next state, V(s'), the larger
-# of its two Q. This is the **Bellman equation** of acting as well as possible (the *optimality*
-# equation):
+# as well as possible. It is the reward plus γ V(s'). V(s'), the value of the next state, is the larger of its
+# two Q. This is the **Bellman equation** of acting as well as possible (the *optimality* equation):
 #
 # $$ Q(s, a) = r(s, a) + \gamma \max_{a'} Q(s', a') $$
 #
@@ -159,8 +158,8 @@ bc.show(diagrams.sweeps(found))
 # %% [markdown]
 # ## Round 3: learning from one decision
 #
-# A sweep needs the whole map. A learner on the road has none: it decides once, and sees a reward
-# and a next state. How much better than expected this went is the **temporal difference**:
+# A sweep needs the whole map. A learner on the road has none: after each decision it sees one reward
+# and one next state. How much better than expected this went is the **temporal difference**:
 #
 # $$ \delta = r + \gamma \max_{a'} Q(s', a') - Q(s, a) $$
 #
@@ -212,7 +211,7 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 
 # %% [markdown]
 # **Explain.** On the first walk the free road pays after the other four decisions have been
-# learned, so only Q(4, 1) rises. In the last row the five decisions are learned in reverse: each
+# learned, so only Q(4, 1) rises. In the last row they are learned in reverse: from Q(3, 1) on, each
 # next state already has a value.
 # <!-- claim: walked(1) == [False] * 4 + [True] and all(walked(1, backwards=True)) -->
 # <!-- claim: not walked(4)[0] and walked(5)[0] -->
@@ -230,10 +229,10 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 # **Exercise (20 min, ●●●).** Write this learner.
 #
 # - `chances` holds the random decisions, drawn beforehand.
-# - After each decision of its own it learns from each pair (s, a) of a demonstration, `taught`, too;
-#   its walk goes on from its own state.
-# - Every 20 decisions the time is up, and the walk starts again in state 0. Does that change the
-#   target of the last decision?
+# - After each of its own decisions it also learns from every pair (s, a) of a demonstration, `taught`. These do
+#   not move it.
+# - Every 20 decisions the time is up, and the walk starts again in state 0. The road would go on: the
+#   last decision's target stays as it is.
 
 
 # %%
@@ -299,13 +298,13 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps: all of D, which act at random, learn to leave. In C {{ free_road_seen(0.5, 0.8)
-# }} reach the free road, and {{ leaving(0.5, 0.8) }} learn to leave: once is not enough. In the last picture
-# Q(0, 1) rests at
-# {{ 0.8**2 * 0.16 / 0.2 | .2f }} = γ² · {{ 0.16 / 0.2 | .2f }}, what it is worth to leave, turn back and stay.
-# A target takes
-# the larger Q, so in each state going on must first beat turning back (at most {{ 0.8 * 0.16 / 0.2 | .2f }}).
-# On the road chance also causes accidents (lesson [[the_barrier]]).
+# More exploration helps: all of D, which act at random, learn to leave. In C {{ free_road_seen(0.5, 0.8) }} reach
+# the free road, but only {{ leaving(0.5, 0.8) }} learn to leave: once is not enough. A target takes the larger
+# Q. Turning
+# back is soon worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }}; until going on beats that, the
+# state before
+# learns of the turn back alone. So in the last picture Q(0, 1) rests at γ · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{
+# 0.8**2 * 0.16 / 0.2 | .2f }}. On the road chance also causes accidents (lesson [[the_barrier]]).
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
 #   chain.over_walks(0.5, 0.8, seed)[12:36]) -->
 # <!-- claim: chain.leaves(chain.over_walks(0.5, 0.8, 1)[-1]) -->
@@ -316,11 +315,9 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # A replayed demonstration teaches all thirty (E). Q-learning can learn from decisions that it did not
 # make: it is **off-policy**, and so is the learner of the next lessons.
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
-#
-# The time limit changes no target: the road goes on after it.
 
 # %% [markdown] tags=["instructor"] minutes=3
-# The question about the last decision separates two ideas that lesson [[update_and_loop]] needs: an
+# What happens at the last decision separates two ideas that lesson [[update_and_loop]] needs: an
 # accident *terminates* (nothing follows), the end of the time *truncates* (we stop looking).
 
 # %%
@@ -345,7 +342,7 @@ compare_predictions(
 # - After 40 sweeps Q(0, 0) is {{ sweeps(40, 0.8)[0, 0] | .2f }}. Staying for ever is worth {{
 #   0.16 / 0.2 | .2f }}. Why is Q(0, 0) more?
 # - Of two equal actions your learner takes 0. If it takes 1, {{ with_ties("1") }} of A's thirty leave;
-#   if it draws one, {{ with_ties("random") }}. Why?
+#   if it draws one, hardly any. Why?
 # - Your car sees 26 numbers. What replaces the chain's table of ten values, and what can then go
 #   wrong with a replayed demonstration?
 # <!-- claim: with_ties("random") == 0 and with_ties("1") > 20 -->

@@ -118,13 +118,14 @@ bc.compare(methods, decisions=1_000, make_env=my_env, teacher=own_rule, **how)
 # %% [markdown]
 # ## Round 2: did the agents need the reward?
 #
-# Five agents learn CartPole with the soft constraint alone: rewards are 0, and γ = 0.
+# Five agents learn CartPole without reward (all rewards 0, γ = 0): only the soft constraint pulls them to the
+# rule.
 #
 # > **Predict.** We test them after 500, 1,000 and 3,000 decisions. How do they compare with the angle
 # > rule?
 
 # %%
-choices = ["they earn less", "about as much, once they copy it", "far more, for a while"]
+choices = ["they earn less", "about as much, once they copy it", "far more, most of all on the way"]
 predict("your_own_problem.1", "What do agents without reward earn?", choices)
 
 # %% tags=["nbval-ignore-output"]
@@ -138,7 +139,8 @@ bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0))
 # .0f }}. Better copies earn less: *one budget can mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
-# Did they need the reward? Train with it, and compare.
+# Now the same with the reward. (Without it: the titles above.) How much of what Round 1's soft constraint earned on
+# CartPole does it owe to the reward?
 
 # %% tags=["nbval-ignore-output"]
 # On yours, with reward; without it: pays=0, gamma=0
@@ -147,7 +149,7 @@ loops.returns(budgets, my_env, own_rule, pays=1, gamma=0.99)
 # %% [markdown]
 # ## Round 3: which errors does a clone outvote?
 #
-# A **random** teacher errs in states picked as if at random; in one state it always makes the same error. A
+# A **random** teacher errs in states strewn at random, in each of them always in the same way. A
 # **systematic** one errs everywhere in one region. The **good** one makes neither error. (On CartPole it is
 # not Round 1's rule: it also follows the speed a little.)
 #
@@ -164,8 +166,8 @@ predicted("your_own_problem.2")
 bc.show(figures.clones())
 
 # %% [markdown]
-# **See.** Clones of these random teachers earn far more than their teachers; on CartPole {{
-# (cells().scores('cartpole', 'random', 'cloning', 'returns') > score('cartpole', 'good', 'the teacher',
+# **See.** (Lunar lander: land softly.) Clones of these random teachers earn far more than their teachers; on
+# CartPole {{ (cells().scores('cartpole', 'random', 'cloning', 'returns') > score('cartpole', 'good', 'the teacher',
 # 'returns')).sum() }} of ten earn more than the good one, too.
 # <!-- claim: {len(cells().scores(p, t, 'cloning')) for p, t in SHOWN} == {10} -->
 # <!-- claim: all(score(p, 'random', 'cloning', 'returns') > score(p, 'random', 'the teacher',
@@ -197,9 +199,8 @@ predicted("your_own_problem.3")
 bc.show(figures.clones_that_draw())
 
 # %% [markdown]
-# **Explain.** The errors are still in π. It is not the drawing itself: clones of the good teachers (not
-# shown) earn about the same either way.
-# The most probable action is the majority's answer; a drawn one is a single voter's.
+# **Explain.** The errors are still in π. Drawing alone does no harm: clones of the good teachers earn about
+# the same drawn. The most probable action is the majority's answer; a drawn one is a single voter's.
 # <!-- claim: all(abs(score(p, 'random', 'cloning', 'drawn_returns') - score(p, 'random', 'the
 #   teacher', 'returns')) < 15 and
 #   abs(score(p, 'good', 'cloning', 'drawn_returns') - score(p, 'good', 'cloning', 'returns')) < 5 for p in THREE) -->
@@ -228,7 +229,7 @@ for name in ("mountain-car", "doorkey"):
 
 # %% [markdown]
 # **See.** In DoorKey the clone outvotes none. Its inputs are one-hot: the network can tell the few states
-# apart. An error in a state that comes back becomes a loop.
+# apart. An error that leads back to its own state becomes a loop.
 # <!-- claim: [((cloned == good)[taught != good].mean() > 0.9, (cloned == good)[taught != good].any(),
 #   len(seen) > 50 * loops.states(seen)) for seen, taught, cloned, good in
 #   map(loops.labels, ('mountain-car', 'doorkey'))] == [(True, True, False), (False, False, True)] -->
@@ -297,7 +298,7 @@ check.drowning_bonus(drowning_bonus)
 # {{ loops_table() }}
 #
 # Without loops in the demonstrations c = 2 does little harm to drawn actions. But it can harm without a loop,
-# too (last two lines), and the teacher's errors harm without a bonus (third line).
+# too (last two lines), and the teacher's errors harm the most probable actions without a bonus (third line).
 # <!-- claim: without_loops('drawn_success') > 0.8 and without_loops('success') < 0.75 * score('doorkey', 'none',
 #   'SAC') and alone('') < 0.01 < 0.5 < alone(', c = 0') and score('doorkey', 'good', 'the teacher') == 1 -->
 
@@ -315,7 +316,7 @@ check.drowning_bonus(drowning_bonus)
 compare_predictions(
     "your_own_problem",
     {
-        1: "far more, for a while",
+        1: "far more, most of all on the way",
         2: "about as much as the good one",
         3: "about as much as their teacher",
         4: "less often than plain SAC",
@@ -360,7 +361,7 @@ def enter(decisions):
 # ## What you now know
 #
 # 1. *Does a teacher help?* Compare with plain SAC and the clone, at equal decisions and several budgets.
-# 2. *Did the agents need the reward?* Train without it.
+# 2. *Did the agents need the reward?* Train without it, at several budgets.
 # 3. *Which errors does the teacher make?* The most probable action can outvote random ones.
 # 4. *Do states come back, and are they alike?* In DoorKey a clone outvoted no error.
 # 5. *What pays in a loop?* With a bonus it can be worth more than the goal.

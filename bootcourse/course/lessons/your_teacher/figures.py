@@ -165,6 +165,10 @@ def in_rows(
     if of_drives:
         beside(ax, -1.2, "", "its teacher's drives", colour=QUIET)
     of_success = f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes"
-    name_rows(ax, list(groups), of_success if is_success else "return of an agent after training; filled: it escapes")
+    name_rows(
+        ax,
+        list(groups),
+        of_success if is_success else "return of an agent after training; filled: it escapes",
+    )
     ax.set_xlim((-2, 102) if is_success else (0, None))
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")

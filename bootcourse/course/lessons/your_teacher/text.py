@@ -93,8 +93,8 @@ figures.exam_of_all()
 #
 # A rule reads the true state: a table with a row for each car. Row 0 is the ego, lane 0 the leftmost.
 #
-# `ahead` finds the next car ahead in a lane: the gap to it, bumper to bumper, and its speed. Below 0 it is
-# beside you; a car whose middle is behind yours is not seen. In an empty lane both are infinite.
+# `ahead` finds the next car ahead in a lane: the gap to it, bumper to bumper, and its speed. A gap below 0:
+# that car is beside you. A car whose middle is behind yours is not seen. In an empty lane both are infinite.
 # <!-- claim: range(DEFAULT.road.lanes)[0] == 0 -->
 
 # %%
@@ -203,7 +203,7 @@ choices = ["less than those alone", "about as much", "more"]
 predict("your_teacher.2", "What do the students of the racer earn?", choices)
 
 # %% [markdown]
-# ▲: better than those alone; ▼: worse. No mark: not shown (rank tests, 5 % for all *eight* after Holm, lesson
+# ▲ better, ▼ worse than those alone; no mark: no difference shown (*eight* rank tests, Holm at 5 %, lesson
 # [[how_many_seeds]]).
 
 # %%
@@ -258,8 +258,7 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # **See.** All ten escape, although half random's drives are in the free lane for {{
 # in_free_lane('random-50') | .0f }} s on average. Of the
-# rule's ten, {{ escape_of(['rule']) }} do, no clear difference. (In Round 2 all did; agents can
-# lose the way out again, lesson [[found_and_kept]].)
+# rule's ten, {{ escape_of(['rule']) }} do, no clear difference.
 # <!-- claim: student_escapes('the rule') == 10 -->
 # <!-- claim: not significant(10)[escape_of(['random-50']), escape_of(['rule'])] -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
@@ -281,7 +280,8 @@ bc.show(figures.of_six_teachers(taught))
 #   settings_for('bootstrapped') -->
 #
 # From labels alone, without drives, {{ worth()['random-25', 'soft'].escapers('soft') }} of ten escape with quarter
-# random, {{ worth()['random-50', 'soft'].escapers('soft') }} with half random: here its drives decide.
+# random, {{ worth()['random-50', 'soft'].escapers('soft') }} with half random: here its drives, with their
+# bonus, decide.
 # <!-- claim: significant(10)[escape_of(['random-50']), worth()['random-50', 'soft'].escapers('soft')] -->
 
 # %% [markdown] tags=["instructor"] minutes=2
@@ -291,11 +291,16 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # ## Round 4: the free lane, or its accidents?
 #
-# Of half random's drives, {{ gets_ahead('random-50') }} end ahead of trap 1 and are left out; of
-# the other {{ len(crashes.crashed()) }}, {{ reach_free_lane() }} reach the free lane. Ten agents learn from
-# all {{ len(crashes.crashed()) }}. For ten others each drive is *cut* where it reaches the free
-# lane, which takes away {{ 100 - 100 * rows_left() | .0f }} % of the decisions. For the **control**, as many go from
-# *before* the free lane, at random.
+# Of half random's drives {{ gets_ahead('random-50') }} end ahead of trap 1 and are left out; of the other {{
+# len(crashes.crashed()) }}, {{ reach_free_lane() }} reach the free lane. Ten agents each learn from:
+#
+# | of all decisions | before the free lane | from there on |
+# |---|---|---|
+# | all | {{ 100 * rows_left() | .0f }} % | {{ 100 - 100 * rows_left() | .0f }} %, with {{ reach_free_lane() }}
+# accidents |
+# | no free lane | {{ 100 * rows_left() | .0f }} % | none |
+# | the **control** | {{ 200 * rows_left() - 100 | .0f }} %, drawn at random | {{ 100 - 100 * rows_left()
+# | .0f }} %, with {{ reach_free_lane() }} accidents |
 
 # %%
 parted = shipped_experiment("crashes")
@@ -303,8 +308,8 @@ bc.show(figures.without_a_part(parted))
 
 # %% [markdown]
 # **See.** Without the free lane {{ crash_escapes('cut') }} of ten escape, barely faster than the traps, and none earns
-# more than {{ crash_returns('cut').max() | .0f }}, about what staying pays. It is not that there are fewer decisions:
-# the control has as few, and earns more (rank test, after Holm).
+# more than {{ crash_returns('cut').max() | .0f }}, about what staying pays. Having fewer decisions is not the
+# reason: the control has as few, and earns more (rank test, after Holm).
 # <!-- claim: not any(significant(10)[escape_of(['random-50']), crash_escapes(kind)] for kind in ('all',
 #   'no-labels')) -->
 # <!-- claim: DEFAULT.traps.speed - 0.1 < shipped_experiment('crashes')['cut'].scores('speed').min() and
@@ -319,10 +324,8 @@ bc.show(figures.without_a_part(parted))
 #   drive in crashes.crashed()) and crash_escapes('all') >= 5 -->
 # <!-- claim: all(drive.accident > 0 for drive in crashes.crashed()) -->
 #
-# But the cut takes away two things: the free lane, and {{ reach_free_lane() }} accidents.
-#
-# > **Predict.** Two agents learn from these drives with the free lane, but without its accidents;
-# > two with the accidents, but without the free lane. Which get out?
+# > **Predict.** Split the last column. Two agents learn without the accidents, two without the free lane, but
+# > with the accidents. Which get out?
 
 # %%
 choices = ["both pairs", "those with the free lane", "those with its accidents", "neither"]
@@ -361,8 +364,8 @@ figures.parted(without_the_accident) if passed else "First the exercise."
 bc.show(figures.lane_or_accident(parted))
 
 # %% [markdown]
-# **Explain.** *What these drives must show is the free lane*, crash or not. The bonus matters, too: without it {{
-# crash_escapes('no-bonus') }} of ten escape from all the drives. (Without the labels {{
+# **Explain.** *What makes the difference in these drives is the free lane*, crash or not. The bonus matters,
+# too: without it {{ crash_escapes('no-bonus') }} of ten escape from all the drives. (Without the labels {{
 # crash_escapes('no-labels') }}: no clear difference.)
 # <!-- claim: in_free_lane('rule') > 0 and free_lane.shown('rule')[1] == 0 -->
 
@@ -431,23 +434,18 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 #    bonus was paid, crash or not.
 # <!-- claim: {kind for kind in crashes.KINDS if crash_escapes(kind) > 5} == {'all', 'no-labels', 'as-many', 'lane'} -->
 #
-# **Three questions to think about**
+# **Two questions to think about**
 # - Could two bad teachers together be a good one?
 # - Half random's label is the rule's in {{ 1 / 2 + 1 / 18 | .2f }} of the states. Would it teach more
 #   if the KL trusted it with that p, not {{ SETTINGS.rule_p }}?
 # <!-- claim: settings_for('soft').rule_p == settings_for('bootstrapped').rule_p == SETTINGS.rule_p
 #   and abs(like_the_rule('random-50') - 1 / 2 - 1 / 18) < 0.02 -->
-# - Of ten agents that first *copy* half random, then learn by PPO, {{ worth()['random-50',
-#   'ppo_cloned'].escapers('ppo_cloned') }} escape. What else differs, and what would you test
-#   first?
-# <!-- claim: worth()['random-50', 'ppo_cloned'].escapers('ppo_cloned') == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Answers to the three questions. (1) Ask what is missing. Once it is out, the racer looks at no
+# Answers to the two questions. (1) Ask what is missing. Once it is out, the racer looks at no
 # car, and `timid` looks at none anywhere, so these two mixed do not look either. Let them try a
 # mixture with `example_teachers.examine`. (2) Open. A lower p pulls more weakly towards each label,
-# the right ones too: `settings_for("soft", rule_p=0.56)`. (3) We
-# think: a copy repeats the random actions, too; Q learns what each one earned.
+# the right ones too: `settings_for("soft", rule_p=0.56)`.
 
 # %% [markdown]
 # **Read on**: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
