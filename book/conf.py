@@ -22,7 +22,7 @@ html_show_sphinx = html_show_copyright = html_show_sourcelink = html_copy_source
 html_math_renderer = "mathml"
 nb_execution_mode = "off"  # the notebooks are shown as they were executed
 nb_render_markdown_format = "gfm"  # their outputs have tables
-nb_code_prompt_show, nb_code_prompt_hide = "Show the code that draws this", "Hide the code"
+nb_code_prompt_show, nb_code_prompt_hide = "Show the code", "Hide the code"
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 add_module_names = False

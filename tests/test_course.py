@@ -103,6 +103,13 @@ def test_what_answers_a_prediction_is_folded_outputs_and_text_and_what_comes_nex
     assert [cell.source for cell in cells[5:7]] == ["See.\nIt is 7.\n\nSo there.", "> **Predict.** And now?"]
 
 
+def test_a_wall_of_imports_is_folded_and_runs():
+    wall, short = "from a import (\n    b,\n    c,\n)\n\nprogress()", "import a\n\nprogress()"
+    first, second = folded([nbformat.v4.new_code_cell(wall), nbformat.v4.new_code_cell(short)])
+    assert first.metadata == {"jupyter": {"source_hidden": True}, "tags": ["hide-input"]} and first.source == wall
+    assert second.metadata == {}
+
+
 # The example of the writers' README -----------------------------------------------------------------
 
 

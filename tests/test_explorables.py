@@ -93,7 +93,7 @@ def test_the_numbers_in_the_sentences_are_those_of_the_library():
         for name, value in (("price", price), ("gamma", gamma)):
             from_page(panel.numbers[name].slider, value=value)
         now, later = hill(price, gamma)[[0, -1]]
-        for said in (f"the plan is worth {now:.1f} of staying", f"after 14 s {later:.1f}."):
+        for said in (f"the plan is worth {now:.1f} times staying", f"after 14 s {later:.1f}."):
             assert said in panel.svg.alt
 
 

@@ -4,6 +4,7 @@
 forked kernel shares nothing with the others but what was loaded before the first.
 """
 
+import gc
 import importlib
 import json
 import os
@@ -98,6 +99,8 @@ def load() -> None:
     import bootcourse as bc
 
     bc.Training([bc.settings_for("sac")], learner="compiled").run(False, updates=1)
+    gc.collect()
+    gc.freeze()  # the kernels' garbage collectors leave alone what all share
 
 
 def become_kernel(connection: socket.socket) -> None:

@@ -76,10 +76,10 @@ def gather(to: Path, edition: str = "student") -> None:
     (to / "claims.md").write_text(claims_page(), encoding="utf-8")
 
 
-def frame(address: str) -> str:
-    """The page that drives, within a lesson's page."""
+def frame(address: str, height: int) -> str:
+    """The page that drives, within a lesson's page, so many pixels high."""
     page = f'<iframe src="../trap.html#{address}" title="The trap" loading="lazy"'
-    return f'{page} style="width: 100%; height: 880px; border: 0"></iframe>'
+    return f'{page} style="width: 100%; height: {height}px; border: 0"></iframe>'
 
 
 def with_live_worlds(notebook: Path, to: Path) -> None:
@@ -89,7 +89,7 @@ def with_live_worlds(notebook: Path, to: Path) -> None:
         for output in cell.get("outputs", []):
             shown = output.get("data", {})
             if address := WORLD.search("".join(shown.get("text/html", ""))):
-                output["data"] = {"text/html": frame(address[1]), "text/plain": shown["text/plain"]}
+                output["data"] = {"text/html": frame(address[1], 750), "text/plain": shown["text/plain"]}
     to.write_text(json.dumps(content), encoding="utf-8")
 
 
@@ -106,7 +106,7 @@ def add_learning(notebook: Path, addresses: dict[str, str], folded: bool = False
         html('<a href="../trap.html#{}" target="learn">{}</a>', address, words) for words, address in addresses.items()
     )
     first = next(iter(addresses.values())).replace("&", "&amp;")
-    shown = frame(first).replace("<iframe ", '<iframe name="learn" ')
+    shown = frame(first, 880).replace("<iframe ", '<iframe name="learn" ')
     said = f"<p>Train agents here, in this page, and move the sliders while they learn: {links}</p>{shown}"
     if folded:
         summary = "<summary>Train agents in this page (later lessons explain the sliders)</summary>"

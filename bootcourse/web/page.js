@@ -38,7 +38,8 @@ function remember({ road, ghost, driver, view }) {
 }
 
 element.addEventListener("theme", ({ detail }) => { document.documentElement.dataset.theme = detail; });
-mount(element, data, { details: true, page: true, keys: document }).then(game => {
+// Within another page, such as a lesson's, it shows the road alone: lessons explain later what a driver thinks.
+mount(element, data, { details: window === window.top, page: true, keys: document }).then(game => {
   const { compiled, networks, find } = game, view = new LearnView(game, () => turnTo(game, view, "drive"));
   document.getElementById("theme").addEventListener("click", () => game.toggleTheme());
   element.addEventListener("theme", ({ detail }) => view.watch?.theme(detail));

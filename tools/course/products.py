@@ -29,6 +29,7 @@ PYTHON = {
 SAYS_THE_ANSWER = ("**See.**", "**Explain.**")
 GOES_ON = re.compile(r"\n\n(?=> \*\*Predict|\*\*Exercise|\*\*Drag\*\*|\*\*Slide\.\*\*|## )")
 STRICT = "check.strict()  # in this notebook every check must pass"
+WALL_OF_IMPORTS = re.compile(r"(?:import|from) (?:.*\n){3}")  # four lines or more of a cell that begins so
 IMPORTS_CHECK = re.compile(r"^from bootcourse\.course import (?:.*|\([^)]*)\bcheck\b", re.M)
 
 
@@ -55,9 +56,13 @@ def folded(nodes: list[nbformat.NotebookNode]) -> list[nbformat.NotebookNode]:
     That is every output from `predicted(` on, and the text below that says what is to be seen in them, but for its
     first word: JupyterLab shows the first line of what it folds, as it is typed, so this word is plain. Where the text
     goes on with the next question, exercise or round, this part becomes a cell of its own, which stays open. The table
-    of all answers is folded, too.
+    of all answers is folded, too, and so is a wall of imports.
     """
     shown, answering = [], False
+    for cell in nodes:
+        if cell.cell_type == "code" and WALL_OF_IMPORTS.match(cell.source):
+            cell.metadata["jupyter"] = {"source_hidden": True}
+            cell.metadata["tags"] = [*cell.metadata.get("tags", []), "hide-input"]
     for cell in nodes:
         answering = answering or cell.cell_type == "code" and bool(re.search(r"^predicted\(", cell.source, re.M))
         shown.append(cell)

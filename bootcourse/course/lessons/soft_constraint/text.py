@@ -130,10 +130,7 @@ check.soft_constraint(soft_constraint)
 # ## Round 2: what is left of the pull when it fades?
 #
 # In each state the agent has three goals: a high Q, entropy (a nat is worth α), and a small KL (a nat
-# costs ξ):
-#
-# $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
-# - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
+# costs ξ). The best π has the largest sum: its mean Q, plus α times its entropy, less ξ times its KL.
 #
 # The paper sets ξ = {{ SETTINGS.xi_multiplier }} α, at first {{
 # SETTINGS.xi_multiplier * SETTINGS.alpha_init }}. The target entropy η = {{ SETTINGS.target_entropy }}
@@ -168,7 +165,12 @@ explorable.pull()
 # <!-- claim: 1 < 2 * math.log(8 * RULE_P / (1 - RULE_P)) -->
 
 # %% [markdown]
-# **Exercise (12 min, ●●●).** Derive the π that is best for the three goals on paper, then write it. For ξ = 0
+# The sum in symbols:
+#
+# $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
+# - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
+#
+# **Exercise (12 min, ●●●).** Derive the best π on paper, then write it. For ξ = 0
 # it is SAC's softmax(Q / α) of lesson [[discrete_sac]]. Write the KL out: it contains an entropy.
 
 

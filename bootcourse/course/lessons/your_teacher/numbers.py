@@ -84,10 +84,15 @@ def reach_free_lane() -> int:
     return sum(crashes.before_free_lane(drive) < len(drive.actions) for drive in crashes.crashed())
 
 
-def rows_left() -> float:
-    """The share of these drives' decisions that the cut leaves."""
+def before() -> float:
+    """How many of these drives' decisions come before the free lane, %."""
     drives = crashes.crashed()
-    return sum(map(crashes.before_free_lane, drives)) / sum(len(drive.actions) for drive in drives)
+    return 100 * sum(map(crashes.before_free_lane, drives)) / sum(len(drive.actions) for drive in drives)
+
+
+def beyond() -> float:
+    """How many come from there on, %."""
+    return 100 - before()
 
 
 def crash_returns(kind: str) -> np.ndarray:

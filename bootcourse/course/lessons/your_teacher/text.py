@@ -296,11 +296,9 @@ bc.show(figures.of_six_teachers(taught))
 #
 # | of all decisions | before the free lane | from there on |
 # |---|---|---|
-# | all | {{ 100 * rows_left() | .0f }} % | {{ 100 - 100 * rows_left() | .0f }} %, with {{ reach_free_lane() }}
-# accidents |
-# | no free lane | {{ 100 * rows_left() | .0f }} % | none |
-# | the **control** | {{ 200 * rows_left() - 100 | .0f }} %, drawn at random | {{ 100 - 100 * rows_left()
-# | .0f }} %, with {{ reach_free_lane() }} accidents |
+# | all | {{ before() | .0f }} % | {{ beyond() | .0f }} %, with {{ reach_free_lane() }} accidents |
+# | no free lane | {{ before() | .0f }} % | none |
+# | the **control** | {{ before() - beyond() | .0f }} %, drawn at random | {{ beyond() | .0f }} %, with the accidents |
 
 # %%
 parted = shipped_experiment("crashes")
@@ -434,18 +432,21 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 #    bonus was paid, crash or not.
 # <!-- claim: {kind for kind in crashes.KINDS if crash_escapes(kind) > 5} == {'all', 'no-labels', 'as-many', 'lane'} -->
 #
-# **Two questions to think about**
+# **Three questions to think about**
 # - Could two bad teachers together be a good one?
 # - Half random's label is the rule's in {{ 1 / 2 + 1 / 18 | .2f }} of the states. Would it teach more
 #   if the KL trusted it with that p, not {{ SETTINGS.rule_p }}?
 # <!-- claim: settings_for('soft').rule_p == settings_for('bootstrapped').rule_p == SETTINGS.rule_p
 #   and abs(like_the_rule('random-50') - 1 / 2 - 1 / 18) < 0.02 -->
+# - The racer's drives show the free lane, too, but only {{ student_escapes(taught_agents.RACER_LONG) }} of its ten
+#   students escape. What differs, and what would you test first?
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Answers to the two questions. (1) Ask what is missing. Once it is out, the racer looks at no
+# Answers to the three questions. (1) Ask what is missing. Once it is out, the racer looks at no
 # car, and `timid` looks at none anywhere, so these two mixed do not look either. Let them try a
 # mixture with `example_teachers.examine`. (2) Open. A lower p pulls more weakly towards each label,
-# the right ones too: `settings_for("soft", rule_p=0.56)`.
+# the right ones too: `settings_for("soft", rule_p=0.56)`. (3) Open. The racer's
+# free lane is driven at 20 m/s, where a second pays next to nothing but the bonus. Let it aim for 15 m/s.
 
 # %% [markdown]
 # **Read on**: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
