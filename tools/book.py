@@ -31,10 +31,10 @@ LEARNED = {
         "ξ = 0": "learn=soft&agents=2&drives=600&xi=0",
     },
     "learning_from_demonstrations": {
-        "c = 2": "learn=demos&agents=2&drives=600&c=2",
-        "c = 0": "learn=demos&agents=2&drives=600&c=0",
-        "β = 0.3": "learn=demos&agents=2&drives=600&beta=0.3",
-        "both aids": "learn=bootstrapped&agents=2&drives=600",
+        "c = 2": "learn=bootstrapped&agents=2&drives=600&c=2",
+        "c = 0": "learn=bootstrapped&agents=2&drives=600&c=0",
+        "β = 0.3": "learn=bootstrapped&agents=2&drives=600&beta=0.3",
+        "without the soft constraint": "learn=demos&agents=2&drives=600",
     },
 }
 WORLD = re.compile(r'<img [^>]*data-world="([^"]*)"[^>]*>')  # the picture that a world leaves where no kernel runs

@@ -405,6 +405,7 @@ def second_trap(study: StudyResults) -> Claim:
 def margin(study: StudyResults) -> Claim:
     ours = study.results["default"]
     others = {"faster traps (10.9 m/s)": "calibrated", "two updates for each decision": "paper"}
+    unpaid = study.experiments["ablations"]["c = 0"]
 
     def both(results: Results) -> tuple[bool, str]:
         few, many = share(results, "margin"), share(results, "margin_soft")
@@ -416,7 +417,7 @@ def margin(study: StudyResults) -> Claim:
         both(ours)[1],
         {words: both(study.results[name]) for words, name in others.items()},
         different(ours.of("margin_soft"), ours.of("margin"), escaping),
-        [f"The soft constraint without the margin: {told(ours, 'soft')}."],
+        [f"No margin, c = 0: {told(unpaid, 'bootstrapped')}; others {told(twice(study, 'bootstrapped, c = 0'))}."],
     )  # fmt: skip
 
 

@@ -54,5 +54,5 @@ def promises(hunt: Hunt) -> Figure:
 def rarest(hunt: Hunt) -> Figure:
     """Mean log of the smallest of the nine probabilities in the same seconds."""
     title = "The policy's rarest action"
-    what = "log of the rarest action's probability"
+    what = "ln of the rarest action's probability (−20: 2 in a billion)"
     return charts.many(hunt.probes("rarest"), title, "updates", what, reference="healthy")

@@ -39,21 +39,21 @@ progress("bug_hunt")
 # wrong, raises nothing and prints nothing. A letter names both seeds.
 # <!-- claim: len(bugs.LEARNERS) == 7 and bugs.SEEDS == 2 -->
 #
-# A healthy agent and one with a bug drive here on the same road. Which one has the bug?
+# Here are the right lines, and what each bug makes of them:
+#
+# ```python
+# label = rule(s)                                        # shifted_labels: rule(next_s)
+# kl = (pi * (log_pi - log_rule)).sum(-1)                # flipped_kl: pi and rule exchanged
+# value = (pi * (q - alpha * log_pi)).sum(-1) - xi * kl  # sampled: one draw, no pi, no sum
+# actor_loss = -value                                    # q.detach() here; no_stop: q
+# target = r + c * demo                                  # bonus_for_all: no demo
+# target += gamma * (1 - end) * next_value               # no_end: no (1 - end)
+# ```
+#
+# A healthy agent and one with a bug drive here on the same road. Which has the bug? (Round 1 tells.)
 
 # %% tags=["nbval-ignore-output"]
 bc.recording(figures.two_drives(hunt), height=360)
-
-# %% [markdown]
-# The answer is in Round 1. Here are the right lines, and what each bug makes of them:
-#
-# ```python
-# label = rule(s)                                         # shifted_labels: rule(next_s)
-# kl = (pi * (log_pi - log_rule)).sum(-1)                 # flipped_kl: pi and rule exchanged
-# value = (pi * (q - alpha * log_pi)).sum(-1) - xi * kl   # sampled: the sum is one drawn action's term
-# actor_loss = -value                                     # q.detach() here; no_stop: q
-# target = r + c * demo + gamma * (1 - end) * next_value  # bonus_for_all: no demo; no_end: no (1 - end)
-# ```
 
 # %% [markdown] tags=["instructor"] minutes=1
 # Let them vote which of the two has the bug, and say why. Do not tell.
@@ -247,11 +247,11 @@ check.diagnose(diagnose)
 #   training, the healthy agent {{ accidents('healthy')[0] | .0f }} and {{ accidents('healthy')[1] |
 #   .0f }}. A fourth probe shows it, but only while it learns. At updates 1,000 to 5,000 its
 #   likeliest action is the rule's in {{ 100 * alike('C', 1000, 5000) | .0f }} % of the seconds, the
-#   healthy agent's in {{ 100 * alike('healthy', 1000, 5000) | .0f }} %. At the end: {{ 100 *
-#   alike('C', 9000, 10000) | .0f }} % and {{ 100 * alike('healthy', 9000, 10000) | .0f }} %.
+#   healthy agent's in {{ 100 * alike('healthy', 1000, 5000) | .0f }} %. From 9,000 on: {{ 100 * alike('C',
+#   9000, 10000) | .0f }} % and {{ 100 * alike('healthy', 9000, 10000) | .0f }} %.
 # - **D** adds γ times the value of a car that has just crashed, far below 0 at the table's accidents. No row
 #   teaches that value: it can come out too high (lesson [[update_and_loop]]) or, as here, too low.
-# - **E** has left the rule: at the end, {{ 100 * alike('E', 9000, 10000) | .0f }} % by that probe.
+# - **E** has left the rule: from update 9,000 on, {{ 100 * alike('E', 9000, 10000) | .0f }} % by that probe.
 #   Why it earns more was not tested.
 # - **F**: the actor's loss changes the critic, and raises the Q of what the policy likes.
 #
@@ -282,8 +282,8 @@ check.diagnose(diagnose)
 # ```
 #
 # The bonus belongs to demonstrations alone, and after an accident there is no next value. Four
-# transitions, the agent's own or a demonstration, ended or not, are enough for a test. Choose your own numbers:
-# the check's functions have other mistakes, too.
+# transitions, the agent's own or a demonstration, ended or not, are enough for a test. Take another bonus than
+# 2, another γ than 0.8: some of the check's functions have those built in.
 #
 # **Exercise (15 min, ●●●).** Write that test, of a function whose code you do not see. Bonus and
 # gamma are floats, the rest arrays of shape (batch,); demo and end hold 1 or 0.

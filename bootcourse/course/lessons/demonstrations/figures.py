@@ -108,7 +108,7 @@ def off_the_road(own: Sequence[Rollout], of_rule: Sequence[Rollout], seconds: in
     rows = np.histogram(np.concatenate([cloning.metres_left(drive) for drive in of_rule]), STEPS_LEFT)[0]
     title = "How the clones leave the road, and where they err"
     if shares[-1] > 90 and rows[-1] == 0:
-        title = "Left of the rule's path, the clones do not steer back"
+        title = "Left of the rule's path, nearly every decision is an error"
     figure = new_figure(3.9)
     paths = figure.add_axes((0.075, 0.14, 0.5, 0.7))
     bars = figure.add_axes((0.63, 0.14, 0.24, 0.7))

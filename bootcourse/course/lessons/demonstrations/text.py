@@ -91,8 +91,8 @@ check.cloning_loss(cloning_loss)
 # %% [markdown]
 # Train five clones on each of three data sets: your drives, {{ SETTINGS.demonstration_episodes
 # }} drives of the rule, as many of the stochastic rule. Each clone then drives 100 new roads and takes
-# its most probable action. Its **agreement** is how often, in its data, that is what the demonstrator did (on new
-# drives of the stochastic rule, {{ 100 * SETTINGS.rule_p | .0f }} % at best).
+# its most probable action. Its **agreement** is the share of its data in which this is the demonstrator's
+# action (on new drives of the stochastic rule {{ 100 * SETTINGS.rule_p | .0f }} % at best).
 #
 # > **Predict.** Clones of which 200 drives have more accidents?
 
@@ -119,13 +119,6 @@ bc.show(figures.clones(measured))
 # random decision in ten; why they crash less than the rule's clones, Round 3 asks. (Not because the drives are
 # shorter: clones of the rule's drives, cut to the same lengths, crashed as often as those of the whole.)
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
-#
-# All this is after {{ UPDATES | , }} updates. After long training the order is the other one. The study's
-# ten clones of the rule ({{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates) all escape and crash in {{
-# 100 * accidents('bc') | .1f }} % of their drives (but earn {{ of('bc').scores('returns').mean() | .0f }}, the rule {{
-# of('rule').scores('returns').mean() | .0f }}). Of the stochastic rule's ({{
-# updates_of(clones_of_the_stochastic_rule()) / UPDATES | .0f }} times) nine escape, and the ten crash in {{
-# 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %, nearly always once ahead.
 # <!-- claim: of('bc').scores('returns').mean() < of('rule').scores('returns').mean() -->
 # <!-- claim: UPDATES == 1500 -->
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 -->
@@ -163,7 +156,7 @@ bc.show(figures.off_the_road(alone, driven["the rule"]))
 
 # %% [markdown]
 # **See.** *The clone drifts off a free lane.* In most of these drives its errors take it left of the rule's path,
-# where the rule's drives have no row, and there it errs again and drifts farther: these are **compounding errors**
+# where the rule's drives have no row, and nearly every decision is an error: these are **compounding errors**
 # (Ross and Bagnell 2010).
 #
 # Let a clone err with probability ε in its teacher's states, and in the worst case in each decision
@@ -188,9 +181,9 @@ explorable.compounding()
 # %% [markdown]
 # ## Round 3: which rows are missing?
 #
-# The stochastic rule's drives hold a few states farther left than any of the rule's. Label them with
-# the rule's actions and add them to its drives, five times each. For comparison, add as many of its
-# other rows instead.
+# The stochastic rule's drives hold a few states farther left than any of the rule's. Label them with the
+# rule's actions and add them, five times each, to the rule's drives. For comparison,
+# add as many other rows of the stochastic rule, labelled alike.
 #
 # > **Predict.** How many of the accidents remain with the rows from the edge?
 
@@ -213,8 +206,14 @@ bc.show(figures.added({name: measured[name] for name in KINDS}, fed_crash))
 # %% [markdown]
 # **See.** *The rows from the edge prevent most accidents; as many others do not.* The states that a data
 # set holds are its **coverage**. The stochastic rule's drives hold these rows: probably that is why its clones crash
-# less than the rule's, although they err more in their own states. But rows from 1 m left on, short of the
-# edge, helped as much when we tried, and so does longer training, as in the study.
+# less than the rule's, although they err more in their own states. Rows from 1 m left on, short of the edge,
+# helped as much when we tried: the rule is there, too, but with other headings.
+#
+# All this is after {{ UPDATES | , }} updates. Long training turns the order round: the study's ten clones of
+# the rule ({{
+# updates_of(of('bc')) / UPDATES | .0f }} times as many updates) crash in {{ 100 * accidents('bc') | .1f }} % of their
+# drives, those of the stochastic rule ({{ updates_of(clones_of_the_stochastic_rule()) / UPDATES | .0f }} times) in {{
+# 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %, nearly always once ahead.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The rows from the edge suffice. Must it be these? A group can add the rows from 1 m left of the middle
@@ -266,9 +265,8 @@ bc.show(figures.taught(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
 # **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom
-# crash.* DAgger adds the states that earlier clones came to, with what the rule does there. So errors
-# in the clone's *own* states, which include those that errors led to, get fewer. (Which errors are left
-# matters, too: Round 3.)
+# crash.* DAgger adds the states that earlier clones came to, with what the rule does there. So it errs less in
+# its *own* states, also in those to which an error led it. (Which errors are left matters, too: Round 3.)
 #
 # A clone's loss does not ask what an action leads to. The learner of lesson
 # [[learning_from_demonstrations]] does.

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from bootcourse.colours import INK, OTHER, Style
 from bootcourse.course import charts, table
 from bootcourse.course.lessons.discrete_sac.explorable import ACTIONS, ALPHA, START
-from bootcourse.course.lessons.discrete_sac.own_parts import STEPS, Descent, Walked
+from bootcourse.course.lessons.discrete_sac.own_parts import STEPS, SURE, Descent, Walked
 from bootcourse.methods import style
 
 
@@ -28,11 +28,11 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
 
     knows: π(leave | trap) of an agent that knows the whole chain; walked: the learners at each temperature.
     """
-    title = "With a small α few find the way out, with a large one leaving pays no more than staying"
+    title = "A small α finds too little, a large one takes too seldom"
     named = {
         "takes: leaves, knowing the map": np.array(knows),
         "tries: finds the free road": walked.found.mean(axis=1),
-        "both: learned to leave": (walked.leaves > 0.5).mean(axis=1),
+        "both: sure of leaving": (walked.leaves > SURE).mean(axis=1),
     }
     looks = [Style(INK, "--"), Style(OTHER.colour, "--"), style("sac")]
     ends = (f"{name}: {line[0]:.2f} at {alphas[0]:g}, {line[-1]:.2f} at {alphas[-1]:g}" for name, line in named.items())

@@ -9,6 +9,7 @@ import numpy as np
 import torch
 
 from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START, highest_estimates
+from bootcourse.course.lessons.discrete_sac.own_parts import SURE as SURE
 from bootcourse.course.lessons.discrete_sac.own_parts import Walked, descended, soft_sweeps, walked
 from bootcourse.learn import sac
 from bootcourse.research.computed import experiment
@@ -20,7 +21,6 @@ BY_Q = pi @ q
 WORTH = BY_Q - ALPHA * pi @ np.log(pi)
 SOFTMAX = math.exp(3) / (math.e + math.exp(3))  # of Q = 1 and 3 with α = 1, the second action
 ALPHAS = np.geomspace(0.01, 10, 13)  # the temperatures of Round 4's figure
-SURE = 0.9  # a learner that leaves, or stays, with a higher probability is sure of it
 
 
 def highest(actions: int) -> tuple[float, float]:
@@ -67,9 +67,9 @@ def falling() -> np.ndarray:
     return walked(sac.soft_value, sac.critic_target, torch.tensor(np.geomspace((10, 1), 0.01, 1000))).leaves
 
 
-def more_often() -> np.ndarray:
-    """How many of thirty end with Q(0, 1) > Q(0, 0), at each of the ALPHAS."""
-    return (constant().leaves > 0.5).sum(axis=1)
+def surely() -> np.ndarray:
+    """How many of thirty end sure of leaving, at each of the ALPHAS."""
+    return (constant().leaves > SURE).sum(axis=1)
 
 
 def sure() -> dict[str, np.ndarray]:

@@ -57,6 +57,9 @@ def would_leave(value: Callable, target: Callable, alphas: Tensor) -> list[float
     return [(soft_sweeps(value, target, alpha)[0] / alpha).softmax(-1)[1].item() for alpha in alphas]
 
 
+SURE = 0.9  # a learner that leaves, or stays, with a higher probability is sure of it
+
+
 class Walked(NamedTuple):
     """How probable leaving is for each learner in the end, and if it was on the free road: (kinds, LEARNERS)."""
 

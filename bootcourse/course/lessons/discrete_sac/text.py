@@ -32,7 +32,7 @@ progress("discrete_sac")
 # %% [markdown]
 # ## Look first
 #
-# In lesson [[values]] a learner stayed in the trap: it tried too little. *Soft actor-critic* (SAC) pays
+# In lesson [[values]] learners stayed in the trap: most tried too little. *Soft actor-critic* (SAC) pays
 # an agent for being undecided, so that it tries more. **Does that lead out of the trap?** You write
 # SAC's parts; the [next lesson](update_and_loop.ipynb) puts them together.
 
@@ -58,8 +58,8 @@ bc.show(diagrams.sac_diagram())
 # %% [markdown]
 # ## Round 1: what is a state worth if indecision is paid?
 #
-# An agent can go left, straight or right. It expects most of straight: {{ max(q) | g }}. Early estimates
-# are poor, so SAC pays for **exploration**: α times how undecided the agent is.
+# An agent can go left, straight or right. By its estimates straight is best, worth {{ max(q) | g }}. Early
+# estimates are poor, so SAC pays it to **explore**: α times how undecided it is.
 #
 # > **Predict.** The agent chooses the probabilities that are best for it, pay included. What is the
 # > state worth to it now?
@@ -244,8 +244,8 @@ def actor_loss(log_pi, q, alpha):
 check.actor_loss(actor_loss)
 
 # %% [markdown]
-# Now 100 gradient steps change the policy, and Q too unless it is detached: first down your actor's loss,
-# then down minus your soft value, where Q is not detached. Where does Q(straight) go?
+# Now take 100 gradient steps twice: down your actor's loss, and down the same loss without the stop, which then
+# moves Q, too. Where does Q(straight) go?
 
 # %%
 value, loss = own_code.yours_or_ours("soft_value", "actor_loss", doing="Descending")
@@ -271,11 +271,12 @@ figures.descents({"your loss": own_parts.descended(loss), "Q not detached": bare
 # once more {{ 0.16 + 0.8 * 0.8**4 / 0.2 | .2f }} (plain Bellman equation).
 # <!-- claim: abs(soft_q(1e-3)[0, 0] - 1.80) < 0.005 > abs(soft_q(1e-3)[0, 1] - 2.05) -->
 #
-# > **Predict.** At the best constant α from 0.01 to 10, how many of thirty learn to leave, Q(0, 1) > Q(0, 0)?
+# > **Predict.** At the best constant α from 0.01 to 10, how many of thirty end *sure* of
+# > leaving, with a probability above {{ SURE }}?
 
 # %%
 chances = ["all thirty", "about 20", "fewer than 10"]
-predict("discrete_sac.4", "How many of thirty learn to leave?", chances)
+predict("discrete_sac.4", "How many of thirty end sure of leaving?", chances)
 
 # %%
 predicted("discrete_sac.4")
@@ -286,21 +287,23 @@ knows = own_parts.would_leave(value, target, alphas)
 bc.show(figures.two_jobs(alphas, knows, walked))
 
 # %% [markdown]
-# **Explain.** Fewer than 10: at most {{ more_often().max() }}. **α does two jobs.** It decides how much a learner
+# **Explain.** Fewer than 10: at most {{ surely().max() }}. **α does two jobs.** It decides how much a learner
 # *tries*: {{ found(0.01) }} of thirty find the free road with α = 0.01, {{ found(1) }} with α = 1 (purple).
 # And it decides how surely it *takes* what is better: an agent that knows the whole chain leaves with probability {{
-# leave(0.01) | .2f }} with α = 0.01, with {{ leave(1) | .2f }} with α = 1 (black), and from α = 3 on with less
-# than 0.5:
-# its critic judges a policy that turns back half the time. A learner needs both (blue), and no α here gives both.
-# <!-- claim: more_often().max() < 10 -->
+# leave(0.01) | .2f }} with α = 0.01, with {{ leave(1) | .2f }} with α = 1 (black): its critic judges a policy
+# that turns
+# back nearly half the time. In between a learner does some of both, but finding the road once is not enough (lesson
+# [[values]]). No constant α gives many that are sure (blue).
+# <!-- claim: surely().max() < 10 -->
 # <!-- claim: 0.5 < leave(1) < 0.55 and max(abs(leave(a) - 0.5) for a in (2, 3, 5, 7, 10)) < 0.01 -->
 #
-# Let α fall over the 1,000 decisions. From 10 to 0.01, {{ sure()["leave"][0] }} of thirty end sure of leaving (above
-# {{ SURE }}) and {{ sure()["stay"][0] }} sure of staying; from 1, {{ sure()["leave"][1] }} and {{ sure()["stay"][1] }}.
+# So begin high, to find, and let α fall, to take: from 10 to 0.01 over the 1,000 decisions {{ sure()["leave"][0] }} of
+# thirty end sure of leaving. But {{ sure()["stay"][0] }} end sure of staying: a falling α makes the choice
+# sure, right or wrong. From 1 it is {{ sure()["leave"][1] }} and {{ sure()["stay"][1] }}.
 # <!-- claim: (sure()["leave"] + sure()["stay"] > 24).all() -->
 
 # %% [markdown]
-# So an α that falls makes the choice sure, right or wrong. SAC adjusts α like a thermostat, by a
+# SAC adjusts α like a thermostat, by a
 # **target entropy** η ("eta"): while the entropy is above η, α falls; below, it rises. The paper and
 # our study set **η = {{ SETTINGS.target_entropy }}** for nine actions.
 #
@@ -333,7 +336,7 @@ explorable.thermostat()
 # </details>
 
 # %% [markdown]
-# Steps down this loss in log α move α that way (its slope, α (H − η), has the sign of H − η):
+# This loss does it: its slope in log α is α (H − η), so a step down it lowers α while H is above η:
 #
 # $$ L_\alpha = \alpha\, (\mathcal{H}(\pi) - \eta) $$
 #
@@ -375,8 +378,8 @@ compare_predictions(
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed.
 # 3. The highest of many estimates is too high, so the smaller of two critics counts.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
-# 5. On the chain no constant α leads out surely: with a small one few find the way, with a large one leaving pays
-#    no more than staying. A thermostat can rest if η is between 0 and log n.
+# 5. On the chain no constant α leads out surely: a small one finds too little, a large one takes too seldom. One that
+#    falls leads out {{ sure()["leave"][0] }} of thirty. A thermostat can rest if η is between 0 and log n.
 
 # %% [markdown]
 # **Three questions to think about**

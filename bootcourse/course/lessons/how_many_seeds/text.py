@@ -82,8 +82,8 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # that escapes would be the *true rate*.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
-# > **Predict.** Call luck that comes in under 2.5 % of studies too rare to believe. How low may the true rate
-# > be, so that eight or more of ten escape in 2.5 % of all studies? (Ten fair coins show eight or more heads in
+# > **Predict.** Call luck that comes in under 2.5 % of studies too rare to believe. At which true rate would
+# > eight or more of ten escape in just 2.5 % of all studies? (Ten fair coins show eight or more heads in
 # > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all throws.)
 
 # %%
@@ -114,8 +114,9 @@ explorable.certainty()
 #
 # For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes, and of
 # ten others (lesson [[learning_from_demonstrations]]) {{ escapers(others('demos'), 'demos') }}.
-# The paper does not say how many agents drove, or how often. One row's accidents, {{
-# PRINTED['gail']['collision'].mean | g }} ± {{ PRINTED['gail']['collision'].sd }} %, fit one in {{ EPISODES }} drives.
+# The paper does not say how many agents drove, or how often. One row prints accidents of {{
+# PRINTED['gail']['collision'].mean | g }} ± {{
+# PRINTED['gail']['collision'].sd }} %: that is what one accident in {{ EPISODES }} drives gives.
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
 # <!-- claim: (lambda x: round(x.mean(), 2) == PRINTED['gail']['collision'].mean and
 #   round(x.std(ddof=1), 2) == PRINTED['gail']['collision'].sd)(100.0 * (np.arange(EPISODES) < 1))
@@ -178,8 +179,8 @@ predicted("how_many_seeds.3")
 explorable.studies()
 
 # %% [markdown]
-# **See.** Ten against ten miss even this large difference in more than half of the studies. At 80
-# against 60 %, thirty against thirty do, too. So our eight against seven shows neither that one method
+# **See.** Ten against ten miss even this large difference in more than half of the studies. Thirty against
+# thirty miss 80 against 60 % in more than half, too. So our eight against seven shows neither that one method
 # is better nor that the two are alike.
 # <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 30) < 0.4 and fisher(8, 7) > 0.5 -->
 #
@@ -243,8 +244,7 @@ explorable.intervals()
 # %% [markdown]
 # **See.** *{{ explorable.holding(3) }} of 100, not 95.* In {{ 100 * 0.7**3 | .0f }} of 100 studies all
 # three do well. Resampling knows these three alone, so the interval is short, and lies above the mean
-# of all: *the shortest intervals miss.* With ten seeds instead of three, about nine
-# intervals in ten contain it.
+# of all: *the shortest intervals miss.* Five seeds: {{ explorable.holding(5) }}. Ten: {{ explorable.holding(10) }}.
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 and 88 <=
 #   explorable.holding(10) <= 92 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
@@ -268,16 +268,17 @@ check.bootstrap_interval(bootstrap_interval)
 # %% [markdown]
 # ## Round 4: what do your five seeds show?
 #
-# Change one number of the method, and train five agents with the change, five without.
-# `bonus=0.0` takes the bonus from the demonstrations. Or change `rule_p` (now 0.9), `beta_start` (0.6),
-# `gamma` (0.8), `xi_multiplier` (200). The score is an agent's success on 200
-# roads after 150 episodes: who learns the way out early? First
-# the power (Round 2): five against five tell 80 from 30 % in {{ 100 * power(0.8, 0.3, 5) | .0f }} of 100
-# studies. So a 0 in your interval says little.
+# Change one number of the method, and train five agents with the change, five without. `bonus=0.0` pays no
+# bonus for demonstrated seconds. Or change `rule_p` (now 0.9), `beta_start` (0.6), `gamma` (0.8),
+# `xi_multiplier` (200). Who learns the way out early? The score is an agent's success on 200 roads after
+# 150 episodes.
 #
-# The score of a group is its **interquartile mean** (IQM), the mean of the middle half: sort, and
-# leave out a quarter, rounded down, at each end. Of five the middle three remain: one agent far from the other four
-# barely moves their mean.
+# Five against five are few: even Fisher's test (Round 2) would tell 80 from 30 % in only {{ 100 * power(0.8, 0.3, 5)
+# | .0f }} of 100 studies.
+#
+# The score of a group is its **interquartile mean** (IQM): sort, leave out a quarter, rounded down, at each
+# end, and take the mean. Of five agents the middle three count. It says how a typical agent does; one agent of
+# five that fails, it does not see.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each
 # resample draws both groups anew. The next cell uses it.
@@ -306,8 +307,8 @@ interval_of = own_code.yours_or_ours("difference_interval", doing="Comparing")
 table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
-# **Explain.** If the interval of the difference contains 0, five seeds do not say which group learns
-# earlier. If it leaves out 0, that may be luck, as below.
+# **Explain.** If the interval contains 0, five seeds do not say which group learns earlier (they do not say "alike"
+# either). If it leaves out 0, that may be luck, as below.
 #
 # For an answer train a *new* set, large enough for your smallest effect of interest. If you add agents until
 # the interval leaves out 0, you take luck for an effect too often.
@@ -329,9 +330,10 @@ bc.show(figures.nothing_changed(study))
 # <!-- claim: all(bad in (0, 3) for bad, effect in splits() if counts.leaves_out_0(effect)) -->
 #
 # Even at 5 % each, at least one of twenty independent comparisons leaves out 0 in
-# {{ 100 * (1 - 0.95**20) | .0f }} % of cases: **multiplicity**. Say beforehand which comparison
-# counts, or correct p in *Holm's* way: multiply the smallest of n p values by n, the next by n − 1, and so on;
-# none may come out below the one before.
+# {{ 100 * (1 - 0.95**20) | .0f }} % of cases: **multiplicity**. Say beforehand which comparison counts. Or
+# take a p value of each
+# (Fisher's, Round 2), and multiply the smallest of n by n, the next by n − 1, and so on; none may come out
+# below the one before (*Holm*). The three comparisons of our first picture:
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -375,8 +377,8 @@ compare_predictions(
 #   for m in ('sac', 'soft', 'demos', 'bootstrapped')) -->
 # 3. Compute the power before you train, for the smallest effect of interest.
 # 4. A short interval from three seeds may be luck: resampling knows these three alone.
-# 5. Five against five may differ by luck, the best of many comparisons most of all: name the one
-#    that counts, or correct p.
+# 5. Five against five may differ by luck, the best of many comparisons most of all: name the one that counts,
+#   or correct each p.
 #
 # **Three questions to think about**
 # - Which difference between two *agents* can 20 drives of each show, and which between two

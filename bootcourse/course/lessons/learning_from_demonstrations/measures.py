@@ -48,14 +48,14 @@ def paid_until(study: Results, changed: Computed) -> dict[str, Results]:
     }
 
 
-FOUND = ["with the soft constraint", "find the way out after (median of 20)", "escape, of the study's", "of the others"]
+FOUND = ["", "find the way out after (median of 20)", "escape (study, others)", "escape without the soft constraint"]
 
 
 def found_and_escaped(agents: Kinds) -> list[list[str]]:
     """A row for each kind of demonstrations, below `FOUND`."""
     return [
-        [name, f"{np.median(found(soft)):.0f} episodes", *(escape([each]) for each in soft)]
-        for name, (soft, _) in agents.items()
+        [name, f"{np.median(found(soft)):.0f} episodes", " + ".join(escape([each]) for each in soft), escape(free)]
+        for name, (soft, free) in agents.items()
     ]
 
 

@@ -43,10 +43,25 @@ def alone(name: str) -> str:
     return measures.escape(_with(name)[1])
 
 
-def staying_alone() -> str:
-    """The same where c = 2 and β stays, the rule drives the demonstrations, and there is no soft constraint."""
+def staying(place: int) -> str:
+    """How many escape where c = 2 and β stays, and the rule drives the demonstrations: with the soft constraint (0), or
+    without it (1)."""
     study, others = (shipped_experiment(name) for name in ("ablations", "stress"))
-    return measures.escape([study["β for ever"].of("demos"), others["demos, β for ever"]])
+    method = ("bootstrapped", "demos")[place]
+    return measures.escape([study["β for ever"].of(method), others[f"{method}, β for ever"]])
+
+
+def success_table() -> str:
+    """How many training episodes succeed with the bonus and without it, in three windows, as Markdown."""
+    windows = (300, 600), (1000, 1100), (1900, 2000)
+    heads = (f"{first:,} to {last:,}" for first, last in windows)
+    lines = [f"| succeed (in brackets: ten others) | episodes {' | '.join(heads)} |", "|---|---|---|---|"]
+    for name in ("c = 2", "c = 0"):
+        each = (
+            [100 * training(name, "success", *window, which).mean() for which in (False, True)] for window in windows
+        )
+        lines.append(f"| {name} | {' | '.join(f'{ours:.0f} % ({more:.0f} %)' for ours, more in each)} |")
+    return "\n".join(lines)
 
 
 def found(name: str) -> np.ndarray:

@@ -32,7 +32,7 @@ MEANINGS = {  # of the wrong models that the lesson shows, for readers
     "only the four visible cars": "those that the agent does not see are missing",
     "places off by 1 m, speeds by 0.5 m/s": "noise on the others, drawn anew each second",
     "the others a second late": "the others where they were a second ago, moved on at their speed",
-    "everything a second late": "the ego, too",
+    "everything a second late": "all as it was a second ago, not moved on",
 }
 ERRORS = [f"{name}: {meaning}" for name, meaning in MEANINGS.items()]  # to choose from
 LEARNED_FORM = "mean of five"  # of the look-ahead in a learned model, as the lesson shows it
@@ -95,10 +95,10 @@ def each_agent(cells: dict[str, Results], base: str) -> Figure:
     return finish(figure, title, f"A line for each agent, from alone to with the look-ahead. {'; '.join(alt_parts)}.")
 
 
-def out_of_nine(study: Mapping[str, Results], gamma: float, with_worth: bool) -> np.ndarray:
-    """How often the nine that stay behind alone get out, by what the look-ahead counts: shares, (9,)."""
+def of_nine(study: Mapping[str, Results], gamma: float, with_worth: bool, measure: str = "success") -> np.ndarray:
+    """What the nine that stay behind alone reach, by what the look-ahead counts: (9,), as a rule how often out."""
     alone, ahead = Cell("sac", "alone"), Cell("sac", gamma=gamma, with_worth=with_worth)
-    return study[ahead.name].measured["success"][study[alone.name].measured["success"] < 0.01]
+    return study[ahead.name].measured[measure][study[alone.name].measured["success"] < 0.01]
 
 
 def out_of_trap(
@@ -110,10 +110,19 @@ def out_of_trap(
     """
     rows = []
     for (name, driver), (gamma, with_worth) in zip(drivers.items(), AIMS, strict=True):
-        out = out_of_nine(study, gamma, with_worth)
         here = int(drive_episodes(driver, roads).success.sum())
-        rows.append([name, here, f"{100 * out.mean():.0f} %"])
-    return ["what counts", f"this agent's drives out, of {len(roads)}", "drives out, of all nine agents"], rows
+        out, earned, hurt, driven = (
+            of_nine(study, gamma, with_worth, of) for of in ("success", "returns", "accidents", "roads")
+        )
+        crashes = 1000 * hurt.sum() / driven.sum()
+        rows.append([name, here, f"{100 * out.mean():.0f} %", f"{earned.mean():.0f}", f"{crashes:.0f}"])
+    return [
+        "what counts",
+        f"drives out, of this agent's {len(roads)}",
+        "of all nine's",
+        "return",
+        "accidents in 1,000",
+    ], rows
 
 
 def _judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

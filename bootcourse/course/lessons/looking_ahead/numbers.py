@@ -73,9 +73,9 @@ def worths() -> np.ndarray:
     return imagined_road.worth(np.linspace(0, DEFAULT.ego.max_speed, 401))
 
 
-def aim(gamma: float, with_worth: bool) -> np.ndarray:
-    """How often the nine that stay behind alone get out, by what the look-ahead counts: shares, (9,)."""
-    return figures.out_of_nine(shipped(), gamma, with_worth)
+def aim(gamma: float, with_worth: bool, measure: str = "success") -> np.ndarray:
+    """What the nine that stay behind alone reach, by what the look-ahead counts: (9,), as a rule how often out."""
+    return figures.of_nine(shipped(), gamma, with_worth, measure)
 
 
 def led_out(gamma: float, with_worth: bool) -> int:

@@ -117,7 +117,7 @@ def training_scores(spent: float, count: str) -> dict[str, Estimate]:
 
 
 def spent_table() -> str:
-    """What each method with a teacher earns in training by three clocks, as Markdown; bold: shown to be above PPO."""
+    """What each method with a teacher earns in training by three clocks, and what decisions cost it, as Markdown."""
     kinds, clocks = ["ppo_cloned", "bootstrapped", "jsrl", "rlpd", "ibrl"], {
         f"{equal_decisions.SECONDS} s of computing": (equal_decisions.SECONDS, explorable.SECONDS),
         f"{on_road(explorable.EARLY):.0f} h on a road": (explorable.EARLY, explorable.DECISIONS),
@@ -126,11 +126,9 @@ def spent_table() -> str:
     lines = ["| after | PPO | bootstrapped | jump-start | RLPD | IBRL |", "|---|---|---|---|---|---|"]
     for words, spent in clocks.items():
         scores = training_scores(*spent)
-        bar = dict.fromkeys(kinds, scores["ppo_cloned"].high)
-        bar["ppo_cloned"] = max(scores[method].high for method in kinds[1:])
-        cells = (f"**{scores[m].value:.0f}**" if scores[m].low > bar[m] else f"{scores[m].value:.0f}" for m in kinds)
-        lines.append(f"| {words} | {' | '.join(cells)} |")
-    return "\n".join(lines)
+        lines.append(f"| {words} | {' | '.join(f'{scores[method].value:.0f}' for method in kinds)} |")
+    taken = (f"*{at(method, 'seconds', FIRST).mean():.0f}*" for method in kinds)
+    return "\n".join([*lines, f"| *seconds for {FIRST:,}* | {' | '.join(taken)} |"])
 
 
 def below_all_others(method: str, spent: float, count: str) -> bool:

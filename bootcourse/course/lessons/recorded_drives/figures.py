@@ -123,8 +123,8 @@ def estimates(names: Sequence[str], alike: np.ndarray, estimated: np.ndarray, tr
     title = "How far is each estimate off?"
     if abs(off[alike > 0.8]).max() < 0.1 < 1 < abs(off[alike < 0.4]).max():
         title = "Estimates are nearest where an agent acts as the data do"
-    label = "seconds of the data in which an agent would act as the rule did · filled: largest of its set of six"
-    figure, ax = one_axes(3.7, title, label, "estimate minus worth on the road")
+    label = "agrees with the rule in so many of the recorded seconds · filled: largest estimate of its set"
+    figure, ax = one_axes(3.7, title, label, "estimate minus truth (above 0: too high)")
     ax.axhline(0, color=INK, linewidth=1)
     said = []
     for i, name in enumerate(names):

@@ -43,7 +43,7 @@ class LivePenalty(LiveCurves):
         done = min(int(training.curves.finished.min()), training.episodes)
         ahead = np.cumsum(training.curves.values["success"][:, :done], axis=1)
         ahead[:, IN_A_ROW:] -= ahead[:, :-IN_A_ROW].copy()
-        title = f"Of the last {min(done, IN_A_ROW)} episodes {ahead[0, -1]:.0f} end ahead {PENALTY[0]}, "
+        title = f"Ahead in the last {min(done, IN_A_ROW)} episodes: {ahead[0, -1]:.0f} {PENALTY[0]}, "
         title += f"{ahead[1, -1]:.0f} {PENALTY[1]}"
         figure, looks = new_figure(4.0), (style("soft").colour, INK)
         ax, below = axes_at(figure, 1.6, 0.9, 3.7, 1.4), axes_at(figure, 1.6, 2.65, 3.7, 0.7)

@@ -25,7 +25,7 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str
             ends[kind] = counts = _dots(ax, trained[kind], easier.staying(kind))
             listed.append(f"{price}: " * (not column) + f"{road} {', '.join(map(str, counts))}")
             ax.set(xticklabels=ax.get_xticks() if row else [], yticklabels=[] if column else ax.get_yticks())
-            ax.text(3, 97, f"{counts[0]} of {len(trained[kind])} escape", fontsize=TEXT, color=INK, fontweight="bold")
+            ax.text(3, 97, f"{counts[0]} escape, {counts[1]} earn", fontsize=TEXT, color=INK, fontweight="bold")
             if not row:
                 ax.set_title(road, fontsize=TEXT, color=INK)
             if not column:
@@ -37,16 +37,16 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str
                 ax.set_xlabel("ends ahead, % of the test roads", fontsize=TEXT, color=INK)
     escaping, earning, _ = ends[easier.BOTH]
     title = f"Cheap accidents with a start mid-lane free {escaping} of {len(trained[easier.BOTH])} agents; "
-    title += f"{earning} of them earn more than by staying"
-    words = "A dot: an agent. A cross: one with an accident on most roads. "
-    words += f"In the blue band, from {100 * ESCAPES:.0f} % on, it escapes. (Spread a little sideways.)"
+    title += f"{earning} earn more than by staying"
+    words = f"Cross: an accident on most roads. Blue, from {100 * ESCAPES:.0f} % on: escapes. "
+    words += "Earn: more than by staying, ahead on some road."
     figure.text(0.012, 0.015, words, fontsize=SMALL, color=QUIET)
-    what = "Escape, of these earn more than by staying, crash on most roads:"
+    what = "Escape, earn more than by staying, crash on most roads:"
     return finish(figure, title, f"{words}\n{what} {'; '.join(listed)}.")
 
 
 def _dots(ax, agents: Results, staying: float) -> tuple[int, int, int]:
-    """Draw a kind's agents; how many escape, how many of these earn more than `staying`, and how many crash mostly."""
+    """Draw a kind's agents; how many escape, how many earn more than `staying` and are ahead somewhere, crash."""
     success, earned, accident = (agents.scores(name) for name in ("success", "returns", "accident"))
     out, crashing = success >= ESCAPES, accident > 0.5
     plain_axes(ax, "", grid="")
@@ -57,7 +57,7 @@ def _dots(ax, agents: Results, staying: float) -> tuple[int, int, int]:
     across = 100 * success + 1.8 * (earned.argsort().argsort() % 5 - 2)
     ax.plot(across[~crashing], earned[~crashing], "o", color=DARK, markeredgecolor="white", **look)
     ax.plot(across[crashing], earned[crashing], "x", color=TRAP, markeredgewidth=1.4, **look)
-    return int(out.sum()), int((out & (earned > staying)).sum()), int(crashing.sum())
+    return int(out.sum()), int(((success > 0.01) & (earned > staying)).sum()), int(crashing.sum())
 
 
 def how_they_drive(agents: Sequence, tests: Sequence):

@@ -16,14 +16,16 @@ AXES = Axes("faster than the car in the new lane by (m/s)", "gap (m)", (0.0, 35.
 
 def gap() -> Explorable:
     """The gap that the rule wants over the closing speed, and the way in which the car brakes, while t_safe moves."""
-    brakes = SPEEDS**2 / (2 * DEFAULT.ego.acceleration)
+    step = DEFAULT.clock.dt  # s; in each the car moves at its old speed
+    brakes_in = f"the distance in which it brakes, at {DEFAULT.ego.acceleration:g} m/s² in steps of {step:g} s"
+    brakes = SPEEDS**2 / (2 * DEFAULT.ego.acceleration) + SPEEDS * step / 2
 
     def draw(t_safe: float) -> Drawing:
         wanted = np.array([safety_distance(speed, 0.0, 0.0, t_safe, DEFAULT.rule.floor) for speed in SPEEDS])
         safe = SPEEDS[np.maximum.accumulate(brakes > wanted) == 0][-1]
         named = {
             "the gap that the rule wants": Curve(wanted, style("rule").colour),
-            f"the distance in which it brakes, at {DEFAULT.ego.acceleration:g} m/s²": Curve(brakes, ALARM, "--"),
+            brakes_in: Curve(brakes, ALARM, "--"),
         }
         says = f"t_safe = {t_safe:g} s: up to {safe:.1f} m/s the gap is long enough to brake in it."
         return curves(says, AXES, SPEEDS, named, mark=float(safe))

@@ -31,7 +31,7 @@ def when_to_change(drive: Rollout) -> Figure:
     named = {
         "gap to trap 2, bumper to bumper": gap,
         "safety distance": needed,
-        "printed condition: change when above 0": printed,
+        "printed: left − right side, change when above 0": printed,
     }
     first = int(np.argmax(gap > needed))
     alt = (

@@ -119,8 +119,8 @@ table(["speeds", "target behind the traps", "gets out, of 200 roads"], rows)
 # %% [markdown]
 # ## Round 2: when to change lane?
 #
-# Suppose that the car ahead in the new lane is slower than you. The rule wants a gap that lasts
-# t_safe seconds at this difference in speed, and never less than {{ DEFAULT.rule.floor | g }} m,
+# Suppose that the car ahead in the new lane is slower than you. The rule wants a gap that
+# would take t_safe seconds to close at this difference in speed, and at least {{ DEFAULT.rule.floor | g }} m,
 # its *floor* (§). The paper leaves t_safe open; we take {{ DEFAULT.rule.t_safe }} s (§). **Drag** it:
 # up to which difference in speed can the car, at {{ DEFAULT.ego.acceleration | g }} m/s², brake within
 # that gap?
@@ -241,17 +241,8 @@ table(["condition", "gets out, of 10 roads"], rows)
 # <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 -->
 # <!-- claim: 0.3 < of('rule').scores('returns').mean() / (150 * second_pays(15)) < 0.37 -->
 #
-# From 11 s on, in the first picture of speeds, it follows a car of {{ np.median(followed(by_rule(), 11).speed) | .0f
-# }} m/s in the left lane, more than 150 m ahead: its target is 10.5 m/s, and the dead band stops it at
-# 10. When that car leaves its **sight** ({{ DEFAULT.sight.distance | g }} m), the rule accelerates. It sees
-# the car again, brakes, and stops braking at 11, within 0.5 m/s of its target.
-# <!-- claim: np.isclose(by_rule().states[22:67, EGO, SPEED], 10).all() and
-#   len(followed(by_rule(), 11, 33).car) == 22 and (by_rule().rule_speeds[11:33] == 10.5).all() -->
-# <!-- claim: set(followed(by_rule(), 11).car) == {4} and
-#   150 < followed(by_rule(), 11).distance.min() and followed(by_rule(), 11).distance.max() <= 200 -->
-#
-# The sight does two jobs: it says which cars count for the target speed, and which for the choice of
-# lane.
+# The rule sees cars up to {{ DEFAULT.sight.distance | g }} m ahead, its **sight**. The sight does two jobs: it
+# says which cars count for the target speed, and which for the choice of lane.
 #
 # > **Predict.** One job gets a sight of 30 m, the other keeps 200 m. For which job does this raise
 # > the return?
@@ -272,16 +263,22 @@ near, alone = rules.recorded(ROAD, 30), rules.recorded(ROAD, 30, rules.ALOOF)
 bc.show(figures.speeds_by_sight(drive, near, alone))
 
 # %% [markdown]
-# **Explain.** All of the gain comes from the speed: a slow car counts as much at 200 m as at 20 m.
+# **Explain.** All of the gain comes from the speed: a slow car counts as much at 200 m as at 20 m. With
+# {{ DEFAULT.sight.distance | g }} m, from 11 s on, the rule follows a car of {{ np.median(followed(by_rule(),
+# 11).speed)
+# | .0f }} m/s, more than 150 m ahead: its target is 10.5 m/s, and the dead band stops it at 10. When that car
+# leaves its sight, it accelerates, sees it again, brakes, and stops braking at 11, within 0.5 m/s of its target.
+# <!-- claim: np.isclose(by_rule().states[22:67, EGO, SPEED], 10).all() and
+#   len(followed(by_rule(), 11, 33).car) == 22 and (by_rule().rule_speeds[11:33] == 10.5).all() -->
+# <!-- claim: set(followed(by_rule(), 11).car) == {4} and
+#   150 < followed(by_rule(), 11).distance.min() and followed(by_rule(), 11).distance.max() <= 200 -->
 # <!-- claim: (split(30, 200).returns == driven(30.0).returns).all() and
 #   (split(200, 30).returns == driven(200.0).returns).all() -->
 #
-# In the picture the rule stays at 15 m/s: the driver ahead (not drawn) makes way {{
-# makes_way(recorded(ROAD, 30.0), 4) | .0f }} m in front of it. Drivers here also count what the car behind gains.
-# Among drivers who do not (dashed; they also cut in) the shorter sight gains {{ driven(30.0, ALOOF).returns.mean()
-# - driven(200.0, ALOOF).returns.mean()
-# | .0f }}, not {{ driven(30.0).returns.mean() - driven(200.0).returns.mean() | .0f }}: more than half of
-# the gain needs polite drivers.
+# With 30 m it stays at 15 m/s here: the driver ahead makes way when the rule is still {{
+# makes_way(recorded(ROAD, 30.0), 4) | .0f }} m behind, as drivers here also weigh what the car behind gains.
+# Among drivers who do not (dashed) the shorter sight gains {{ driven(30.0, ALOOF).returns.mean() - driven(200.0,
+# ALOOF).returns.mean() | .0f }}, not {{ driven(30.0).returns.mean() - driven(200.0).returns.mean() | .0f }}.
 # <!-- claim: overtaken(recorded(ROAD, 30.0, ALOOF)) == overtaken(recorded(ROAD, 30.0)) -->
 # <!-- claim: (recorded(ROAD, 30.0).states[34:, EGO, SPEED] > 14.9).all() -->
 # <!-- claim: makes_way(recorded(ROAD, 30.0), 4) < 60 and makes_way(recorded(ROAD, 30.0, ALOOF), 4) > 1e9 -->
@@ -295,11 +292,10 @@ bc.show(figures.speeds_by_sight(drive, near, alone))
 # %% [markdown]
 # ## Round 4: what makes it crash?
 #
-# > **Predict.** A lane change begins when trap 2 is more than
-# > {{ DEFAULT.car.length + DEFAULT.rule.floor | g }} m ahead. Trap 1 is {{ apart()[0] | .0f }} to
-# > {{ apart()[1] | .0f }} m farther. When it is out of sight, the rule stays in its lane and speeds
-# > up. Which of these sights, for both jobs, is the shortest
-# > without an accident?
+# > **Predict.** When a lane change begins, trap 2 is a little more than
+# > {{ DEFAULT.car.length + DEFAULT.rule.floor | g }} m ahead, and trap 1 another {{ apart()[0] | .0f }} to
+# > {{ apart()[1] | .0f }} m. A rule that does not see trap 1 stays in its lane and speeds up. Which of these
+# > sights, for both jobs, is the shortest without an accident?
 
 # %%
 choices = ["100 m", "50 m", "30 m", "20 m"]
@@ -328,8 +324,7 @@ figures.reasons(rules.crash())
 # - *Second* (9 s): it changes lane {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster than trap 2,
 #   with a gap
 #   of {{ gap(crash(), 9) | .1f }} m. It asks for {{ DEFAULT.rule.t_safe * 3 | .1f }} m, but to brake takes {{
-#   DEFAULT.clock.dt * np.arange(3, 0, -DEFAULT.clock.dt).sum() | .2f }} m here (a car moves at its old speed
-#   in each step).
+#   DEFAULT.clock.dt * np.arange(3, 0, -DEFAULT.clock.dt).sum() | .2f }} m (Round 2's picture).
 #
 # At 10 s it wants to fall back: too late, at 11 s it is in the middle lane. {{
 # len(by_the_formula(20.0).speeds) }} of the
@@ -354,10 +349,12 @@ rules.ranked({"the rule": {}, "30 m": {"sight": 30}, "yours": mine})
 # %% [markdown]
 # <details><summary>Two answers</summary>
 #
-# The first: trap 1 must stay in sight. With `lane_sight` = 200 it does: this ranks first, and all drives
-# get out without an accident.
+# The first: trap 1 must stay in sight. With `lane_sight` = 200 it does: all drives get out without an
+# accident, and it earns {{ split(20, 200).returns.mean() | .0f }} (the floor of 0.5 m below: {{
+# driven(20.0, floor=0.5).returns.mean() | .0f }}).
 #
-# So they do with a *smaller* floor, although it is meant for safety: with 0.5 m the lane change begins
+# So they do with a *floor of 0.5 m*, although it is meant for safety (with 1 m {{
+# (driven(20.0, floor=1.0).accident > 0).sum() }} crash): the lane change begins
 # earlier, and {{ 'no' if not lost_in_change(0.5) else lost_in_change(0.5) }} drive loses trap 1 in the next
 # second (with 3 m: {{ lost_in_change(3.0) }}). With t_safe = 2 s none crashes, but about half stay
 # behind (with 1.5 s over a third): they lose trap 1 from sight, speed up, come too close and fall

@@ -58,7 +58,7 @@ def sprints() -> Explorable:
         says = f"{MEAN - swing:g} and {MEAN + swing:g} m/s in turn {more} a steady {MEAN:g}."
         return picture(says, speed_reward, swing)
 
-    swing = Number("swing", 1, 0, MOST, 0.5, "So far below and above 10 m/s the two speeds lie.", "m/s")
+    swing = Number("swing", MOST, 0, MOST, 0.5, "So far below and above 10 m/s the two speeds lie.", "m/s")
     return Explorable("What does changing pay?", draw, swing=swing)
 
 
@@ -92,5 +92,5 @@ def later() -> Explorable:
         says = says.replace("-", "−")
         return drawing(WIDTH, HEIGHT, [text(4, 20, says, size=14, bold=True), *chart.parts], says)
 
-    lam = Number("λ", 0, 0, 1, 0.05, "So much each second counts, compared with the one before it (times γ).")
+    lam = Number("λ", 0.95, 0, 1, 0.05, "So much each second counts, compared with the one before it (times γ).")
     return Explorable("Which later surprises count?", draw, lam=lam)

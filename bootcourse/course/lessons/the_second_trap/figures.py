@@ -36,7 +36,7 @@ def plane(clone: tuple[float, float], trained: tuple[float, float]) -> Figure:
 
     clone, trained: (return, share ahead) of your agent before and after its training, joined by an arrow.
     """
-    title = "After cloning, PPO gets out and earns about twice what the rule earns"
+    title = "After cloning, PPO gets out and earns far more than the rule"
     roads = f"mean return of an agent on {len(ROADS)} roads"
     figure, ax = one_axes(3.5, title, roads, "roads on which it ends ahead of trap 1, %")
     ax.set(xlim=(0, 125), ylim=(-8, 108))

@@ -92,7 +92,7 @@ choices = ["about half", "the same", "about twice as much", "almost four times a
 predict("the_second_trap.2", "What does changing between 5 and 15 m/s earn?", choices)
 
 # %% [markdown]
-# **Drag** the swing. From where on does changing pay more?
+# **Drag** the swing down. From where on does changing pay nothing more?
 
 # %%
 predicted("the_second_trap.2")
@@ -180,20 +180,21 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 # PPO has no replay buffer. With its policy, π_old, it drives {{ settings_for('ppo').horizon }} decisions on
 # each of {{ ppo_kinds.settings_of('alone').envs_per_agent }} roads, takes {{ ppo_kinds.QUICK['epochs'] }} passes over
 # them in random parts (*minibatches*), throws them away, and drives again. The **advantage** A of
-# an action is what came of it, less what was expected. A large A makes the action likelier.
+# an action is what came of it, less what was expected. An A above the others
+# makes its action likelier.
 #
 # Suppose that PPO expects a steady 10 m/s. The car falls back to 5 m/s for ten seconds, then sprints
 # at 15 for ten. A bar is the *surprise* of one second: what it pays, less what was expected. A of
 # the first second is the sum of the filled bars.
 #
-# **Drag** λ, the weight of the later seconds: from where on does falling back look good?
+# λ, the weight of the later seconds, is PPO's {{ settings_for('ppo').gae_lambda }}. **Drag** it down: where
+# does falling back stop looking good?
 
 # %%
 explorable.later()
 
 # %% [markdown]
-# **See.** Falling back looks good from λ = 0.85 on, if the data reach to the sprints. PPO takes {{
-# settings_for('ppo').gae_lambda }}.
+# **See.** Falling back looks good from the slider's 0.85 on, if the data reach to the sprints.
 # <!-- claim: all(ppo_kinds.settings_of(kind).gae_lambda == settings_for('ppo').gae_lambda > 0 for
 #   kind in ppo_kinds.KINDS) -->
 # <!-- claim: [explorable.weighted(lam).sum() > 0 for lam in (0, 0.5, 0.8, 0.85, 0.95, 1)] ==
@@ -254,7 +255,7 @@ bc.show(figures.credit(speeds, found, 32))
 # drive (in most others the drive ends before the sprint pays). Cut every {{ settings_for('ppo').horizon }}
 # decisions, as
 # in training, {{ judged_good(0.95, settings_for('ppo').horizon) }} do
-# ({{ wherever_cut().min() }} to {{ wherever_cut().max() }}, by where the cuts fall): pay beyond the cut reaches A only
+# (with the cuts elsewhere, {{ wherever_cut().min() }} to {{ wherever_cut().max() }}): pay beyond the cut reaches A only
 # through V, which must learn it first.
 # <!-- claim: (np.flatnonzero((ppo_speeds() < 10) & (credit(0.95) <= 0)) > 120).mean() > 0.9 -->
 # <!-- claim: ppo_kinds.settings_of('alone').horizon == settings_for('ppo').horizon -->
@@ -265,7 +266,8 @@ bc.show(figures.credit(speeds, found, 32))
 # ## Round 4: how far may one decision push?
 #
 # The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since
-# it was taken. PPO limits how far from 1 a decision may push it: ε = {{ 100 * settings_for('ppo').clip | .0f }} %.
+# it was taken. A decision may push it no further
+# from 1 than ε = {{ 100 * settings_for('ppo').clip | .0f }} %.
 #
 # > **Predict.** An action turned out badly, A = −2, but has become likelier, ρ = 1.5. Does this
 # > decision still change the policy?
@@ -361,7 +363,8 @@ bc.show(figures.ahead_in_training(ppo_kinds.reference()))
 # <!-- claim: ppo('alone')['at'][0][8] > 400_000 and ppo('alone')['escapes'][:, -1].max() == 0 -->
 #
 # **Explain.** A compares with V, learned from PPO's *own* drives. After cloning many of these get ahead; alone
-# few do. Whether that, or what these earn, is the cause is open.
+# few do. The cause may be how many get ahead, or what these earn:
+# that is open.
 # <!-- claim: ppo('cloned')['escapes'].min() > 0.3 > 3 * ppo('alone')['escapes'].max() -->
 
 # %% [markdown] tags=["instructor"] minutes=3

@@ -107,16 +107,15 @@ bc.show(figures.nine_actions(decoded, seconds=2))
 # **See.** These paths come from your `decode`. A lane change needs a turn back.
 #
 # A drive of at most {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s is an **episode**.
-# An **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive *gets
-# out*, and is a **success**, if it ends ahead of trap 1, even if it crashes there; *unhurt* means
-# without an accident.
+# An **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive that ends ahead of
+# trap 1 *gets out*: it is a **success**, even if it ends in a crash. *Unhurt*: without an accident.
 # <!-- claim: len(KINDS) == 3 -->
 #
 # A **plan** is a list of actions; after the last the car goes straight on. Take the {{ 3 ** 8 | , }}
 # plans that steer left, straight or right in each of eight seconds, and then accelerate for five.
 #
-# > **Predict.** How many of them get out unhurt on road 7? Only {{ into_left_lane().sum() }} of them end in
-# > the left lane, parallel to the road, and never leave the road; and they must miss trap 2.
+# > **Predict.** How many of them get out unhurt on road 7? On an empty road {{ into_left_lane().sum() }} of them
+# > would end in the left lane, parallel to it, without leaving the road. They must also miss trap 2.
 # <!-- claim: not (on_road(7)(all_plans()) & ~into_left_lane()).any() -->
 
 # %%
@@ -312,7 +311,7 @@ bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", rewa
 # %% tags=["nbval-ignore-output"]
 agents = bc.with_seeds(bc.settings_for("sac"), 2)
 agents += bc.with_seeds(bc.settings_for("bootstrapped"), 2)
-training = bc.Training(agents, episodes=5000, learner="compiled")  # SAC as machine code
+training = bc.Training(agents, episodes=5000, learner="compiled")  # at most 5,000 drives
 live = live_curves.LiveCurves()
 learned = training.run(progress=False, callback=live, updates=1500)
 live.show(training)
@@ -424,11 +423,11 @@ for gamma in gammas:
 bc.show(figures.bearable_risks(gammas, np.array(risks)))
 
 # %% [markdown]
-# **Explain.** At γ = 0.8 the rule's way out is worth less than staying even if it never crashes. The
-# plan beats doing nothing if fewer than {{ 100 * bearable_by_plan() | .0f }} % of attempts crash early. It
-# crashes on {{ 100 *
-# np.mean(blind_plan().accident > 0) | .0f }} % of the {{ roads() | , }} roads, if later than after 3 s.
-# Averaged over all of them it is worth {{ worth_of_plan() | .2f }}, staying {{ discounted(idle(), 0.8) | .2f }}.
+# **Explain.** At γ = 0.8 the rule's way out is worth less than staying even if it never crashes. Road {{ ROAD }}'s plan
+# beats doing nothing if fewer than {{ 100 * bearable_by_plan() | .0f }} % of attempts crash after 3 s. On the
+# {{ roads() | , }}
+# roads {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % crash, at other times, so that limit does not
+# apply; but the plan's mean worth is {{ worth_of_plan() | .2f }}, staying's {{ discounted(idle(), 0.8) | .2f }}.
 # <!-- claim: discounted(idle(), 0.8) > worth_of_plan() -->
 #
 # That is not the whole answer to why so many stay: of nine agents of plain SAC with γ = 0.9, 0.95 or

@@ -38,7 +38,7 @@ def the_end() -> Explorable:
         says = f"γ = {gamma:g}: before the last push the two are {knows[-1]:.3g} and {forgets[-1]:.3g}."
         return curves(says, AXES, np.arange(-LAST, 0), named, mark=-1)
 
-    gamma = Number("γ", 0.9, 0.5, 0.98, 0.01, "What a reward one push later is worth, as a share of one now.")
+    gamma = Number("γ", 0.97, 0.5, 0.98, 0.01, "What a reward one push later is worth, as a share of one now.")
     return Explorable("Does the critic know that the pole will fall?", draw, gamma=gamma)
 
 
@@ -86,11 +86,11 @@ def beside(drives: dict[str, np.ndarray], looks: Sequence[Style], first: int = 0
             x, _, angle, _ = states[min(done, last)]
             fell = done >= last
             leans = f"{abs(np.degrees(angle)):.0f}°"
-            words = f"has fallen at push {last} ({leans})" if fell else f"leans by {leans}"
-            says.append(f"{name if name.startswith('your') else f'the {name}'}'s pole {words}")
+            words = f"fell at push {last} ({leans})" if fell else f"leans by {leans}"
+            says.append(f"{name} {words}")
             label = name if last <= SHOWN else f"{name}: {last} pushes in all"
             parts += [text(middle, GROUND + 20, label, "middle"), *cart(middle, x, angle, look.colour)]
-        sentence = f"Push {done}: {' and '.join(says)}."
+        sentence = f"Push {done}: {', '.join(says)}."
         return drawing(WIDTH, GROUND + 30, [text(4, 20, sentence, size=14, bold=True), *parts], sentence)
 
     push = Number("push", first, 0, SHOWN, 1, "How many pushes have been made.")

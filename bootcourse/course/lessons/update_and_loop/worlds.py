@@ -26,7 +26,7 @@ GAMMA = 0.8
 WORLDS = {
     "A push pays 1, then the pole falls": World(((1, 1),), True, "1"),
     "Two pushes pay 1 each, then it falls": World(((1, 1), (1, 1)), True, f"1 + γ = {1 + GAMMA:g}"),
-    "Each push pays 1, then the time is up": World(((1, 1),), False, f"1 / (1 − γ) = {1 / (1 - GAMMA):.0f}"),
+    "A push pays 1, then the time is up; s' = s": World(((1, 1),), False, f"1 / (1 − γ) = {1 / (1 - GAMMA):.0f}"),
     "Left pays 0, right pays 1, then it falls": World(((0, 1),), True, "0 and 1"),
 }
 

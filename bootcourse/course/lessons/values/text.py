@@ -229,10 +229,10 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 # **Exercise (20 min, ●●●).** Write this learner.
 #
 # - `chances` holds the random decisions, drawn beforehand.
-# - After each of its own decisions it also learns from every pair (s, a) of a demonstration, `taught`. These do
-#   not move it.
-# - Every 20 decisions the time is up, and the walk starts again in state 0. The road would go on: the
-#   last decision's target stays as it is.
+# - After each of its own decisions it learns from that one, then from every pair (s, a) in `taught`, a
+#   demonstration. These change Q, not where it is.
+# - After every 20 decisions the walk starts again in state 0. The twentieth is learned like any other: its target
+#   still counts the next state.
 
 
 # %%
@@ -287,7 +287,6 @@ kinds = {
 learn = own_code.yours_or_ours("learn_chain", doing="Walking")
 found = {kind: chain.learned(*how, learn=learn) for kind, how in kinds.items()}
 bc.show(diagrams.who_leaves(found))
-bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
 # **Explain.** In A none learns to leave, although leaving is worth more. The way out costs the
@@ -298,23 +297,30 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps: all of D, which act at random, learn to leave. In C {{ free_road_seen(0.5, 0.8) }} reach
-# the free road, but only {{ leaving(0.5, 0.8) }} learn to leave: once is not enough. A target takes the larger
-# Q. Turning
-# back is soon worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }}; until going on beats that, the
-# state before
-# learns of the turn back alone. So in the last picture Q(0, 1) rests at γ · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{
-# 0.8**2 * 0.16 / 0.2 | .2f }}. On the road chance also causes accidents (lesson [[the_barrier]]).
+# More exploration helps: all of D, which act at random, learn to leave. So does a replayed demonstration (E):
+# Q-learning can learn from decisions that it did not make. It is **off-policy**, and so is the learner of the next
+# lessons.
+# <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
+#
+# In C {{ free_road_seen(0.5, 0.8) }} reach the free road, but only {{ leaving(0.5, 0.8) }} learn to leave.
+# Here are two of them:
+
+# %%
+bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
+
+# %% [markdown]
+# **Explain.** Once is not enough. Turning back is soon worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2
+# | .2f }}, and
+# a target takes the larger Q: so Q(0, 1) rests at γ · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 |
+# .2f }}. Going
+# on must beat {{ 0.8 * 0.16 / 0.2 | .2f }} in state 3, then in 2, then in 1 (dashed), and a walk carries its
+# value back by one state (Round 3). On the road chance also causes accidents (lesson [[the_barrier]]).
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
 #   chain.over_walks(0.5, 0.8, seed)[12:36]) -->
 # <!-- claim: chain.leaves(chain.over_walks(0.5, 0.8, 1)[-1]) -->
 # <!-- claim: chain.has_been_free(chain.over_walks(0.5, 0.8, 16)[-1]) and
 #   not chain.leaves(chain.over_walks(0.5, 0.8, 16)[-1]) -->
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
-#
-# A replayed demonstration teaches all thirty (E). Q-learning can learn from decisions that it did not
-# make: it is **off-policy**, and so is the learner of the next lessons.
-# <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # What happens at the last decision separates two ideas that lesson [[update_and_loop]] needs: an

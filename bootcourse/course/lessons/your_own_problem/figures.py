@@ -64,7 +64,7 @@ def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
 def clones() -> Figure:
     """What the clones of a random and of a systematic teacher earn, on three problems."""
     rows = {"random\nteacher": ("random", "returns"), "systematic\nteacher": ("systematic", "returns")}
-    return beside_teachers(rows, "Clones outdo these random teachers, not the systematic ones")
+    return beside_teachers(rows, "Clones far outdo these random teachers, but not the systematic ones")
 
 
 def clones_that_draw() -> Figure:

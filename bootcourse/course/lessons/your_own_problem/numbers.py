@@ -52,18 +52,18 @@ def alone(bonus: str) -> float:
 
 def loops_table() -> str:
     """How many drives of DoorKey reach the goal, by drawn and by most probable actions, as Markdown."""
-    kinds = {
-        "plain SAC": ("none", "SAC"),
-        "both aids, random teacher, c = 2": ("random", "both"),
-        "the same, c = 0": ("random", "both, c = 0"),
-        "the same, c = 2, without the drives that miss the goal": ("random", elsewhere.WITHOUT_LOOPS),
-        "good teacher's demonstrations alone, c = 2": ("good", "demonstrations"),
-        "these alone, c = 0": ("good", "demonstrations, c = 0"),
-    }
-    lines = ["| drives that reach the goal, % | drawn | most probable |", "|---|---|---|"]
-    for name, kind in kinds.items():
+    kinds = [
+        ("nothing (plain SAC)", "–", ("none", "SAC")),
+        ("random teacher, both aids", "0", ("random", "both, c = 0")),
+        ("random teacher, both aids", "2", ("random", "both")),
+        ("the same, only its drives that reach the goal", "2", ("random", elsewhere.WITHOUT_LOOPS)),
+        ("good teacher, demonstrations alone", "0", ("good", "demonstrations, c = 0")),
+        ("good teacher, demonstrations alone", "2", ("good", "demonstrations")),
+    ]
+    lines = ["| learns from | c | drawn | most probable |", "|---|---|---|---|"]
+    for name, bonus, kind in kinds:
         drawn, likeliest = (100 * score("doorkey", *kind, measure) for measure in ("drawn_success", "success"))
-        lines.append(f"| {name} | {drawn:.0f} | {likeliest:.0f} |")
+        lines.append(f"| {name} | {bonus} | {drawn:.0f} | {likeliest:.0f} |")
     return "\n".join(lines)
 
 

@@ -134,13 +134,13 @@ predicted("your_own_problem.1")
 bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0)))
 
 # %% [markdown]
-# **Explain.** A half-learned copy follows the speed as well as the angle. The line at
-# which it changes its push lies near the dashes, and a rule that changes there earns {{ speed_rule_earns() |
-# .0f }}. Better copies earn less: *one budget can mislead.*
+# **Explain.** After 500 decisions the copies still disagree. After 1,000 they change their push near the dashes, and a
+# rule that changes there earns {{ speed_rule_earns() | .0f }}. After 3,000 they are better copies, and earn less: *one
+# budget can mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
-# Now the same with the reward. (Without it: the titles above.) How much of what Round 1's soft constraint earned on
-# CartPole does it owe to the reward?
+# Now with the reward; without it: the titles above. How much of what Round 1's soft constraint earned on CartPole
+# does it owe to the reward?
 
 # %% tags=["nbval-ignore-output"]
 # On yours, with reward; without it: pays=0, gamma=0
@@ -176,7 +176,7 @@ bc.show(figures.clones())
 # <!-- claim: all(score(p, 'systematic', 'cloning', 'returns') < score(p, 'systematic', 'the
 #   teacher', 'returns') + 10 for p in THREE) -->
 #
-# **Drag** *reach*: each square does what most squares around it say. Which errors vanish?
+# **Drag** *reach*, how far away squares have a vote: each does what most of them say. Which errors vanish?
 
 # %%
 explorable.votes()
@@ -218,8 +218,8 @@ bc.show(figures.clones_that_draw())
 bc.show(figures.room(loops.drive_in_a_loop(), "Here DoorKey's random teacher ends in a loop"))
 
 # %% [markdown]
-# The teacher errs in a state *whenever it comes back to it*. How many of its wrong labels does its clone
-# get right (outvote)?
+# Whenever the teacher comes back to a state, it errs there *again*. How many of its wrong labels does its clone
+# correct (outvote)?
 
 # %% tags=["nbval-ignore-output"]
 for name in ("mountain-car", "doorkey"):
@@ -293,12 +293,15 @@ check.drowning_bonus(drowning_bonus)
 # <!-- claim: math.isclose(drowning_bonus(0, 1, 1, 0.97), drowning_bonus(0, 1, 90, 0.97)) -->
 # <!-- claim: list(BONUSES)[2] == 'c = 0.1' and min(by_bonus(t)[2] for t in TEACHERS) > 0.5 -->
 #
-# **Is it the loop?** Only in part.
+# **Is it the loop?** Mostly. Drives that reach the goal, %:
 #
 # {{ loops_table() }}
 #
-# Without loops in the demonstrations c = 2 does little harm to drawn actions. But it can harm without a loop,
-# too (last two lines), and the teacher's errors harm the most probable actions without a bonus (third line).
+# Take the loops out of the demonstrations, and c = 2 does little harm to drawn actions. But it can also ruin good
+# demonstrations, without any loop, where no soft constraint helps (last two lines). And without any bonus the
+# soft constraint
+# to a flawed teacher costs the most probable actions ({{ 100 * score('doorkey', 'random', 'both, c = 0') | .0f }}; the
+# demonstrations alone: {{ 100 * score('doorkey', 'random', 'demonstrations, c = 0') | .0f }}).
 # <!-- claim: without_loops('drawn_success') > 0.8 and without_loops('success') < 0.75 * score('doorkey', 'none',
 #   'SAC') and alone('') < 0.01 < 0.5 < alone(', c = 0') and score('doorkey', 'good', 'the teacher') == 1 -->
 

@@ -81,7 +81,7 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], verdicts: Mapping[s
 
 def of_six_teachers(computed: Cells) -> Figure:
     """The students' success in the experiment `teachers`; beside each row what its teacher's drives show."""
-    title = "Crash or not: drives that reach the free lane have students that escape"
+    title = "No student escapes whose teacher's drives do not reach the free lane"
     groups = {words: scores(computed[name, "bootstrapped"]) for name, words in SIX.items()}
     shown = {words: free_lane.shown(name) for name, words in SIX.items()}
     cells = {words: (f"{seconds:.0f}", f"{100 * crash:.3g}") for words, (seconds, crash) in shown.items()}
@@ -94,7 +94,7 @@ def without_a_part(computed: Mapping[str, Results]) -> Figure:
 
     computed: {kind of the experiment `crashes`: agents}, as it ships.
     """
-    title = "These crashing drives teach agents to earn; cut before the free lane, they do not"
+    title = "Cut before the free lane, the drives teach no more than keeping straight pays"
     return of_kinds(title, computed, {"all": "all", "cut": "no free lane", "as-many": "the control"})
 
 
@@ -114,8 +114,8 @@ def parted(kept: Callable[[np.ndarray], np.ndarray]) -> Markdown:
     """A table of two agents each: from the crashing drives' decisions that `kept` marks, and from its counterpart."""
     rows = []
     for name, part in {
-        "the free lane, not its accident": kept,
-        "the accident, not its free lane": crashes.without_the_lane,
+        "lane, no accident": kept,
+        "accident, no lane": crashes.without_the_lane,
     }.items():
         tested = crashes.short_training(part)
         shares = (100 * tested["success"].mean(), 100 * tested["accident"].mean())
