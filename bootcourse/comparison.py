@@ -65,7 +65,8 @@ class Comparison:
         return printable("\n".join("  ".join(map(str.ljust, row, widths)).rstrip() for row in self.rows()))
 
     def _repr_html_(self) -> str:
-        head, *rows = ["".join(html("<td>{}</td>", cell) for cell in row) for row in self.rows()]
+        cells = [[html('<td style="padding: 0.2em 0.8em">{}</td>', cell) for cell in row] for row in self.rows()]
+        head, *rows = map("".join, cells)
         return f"<table><thead><tr>{head}</tr></thead>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>"
 
 

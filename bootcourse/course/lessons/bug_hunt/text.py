@@ -45,7 +45,7 @@ progress("bug_hunt")
 # label = rule(s)                                        # shifted_labels: rule(next_s)
 # kl = (pi * (log_pi - log_rule)).sum(-1)                # flipped_kl: pi and rule exchanged
 # value = (pi * (q - alpha * log_pi)).sum(-1) - xi * kl  # sampled: one draw, no pi, no sum
-# actor_loss = -value                                    # q.detach() here; no_stop: q
+# actor_loss = -value                                    # from q.detach(); no_stop: from q
 # target = r + c * demo                                  # bonus_for_all: no demo
 # target += gamma * (1 - end) * next_value               # no_end: no (1 - end)
 # ```
@@ -104,7 +104,7 @@ predict("bug_hunt.1", "Which bug pulls Q below −10 at accidents?", names)
 
 # %%
 def end_error(q, actions, rewards, terminated):
-    """Mean of Q(s, a) - r over rows with terminated 1, or 0. q: (batch, 9); others: (batch,)."""
+    """Mean Q(s, a) - r of rows with terminated 1; 0 if none. q: (batch, 9); others: (batch,)."""
     # solution
     taken = q[np.arange(len(actions)), actions]
     ended = terminated > 0
@@ -134,8 +134,8 @@ bc.show(figures.accidents(hunt))
 
 # %% [markdown]
 # **See.** *One agent is far too low, in table and picture.* The healthy critic
-# is too high, with both seeds, from update 1,000 to the end; why was not tested. So compare with grey, not
-# with {{ DEFAULT.reward.accident | .0f }}: who leaves *both* grey lines, and in which direction? In the table,
+# is too high, with both seeds, from update 1,000 to the end; why was not tested. So compare with grey, not with
+# {{ DEFAULT.reward.accident | .0f }}: which agents lie outside *both* grey lines, above or below? In the table,
 # with one seed each, a difference like A's proves nothing.
 # <!-- claim: asked('healthy') - asked('A') > 3 -->
 # <!-- claim: [n for n in hunt().names if asked(n) < -1] == ['D'] -->
@@ -239,7 +239,7 @@ check.diagnose(diagnose)
 # | C | `shifted_labels` | what is left (and its return rises late) |
 # | D | `no_end` | Q at accidents far below the grey lines |
 # | E | `bonus_for_all` | promise between 10 and 15 |
-# | F | `no_stop` | promise beyond 15 |
+# | F | `no_stop` | promise beyond 15 for a time |
 #
 # - **B**: the KL alone teaches the actor, towards the stochastic rule, which crashes in {{ ended().sum() }} of
 #   50 drives.
@@ -273,7 +273,7 @@ check.diagnose(diagnose)
 # %% [markdown]
 # ## Two tests, no training, no healthy twin
 #
-# **The labels** have a known right answer: ask the rule again, before the step.
+# **The labels.** In each row ask the rule in s, and compare.
 #
 # **The target.** Two of the six bugs are in this line:
 #

@@ -155,12 +155,12 @@ print(cloning.accidents(alone))
 bc.show(figures.off_the_road(alone, driven["the rule"]))
 
 # %% [markdown]
-# **See.** *The clone drifts off a free lane.* In most of these drives its errors take it left of the rule's path,
+# **See.** *The clone drifts off a free lane.* In most of its accidents errors take it left of the rule's path,
 # where the rule's drives have no row, and nearly every decision is an error: these are **compounding errors**
 # (Ross and Bagnell 2010).
 #
-# Let a clone err with probability ε in its teacher's states, and in the worst case in each decision
-# after its first error. Where ε is small, a drive twice as long then has up to
+# Suppose a clone errs with probability ε in its teacher's states and, at worst, in every decision after its first
+# error. With a small ε, a drive twice as long then has up to
 # four times as many errors. **Drag** ε up to our clones' 20 %: how many times now?
 
 # %%
@@ -206,8 +206,8 @@ bc.show(figures.added({name: measured[name] for name in KINDS}, fed_crash))
 # %% [markdown]
 # **See.** *The rows from the edge prevent most accidents; as many others do not.* The states that a data
 # set holds are its **coverage**. The stochastic rule's drives hold these rows: probably that is why its clones crash
-# less than the rule's, although they err more in their own states. Rows from 1 m left on, short of the edge,
-# helped as much when we tried: the rule is there, too, but with other headings.
+# less than the rule's, although they err more in their own states. When we tried, rows from 1 m left up to
+# the edge rows helped as much: the rule comes there, too, but heads another way.
 #
 # All this is after {{ UPDATES | , }} updates. Long training turns the order round: the study's ten clones of
 # the rule ({{
@@ -265,8 +265,8 @@ bc.show(figures.taught(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
 # **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom
-# crash.* DAgger adds the states that earlier clones came to, with what the rule does there. So it errs less in
-# its *own* states, also in those to which an error led it. (Which errors are left matters, too: Round 3.)
+# crash.* DAgger adds the states that earlier clones came to, with what the rule does there. So the next clone
+# errs less in its *own* states. (Which errors are left matters, too: Round 3.)
 #
 # A clone's loss does not ask what an action leads to. The learner of lesson
 # [[learning_from_demonstrations]] does.
@@ -297,8 +297,8 @@ compare_predictions(
 #
 # 1. A clone learns to predict the demonstrator's action. Its agreement with its data does not say how
 #    well it drives.
-# 2. It is trained on the teacher's states and drives in its own, where errors lead to errors: ours
-#    mostly drift to where the rule's drives have no row.
+# 2. It is trained on the teacher's states and drives in its own, where errors lead to errors: most of
+#    our accidents begin where the rule's drives have no row.
 # 3. A few rows from there prevent most of their accidents. Longer training can, too: the study's
 #    clones of the rule all escape.
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 and accidents('bc') < 0.01 -->

@@ -32,7 +32,7 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
     named = {
         "takes: leaves, knowing the map": np.array(knows),
         "tries: finds the free road": walked.found.mean(axis=1),
-        "both: sure of leaving": (walked.leaves > SURE).mean(axis=1),
+        "ends sure of leaving": (walked.leaves > SURE).mean(axis=1),
     }
     looks = [Style(INK, "--"), Style(OTHER.colour, "--"), style("sac")]
     ends = (f"{name}: {line[0]:.2f} at {alphas[0]:g}, {line[-1]:.2f} at {alphas[-1]:g}" for name, line in named.items())

@@ -41,9 +41,9 @@ bc.show(diagrams.sac_diagram())
 
 # %% [markdown]
 # - The **actor** gives each action a probability, π(a|s): its **policy**.
-# - Two **critics** estimate what each action is worth, Q(s, a), with all later rewards and pay. Slow
+# - Two **critics** estimate Q(s, a), what each action is worth: its reward, and all later rewards and pay. Slow
 #   copies, the **target critics**, give them targets.
-# - The **temperature** α says how much the actor gains by staying undecided (its *entropy*).
+# - The **temperature** α sets how much the actor is paid for being undecided (for its *entropy*).
 # - The **replay buffer** keeps a row of each decision: state s, action a, reward r, next state s', and
 #   whether the world ended. An update learns from a **batch** of rows.
 #
@@ -244,8 +244,8 @@ def actor_loss(log_pi, q, alpha):
 check.actor_loss(actor_loss)
 
 # %% [markdown]
-# Now take 100 gradient steps twice: down your actor's loss, and down the same loss without the stop, which then
-# moves Q, too. Where does Q(straight) go?
+# Now take 100 gradient steps down your actor's loss, and 100 down the same loss without `detach`: these move
+# Q, too. Where does Q(straight) go?
 
 # %%
 value, loss = own_code.yours_or_ours("soft_value", "actor_loss", doing="Descending")
@@ -287,19 +287,20 @@ knows = own_parts.would_leave(value, target, alphas)
 bc.show(figures.two_jobs(alphas, knows, walked))
 
 # %% [markdown]
-# **Explain.** Fewer than 10: at most {{ surely().max() }}. **α does two jobs.** It decides how much a learner
-# *tries*: {{ found(0.01) }} of thirty find the free road with α = 0.01, {{ found(1) }} with α = 1 (purple).
-# And it decides how surely it *takes* what is better: an agent that knows the whole chain leaves with probability {{
-# leave(0.01) | .2f }} with α = 0.01, with {{ leave(1) | .2f }} with α = 1 (black): its critic judges a policy
-# that turns
-# back nearly half the time. In between a learner does some of both, but finding the road once is not enough (lesson
-# [[values]]). No constant α gives many that are sure (blue).
+# **Explain.** Fewer than 10: at most {{ surely().max() }} (blue). **α does two jobs.** It decides how much a learner
+# *tries*: with a small α few find the free road (purple). And it decides how surely it *takes* what is better:
+# with α = 1
+# even an agent that knows the whole chain leaves with {{ leave(1) | .2f }} (black), for its critic judges a
+# policy that turns
+# back nearly half the time. In between, finding the road once is not enough (lesson [[values]]): with α = 0.1 {{
+# found(0.1) }} find it, and none is sure.
+# <!-- claim: surely()[np.abs(ALPHAS / 0.1 - 1).argmin()] == 0 -->
 # <!-- claim: surely().max() < 10 -->
 # <!-- claim: 0.5 < leave(1) < 0.55 and max(abs(leave(a) - 0.5) for a in (2, 3, 5, 7, 10)) < 0.01 -->
 #
-# So begin high, to find, and let α fall, to take: from 10 to 0.01 over the 1,000 decisions {{ sure()["leave"][0] }} of
-# thirty end sure of leaving. But {{ sure()["stay"][0] }} end sure of staying: a falling α makes the choice
-# sure, right or wrong. From 1 it is {{ sure()["leave"][1] }} and {{ sure()["stay"][1] }}.
+# So begin high, to find, and let α fall, to take: by equal factors from 10 to 0.01, {{ sure()["leave"][0] }}
+# of thirty end
+# sure of leaving. But {{ sure()["stay"][0] }} end sure of staying: a falling α makes the choice sure, right or wrong.
 # <!-- claim: (sure()["leave"] + sure()["stay"] > 24).all() -->
 
 # %% [markdown]
@@ -336,7 +337,8 @@ explorable.thermostat()
 # </details>
 
 # %% [markdown]
-# This loss does it: its slope in log α is α (H − η), so a step down it lowers α while H is above η:
+# This loss does it: its slope in log α is α (H − η), so a step down it lowers α while H is above η
+# (the panel's steps are all of one size, much as Adam's):
 #
 # $$ L_\alpha = \alpha\, (\mathcal{H}(\pi) - \eta) $$
 #

@@ -12,7 +12,7 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
 from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost, rolling_means
-from tools.course.known import in_training, shipped_experiment, shipped_results
+from tools.course.known import in_training, others, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
 SHORTER = study_clocks.TRAINED  # training episodes of the agents of round 3
@@ -85,6 +85,12 @@ def tenth(updates: str) -> float:
 def with_teacher(updates: str) -> float:
     """The chance of round 3 with these updates per decision, where the stochastic rule demonstrates."""
     return study_clocks.pattern(study_clocks.choices(shipped_experiment("clocks"))[updates, "π̃"]).value
+
+
+def others_pattern() -> float:
+    """The chance of round 3 where each row's agent is one of the ten others."""
+    methods = ("sac", "soft", "demos", "bootstrapped")
+    return float(np.prod([study_clocks.as_printed(others(m).of(m).scores("success"), m).mean() for m in methods]))
 
 
 def crash(words: str) -> float:

@@ -82,8 +82,8 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # that escapes would be the *true rate*.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
-# > **Predict.** Call luck that comes in under 2.5 % of studies too rare to believe. At which true rate would
-# > eight or more of ten escape in just 2.5 % of all studies? (Ten fair coins show eight or more heads in
+# > **Predict.** At which true rate would eight or more of ten escape in just 2.5 % of all studies? (At any
+# > lower rate our eight would be luck too rare to believe.) (Ten fair coins show eight or more heads in
 # > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all throws.)
 
 # %%
@@ -114,9 +114,10 @@ explorable.certainty()
 #
 # For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes, and of
 # ten others (lesson [[learning_from_demonstrations]]) {{ escapers(others('demos'), 'demos') }}.
-# The paper does not say how many agents drove, or how often. One row prints accidents of {{
-# PRINTED['gail']['collision'].mean | g }} ± {{
-# PRINTED['gail']['collision'].sd }} %: that is what one accident in {{ EPISODES }} drives gives.
+# The paper does not say how many agents drove, or how often. GAIL's row prints accidents of {{
+# PRINTED['gail']['collision'].mean | g }} ± {{ PRINTED['gail']['collision'].sd }} %,
+# as one accident in {{ EPISODES }} drives gives; this row's own {{ PRINTED['demos']['collision'].mean | g }} ± {{
+# PRINTED['demos']['collision'].sd }} % fits no number of drives.
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
 # <!-- claim: (lambda x: round(x.mean(), 2) == PRINTED['gail']['collision'].mean and
 #   round(x.std(ddof=1), 2) == PRINTED['gail']['collision'].sd)(100.0 * (np.arange(EPISODES) < 1))
@@ -273,12 +274,12 @@ check.bootstrap_interval(bootstrap_interval)
 # `xi_multiplier` (200). Who learns the way out early? The score is an agent's success on 200 roads after
 # 150 episodes.
 #
-# Five against five are few: even Fisher's test (Round 2) would tell 80 from 30 % in only {{ 100 * power(0.8, 0.3, 5)
+# Five against five are few: Fisher's test (Round 2) would tell 80 from 30 % in only {{ 100 * power(0.8, 0.3, 5)
 # | .0f }} of 100 studies.
 #
 # The score of a group is its **interquartile mean** (IQM): sort, leave out a quarter, rounded down, at each
-# end, and take the mean. Of five agents the middle three count. It says how a typical agent does; one agent of
-# five that fails, it does not see.
+# end, and take the mean. Of five agents the middle three count. It shows a typical agent: the one of five that
+# fails, or alone succeeds, does not count.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each
 # resample draws both groups anew. The next cell uses it.

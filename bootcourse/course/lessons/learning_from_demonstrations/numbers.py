@@ -55,7 +55,8 @@ def success_table() -> str:
     """How many training episodes succeed with the bonus and without it, in three windows, as Markdown."""
     windows = (300, 600), (1000, 1100), (1900, 2000)
     heads = (f"{first:,} to {last:,}" for first, last in windows)
-    lines = [f"| succeed (in brackets: ten others) | episodes {' | '.join(heads)} |", "|---|---|---|---|"]
+    what = "succeed (in brackets: ten others, who train on to 4,000)"
+    lines = [f"| {what} | episodes {' | '.join(heads)} |", "|---|---|---|---|"]
     for name in ("c = 2", "c = 0"):
         each = (
             [100 * training(name, "success", *window, which).mean() for which in (False, True)] for window in windows

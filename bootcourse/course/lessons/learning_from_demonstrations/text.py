@@ -52,7 +52,8 @@ progress("learning_from_demonstrations")
 bc.panels.bonus_panel()
 
 # %% [markdown]
-# *Only in its first seconds. With c = {{ bonus_needed().max() | .3f }} or more it is worth more in every second.* The
+# *Only in its first {{ (bonus_needed() > 0).sum() }} seconds. With c = {{ bonus_needed().max() | .3f }} or
+# more it is worth more in every second.* The
 # paper's c = {{ SETTINGS.bonus | g }} is more than thirty times as much. Paid each second, it adds c / (1 −
 # γ) = {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} (γ = {{ SETTINGS.gamma }}): as much as an accident
 # costs. Without it no drive is worth {{ 1 / (1 - SETTINGS.gamma) | .0f }}. The learner's own
@@ -141,7 +142,7 @@ own_code.compare()
 
 # %% [markdown]
 # If a part differs, mend it and run both cells again. Then train two agents with the soft constraint,
-# one with demonstrations and one without. Watch whose success rises first, and how fast the one with
+# one with demonstrations and one without. Watch whose success rises first; then look how the one with
 # demonstrations drives.
 #
 # > **Predict.** Counted in its own episodes, does an agent find the way out sooner with demonstrations?
@@ -185,10 +186,9 @@ table(measures.FOUND, measures.found_and_escaped(kinds), below)
 #   found('none').min() and (found('c = 0') < found('none').min()).sum() >= 19 -->
 #
 # *That more escape in the end is not shown*: {{ in_all('none') }} do in each row. *Nor do the rule's own drives replace
-# the soft constraint here* (last column; with c = {{ SETTINGS.bonus | g }} and a β that stays at {{
-# SETTINGS.beta_start }}:
-# {{ staying(1) }}, slow ones, and {{ staying(0) }} with it). Where π̃ drives them, they can (lesson
-# [[found_and_kept]]).
+# the soft constraint here* (last column). If β stays at {{ SETTINGS.beta_start }} with c = {{
+# SETTINGS.bonus | g }}, {{ staying(1) }} escape without it, slowly, and {{ staying(0) }} with it. Drives by π̃
+# can replace it (lesson [[found_and_kept]]).
 # <!-- claim: in_all('c = 2') == in_all('c = 0') == in_all('none') == '16 of 20' -->
 # <!-- claim: all(stats.mannwhitneyu(earned('none'), earned(name)).pvalue > 0.1 for name in
 #   ('c = 2', 'c = 0', 'margin')) -->
@@ -233,7 +233,8 @@ bc.show(figures.returns(measures.paid_until(bc.shipped_results(), changed)))
 # <!-- claim: abs(training('c = 2', 'return', 300, 600).mean() -
 #   of('rule').scores('returns').mean()) < 5 -->
 #
-# *It buys success while it is paid.* As it runs out, success falls in both tens; whether fewer succeed in the
+# *It buys success while it is paid.* As it runs out near 1,000, success falls in both tens (where it ends at
+# 300, hardly); whether fewer succeed in the
 # end than with c = 0 is open:
 #
 # {{ success_table() }}
@@ -278,8 +279,8 @@ explorable.nine_values(yours[0], by_rule, seconds=20)
 # $$ J_E(Q) = \max_a \big[ Q(s,a) + l(a_E, a) \big] - Q(s,a_E), \qquad
 # l = 0 \text{ for } a_E, \text{ else } 1 $$
 #
-# It pushes the coloured bar up and the *best other action's* down, until the coloured one leads by the
-# margin.
+# It pushes the coloured bar up and the *best other* down, until the lead is the margin. (Your agent's Q has been
+# taught with the bonus.)
 # <!-- claim: bool(bootstrap.large_margin_loss(torch.tensor([[3.0, 2.0, 0.0]]), torch.tensor([0]))
 #   == 0) -->
 #
@@ -346,7 +347,7 @@ compare_predictions(
 # 2. With demonstrations these agents found the way out after fewer episodes of their own; that more
 #    escape in the end is not shown.
 # 3. The bonus pays for what the rule does, its speed included. While much was paid, these agents
-#    earned about what the rule earns, and nearly always succeeded; when it ran out, their success fell.
+#    earned about what the rule earns, and nearly always succeeded; when it ran out at 1,000, their success fell.
 # 4. The paper's filter drops the margin loss where another action comes first.
 
 # %% [markdown]

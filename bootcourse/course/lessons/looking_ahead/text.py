@@ -83,7 +83,8 @@ explorable.futures(drive, agent.as_policy())
 # $$ \hat Q(s, a) = \sum_{k=0}^{h-1} \gamma^k r_k + \gamma^h\, W(v_h) $$
 #
 # The **horizon** h is the number of decisions in the drive, the first included. An accident ends the
-# sum. Otherwise W follows: the return of an episode on an empty road that begins at the last speed,
+# sum (but `step` drives on: remember who has crashed). Otherwise W follows: the return of an episode on an
+# empty road that begins at the last speed,
 # {{ worths().min() | .0f }} to {{ worths().max() | .0f }}. Here γ = 1. W is far more
 # than ten decisions can earn, so a drive without an accident is worth more than one with.
 #
@@ -197,7 +198,7 @@ table(*figures.out_of_trap(drivers, roads[:10], study))
 # <!-- claim: abs(aim(1.0, False).mean() - aim(0.8, False).mean()) < 0.01 -->
 #
 # **Explain.** The look-ahead changes *one* decision; after it the base policy drives. So a step on the way out
-# is taken only if it pays by itself: within ten seconds, or, with W, by a higher last speed.
+# is taken only if no other of the nine is worth more: within ten seconds, or, with W, by its last speed.
 #
 # Rollouts to the episode's end (true road, γ = 1, no W) would promise at least the base's return:
 # **policy improvement**. Ten decisions do not promise it: a drive can be lost after them.
@@ -274,9 +275,10 @@ bc.show(figures.wrong_models(study))
 #   in WRONG if m != LATE) and per_thousand('ppo_cloned', 'shield', LATE) > 990 and len(WRONG) == 6 and
 #   len(each('ppo_cloned', 'alone', 'roads')) == 10 -->
 #
-# **Explain.** Is it the lost second? Move the late road on by one second, with "keep straight" for the ego:
-# {{ moved_on(False).sum() }} of {{ len(moved_on(False)) }} drives (five agents) still crash. Move it on with
-# the action that the car took, and {{ 'none' if not moved_on(True).any() else moved_on(True).sum() }} does:
+# **Explain.** Is it the lost second? If we move the late road on by one second, and the ego in
+# it keeps straight, {{ moved_on(False).sum() }} of {{ len(moved_on(False)) }} drives (five agents) still
+# crash. If the ego takes the action that the
+# car took, {{ 'none' if not moved_on(True).any() else moved_on(True).sum() }} does:
 # this is the true road again. The late road lacked the car's own last action.
 # <!-- claim: moved_on(False).all() and not moved_on(True).any() -->
 
@@ -290,9 +292,9 @@ bc.show(figures.wrong_models(study))
 # A car has no simulator, but it has its own drives. From an observation and an action five small networks
 # learn the next observation, the reward, and whether an accident ends the drive.
 #
-# Our agent learns such a model from 200 of its drives. The figure shows the first decision of Round 1's
-# drive at which the model misleads the look-ahead. Its last line: over ten drives, where some action is safe, how
-# often each choice ends in an accident.
+# Our agent learns such a model from 200 of its drives. The figure shows where the model first
+# misleads the look-ahead on Round 1's drive. Its last line counts, in ten drives, all decisions with a safe action: how
+# often does each choice end in an accident?
 
 # %% tags=["nbval-ignore-output"]
 own_drives = transitions_of(agent.as_policy(), bc.held_out_seeds(41, 200))
@@ -311,7 +313,8 @@ bc.show(figures.promised(agent, learned, drive, alone[:10]))
 #   len(learning()) == 10 and learned_model.DRIVES == 200 -->
 #
 # > **Predict.** Now a model learns from {{ learned_model.ROUNDS * learned_model.DRIVES }} drives.
-# > Whose drives make the look-ahead crash least?
+# > After whose do our ten agents crash least, on
+# > average?
 
 # %%
 choices = [
@@ -366,7 +369,7 @@ compare_predictions(
 # 1. A rollout takes one action, follows a policy, and adds an estimate of what comes after.
 # 2. The best of nine changes one decision, without training. No future tried led a stuck agent out within ten seconds;
 #    a chain of such decisions led some out.
-# 3. A wrong model harms most the agents that rarely crash alone: four of the six errors make PPO's crash
+# 3. With a wrong model agents that rarely crash alone have more to lose: four of the six errors make PPO's crash
 #    more, one makes Round 1's. A road that is late in everything harms because the car's own last action is missing.
 # 4. Random actions in its drives help a learned model, the look-ahead's own drives perhaps more. Even then {{
 #    still_worse() }} of ten crash more than they do alone.

@@ -215,8 +215,8 @@ training = own_code.training([bc.settings_for("jsrl", envs_per_agent=8)], 80)
 bc.show(figures.handing_over(*measures.handed_over(training)))
 
 # %% [markdown]
-# **See.** (Yours will differ.) The first mean has nothing to beat, so h shrinks; the later ones have only a low best
-# to beat.
+# **See.** (Yours will differ.) The first mean has nothing to beat, so h shrinks (the drives under way keep theirs);
+# later ones have a low best to beat.
 #
 # **Explain.** The judgement compares with the past, not with a goal. This is a **curriculum**: it begins
 # with the end of the way and moves backwards.
@@ -328,8 +328,8 @@ explorable.TwoCounts(compared, by_rule.returns.mean())
 #
 # {{ spent_table() }}
 #
-# PPO is clearly apart from all (95 % intervals) but jump-start RL and RLPD after {{ on_road(explorable.EARLY)
-# | .0f }} h (RLPD's: {{ training_scores(explorable.EARLY, explorable.DECISIONS)['rlpd'].low | .0f }} to {{
+# In each line PPO's 95 % interval is apart from the other four, except after {{ on_road(explorable.EARLY) | .0f }} h
+# from jump-start RL's and RLPD's ({{ training_scores(explorable.EARLY, explorable.DECISIONS)['rlpd'].low | .0f }} to {{
 # training_scores(explorable.EARLY, explorable.DECISIONS)['rlpd'].high | .0f }}).
 # <!-- claim: (lambda of: of['ppo_cloned'].low > max(of[m].high for m in of if m != 'ppo_cloned')
 #   and of['rlpd'].high < min(of[m].low for m in of if m != 'rlpd'))(training_scores(
@@ -337,10 +337,11 @@ explorable.TwoCounts(compared, by_rule.returns.mean())
 # <!-- claim: (lambda of: of['ppo_cloned'].high < min(of[m].low for m in ('bootstrapped', 'ibrl')))(
 #   training_scores(explorable.EARLY, explorable.DECISIONS)) -->
 #
-# **Explain.** PPO's decisions are cheap (last line), but it needs more of them. So with {{ SECOND | , }}
-# decisions for each ({{ at('ppo_cloned', 'seconds', SECOND).mean() | .0f }} s to {{ at('rlpd', 'seconds',
-# SECOND).mean() / 60
-# | .0f }} minutes) our tests show no difference; with {{ equal_decisions.SECONDS }} s, or on a real road, it matters.
+# **Explain.** PPO's decisions are cheap (last line), but it needs more of them: with {{
+# equal_decisions.SECONDS }} s it is
+# the best choice, with {{ on_road(explorable.EARLY) | .0f }} h on a road IBRL and bootstrapped SAC earn more. With {{
+# SECOND | , }} decisions for each ({{ at('ppo_cloned', 'seconds', SECOND).mean() | .0f }} s to {{
+# at('rlpd', 'seconds', SECOND).mean() / 60 | .0f }} minutes) our tests show no difference.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask who in the room has which clock: a simulator and one night, or a car and one day. A faster

@@ -37,28 +37,28 @@ def three_drives() -> list[Rollout]:
 
 
 def returns(study: Results) -> Figure:
-    """Each agent's return and how often it leaves the road, filled: it escapes; a line for the rule's return."""
-    title = "CQL earns more than its teacher, and GAIL often leaves the road"
+    """Each agent's return and how often it has an accident, filled: it escapes; a line for the rule's return."""
+    title = "CQL earns more than its teacher, and GAIL often crashes"
     label = "return of an agent on 1,000 roads; filled: it escapes"
-    figure, ax = one_axes(3.6, title, label, "drives that leave the road")
+    figure, ax = one_axes(3.6, title, label, "drives with an accident")
     by_rule, alt = rule_results(DEFAULT, study.tested["returns"].shape[1]).scores("returns").mean(), []
     ax.axvline(by_rule, color=style("rule").colour, linewidth=1.5, zorder=1)
-    ax.text(by_rule + 0.6, 79, "the rule", fontsize=TEXT, color=style("rule").colour, va="top")
-    places = {"bc": (50.6, 12, "right"), "cql": (59, 6, "center"), "cql_sac": (12.5, 7, "center")}
+    ax.text(by_rule + 0.6, 103, "the rule", fontsize=TEXT, color=style("rule").colour, va="top")
+    places = {"bc": (50.6, 8, "right"), "cql": (59, 6, "center"), "cql_sac": (12.5, 7, "center")}
     places["gail"] = (16, 72, "left")
     for method, (x, y, side) in places.items():
         mine, look = study.of(method), style(method)
-        earns, left, ahead = mine.scores("returns"), 100 * mine.scores("road_departure"), mine.scores("success")
+        earns, hurt, ahead = mine.scores("returns"), 100 * mine.scores("accident"), mine.scores("success")
         fills = np.where(ahead >= ESCAPES, look.colour, "white")
-        ax.scatter(earns, left, s=34, c=fills, edgecolors=look.colour, linewidths=1.3, zorder=3, clip_on=False)
+        ax.scatter(earns, hurt, s=34, c=fills, edgecolors=look.colour, linewidths=1.3, zorder=3, clip_on=False)
         words = f"{display_name(method)}: {escaped(study, method)} escape"
-        ax.text(x, y, words.replace("CQL: ", "CQL:\n"), fontsize=TEXT, color=look.colour, ha=side)
-        alt.append(f"{words}, mean return {earns.mean():.1f}, {left.mean():.1f} % of drives leave the road")
+        ax.text(x, y, words.replace("CQL: ", "CQL:\n").replace("cloning: ", "cloning:\n"), fontsize=TEXT, color=look.colour, ha=side)
+        alt.append(f"{words}, mean return {earns.mean():.1f}, {hurt.mean():.1f} % of drives end in an accident")
         if method == "gail":
-            worst = np.argmax(np.where(ahead >= ESCAPES, left, -1))
-            alt.append(f"one is ahead of trap 1 on {100 * ahead[worst]:.0f} %\nand off the road on {left[worst]:.0f} %")
-            ax.text(earns[worst] + 1, left[worst], alt[-1], fontsize=TEXT, color=look.colour, va="center")
-    ax.set_ylim(-2, 80)
+            worst = np.argmax(np.where(ahead >= ESCAPES, hurt, -1))
+            alt.append(f"one is ahead of trap 1 on {100 * ahead[worst]:.0f} %,\nin an accident on {hurt[worst]:.0f} %")
+            ax.text(earns[worst] + 1, hurt[worst], alt[-1], fontsize=TEXT, color=look.colour, va="center")
+    ax.set_ylim(-2, 104)
     ax.yaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")
     words = "; ".join(alt).replace("\n", " ")
     return finish(figure, title, f"A dot for each agent. {words}. The rule's return is {by_rule:.1f}.")

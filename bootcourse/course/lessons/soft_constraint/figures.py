@@ -130,7 +130,7 @@ def twenty(kinds: Sequence[str]) -> Figure:
     """
     changed = shipped.shipped_experiment("ablations") | {FADING: shipped.shipped_results().of("soft")}
     others = shipped.shipped_experiment("stress")
-    title = "Where ξ falls to 0.1 and stays there, all twenty agents escape"
+    title = "Where ξ falls to 0.1 and stays there, all twenty escape, fast"
     figure, ax = one_axes(3.6, title, "", "")
     ax.set_position((0.17, 0.16, 0.62, 0.66))
     colour, alt = style("soft").colour, []

@@ -42,8 +42,8 @@ progress("soft_constraint")
 # %% [markdown]
 # ## Look first
 #
-# The rule **escapes**: it ends ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the roads.
-# Afterwards it is slow. An agent should follow it at first and improve on it later. For this it gets a
+# A driver **escapes** if it ends ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the roads. The
+# rule does, but afterwards it is slow. An agent should follow it at first and improve on it later. For this it gets a
 # **pull** to the rule, the *soft constraint*, of strength ξ ("xi").
 # <!-- claim: of('rule').scores('success').min() >= ESCAPES -->
 #
@@ -136,8 +136,8 @@ check.soft_constraint(soft_constraint)
 # SETTINGS.xi_multiplier * SETTINGS.alpha_init }}. The target entropy η = {{ SETTINGS.target_entropy }}
 # cannot be reached, so α falls, as in lesson [[discrete_sac]], and ξ with it.
 #
-# Where all Q are equal, the best π still prefers the rule's action. There, its log π less any other action's
-# is the rule's **head start**, in nats.
+# Where all Q are equal, the best π still prefers the rule's action. How much larger
+# its log π is there than any other action's is the rule's **head start**, in nats.
 #
 # > **Predict.** α falls to a hundredth, and so does ξ. How much of the head start is left?
 
@@ -208,7 +208,8 @@ bc.show(figures.mixed(strengths, *examples.mixed(mix, strengths)))
 # %% [markdown]
 # **See.** *None of these four is fast and safe.* With ξ = 1 each returns {{ rule_on_these_roads() | .0f
 # }}, like the rule on these roads. With a smaller ξ they crash, and with Q alone, too. Were Q exact, its best
-# action would do at least about as well as the agent's policy. Perhaps it errs on actions that the agent seldom takes.
+# action would be worth at least as much, by Q, as
+# the agent's policy. Perhaps it errs on actions that the agent seldom takes.
 # <!-- claim: not drives()[1][0].any() and (abs(drives()[0][0] - rule_on_these_roads()) < 1).all() -->
 # <!-- claim: (drives()[1][1:-1] > 0).all() and drives()[0][-1].min() > drives()[0][:-1].max() and
 #   (drives()[1][-1] < drives()[1][-2]).all() -->
@@ -266,7 +267,7 @@ check.constrained_target(constrained_target)
 # <details><summary>The derivation</summary>
 #
 # In $Q(s,a)$ the action a is given, so Q contains neither the entropy nor the KL of s. From s' on the
-# policy chooses: $V(s')=\sum_a\pi\,Q(s',a)+\alpha\mathcal{H}-\xi D_\mathrm{KL}$, and
+# policy chooses: $V(s')=\sum_a\pi\,\min_i Q_i(s',a)+\alpha\mathcal{H}-\xi D_\mathrm{KL}$, and
 # $y=r+\gamma\,(1-\text{terminated})\,V(s')$.
 #
 # </details>
@@ -358,7 +359,8 @@ bc.show(figures.courses(kinds))
 
 # %% [markdown]
 # **See.** *Each kind has a fault.* With ξ = 2 all find the way out (after {{ finding(stays(2)).min() }} to {{
-# finding(stays(2)).max() }} episodes), but stay slow. With 0.1 they find it last ({{
+# finding(stays(2)).max() }} episodes), but stay slow, so the grey
+# curve is lowest. With 0.1 most find it later ({{
 # finding(stays(0.1))[finding(stays(0.1)) > 0].min() }} to {{ finding(stays(0.1)).max() }}), two never. Where ξ
 # falls, they
 # find it first ({{ finding(of('soft')).min() }} to {{ finding(of('soft')).max() }}), but {{
@@ -437,7 +439,7 @@ compare_predictions(
 # 2. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)).
 # 3. With ξ = {{ SETTINGS.xi_multiplier }} α the rule's head start, {{ 200 / 201 * math.log(72) | .2f }} nats,
 #    stays, but the temperature fades, so Q decides in the end.
-# 4. The KL in the actor's loss is policy regularisation, in the critics' target a value penalty: it
+# 4. The KL in the actor's loss alone is policy regularisation, in the critics' target, too, a value penalty: it
 #    lowers the value of leaving the rule most, and delayed the way out in the study.
 # 5. With one update for four decisions, a ξ that stays at 2 holds agents near the rule's return; with
 #    0.1 throughout, not all find the way out; with a ξ that falls to 0.1, all twenty find and keep it.

@@ -25,7 +25,7 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str
             ends[kind] = counts = _dots(ax, trained[kind], easier.staying(kind))
             listed.append(f"{price}: " * (not column) + f"{road} {', '.join(map(str, counts))}")
             ax.set(xticklabels=ax.get_xticks() if row else [], yticklabels=[] if column else ax.get_yticks())
-            ax.text(3, 97, f"{counts[0]} escape, {counts[1]} earn", fontsize=TEXT, color=INK, fontweight="bold")
+            ax.text(3, 97, f"escape: {counts[0]}, earn more: {counts[1]}", fontsize=SMALL, color=INK, fontweight="bold")
             if not row:
                 ax.set_title(road, fontsize=TEXT, color=INK)
             if not column:
@@ -39,7 +39,7 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str
     title = f"Cheap accidents with a start mid-lane free {escaping} of {len(trained[easier.BOTH])} agents; "
     title += f"{earning} earn more than by staying"
     words = f"Cross: an accident on most roads. Blue, from {100 * ESCAPES:.0f} % on: escapes. "
-    words += "Earn: more than by staying, ahead on some road."
+    words += "Earn more: than by staying, ahead on some road."
     figure.text(0.012, 0.015, words, fontsize=SMALL, color=QUIET)
     what = "Escape, earn more than by staying, crash on most roads:"
     return finish(figure, title, f"{words}\n{what} {'; '.join(listed)}.")

@@ -210,8 +210,8 @@ bc.show(figures.while_they_learned(trained["as it is"], by_chance))
 # <!-- claim: abs(20 * (1 - np.exp(-400 * len(lucky()) / 5000)) - (times_ahead() > 0).sum()) < 3 -->
 # <!-- claim: (times_ahead() > 0).sum() > 15 and len(times_ahead()) == 20 -->
 #
-# But ahead is not yet good: a random drive goes on at random, and all 5,000 crashed. How rare a way out without an
-# accident is, they cannot say.
+# But to be ahead is not enough: all 5,000 random drives crash in the end, so they do not tell how rare a way out
+# without an accident is.
 # <!-- claim: sum(len(each.accident) for each in by_chance()) == 5000 and
 #   all(each.accident.all() for each in by_chance()) -->
 
@@ -221,8 +221,8 @@ bc.show(figures.while_they_learned(trained["as it is"], by_chance))
 # %% [markdown]
 # ## Round 3: the steering, the price, or both?
 #
-# Drive some seconds of lesson [[the_trap]]'s plan without a crash: what is the rest worth, compared with staying
-# from the start? **Drag** the price of an
+# Suppose that you have driven the first seconds of lesson [[the_trap]]'s plan without a crash. What is the rest
+# worth, divided by what staying is worth at the start? **Drag** the price of an
 # accident and γ: when does the plan pay?
 
 # %%
@@ -272,20 +272,19 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 
 # %% [markdown]
 # **Explain.** *Neither price nor start is enough; together they free {{ easy(BOTH).escapers('sac') }}
-# of twenty agents.* The suspects of Round 1:
+# of twenty agents.* One by one:
 #
-# - **Price**, alone: {{ easy(CHEAP).escapers('sac') }} escape. {{ crash_on_most(CHEAP) }} crash on most roads;
-#   of twenty others, with twice the updates, {{ crash_on_most(stressed(CHEAP)) }}, and {{ 'none' if not
-#   easy(stressed(CHEAP)).escapers('sac') else easy(stressed(CHEAP)).escapers('sac') }} escapes.
-# - **Steering**, alone: a lane keeper frees none, and none earns more than by staying.
-# - **Steering and price**: none escapes, yet {{ earn_more(KEPT) }} earn more than by staying.
-# - **A start mid-lane**, alone, takes away the wait, too: {{ easy(MIDDLE).escapers('sac') }} escape, {{
-#   escape_and_earn(MIDDLE) }} earn more. (Why {{ 20 - easy(MIDDLE).escapers('sac') }} do not learn the one
-#   acceleration, this lesson does not show.)
-# - **Mid-lane and price**: {{ easy(BOTH).escapers('sac') }} escape, {{ len(freed_and_slower()) }} earn more. The {{
-#   too_fast() }} others are faster than 20 m/s, which pays little: to escape is not to earn.
-# - **Time**: with twice the updates, of twenty others, {{ earn_more(KEPT, longer=True) }} earn more with the
-#   lane keeper and cheap accidents, {{ earn_more(BOTH, longer=True) }} mid-lane.
+# - **Price**, alone: {{ easy(CHEAP).escapers('sac') }} escape, and {{ crash_on_most(CHEAP) }} crash on most roads.
+# - **Steering**, alone: a lane keeper frees none. With cheap accidents, too, none escapes, yet {{
+#   earn_more(KEPT) }} earn more
+#   than by staying (of twenty others, with twice the updates, {{ earn_more(KEPT, longer=True) }}).
+# - **A start mid-lane**, alone, takes away the wait, too: {{ easy(MIDDLE).escapers('sac') }} escape. (Why {{
+#   20 - easy(MIDDLE).escapers('sac') }} do not learn the one acceleration, this lesson does not show.) With
+#   cheap accidents
+#   {{ easy(BOTH).escapers('sac') }} escape and {{ earn_more(BOTH) }} earn more (of twenty others, with twice
+#   the updates, {{
+#   earn_more(BOTH, longer=True) }}); the {{ too_fast() }} others are faster than 20 m/s, which pays little: to
+#   escape is not to earn.
 # - **Luck** is not cleared: all random drives crash in the end, so they cannot tell.
 # <!-- claim: earn_more('a lane keeper') == 0 -->
 # <!-- claim: stay(CHEAP) + crash_on_most(CHEAP) == 20 and
@@ -334,12 +333,12 @@ compare_predictions(
 # <!-- claim: escaped('bootstrapped') > len(of('bootstrapped')) / 2 > escaped('sac') == 1 -->
 # 2. Staying is not best, even at γ = 0.8. A larger γ alone is not enough.
 # 3. Most agents end ahead while they learn, and do not escape.
-# 4. At γ = 0.8 lesson [[the_trap]]'s plan leads through a dip: at its
-#    start it is worth {{ hill(10, 0.8)[0] | .1f }} times as much as staying, past the traps {{ hill(10,
-#    0.8)[-1] | .0f }} times. With γ = 0.95 there is no dip, and still no agent escapes.
-# 5. No change alone frees half of twenty agents. Cheap accidents mid-lane free {{ easy(BOTH).escapers('sac') }}, and {{
-#    len(freed_and_slower()) }} earn more than by staying; with a lane keeper in place of the start none escapes, and {{
-#    earn_more(KEPT) }} earn more.
+# 4. At γ = 0.8 lesson [[the_trap]]'s plan leads through a dip. With γ = 0.95 there is no dip, and still no
+#   agent escapes.
+# 5. No change alone frees half of twenty agents. Cheap accidents mid-lane free {{ easy(BOTH).escapers('sac') }}
+#    ({{ earn_more(BOTH) }} earn more than by staying); with a lane keeper in place of the start none escapes, yet {{
+#    earn_more(KEPT) }} earn more (with twice the updates {{ earn_more(KEPT, longer=True) }}, mid-lane {{
+#    earn_more(BOTH, longer=True) }}).
 # <!-- claim: earn_more(BOTH) == len(freed_and_slower()) -->
 #
 # **Three questions to think about**

@@ -94,7 +94,7 @@ def reasons(drive: Rollout) -> Markdown:
         ego, trap, other = drive.states[second * steps, [EGO, TRAP_1, TRAP_2]]
         ahead, gap = f"{trap[X] - ego[X]:.0f} m", f"{other[X] - ego[X] - drive.scenario.car.length:.1f} m"
         rows.append([f"{second} s", SENTENCES[Reason(given[second])], f"{ego[SPEED]:.0f} m/s", ahead, gap])
-    return table(["from", "the rule's reason", "its speed", "trap 1 is ahead by", "gap to trap 2"], rows)
+    return table(["from", "the rule's reason", "its speed", "to trap 1, centres", "to trap 2, bumpers"], rows)
 
 
 def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure:

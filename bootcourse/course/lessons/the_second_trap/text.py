@@ -15,7 +15,7 @@
 #
 # **What you will be able to do**
 # - find out from a drive what its reward pays for;
-# - bend a reward, and say what that does;
+# - say what bending a reward does;
 # - write PPO's advantages and its loss, and train an agent with them.
 #
 # **Time** 45 minutes; running it takes about half a minute. **It builds on** the reward (lesson
@@ -102,8 +102,9 @@ explorable.sprints()
 # **See.** Changing between 5 and 15 m/s pays almost four times as much. A swing of up to 2.5 m/s
 # pays nothing more: from 5 to 12.5 m/s, r_v is a straight line.
 #
-# A function whose slope never falls, like r_v up to 15 m/s, is **convex**: its mean over several speeds is
-# at least its value at their mean (*Jensen's inequality*). What is the difference in the agent's drive?
+# A function whose slope never falls, like r_v up to 15 m/s, is **convex**: the mean of its values at
+# several speeds is at least its value at the mean speed (*Jensen's inequality*). What is the difference in the
+# agent's drive?
 # <!-- claim: 3.5 < np.divide(*explorable.paid(speed_reward, 5)) < 4 and
 #   abs(np.divide(*explorable.paid(speed_reward, 2.5)) - 1) < 1e-9 <
 #   np.divide(*explorable.paid(speed_reward, 3)) - 1 -->
@@ -118,8 +119,11 @@ print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {s
 
 # %% [markdown]
 # **Explain.** The sprints pay, but late: first the agent falls back to {{ ppo_speeds().min() | .0f
-# }} m/s. With SAC's γ = {{ SETTINGS.gamma }} the whole drive is worth less than keeping straight,
-# with PPO's {{ settings_for('ppo').gamma }} about twice as much.
+# }} m/s. On this road, discounted, sprinting, keeping straight and the rule are worth {{
+# discounted(ppo_drive(), SETTINGS.gamma) | .1f }}, {{ discounted(idle(), SETTINGS.gamma) | .1f }} and {{
+# discounted(by_rule(), SETTINGS.gamma) | .1f }} with SAC's γ = {{ SETTINGS.gamma }}, and {{
+# discounted(ppo_drive(), settings_for('ppo').gamma) | .0f }}, {{ discounted(idle(), settings_for('ppo').gamma)
+# | .0f }} and {{ discounted(by_rule(), settings_for('ppo').gamma) | .0f }} with PPO's {{ settings_for('ppo').gamma }}.
 # <!-- claim: np.mean([speed_reward(v) for v in ppo_speeds()]) > 2.2 * speed_reward(10) -->
 # <!-- claim: settings_for('ppo_cloned').gamma == settings_for('ppo').gamma and
 #   settings_for('sac').gamma == SETTINGS.gamma -->
@@ -139,7 +143,7 @@ print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {s
 # falls: there it is **concave**. At a mean speed of
 # 10 m/s, a steady drive now pays most. Ten agents were trained with it.
 #
-# Getting out still pays: on this road the rule earns {{ paid_concavely(by_rule()) | .0f }}, keeping
+# Getting out pays, even as the rule does it: on this road the rule earns {{ paid_concavely(by_rule()) | .0f }}, keeping
 # straight {{ paid_concavely(idle()) | .0f }}.
 # <!-- claim: all(paid_concavely(by_rule(), g) > paid_concavely(idle(), g) for g in (1,
 #   settings_for('ppo').gamma)) and by_rule().success -->
@@ -160,9 +164,7 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 # %% [markdown]
 # **See.** None of the ten sprints on this road, and none gets out: all ten stay behind the traps, and one of
 # them crashes there on {{ 100 * ppo('concave')['accident'].max() | .0f }} % of the roads. **So the sprints are not all
-# that keeps PPO there.** (But getting out also gains less with this
-# reward: {{ paid_concavely(by_rule()) - paid_concavely(idle()) | .0f }}. With the road's own it is {{
-# by_rule().rewards.sum() - idle().rewards.sum() | .0f }}.)
+# that keeps PPO there.**
 # <!-- claim: 1 - second_trap.concave_speed_reward(np.float64(10)) < (1 - speed_reward(10)) / 2 and
 #   paid_concavely(by_rule()) - paid_concavely(idle()) < by_rule().rewards.sum() - idle().rewards.sum() -->
 # <!-- claim: ppo('concave')['success'].max() == 0 and abs(ppo('concave')['returns'].mean() /
@@ -180,8 +182,8 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 # PPO has no replay buffer. With its policy, π_old, it drives {{ settings_for('ppo').horizon }} decisions on
 # each of {{ ppo_kinds.settings_of('alone').envs_per_agent }} roads, takes {{ ppo_kinds.QUICK['epochs'] }} passes over
 # them in random parts (*minibatches*), throws them away, and drives again. The **advantage** A of
-# an action is what came of it, less what was expected. An A above the others
-# makes its action likelier.
+# an action is what came of it, less what was expected. An
+# action whose A is above the mean gets likelier.
 #
 # Suppose that PPO expects a steady 10 m/s. The car falls back to 5 m/s for ten seconds, then sprints
 # at 15 for ten. A bar is the *surprise* of one second: what it pays, less what was expected. A of
@@ -266,8 +268,7 @@ bc.show(figures.credit(speeds, found, 32))
 # ## Round 4: how far may one decision push?
 #
 # The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since
-# it was taken. A decision may push it no further
-# from 1 than ε = {{ 100 * settings_for('ppo').clip | .0f }} %.
+# it was taken. A decision stops pushing it away from 1 at ε = {{ 100 * settings_for('ppo').clip | .0f }} %.
 #
 # > **Predict.** An action turned out badly, A = −2, but has become likelier, ρ = 1.5. Does this
 # > decision still change the policy?

@@ -122,7 +122,7 @@ def what_they_learned(study: Results, plan: Episodes) -> Figure:
         crashes, earned = 100 * of.scores("accident"), of.scores("returns")
         inside = np.where(of.scores("success") >= ESCAPES, colour, "white")
         look = {"edgecolors": colour, "linewidths": 1.4, "zorder": in_front(method), "clip_on": False}
-        ax.scatter(crashes, earned, 42, inside, **look)
+        ax.scatter(crashes, earned, 100 if method == "sac" else 42, inside, **look)
         each = ", ".join(
             f"{r:.0f} ({c:.0f} %)" for c, r in sorted(zip(crashes, earned, strict=True), key=lambda x: x[1])
         )

@@ -62,7 +62,7 @@ title = "The rule falls back, then changes lane behind trap 2"
 bc.show(bc.top_view_over_time(by_rule, times=[0, 3, 6, 9, 20, bc.overtaken(by_rule)], title=title))
 
 # %% [markdown]
-# **See.** The rule brakes, falls behind both traps and changes left twice. Then it waits until second 33 to
+# **See.** The rule brakes, falls farther behind both traps and changes left twice. Then it waits until second 33 to
 # speed up: it is safe, but slow.
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -300,9 +300,8 @@ bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", rewa
 #   name.startswith('car 1')] == ['presence', 'dx', 'dy', 'dv_lon', 'dv_lat'] -->
 # <!-- claim: DEFAULT.sight.neighbours == 4 and DEFAULT.observation_size == 26 -->
 #
-# The agent's **policy**, π ("pi"), gives each action a probability. Here each **update** corrects,
-# from rewards, what the agent expects of actions, and makes those that promise more a little more
-# probable.
+# The agent's **policy**, π ("pi"), gives each action a probability. Each **update** corrects what the agent
+# expects of each action, and makes the more promising ones a little more probable.
 #
 # Four agents learn for about 10 seconds by a method called SAC, *soft actor-critic*: two alone
 # (*plain SAC*), two with the rule's help (*bootstrapped SAC*). The helped two also learn from drives
@@ -424,10 +423,10 @@ bc.show(figures.bearable_risks(gammas, np.array(risks)))
 
 # %% [markdown]
 # **Explain.** At γ = 0.8 the rule's way out is worth less than staying even if it never crashes. Road {{ ROAD }}'s plan
-# beats doing nothing if fewer than {{ 100 * bearable_by_plan() | .0f }} % of attempts crash after 3 s. On the
-# {{ roads() | , }}
-# roads {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % crash, at other times, so that limit does not
-# apply; but the plan's mean worth is {{ worth_of_plan() | .2f }}, staying's {{ discounted(idle(), 0.8) | .2f }}.
+# is worth more, if fewer than {{ 100 * bearable_by_plan() | .0f }} % of attempts crash after 3 s. On the {{
+# roads() | , }}
+# roads {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % crash, at other times: there the plan is worth {{
+# worth_of_plan() | .2f }} on average, and staying {{ discounted(idle(), 0.8) | .2f }}.
 # <!-- claim: discounted(idle(), 0.8) > worth_of_plan() -->
 #
 # That is not the whole answer to why so many stay: of nine agents of plain SAC with γ = 0.9, 0.95 or

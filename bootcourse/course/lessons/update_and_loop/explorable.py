@@ -33,7 +33,7 @@ def the_end() -> Explorable:
         knows = knows[::-1]  # in the order of time
         named = {
             "the fall is marked": Curve(knows, OTHER.colour),
-            "it is not": Curve(forgets, STRANGERS[1].colour, "--"),
+            "it is not, and fallen counts as standing": Curve(forgets, STRANGERS[1].colour, "--"),
         }
         says = f"γ = {gamma:g}: before the last push the two are {knows[-1]:.3g} and {forgets[-1]:.3g}."
         return curves(says, AXES, np.arange(-LAST, 0), named, mark=-1)

@@ -53,15 +53,14 @@ explorable.two_poles()
 # ## Round 1: what does an update learn from?
 #
 # Each push leaves a row (s, a, r, terminated, s'). *Terminated* is as in lesson [[discrete_sac]]: 1 after
-# a fall, and 0 when only the time is up, since the pole would go on earning. **Drag** γ. What is the
-# last push before a fall worth if the row marks the fall, and if not?
+# a fall, and 0 when only the time is up, since the pole would go on earning. **Drag** γ. What is the last push
+# before a fall worth if the row marks the fall, and if a fallen pole counts as a standing one?
 
 # %%
 explorable.the_end()
 
 # %% [markdown]
-# With the mark, a push is worth less the nearer the fall. Without it, if a fallen pole counts as a
-# standing one, each push is worth 1 / (1 − γ).
+# With the mark, a push is worth less the nearer the fall. Else each push is worth 1 / (1 − γ).
 #
 # SAC keeps its rows in the **replay buffer**. Each update learns from a **batch**: rows drawn
 # **uniformly with replacement**, at each draw each row with the same chance.
@@ -132,9 +131,15 @@ check.ReplayBuffer(ReplayBuffer)
 # temperature_loss(log_alpha, state_entropy, target_entropy)
 # ```
 #
-# `agent`, a `by_hand.SAC`, has `log_pi(states)`, (batch, 2); `q(states)` and `slow_q(states)`, each a `q_pair`,
-# (2, batch, 2), of which `q` is the smaller; `gamma`, `tau`, `log_alpha`, `target_entropy`; three `optimisers`
-# (critics, actor, log α); and `critics.parameters()`, `copies.parameters()`, to change in place.
+# `agent` is a `by_hand.SAC`:
+#
+# | `agent.` | gives |
+# |---|---|
+# | `log_pi(states)` | log π, (batch, 2) |
+# | `q(states)`, `slow_q(states)` | a `q_pair`, (2, batch, 2); `q` is its minimum over the first axis |
+# | `gamma`, `tau`, `log_alpha`, `target_entropy` | numbers of steps 3, 8, 6 and 6; α is exp(`log_alpha`) |
+# | `optimisers` | of the critics, the actor and log α |
+# | `critics.parameters()`, `copies.parameters()` | step 8 changes the copies in place |
 
 # %%
 own_code.load()
@@ -244,8 +249,8 @@ explorable.trained_poles(agent, unmarked)
 # **See.** **Drag** the push. {{ fell_at_once() }} of our {{ len(agents('unmarked')) }} agents with
 # the bug let the pole fall after {{ after_a_block('unmarked').max() | .0f }} pushes on average, as when
 # untrained ({{ agents('unmarked').notes['tests'][:, 0].min() | .0f }} to {{
-# agents('unmarked').notes['tests'][:, 0].max() | .0f }}). After as many pushes without the bug, ours balance it
-# for {{
+# agents('unmarked').notes['tests'][:, 0].max() | .0f }}). Without the bug, after the same {{ BLOCK | , }}
+# pushes of training, ours balance it for {{
 # after_a_block().min() | .0f }} to {{ after_a_block().max() | .0f }}.
 #
 # Without the bug {{ solved() }} of {{ len(tests()) }} (seeds 0 to 4; the settings were chosen on others) solve the
@@ -257,9 +262,9 @@ explorable.trained_poles(agent, unmarked)
 # %% [markdown]
 # ## Round 4: why does it fall?
 #
-# The actor learns from its critics alone, so look at Q. It has a **limit**, a pole that stands for
-# ever: a push pays 1 and at most α log 2 for its entropy, so with γ = {{ by_hand.SAC.gamma }} no Q can be above {{
-# 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2).
+# The actor learns from its critics alone, so look at Q. It has a **limit**: if the
+# pole stood for ever, each push would pay 1, and at most α log 2 for its entropy. With γ = {{ by_hand.SAC.gamma }} that
+# sums to {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2).
 #
 # > **Predict.** What do the critics with the bug expect of a fallen pole, compared with a standing one?
 
@@ -277,8 +282,8 @@ print(f"Entropy with the bug, pole upright: {entropy:.2f} nats")
 # **See.** Along 40 falls of poles pushed to one side only, the critics with the bug expect most of the
 # fallen pole. To the actor a fall looks best: it is sure of its push even with the pole upright.
 #
-# Q is even above its limit (dotted; each agent has its own α): so it is in {{ unmarked() }} of our {{
-# len(agents('unmarked')) }} agents with the bug, and in none without it.
+# Q is even above its limit (dotted; it depends on the agent's α), in {{ unmarked() }} of our {{
+# len(agents('unmarked')) }} agents with the bug and in none without it.
 # <!-- claim: along_falls().max() < 1 / (1 - by_hand.SAC.gamma) -->
 
 # %% [markdown]
@@ -303,10 +308,10 @@ print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {t
 # **Explain.** Rows are all that was added, and Q is possible. Before, a high guess for the fallen pole raised
 # Q of the last push, and that raised the guess again, as the same network gives both. Once they are
 # learned, these rows say the same as a mark, apart from the entropy: from here on
-# every reward is 0. (Q is possible in all five of
-# ours; they balance {{ after_a_block('paid-0').min() | .0f }} to {{
-# after_a_block('paid-0').max() | .0f }} pushes. Another machine rounds otherwise: seed 1 was {{
-# after_a_block('paid-0')[1] | .0f }} there.)
+# every reward is 0. (In five of ours, trained on another
+# machine, Q is possible, too; they balance {{ after_a_block('paid-0').min() | .0f }} to {{
+# after_a_block('paid-0').max()
+# | .0f }} pushes, seed 1 {{ after_a_block('paid-0')[1] | .0f }}.)
 # <!-- claim: possible('paid-0') == 5 == len(agents('paid-0')) and after_a_block('paid-0').argmax() == 1 -->
 #
 # The score shows that something is wrong. An impossible Q says where to look: at the critics and their rows.

@@ -97,8 +97,8 @@ print(f"γ = {min(better):.2f}")
 # ## Round 2: a value from the next value
 #
 # A **state** says all that matters of the present: what may come next depends on it and the action
-# alone. Such a world is a *Markov decision process* (MDP). On the road our learners take the 26
-# numbers that they see for the state, although they leave out all but the four nearest cars.
+# alone. Such a world is a *Markov decision process* (MDP). On the road our learners treat the 26
+# numbers that they see as the state, although these leave out all but the four nearest cars.
 # <!-- claim: DEFAULT.observation_size == 26 and DEFAULT.sight.neighbours == 4 -->
 #
 # The **value** of action a in state s, **Q(s, a)**, is the discounted return if you take a once and then act
@@ -230,7 +230,7 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 #
 # - `chances` holds the random decisions, drawn beforehand.
 # - After each of its own decisions it learns from that one, then from every pair (s, a) in `taught`, a
-#   demonstration. These change Q, not where it is.
+#   demonstration. A demonstration changes Q, but does not move the learner.
 # - After every 20 decisions the walk starts again in state 0. The twentieth is learned like any other: its target
 #   still counts the next state.
 
@@ -309,12 +309,11 @@ bc.show(diagrams.who_leaves(found))
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** Once is not enough. Turning back is soon worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2
-# | .2f }}, and
-# a target takes the larger Q: so Q(0, 1) rests at γ · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 |
-# .2f }}. Going
-# on must beat {{ 0.8 * 0.16 / 0.2 | .2f }} in state 3, then in 2, then in 1 (dashed), and a walk carries its
-# value back by one state (Round 3). On the road chance also causes accidents (lesson [[the_barrier]]).
+# **Explain.** Once is not enough. Turning back to the trap is worth γ · {{ 0.16 / 0.2 | .2f }} = {{
+# 0.8 * 0.16 / 0.2 | .2f }} in each of the states 1 to 3. While going on seems worth less there, leaving rests at γ · {{
+# 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}, below staying. Going on must first beat {{
+# 0.8 * 0.16 / 0.2 | .2f }} in state 3, then in 2, then in 1 (dashed), and each walk out carries its value back by one
+# state.
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
 #   chain.over_walks(0.5, 0.8, seed)[12:36]) -->
 # <!-- claim: chain.leaves(chain.over_walks(0.5, 0.8, 1)[-1]) -->
@@ -340,7 +339,7 @@ compare_predictions(
 # 2. The Bellman equation says what a value is; sweeps of it find it.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves
 #    Q(s, a) by a part of it, and needs no map.
-# 4. From zeros, a walk learned in its order moves a value one state back; in reverse, all the way.
+# 4. Learned forwards, a walk moves a value one state back; learned backwards, all the way.
 # 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and
 #    so does a replayed demonstration.
 #

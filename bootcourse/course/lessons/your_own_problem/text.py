@@ -93,8 +93,8 @@ bc.compare(methods, decisions=1_000, make_env=car, teacher=teacher, **how)
 #   score('mountain-car', 'good', 'cloning', 'returns')) < 5 and 50 * -earned('good') > 1_000 -->
 #
 # **On yours.** Take a gymnasium environment with discrete actions and vectors of numbers near 1 as
-# observations (we divided MountainCar's speed by 0.07), and write a rule. Ours is CartPole: balance
-# a pole, for 1 per decision, at most 500 times. It reports no success (–).
+# observations (we divided MountainCar's speed by 0.07, and leave CartPole as it is), and write a rule. Ours is
+# CartPole: balance a pole, for 1 per decision, at most 500 times. It reports no success (–).
 
 
 # %% tags=["nbval-ignore-output"]
@@ -139,8 +139,8 @@ bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0))
 # budget can mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
-# Now with the reward; without it: the titles above. How much of what Round 1's soft constraint earned on CartPole
-# does it owe to the reward?
+# Now the same agents with the reward (without it: the titles above). How much of what Round 1's soft constraint
+# earned on CartPole does it owe to the reward?
 
 # %% tags=["nbval-ignore-output"]
 # On yours, with reward; without it: pays=0, gamma=0
@@ -176,7 +176,7 @@ bc.show(figures.clones())
 # <!-- claim: all(score(p, 'systematic', 'cloning', 'returns') < score(p, 'systematic', 'the
 #   teacher', 'returns') + 10 for p in THREE) -->
 #
-# **Drag** *reach*, how far away squares have a vote: each does what most of them say. Which errors vanish?
+# **Drag** *reach*: each square does what most squares up to so far away say. Which errors vanish?
 
 # %%
 explorable.votes()
@@ -288,7 +288,7 @@ check.drowning_bonus(drowning_bonus)
 
 # %% [markdown]
 # **Explain.** Your threshold, here at most {{ drowning_bonus(0, 1, 1, PROBLEMS['doorkey'].gamma) |
-# .2f }}, is the same however long the way is. *It is a warning, not a sharp limit*: with
+# .2f }}, depends on the goal's pay, not on the way's length. *It is a warning, not a sharp limit*: with
 # c = 0.1 most drives by drawn actions still reach the goal.
 # <!-- claim: math.isclose(drowning_bonus(0, 1, 1, 0.97), drowning_bonus(0, 1, 90, 0.97)) -->
 # <!-- claim: list(BONUSES)[2] == 'c = 0.1' and min(by_bonus(t)[2] for t in TEACHERS) > 0.5 -->
@@ -297,11 +297,12 @@ check.drowning_bonus(drowning_bonus)
 #
 # {{ loops_table() }}
 #
-# Take the loops out of the demonstrations, and c = 2 does little harm to drawn actions. But it can also ruin good
-# demonstrations, without any loop, where no soft constraint helps (last two lines). And without any bonus the
-# soft constraint
-# to a flawed teacher costs the most probable actions ({{ 100 * score('doorkey', 'random', 'both, c = 0') | .0f }}; the
-# demonstrations alone: {{ 100 * score('doorkey', 'random', 'demonstrations, c = 0') | .0f }}).
+# Take the loops out of the demonstrations, and c = 2 does little harm to drawn actions. But without a soft
+# constraint c = 2 ruins good demonstrations, too, which have no loop (last two lines). And with c = 0 the soft
+# constraint to
+# a flawed teacher does harm: by most probable actions {{ 100 * score('doorkey', 'random', 'both, c = 0') | .0f
+# }} reach the goal, with its
+# demonstrations alone {{ 100 * score('doorkey', 'random', 'demonstrations, c = 0') | .0f }}.
 # <!-- claim: without_loops('drawn_success') > 0.8 and without_loops('success') < 0.75 * score('doorkey', 'none',
 #   'SAC') and alone('') < 0.01 < 0.5 < alone(', c = 0') and score('doorkey', 'good', 'the teacher') == 1 -->
 
@@ -344,7 +345,7 @@ bc.show(figures.ranking())
 # - **Budget**: five agents of one setting, seeds 0 to 4; {{ BOARD | , }} decisions each; demonstrations are free.
 # - **Test**: 1,000 held-out roads, drawn when all have handed in; most probable actions. An entry that asks
 #   its teacher there says so.
-# - **Hand in**: one page, and the folder that `bc.save_runs(result, "challenge")` writes.
+# - **Hand in**: one page, and the folder that `bc.save_runs(enter(200_000), "challenge")` writes.
 # - **Clone**: an entry with a teacher must beat the teacher's clone.
 #
 # **The page**: your predictions; your changes, and why; plain SAC, the clone and a failed try; the decisions of all
@@ -366,7 +367,7 @@ def enter(decisions):
 # 1. *Does a teacher help?* Compare with plain SAC and the clone, at equal decisions and several budgets.
 # 2. *Did the agents need the reward?* Train without it, at several budgets.
 # 3. *Which errors does the teacher make?* The most probable action can outvote random ones.
-# 4. *Do states come back, and are they alike?* In DoorKey a clone outvoted no error.
+# 4. *Do states come back?* Where a network can tell them apart, its clone repeats the error: in DoorKey, each.
 # 5. *What pays in a loop?* With a bonus it can be worth more than the goal.
 #
 # **Three questions to think about**

@@ -94,7 +94,7 @@ def without_a_part(computed: Mapping[str, Results]) -> Figure:
 
     computed: {kind of the experiment `crashes`: agents}, as it ships.
     """
-    title = "Cut before the free lane, the drives teach no more than keeping straight pays"
+    title = "Without the free lane, students earn what keeping straight earns"
     return of_kinds(title, computed, {"all": "all", "cut": "no free lane", "as-many": "the control"})
 
 
