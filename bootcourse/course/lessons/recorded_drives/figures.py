@@ -52,7 +52,8 @@ def returns(study: Results) -> Figure:
         fills = np.where(ahead >= ESCAPES, look.colour, "white")
         ax.scatter(earns, hurt, s=34, c=fills, edgecolors=look.colour, linewidths=1.3, zorder=3, clip_on=False)
         words = f"{display_name(method)}: {escaped(study, method)} escape"
-        ax.text(x, y, words.replace("CQL: ", "CQL:\n").replace("cloning: ", "cloning:\n"), fontsize=TEXT, color=look.colour, ha=side)
+        shown = words.replace(": ", ":\n") if method in ("cql", "bc") else words  # in two lines, for want of room
+        ax.text(x, y, shown, fontsize=TEXT, color=look.colour, ha=side)
         alt.append(f"{words}, mean return {earns.mean():.1f}, {hurt.mean():.1f} % of drives end in an accident")
         if method == "gail":
             worst = np.argmax(np.where(ahead >= ESCAPES, hurt, -1))
