@@ -1,7 +1,7 @@
 # make lab    JupyterLab on the first lesson      (NO_BROWSER=1 make lab: only print its address)
 # make drive  one page on which you drive the trap, beside agents; it needs no server and no network
 # make check  in less than a minute: the road, the learner, the rule, what is recorded, and one lesson
-# make test   every test, the notebooks included: 7 to 15 minutes on two cores
+# make test   every test, the notebooks included: 6 to 15 minutes on two cores
 # make bench  how fast the road and the learner are, as ratios
 # make book   the lessons as pages that need no server, in build/book/html  (EDITION=instructor: with solutions)
 # make notebooks  execute the lessons' texts again and write the notebooks
