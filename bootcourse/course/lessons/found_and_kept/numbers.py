@@ -76,12 +76,6 @@ def earns_less(both: Group, *others: Group) -> bool:
     return all(bool(both.earned.max() < each.earned[each.keep].min()) for each in others)
 
 
-def tenth(updates: str) -> float:
-    """By which episode ξ is down to a tenth in the agents with the soft constraint alone: the median."""
-    xi = study_clocks.choices(shipped_experiment("clocks"))[updates, "μ"].of("soft").curves["xi"]
-    return float(np.median(np.argmax(xi <= xi[:, :1] / 10, axis=1)))
-
-
 def with_teacher(updates: str) -> float:
     """The chance of round 3 with these updates per decision, where the stochastic rule demonstrates."""
     return study_clocks.pattern(study_clocks.choices(shipped_experiment("clocks"))[updates, "π̃"]).value
@@ -91,11 +85,6 @@ def others_pattern() -> float:
     """The chance of round 3 where each row's agent is one of the ten others."""
     methods = ("sac", "soft", "demos", "bootstrapped")
     return float(np.prod([study_clocks.as_printed(others(m).of(m).scores("success"), m).mean() for m in methods]))
-
-
-def crash(words: str) -> float:
-    """The share of drives with an accident, of all agents of a group of round 2."""
-    return float(groups()[words].scores("accident").mean())
 
 
 def alone_and_ending() -> Counted:

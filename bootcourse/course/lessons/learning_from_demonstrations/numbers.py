@@ -7,6 +7,7 @@ import numpy as np
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.research.results import Results
+from bootcourse.research.tables import markdown
 from bootcourse.statistics import rolling_means
 from tools.course.known import SETTINGS, by_rule, idle, shipped_experiment, shipped_results
 
@@ -53,16 +54,14 @@ def staying(place: int) -> str:
 
 def success_table() -> str:
     """How many training episodes succeed with the bonus and without it, in three windows, as Markdown."""
-    windows = (300, 600), (1000, 1100), (1900, 2000)
-    heads = (f"{first:,} to {last:,}" for first, last in windows)
-    what = "succeed (in brackets: ten others, who train on to 4,000)"
-    lines = [f"| {what} | episodes {' | '.join(heads)} |", "|---|---|---|---|"]
-    for name in ("c = 2", "c = 0"):
-        each = (
-            [100 * training(name, "success", *window, which).mean() for which in (False, True)] for window in windows
-        )
-        lines.append(f"| {name} | {' | '.join(f'{ours:.0f} % ({more:.0f} %)' for ours, more in each)} |")
-    return "\n".join(lines)
+    windows = {"episodes 300 to 600": (300, 600), "1,000 to 1,100": (1000, 1100), "1,900 to 2,000": (1900, 2000)}
+
+    def cell(name: str, first: int, last: int) -> str:
+        ours, more = (100 * training(name, "success", first, last, which).mean() for which in (False, True))
+        return f"{ours:.0f} % ({more:.0f} %)"
+
+    rows = [[name, *(cell(name, *window) for window in windows.values())] for name in ("c = 2", "c = 0")]
+    return markdown(["succeed (in brackets: ten others, who train on to 4,000)", *windows], rows)
 
 
 def found(name: str) -> np.ndarray:

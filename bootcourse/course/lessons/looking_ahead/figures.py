@@ -116,13 +116,8 @@ def out_of_trap(
         )
         crashes = 1000 * hurt.sum() / driven.sum()
         rows.append([name, here, f"{100 * out.mean():.0f} %", f"{earned.mean():.0f}", f"{crashes:.0f}"])
-    return [
-        "what counts",
-        f"drives out, of this agent's {len(roads)}",
-        "of all nine's",
-        "return",
-        "accidents in 1,000",
-    ], rows
+    headings = ["what counts", f"drives out, of this agent's {len(roads)}", "of all nine's", "return"]
+    return [*headings, "accidents in 1,000"], rows
 
 
 def _judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -15,6 +15,7 @@ from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
+from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES, Estimate, holm, interval
@@ -118,17 +119,16 @@ def training_scores(spent: float, count: str) -> dict[str, Estimate]:
 
 def spent_table() -> str:
     """What each method with a teacher earns in training by three clocks, and what decisions cost it, as Markdown."""
-    kinds, clocks = ["ppo_cloned", "bootstrapped", "jsrl", "rlpd", "ibrl"], {
+    kinds = {"ppo_cloned": "PPO", "bootstrapped": "bootstrapped", "jsrl": "jump-start", "rlpd": "RLPD", "ibrl": "IBRL"}
+    clocks = {
         f"{equal_decisions.SECONDS} s of computing": (equal_decisions.SECONDS, explorable.SECONDS),
         f"{on_road(explorable.EARLY):.0f} h on a road": (explorable.EARLY, explorable.DECISIONS),
         f"{FIRST:,} decisions": (FIRST, explorable.DECISIONS),
-    }  # fmt: skip
-    lines = ["| after | PPO | bootstrapped | jump-start | RLPD | IBRL |", "|---|---|---|---|---|---|"]
-    for words, spent in clocks.items():
-        scores = training_scores(*spent)
-        lines.append(f"| {words} | {' | '.join(f'{scores[method].value:.0f}' for method in kinds)} |")
+    }
+    scores = {words: training_scores(*spent) for words, spent in clocks.items()}
+    rows = [[words, *(f"{each[method].value:.0f}" for method in kinds)] for words, each in scores.items()]
     taken = (f"*{at(method, 'seconds', FIRST).mean():.0f}*" for method in kinds)
-    return "\n".join([*lines, f"| *seconds for {FIRST:,}* | {' | '.join(taken)} |"])
+    return markdown(["after", *kinds.values()], [*rows, [f"*seconds for {FIRST:,}*", *taken]])
 
 
 def below_all_others(method: str, spent: float, count: str) -> bool:

@@ -57,7 +57,12 @@ def _dots(ax, agents: Results, staying: float) -> tuple[int, int, int]:
     across = 100 * success + 1.8 * (earned.argsort().argsort() % 5 - 2)
     ax.plot(across[~crashing], earned[~crashing], "o", color=DARK, markeredgecolor="white", **look)
     ax.plot(across[crashing], earned[crashing], "x", color=TRAP, markeredgewidth=1.4, **look)
-    return int(out.sum()), int(((success > 0.01) & (earned > staying)).sum()), int(crashing.sum())
+    return int(out.sum()), int(earning(agents, staying).sum()), int(crashing.sum())
+
+
+def earning(agents: Results, staying: float) -> np.ndarray:
+    """Which agents end ahead on some roads, and earn more than by staying."""
+    return (agents.scores("success") > 0.01) & (agents.scores("returns") > staying)
 
 
 def how_they_drive(agents: Sequence, tests: Sequence):

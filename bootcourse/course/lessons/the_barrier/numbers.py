@@ -63,12 +63,6 @@ def too_fast() -> int:
     return int(fast.sum())
 
 
-def fast_and_crash() -> int:
-    """How many of these have an accident on most roads."""
-    out, agents = easy(BOTH).scores("success") >= ESCAPES, easy(BOTH)
-    return int((out & (agents.scores("speed") > 20) & (agents.scores("accident") > 0.5)).sum())
-
-
 def freed_and_slower() -> np.ndarray:
     """What the others of them earn."""
     returns, fast = _freed()
@@ -101,25 +95,13 @@ def escape_and_crash(kind: str) -> int:
 def earn_more(kind: str, longer: bool = False) -> int:
     """How many agents of a kind end ahead and earn more than by staying; longer: of others, with twice the updates."""
     agents = easy(stressed(kind)) if longer else easy(kind)
-    return int(((agents.scores("returns") > easier.staying(kind)) & (agents.scores("success") > 0.01)).sum())
-
-
-def earn_unhurt() -> int:
-    """How many of the agents that escape and earn with both changes do not have an accident on most roads."""
-    success, earned, accident = (easy(BOTH).scores(name) for name in ("success", "returns", "accident"))
-    return int(((success >= ESCAPES) & (earned > easier.staying(BOTH)) & (accident <= 0.5)).sum())
+    return int(figures.earning(agents, easier.staying(kind)).sum())
 
 
 @cache
 def wished() -> attempts.Outcome:
     """What comes of the text's wishes with a lane keeper, slower 1, left 5, faster 5, on 100 roads."""
     return attempts.drive(PlanPolicy([3, *[1] * 5, *[5] * 5]), held_out_seeds(7, 100), easier.LaneKeeper)
-
-
-def escape_and_earn(kind: str) -> int:
-    """How many agents of a kind escape, and earn more than by staying."""
-    success, earned = easy(kind).scores("success"), easy(kind).scores("returns")
-    return int(((success >= ESCAPES) & (earned > easier.staying(kind))).sum())
 
 
 @cache

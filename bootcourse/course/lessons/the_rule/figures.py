@@ -87,13 +87,19 @@ def speeds_by_sight(far: Rollout, near: Rollout, alone: Rollout) -> Figure:
     return finish(figure, title, f"Three drives on one road. {'; '.join(said)}.")
 
 
+def gap(drive: Rollout, second: int) -> float:
+    """The room (m) between the ego and trap 2, from bumper to bumper."""
+    ego, trap = drive.states[second * drive.scenario.clock.steps, [EGO, TRAP_2], X]
+    return trap - ego - drive.scenario.car.length
+
+
 def reasons(drive: Rollout) -> Markdown:
     """A table of the rule's reasons in a drive, as they change: from when, its speed, how far ahead the traps are."""
     steps, given, rows = drive.scenario.clock.steps, drive.rule_reasons, []
     for second in [0, *(1 + np.flatnonzero(np.diff(given)))]:
-        ego, trap, other = drive.states[second * steps, [EGO, TRAP_1, TRAP_2]]
-        ahead, gap = f"{trap[X] - ego[X]:.0f} m", f"{other[X] - ego[X] - drive.scenario.car.length:.1f} m"
-        rows.append([f"{second} s", SENTENCES[Reason(given[second])], f"{ego[SPEED]:.0f} m/s", ahead, gap])
+        ego, trap = drive.states[second * steps, [EGO, TRAP_1]]
+        ahead, free = f"{trap[X] - ego[X]:.0f} m", f"{gap(drive, second):.1f} m"
+        rows.append([f"{second} s", SENTENCES[Reason(given[second])], f"{ego[SPEED]:.0f} m/s", ahead, free])
     return table(["from", "the rule's reason", "its speed", "to trap 1, centres", "to trap 2, bumpers"], rows)
 
 

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.course.lessons.the_rule.figures import gap as gap
 from bootcourse.course.lessons.the_rule.rules import ALOOF as ALOOF
 from bootcourse.course.lessons.the_rule.rules import ROADS, with_numbers
 from bootcourse.course.lessons.the_rule.rules import as_printed as as_printed
@@ -28,12 +29,6 @@ class Changes(NamedTuple):
     speeds: np.ndarray  # m/s, at the first such decision of each road that has one
     faster: np.ndarray  # m/s, by how much that is faster than trap 2
     crashed: int  # how many of these roads end in an accident
-
-
-def gap(drive: Rollout, second: int) -> float:
-    """The room (m) between the ego and trap 2, from bumper to bumper."""
-    ego, trap = drive.states[second * drive.scenario.clock.steps, [EGO, TRAP_2], X]
-    return trap - ego - drive.scenario.car.length
 
 
 @cache

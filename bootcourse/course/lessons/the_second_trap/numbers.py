@@ -68,16 +68,15 @@ def credit(lam: float, horizon: int | None = None, first: int | None = None) -> 
     return advantages(rewards, values, values, no, ends, ppo_kinds.GAMMA, lam)[:, 0].numpy()
 
 
-def judged_good(lam: float, horizon: int | None = None) -> int:
-    """In how many of its seconds below 10 m/s the advantage is above 0."""
-    return int((credit(lam, horizon)[ppo_speeds() < 10] > 0).sum())
+def judged_good(lam: float, horizon: int | None = None, first: int | None = None) -> int:
+    """In how many of its seconds below 10 m/s the advantage is above 0. horizon, first: as for `credit`."""
+    return int((credit(lam, horizon, first)[ppo_speeds() < 10] > 0).sum())
 
 
 def wherever_cut() -> np.ndarray:
     """The same with λ = 0.95, for each place of the first cut within PPO's data."""
     horizon = settings_for("ppo").horizon
-    each = (credit(0.95, horizon, first)[ppo_speeds() < 10] > 0 for first in range(1, horizon + 1))
-    return np.array([good.sum() for good in each])
+    return np.array([judged_good(0.95, horizon, first) for first in range(1, horizon + 1)])
 
 
 def cloned_escape(teacher: str) -> int:

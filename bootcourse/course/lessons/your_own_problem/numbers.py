@@ -10,6 +10,7 @@ from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, cel
 from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
 from bootcourse.research.equal_decisions import BOARD  # noqa: F401
 from bootcourse.research.problems import PROBLEMS  # noqa: F401
+from bootcourse.research.tables import markdown
 
 TEACHERS = ("good", "random", "systematic")
 SHOWN = [(p, t) for p in THREE for t in TEACHERS]
@@ -60,11 +61,12 @@ def loops_table() -> str:
         ("good teacher, demonstrations alone", "0", ("good", "demonstrations, c = 0")),
         ("good teacher, demonstrations alone", "2", ("good", "demonstrations")),
     ]
-    lines = ["| learns from | c | drawn | most probable |", "|---|---|---|---|"]
-    for name, bonus, kind in kinds:
-        drawn, likeliest = (100 * score("doorkey", *kind, measure) for measure in ("drawn_success", "success"))
-        lines.append(f"| {name} | {bonus} | {drawn:.0f} | {likeliest:.0f} |")
-    return "\n".join(lines)
+    measures = {"drawn": "drawn_success", "most probable": "success"}
+    rows = [
+        [name, bonus, *(f"{100 * score('doorkey', *kind, measure):.0f}" for measure in measures.values())]
+        for name, bonus, kind in kinds
+    ]
+    return markdown(["learns from", "c", *measures], rows)
 
 
 def drowning_bonus(*arguments: float) -> float:

@@ -27,6 +27,7 @@ SIX = {  # teacher of the experiment `teachers`: the name of its row
     "timid": "timid",
     "mirrored": "mirrored",
 }
+APART = {"lane": "lane, no accident", "accident": "accident, no lane"}  # kind of the experiment `crashes`: its name
 
 
 def exam_of_all() -> Markdown:
@@ -101,7 +102,7 @@ def without_a_part(computed: Mapping[str, Results]) -> Figure:
 def lane_or_accident(computed: Mapping[str, Results]) -> Figure:
     """The same of agents from drives with the free lane without its accident, and with the accident alone."""
     title = "The free lane teaches the way out, its accidents do not"
-    return of_kinds(title, computed, {"lane": "lane, no accident", "accident": "accident, no lane"})
+    return of_kinds(title, computed, APART)
 
 
 def of_kinds(title: str, computed: Mapping[str, Results], kinds: Mapping[str, str]) -> Figure:
@@ -113,10 +114,7 @@ def of_kinds(title: str, computed: Mapping[str, Results], kinds: Mapping[str, st
 def parted(kept: Callable[[np.ndarray], np.ndarray]) -> Markdown:
     """A table of two agents each: from the crashing drives' decisions that `kept` marks, and from its counterpart."""
     rows = []
-    for name, part in {
-        "lane, no accident": kept,
-        "accident, no lane": crashes.without_the_lane,
-    }.items():
+    for name, part in zip(APART.values(), (kept, crashes.without_the_lane), strict=True):
         tested = crashes.short_training(part)
         shares = (100 * tested["success"].mean(), 100 * tested["accident"].mean())
         rows.append([name, *(f"{share:.0f}" for share in shares), f"{tested['returns'].mean():.0f}"])
@@ -165,10 +163,6 @@ def in_rows(
     if of_drives:
         beside(ax, -1.2, "", "its teacher's drives", colour=QUIET)
     of_success = f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes"
-    name_rows(
-        ax,
-        list(groups),
-        of_success if is_success else "return of an agent after training; filled: it escapes",
-    )
+    name_rows(ax, list(groups), of_success if is_success else "return of an agent after training; filled: it escapes")
     ax.set_xlim((-2, 102) if is_success else (0, None))
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
