@@ -42,11 +42,13 @@ def shown(lesson: str, name: str = "") -> Explorable:
 def test_each_slider_changes_the_picture_and_refuses_nonsense(lesson, name):
     panel = shown(lesson, name)
     for number in panel.numbers.values():
-        pictures = {panel.svg}
+        start, before = number.slider.value, panel.svg
+        pictures = {before}
         for value in ((number.slider.min + number.slider.max) / 2, number.slider.max):
             from_page(number.slider, value=value)
             pictures.add(panel.svg)
         assert len(pictures) > 1 and panel.view.value == panel.svg
+        assert (panel.svg == before) == (number.slider.value == start), "one value, one picture"
         size = panel.svg.split(' role="img"')[0]
         for value in (number.slider.min, number.slider.max):
             from_page(number.slider, value=value)
