@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 RESAMPLES = 99_999  # with a tenth of them, an end moved by up to 7 with the resampling seed (returns of ten agents)
-EXACT = 10  # seeds; up to these, all resamples of one sample are enumerated: 92,378 of ten
+EXACT = 10  # seeds; up to these, all resamples of one sample are enumerated: 92,378 of ten that differ
 ESCAPES = 0.95  # an agent escapes if it succeeds in at least this share of its episodes
 IN_A_ROW = 50  # training episodes, of which an agent that has found the way out ends more than half ahead
 HAD, LOST = 40, 25  # of these: ahead in so many, later in so few, an agent has lost the way out
@@ -85,27 +85,27 @@ def interval(scores: Sequence[float] | np.ndarray, statistic=iqm, seed: int = 0)
 
 @lru_cache(maxsize=1024)
 def _exact(each: tuple[float, ...], statistic) -> Estimate:
-    """The exact interval, which tables ask for again; equal scores need no resamples."""
-    scores = np.array(each)
-    if np.ptp(scores) == 0:
-        return Estimate(*3 * [float(statistic(scores, axis=-1))])
-    rows, probabilities = all_resamples(len(scores))
-    resampled = statistic(scores[rows], axis=-1)
+    """The exact interval, which tables ask for again. Equal scores are one: rates of agents have few ways."""
+    distinct, times = np.unique(each, return_counts=True)
+    rows, probabilities = all_resamples(*times.tolist())
+    resampled = statistic(distinct[rows], axis=-1)
     order = np.argsort(resampled)
     below = np.searchsorted(np.cumsum(probabilities[order]), 0.025)
     above = np.searchsorted(np.cumsum(probabilities[order[::-1]]), 0.025)
-    return Estimate(float(statistic(scores, axis=-1)), *map(float, resampled[order[[below, -1 - above]]]))
+    return Estimate(float(statistic(np.array(each), axis=-1)), *map(float, resampled[order[[below, -1 - above]]]))
 
 
 @lru_cache
-def all_resamples(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """All C(2n - 1, n) ways to draw n of n with replacement, whatever the order: rows (ways, n), probabilities (ways,).
+def all_resamples(*times: int) -> tuple[np.ndarray, np.ndarray]:
+    """All ways to draw n of n scores with replacement, whatever the order: rows (ways, n), probabilities (ways,).
 
-    A way that draws item i k_i times has the probability n! / (k_1! ... k_n!) / n^n.
+    times: how often each of the distinct scores, to which the rows point, is among the n. A way that draws score i
+    k_i times has the probability n! / (k_1! k_2! ...) · Π (times_i / n)^k_i.
     """
-    rows = np.array(list(combinations_with_replacement(range(n), n)))
-    counts = (rows[:, :, None] == np.arange(n)).sum(axis=1)
-    return rows, scipy.stats.multinomial.pmf(counts, n, np.full(n, 1 / n))
+    n = sum(times)
+    rows = np.array(list(combinations_with_replacement(range(len(times)), n)))
+    counts = (rows[:, :, None] == np.arange(len(times))).sum(axis=1)
+    return rows, scipy.stats.multinomial.pmf(counts, n, np.array(times) / n)
 
 
 def median(values: np.ndarray) -> Estimate:

@@ -31,7 +31,7 @@ def leaves_out_0(effect: Estimate) -> bool:
 
 def exact_difference(x: np.ndarray, y: np.ndarray) -> Estimate:
     """`statistics.difference` of two small groups, (n,) each, from all their resamples instead of random ones."""
-    rows, chances = all_resamples(len(x))
+    rows, chances = all_resamples(*[1] * len(x))
     resampled = np.subtract.outer(iqm(x[rows]), iqm(y[rows])).ravel()
     order = np.argsort(resampled)
     upward = np.outer(chances, chances).ravel()[order]
