@@ -66,10 +66,10 @@ def test_a_notebook_that_somebody_has_worked_in_is_shown_as_it_came(tmp_path, mo
     nbformat.write(worked, notebook)
     monkeypatch.setattr(book, "ROOT", tmp_path)
     assert book.worked_in() == ["00_start.ipynb"]
-    book.with_live_worlds(notebook, tmp_path / "shown.ipynb")
+    book.as_a_page(notebook, tmp_path / "shown.ipynb")
     assert "as it came" in (tmp_path / "shown.ipynb").read_text() and "as it came" in without_git.decode()
     subprocess.run(["git", "-C", str(tmp_path), "add", "."], check=True)
-    book.with_live_worlds(notebook, tmp_path / "shown.ipynb")
+    book.as_a_page(notebook, tmp_path / "shown.ipynb")
     assert "worked in" in (tmp_path / "shown.ipynb").read_text() and book.worked_in() == []
 
 
@@ -159,20 +159,38 @@ def test_a_world_in_a_lesson_is_the_live_page_in_the_book(tmp_path):
         data, _ = world._repr_mimebundle_()
     cell.outputs = [nbformat.v4.new_output("display_data", data)]
     nbformat.write(nbformat.v4.new_notebook(cells=[cell]), tmp_path / "lesson.ipynb")
-    book.with_live_worlds(tmp_path / "lesson.ipynb", tmp_path / "page.ipynb")
+    book.as_a_page(tmp_path / "lesson.ipynb", tmp_path / "page.ipynb")
     [output] = nbformat.read(tmp_path / "page.ipynb", 4).cells[0].outputs
     assert 'src="../trap.html#road=7&amp;ghost=sac&amp;driver=you' in output.data["text/html"]
     assert set(output.data) == {"text/html", "text/plain"}
 
 
-def test_where_a_lesson_trains_its_reader_trains_in_the_page(tmp_path):
-    cells = [nbformat.v4.new_code_cell("bc.world()"), nbformat.v4.new_code_cell("training.run(updates=9)")]
-    nbformat.write(nbformat.v4.new_notebook(cells=cells), tmp_path / "lesson.ipynb")
-    book.add_learning(tmp_path / "lesson.ipynb", book.LEARNED["soft_constraint"])
-    first, trained = nbformat.read(tmp_path / "lesson.ipynb", 4).cells
-    assert first.outputs == []
-    shown = trained.outputs[0].data["text/html"]
-    assert shown.count('target="learn"') == 3 and 'name="learn" src="../trap.html#learn=soft&amp;agents=2' in shown
+def test_where_a_lesson_trains_its_reader_trains_in_the_page_below_what_is_said_of_it(tmp_path):
+    new, path = nbformat.v4, tmp_path / "lesson.ipynb"
+    see = new.new_markdown_cell("See.\nIt learns.", metadata={"jupyter": {"source_hidden": True}})
+    cells = [new.new_code_cell("bc.world()"), new.new_code_cell("training.run(updates=9)"), see]
+    nbformat.write(new.new_notebook(cells=cells), path)
+    book.add_learning(path, book.LEARNED["soft_constraint"])
+    *before, learns = nbformat.read(path, 4).cells
+    assert before == cells and learns.source.count('target="learn"') == 3
+    assert 'name="learn" src="../trap.html#learn=soft&amp;agents=2' in learns.source
+
+
+def test_the_page_that_learns_stands_in_place_of_a_panel_that_needs_a_kernel(tmp_path):
+    new, path = nbformat.v4, tmp_path / "lesson.ipynb"
+    cells = [new.new_code_cell("training.run(updates=9)"), new.new_code_cell("bc.panels.train_panel()")]
+    cells[1].outputs = [new.new_output("stream", text="four empty axes")]
+    nbformat.write(new.new_notebook(cells=cells), path)
+    book.add_learning(path, book.LEARNED["soft_constraint"])
+    trains, panel = nbformat.read(path, 4).cells
+    assert trains == cells[0] and [list(each.data) for each in panel.outputs] == [["text/html", "text/plain"]]
+
+
+def test_the_first_word_of_what_jupyterlab_folds_is_bold_in_the_book(tmp_path):
+    see = nbformat.v4.new_markdown_cell("See.\n*It* learns.", metadata={"jupyter": {"source_hidden": True}})
+    nbformat.write(nbformat.v4.new_notebook(cells=[see]), tmp_path / "lesson.ipynb")
+    book.as_a_page(tmp_path / "lesson.ipynb", tmp_path / "page.ipynb")
+    assert nbformat.read(tmp_path / "page.ipynb", 4).cells[0].source == "**See.** *It* learns."
 
 
 @needs_browser

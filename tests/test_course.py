@@ -36,6 +36,11 @@ def test_the_code_that_a_page_of_the_book_names_exists(page):
     assert dead_names(page.read_text(encoding="utf-8")) == []
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_no_line_of_a_page_begins_like_a_comment_which_the_book_would_leave_out(page):
+    assert re.findall("^%.*", page.read_text(encoding="utf-8"), re.M) == []
+
+
 # Numbers --------------------------------------------------------------------------------------------
 
 

@@ -63,7 +63,7 @@ def gather(to: Path, edition: str = "student") -> None:
         page.write_text(resolved(fill_in(text), folder), encoding="utf-8")
     (to / "lessons/instructor").mkdir(parents=True)
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
-        with_live_worlds(notebook, to / "lessons" / notebook.name)
+        as_a_page(notebook, to / "lessons" / notebook.name)
         lesson = notebook.stem.partition("_")[2]
         if lesson in LEARNED:
             add_learning(to / "lessons" / notebook.name, LEARNED[lesson], folded=lesson == "the_trap")
@@ -82,10 +82,15 @@ def frame(address: str, height: int) -> str:
     return f'{page} style="width: 100%; height: {height}px; border: 0"></iframe>'
 
 
-def with_live_worlds(notebook: Path, to: Path) -> None:
-    """Copy a notebook as it came, with the page that drives in the place of each world, which needs a kernel."""
+def as_a_page(notebook: Path, to: Path) -> None:
+    """Copy a notebook as it came, with the page that drives in the place of each world, which needs a kernel.
+
+    The first word of what JupyterLab folds is bold again.
+    """
     content = json.loads(as_it_came(notebook))
     for cell in content["cells"]:
+        if is_folded_text(cell):
+            cell["source"] = re.sub(r"\A(\w+\.)\n", r"**\1** ", "".join(cell["source"]))
         for output in cell.get("outputs", []):
             shown = output.get("data", {})
             if address := WORLD.search("".join(shown.get("text/html", ""))):
@@ -93,15 +98,19 @@ def with_live_worlds(notebook: Path, to: Path) -> None:
     to.write_text(json.dumps(content), encoding="utf-8")
 
 
-def add_learning(notebook: Path, addresses: dict[str, str], folded: bool = False) -> None:
-    """Let agents learn in a lesson's page in the book, below the first cell that trains: one page, several links.
+def is_folded_text(cell: dict) -> bool:
+    return cell["cell_type"] == "markdown" and cell["metadata"].get("jupyter", {}).get("source_hidden", False)
 
-    folded: its sliders are not explained yet.
+
+def add_learning(notebook: Path, addresses: dict[str, str], folded: bool = False) -> None:
+    """Let agents learn in a lesson's page in the book: one page, several links.
+
+    It stands in the place of the lesson's training panel, which needs a kernel, or below what is said of the first
+    training. folded: its sliders are not explained yet.
     """
     from bootcourse.markup import html
 
     content = json.loads(notebook.read_text(encoding="utf-8"))
-    trains = (cell for cell in content["cells"] if cell["cell_type"] == "code" and ".run(" in "".join(cell["source"]))
     links = " · ".join(
         html('<a href="../trap.html#{}" target="learn">{}</a>', address, words) for words, address in addresses.items()
     )
@@ -111,8 +120,15 @@ def add_learning(notebook: Path, addresses: dict[str, str], folded: bool = False
     if folded:
         summary = "<summary>Train agents in this page (later lessons explain the sliders)</summary>"
         said = f"<details>{summary}{said}</details>"
-    output = {"output_type": "display_data", "metadata": {}, "data": {"text/html": said, "text/plain": "Agents learn."}}
-    next(trains)["outputs"].append(output)
+    cells = content["cells"]
+    code = {i: "".join(cell["source"]) for i, cell in enumerate(cells) if cell["cell_type"] == "code"}
+    if panels := [i for i, text in code.items() if "train_panel(" in text]:
+        output = {"output_type": "display_data", "metadata": {}, "data": {"text/html": said, "text/plain": ""}}
+        cells[panels[0]]["outputs"] = [output]
+    else:
+        trains = next(i for i, text in code.items() if ".run(" in text)
+        below = next((i for i in range(trains, len(cells)) if is_folded_text(cells[i])), trains)
+        cells.insert(below + 1, {"cell_type": "markdown", "id": "learn", "metadata": {}, "source": said})
     notebook.write_text(json.dumps(content), encoding="utf-8")
 
 

@@ -81,6 +81,12 @@ def with_teacher(updates: str) -> float:
     return study_clocks.pattern(study_clocks.choices(shipped_experiment("clocks"))[updates, "π̃"]).value
 
 
+def row_reads(method: str) -> float:
+    """The chance that one row of the right panel of round 3 reads as the paper's."""
+    agents = study_clocks.choices(shipped_experiment("clocks"))["2", "π̃"].of(method)
+    return float(study_clocks.as_printed(agents.scores("success"), method).mean())
+
+
 def others_pattern() -> float:
     """The chance of round 3 where each row's agent is one of the ten others."""
     methods = ("sac", "soft", "demos", "bootstrapped")
