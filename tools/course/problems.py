@@ -30,8 +30,11 @@ def problems(path: Path) -> list[str]:
         *of_predictions(cells, lesson_of(path)),
         *of_references(cells),
         *of_lost(cells),
-        *(f"{begins(cell.student)} has a line that begins with %: the book takes it for a comment."
-          for cell in cells if not cell.is_code and re.search(r"^%", cell.student, re.M)),
+        *(
+            f"{begins(cell.student)} has a line that begins with %: the book takes it for a comment."
+            for cell in cells
+            if not cell.is_code and re.search(r"^%", cell.student, re.M)
+        ),
         *of_minutes(cells),
     ]
     if wrong:

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from bootcourse.colours import ALARM
+from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import Rollout
@@ -184,49 +185,39 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout, drives: Sequence[Ro
 
 
 def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
-    """Accidents of agents that look ahead in a model that they learned, by how many decisions it learned from.
+    """Accidents of agents that look ahead in a model that they learned: a row for each driver of what it learned from.
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
-    title = "Random actions help; on average the look-ahead's drives help more, by the fourth round"
+    title = "With some random actions, or with the look-ahead's own drives, agents crash less"
     agents, base = learned_model.together(computed), learned_model.BASE
     alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)].mean(), style(base).colour
-    rounds = agents.notes["rows"] / 1000, learned_model.per_thousand(agents, LEARNED_FORM)  # (agents, rounds)
     drivers = {"the agent": agents}
     drivers |= {
-        f"{100 * share:.0f} % random": learned_model.together(computed, share) for share in learned_model.RANDOM
+        f"{100 * share:.0f} % of its actions random": learned_model.together(computed, share)
+        for share in learned_model.RANDOM
     }
     groups = {
-        name: (of.measured["rows"] / 1000, learned_model.per_thousand(of, LEARNED_FORM, control=True)[:, 0])
+        name: (of.measured["rows"], learned_model.per_thousand(of, LEARNED_FORM, control=True)[:, 0])
         for name, of in drivers.items()
     }
-    groups["the look-ahead"] = tuple(values[:, -1] for values in rounds)
-    places = ("s", (0, -15), "center"), ("^", (26, -5), "left"), ("v", (0, -15), "center"), ("D", (10, -4), "left")
-    figure, alt_parts = new_figure(3.7), []
-    ax = axes_at(figure, 0.6, 1.0, 6.1, 1.95)
-    for (mark, offset, side), (name, (sizes, values)) in zip(places, groups.items(), strict=True):
-        x, y, look = sizes.mean(), values.mean(), colour if name == "the look-ahead" else INK
-        ax.plot(sizes, values, mark, color=look, alpha=0.3, ms=3.5, mew=0, clip_on=False)
-        ax.plot(x, y, mark, color=look, ms=8, clip_on=False, zorder=4)
-        text, at = f"{name}: {y:,.0f}", {"textcoords": "offset points", "ha": side}
-        ax.annotate(text, (x, y), offset, **at, fontsize=TEXT, color=look, zorder=5)
-        alt_parts.append(f"{name}, {x:.0f} thousand decisions: {y:.0f}")
-    x, y = (values.mean(0) for values in rounds)
-    ax.plot(x, y, "D-", color=colour, linewidth=2, ms=4.5, clip_on=False)
-    third = {"textcoords": "offset points", "fontsize": SMALL, "color": colour}
-    ax.annotate(f"after three rounds: {y[-2]:.0f}", (x[-2], y[-2]), (8, 0), **third)
-    ax.axhline(alone, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
-    words = f"no model, the agent alone: {alone:.0f}"
-    ax.text(119, alone - 20, words, ha="right", va="top", fontsize=SMALL, color=QUIET)
-    plain_axes(ax, "accidents in 1,000 drives")
-    ax.set(xlim=(0, 120), ylim=(0, 1030))
-    ax.set_yticks([0, 500, 1000], ["0", "500", "1,000"])
-    ax.set_xlabel("decisions that the model learned from (thousand)", fontsize=TEXT, color=INK)
-    words = "by who drives for the model; large: means of the agents, small: each agent; line: the look-ahead's rounds"
-    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
+    last = agents.notes["rows"][:, -1], learned_model.per_thousand(agents, LEARNED_FORM)[:, -1]
+    groups["the agent, then the look-ahead"] = last
+    row, alt_parts = 0.42, []
+    figure = new_figure(1.35 + row * len(groups))
+    ax = axes_at(figure, 2.25, 0.8, 2.8, row * len(groups))
+    ax.axvline(alone, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
+    for place, (name, (decisions, crashes)) in enumerate(groups.items()):
+        mean, thousand = f"{crashes.mean():,.0f}", f"{decisions.mean() / 1000:.0f}"
+        dots(ax, crashes, place, colour if place == len(groups) - 1 else INK, np.ones(len(crashes)), crashes.mean())
+        beside(ax, place, mean, thousand)
+        alt_parts.append(f"{name}, {thousand} thousand decisions: {mean}")
+    beside(ax, -0.75, "mean", "decisions, thousand", colour=QUIET)
+    name_rows(ax, groups, "accidents in 1,000 drives; a dot for each agent, a bar for their mean")
+    ax.text(alone - 15, -0.75, f"without a model: {alone:.0f}", ha="right", va="center", fontsize=SMALL, color=QUIET)
+    ax.set_xlim(0, 1010)
     alt = f"Mean accidents in 1,000 drives by who drives for the model. {'; '.join(alt_parts)}. "
-    alt += f"After three rounds {y[-2]:.0f}. The agent alone: {alone:.0f}."
-    return finish(figure, title, alt)
+    return finish(figure, title, f"{alt}The agents without a model: {alone:.0f}.")
 
 
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:

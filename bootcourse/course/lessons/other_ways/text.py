@@ -282,13 +282,16 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 #   'ibrl')) -->
 #
 # And not all was equal:
-# - four methods have {{ hours_before('rlpd') | .0f }} hours of the rule's drives, not counted (PPO's are the stochastic
-#   rule's); jump-start RL has none, and the rule's decisions in its training count;
-# - IBRL keeps the rule in the test;
-# - RLPD's authors make 20 updates a decision with ten critics, we half a one (the other SACs a quarter) with {{
-#   settings_for('rlpd').critics }};
-# - bootstrapped SAC's c and β were chosen by hand; the search tried how many roads PPO drives at once, but the others'
-#   target entropy.
+#
+# | | PPO | bootstrapped SAC | jump-start RL | RLPD | IBRL |
+# |---|---|---|---|---|---|
+# | {{ hours_before('rlpd') | .0f }} h of the rule's drives, not counted | of π̃ | yes | no | yes | yes |
+# | the rule acts | no | no | in training, counted | no | in training and test |
+# | updates a decision | – | ¼ | ¼ | ½ | ¼ |
+# | three values were tried of | roads at once | target entropy | target entropy | target entropy | target entropy |
+#
+# Bootstrapped SAC's c and β were chosen by hand. RLPD's authors make 20 updates a decision, with ten critics; we have
+# {{ settings_for('rlpd').critics }}.
 # <!-- claim: by_hand() == {'bootstrapped': {'bonus', 'beta_episodes'}} and {decisions_per_update(m) /
 #   decisions_per_update('rlpd') for m in ('bootstrapped', 'jsrl', 'ibrl')} == {2} and
 #   decisions_per_update('rlpd') == 2 -->
@@ -315,9 +318,8 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 predict("other_ways.5", "Where is PPO after cloning?", ["first", "in the middle", "last"])
 
 # %% [markdown]
-# **Switch** from decisions to seconds of computing. On a road a decision takes a second. (Jump-start RL's
-# and IBRL's returns contain the rule's actions. Not counted: PPO's cloning, and the {{ hours_before('rlpd') |
-# .0f }} h of the rule's drives that all but jump-start RL have.)
+# **Switch** from decisions to seconds of computing. On a road a decision takes a second. (Jump-start RL's and
+# IBRL's returns contain the rule's actions. Not counted: PPO's cloning, and the rule's drives of the table above.)
 
 # %%
 predicted("other_ways.5")

@@ -8,44 +8,49 @@ from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, Style
 from bootcourse.course import table
-from bootcourse.course.charts import lines
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import overtaken
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, TEXT, finish, one_axes
+from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SENTENCES, Reason, safety_distance
 
 
 def when_to_change(drive: Rollout) -> Figure:
-    """The gap to trap 2, the safety distance, and what the printed condition compares with 0, in the first lane."""
-    scenario = drive.scenario
+    """In the first lane, our condition and the printed one, each as what has to rise above what."""
+    scenario, green = drive.scenario, style("rule").colour
     states = drive.states[: 1 + int(np.argmax(drive.states[:, EGO, LANE] != drive.states[0, EGO, LANE]))]
     seconds = np.arange(len(states)) * scenario.clock.dt
     v, slower = states[:, EGO, SPEED], np.minimum(states[:, TRAP_1, SPEED], states[:, TRAP_2, SPEED])
     ahead = states[:, TRAP_2, X] - states[:, EGO, X]
     gap, t_safe = ahead - scenario.car.length, scenario.rule.t_safe
     needed = np.array([safety_distance(a, b, b, t_safe, scenario.rule.floor) for a, b in zip(v, slower, strict=True)])
-    printed = (v - slower) * t_safe - ahead
-    named = {
-        "gap to trap 2, bumper to bumper": gap,
-        "safety distance": needed,
-        "printed: left − right side, change when above 0": printed,
-    }
-    first = int(np.argmax(gap > needed))
-    alt = (
-        f"Over {seconds[-1]:g} s the gap grows from {gap[0]:.1f} to {gap[-1]:.1f} m and exceeds the safety distance of "
-        f"{needed[first]:.1f} m at {seconds[first]:g} s. The printed condition falls from {printed[0]:.1f} to "
-        f"{printed[-1]:.1f} m: it never rises above 0."
+    printed, first = (v - slower) * t_safe, int(np.argmax(gap > needed))
+    figure = new_figure(3.5)
+    panels = (
+        ("ours (m)", (gap, "gap to trap 2,\nbumper to bumper", green), (needed, "safety distance")),
+        ("printed (m)", (printed, "left side", ALARM), (ahead, "right side")),
     )
-    title = "The gap grows past the safety distance; the printed condition only falls"
-    rule, looks = style("rule").colour, (style("rule")._replace(line="-"), Style(INK, "--"), Style(ALARM, "-."))
-    figure = lines(seconds, named, title, "time (s)", "metres", marks={"": 0.0}, looks=looks, alt=alt)
-    figure.axes[0].plot(seconds[first], gap[first], "o", color=rule, markersize=7)
-    place = {"textcoords": "offset points", "ha": "right", "fontsize": TEXT, "color": rule}
-    figure.axes[0].annotate("room: change", (seconds[first], gap[first]), xytext=(-8, 10), **place)
-    return figure
+    for column, (words, (has_to_rise, name, colour), (above, named)) in enumerate(panels):
+        ax = axes_at(figure, 0.45 + 3.75 * column, 1.0, 2.1, 1.85)
+        ax.plot(seconds, has_to_rise, color=colour, linewidth=2.5)
+        ax.plot(seconds, above, color=INK, linewidth=2, linestyle="--")
+        plain_axes(ax, words)
+        ax.set(xlim=(0, seconds[-1]), ylim=(-5, 15), yticks=(-5, 0, 5, 10, 15))
+        ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
+        for values, text, look in ((has_to_rise, name, colour), (above, named, INK)):
+            ax.text(seconds[-1] * 1.03, values[-1], text, color=look, fontsize=TEXT, va="center")
+        if column == 0:
+            ax.plot(seconds[first], gap[first], "o", color=colour, markersize=7)
+            place = {"textcoords": "offset points", "ha": "right", "fontsize": TEXT, "color": colour}
+            ax.annotate("room: change", (seconds[first], gap[first]), xytext=(-4, 10), **place)
+    alt = (
+        f"Over {seconds[-1]:g} s. Ours: the gap grows from {gap[0]:.1f} to {gap[-1]:.1f} m, above the safety distance "
+        f"of {needed[first]:.1f} m from {seconds[first]:g} s on. Printed: the left side goes from {printed[0]:.1f} to "
+        f"{printed[-1]:.1f} m, the right side from {ahead[0]:.1f} to {ahead[-1]:.1f} m."
+    )
+    return finish(figure, "Our solid line rises above the dashed one, the printed one stays below it", alt)
 
 
 def speed_over_time(drive: Rollout) -> Figure:
