@@ -115,7 +115,7 @@ def add_learning(notebook: Path, addresses: dict[str, str], folded: bool = False
         html('<a href="../trap.html#{}" target="learn">{}</a>', address, words) for words, address in addresses.items()
     )
     first = next(iter(addresses.values())).replace("&", "&amp;")
-    shown = frame(first, 880).replace("<iframe ", '<iframe name="learn" ')
+    shown = frame(first, 855).replace("<iframe ", '<iframe name="learn" ')
     said = f"<p>Train agents here, in this page, and move the sliders while they learn: {links}</p>{shown}"
     if folded:
         summary = "<summary>Train agents in this page (later lessons explain the sliders)</summary>"
