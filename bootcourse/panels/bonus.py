@@ -72,9 +72,9 @@ def bonus_numbers(demonstration: Rollout, trapped: Rollout, settings: Settings) 
 class BonusPanel(Panel):
     """A view on `bonus_numbers` of two drives; `svg` is what it shows, `seen` the numbers."""
 
-    def __init__(self, demonstration: Rollout, trapped: Rollout):
+    def __init__(self, demonstration: Rollout, trapped: Rollout, c: float):
         self.demonstration, self.trapped, settings = demonstration, trapped, Settings()
-        self.c = Number("c", settings.bonus, 0, 5, 0.05, "Bonus on every reward of a demonstration.",
+        self.c = Number("c", c, 0, 5, 0.05, "Bonus on every reward of a demonstration.",
                         check=lambda c: replace(settings, bonus=c))  # fmt: skip
         self.gamma = Number("γ", settings.gamma, 0, 0.98, 0.01, "Discount: the critic sees 1/(1 − γ) decisions ahead.",
                             check=lambda gamma: targets(demonstration.rewards, gamma))  # fmt: skip
@@ -126,12 +126,12 @@ class BonusPanel(Panel):
         return title, f"A bonus of {c:g} adds {added:.3g} to it, c / (1 − γ)."
 
 
-def bonus_panel() -> BonusPanel:
-    """See what the bonus c adds to the targets of a demonstration while you move c and γ.
+def bonus_panel(c: float = Settings().bonus) -> BonusPanel:
+    """See what the bonus c adds to the targets of a demonstration while you move c and γ. c: where it begins.
 
     The panel draws, at each decision t of the rule's drive and of one that stays behind the trap, the critic's target
     y = r' + γ (1 - terminated) y_next, that is Σ_k γ^k r'_{t+k}, without the entropy and the KL. r' = r + c on the
     rule's drive, r on the other. After the end, the mean reward of the last ten decisions goes on for ever.
     """
     drivers = ((rule_policy(DEFAULT), "rule"), (idle_policy, "idle"))
-    return BonusPanel(*(record(driver, [ROAD], DEFAULT, label)[0] for driver, label in drivers))
+    return BonusPanel(*(record(driver, [ROAD], DEFAULT, label)[0] for driver, label in drivers), c)

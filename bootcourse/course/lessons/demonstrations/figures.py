@@ -115,8 +115,9 @@ def off_the_road(own: Sequence[Rollout], of_rule: Sequence[Rollout], seconds: in
     gone = [drive for drive in own if cloning.off_on_the_left(drive)]
     nearest = STEPS_LEFT[np.argmax(rows > 0)]  # the lowest bar with a decision of the rule
     paths.axhspan(nearest, furthest, color=style("rule").colour, alpha=0.13, linewidth=0)
-    for drive in gone:
-        way, errs = cloning.metres_left(drive)[-seconds:], (drive.actions != drive.rule_actions)[-seconds:]
+    last = [(cloning.metres_left(each)[-seconds:], (each.actions != each.rule_actions)[-seconds:]) for each in gone]
+    once = {tuple(np.round(way, 2)): (way, errs) for way, errs in last}  # or equal paths look like a thick one
+    for way, errs in once.values():
         when = np.arange(-len(way), 0)
         paths.plot(when, way, color=style("bc").colour, linewidth=0.7, alpha=0.35)
         paths.plot(when[errs], way[errs], ".", color=INK, markersize=4, alpha=0.5)

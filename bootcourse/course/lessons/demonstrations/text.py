@@ -160,16 +160,17 @@ bc.show(figures.off_the_road(alone, driven["the rule"]))
 # (Ross and Bagnell 2010).
 #
 # Suppose a clone errs with probability ε in its teacher's states and, at worst, in every decision after its first
-# error. With a small ε, a drive twice as long then has up to
-# four times as many errors. **Drag** ε up to our clones' 20 %: how many times now?
+# error. **Drag** ε from 0.5 % up to our
+# clones' 20 %: how many errors can a whole drive have?
 
 # %%
 explorable.compounding()
 
 # %% [markdown]
-# Twice: at 20 % nearly every decision may be an error. Where errors
-# are rare, of $T$ decisions on average at most $\epsilon \, T (T + 1) / 2$ are errors; if errors stay alone (dashed),
-# $\epsilon \, T$. Our clones lie between: in their own states, which Round 3 shows, they agree less than in their data.
+# At 20 % up to {{ np.minimum(1, 0.2 * np.arange(1, 151)).sum() | .0f }} of 150 decisions on average; if errors stay
+# alone (dashed), {{ 0.2 * 150 | .0f }}. Our clones lie between: in their own states, which Round 3 shows, they agree
+# less than in their data. Where errors are rare, of $T$ decisions on average at most $\epsilon \, T (T + 1) / 2$ are
+# errors: a drive twice as long has up to four times as many.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Draw both bounds, T and T²: the first error comes at decision t with a probability of at most ε,
@@ -206,8 +207,9 @@ bc.show(figures.added({name: measured[name] for name in KINDS}, fed_crash))
 # %% [markdown]
 # **See.** *The rows from the edge prevent most accidents; as many others do not.* The states that a data
 # set holds are its **coverage**. The stochastic rule's drives hold these rows: probably that is why its clones crash
-# less than the rule's, although they err more in their own states. When we tried, rows from 1 m left up to
-# the edge rows helped as much: the rule comes there, too, but heads another way.
+# less than the rule's, although they err more in their own states. Rows between 1 m left and the edge rows helped as
+# much when we tried: the rule comes there, too,
+# but with another heading.
 #
 # All this is after {{ UPDATES | , }} updates. Long training turns the order round: the study's ten clones of
 # the rule ({{
@@ -265,8 +267,8 @@ bc.show(figures.taught(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
 # **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom
-# crash.* DAgger adds the states that earlier clones came to, with what the rule does there. So the next clone
-# errs less in its *own* states. (Which errors are left matters, too: Round 3.)
+# crash.* DAgger adds the states that earlier clones came to, with what the rule does there. So on average the next
+# clone errs less in its *own* states. (Which errors are left matters, too: Round 3.)
 #
 # A clone's loss does not ask what an action leads to. The learner of lesson
 # [[learning_from_demonstrations]] does.
@@ -297,8 +299,9 @@ compare_predictions(
 #
 # 1. A clone learns to predict the demonstrator's action. Its agreement with its data does not say how
 #    well it drives.
-# 2. It is trained on the teacher's states and drives in its own, where errors lead to errors: most of
-#    our accidents begin where the rule's drives have no row.
+# 2. It is trained on the teacher's states and drives in its own, where errors lead to errors: in most of our
+#    accidents they lead
+#    where the rule's drives have no row.
 # 3. A few rows from there prevent most of their accidents. Longer training can, too: the study's
 #    clones of the rule all escape.
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 and accidents('bc') < 0.01 -->

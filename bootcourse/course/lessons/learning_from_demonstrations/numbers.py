@@ -53,14 +53,22 @@ def staying(place: int) -> str:
 
 
 def success_table() -> str:
-    """How many training episodes succeed with the bonus and without it, in three windows, as Markdown."""
-    windows = {"episodes 300 to 600": (300, 600), "1,000 to 1,100": (1000, 1100), "1,900 to 2,000": (1900, 2000)}
+    """How many training episodes succeed by the bonus in three windows, and at the end, as Markdown."""
+    windows = {
+        "episodes 300 to 400": (300, 400),
+        "450 to 500": (450, 500),
+        "1,000 to 1,050": (1000, 1050),
+        "1,900 to 2,000": (1900, 2000),
+    }
+    names = {"c = 2": "c = 2, β ends at 1,000", "300": "c = 2, β ends at 300", "c = 0": "c = 0"}
 
     def cell(name: str, first: int, last: int) -> str:
-        ours, more = (100 * training(name, "success", first, last, which).mean() for which in (False, True))
-        return f"{ours:.0f} % ({more:.0f} %)"
+        each = [
+            100 * training(name, "success", first, last, which).mean() for which in (False, True)[: 1 + (name != "300")]
+        ]
+        return " ".join((f"{each[0]:.0f} %", *(f"({more:.0f} %)" for more in each[1:])))
 
-    rows = [[name, *(cell(name, *window) for window in windows.values())] for name in ("c = 2", "c = 0")]
+    rows = [[words, *(cell(name, *window) for window in windows.values())] for name, words in names.items()]
     return markdown(["succeed (in brackets: ten others, who train on to 4,000)", *windows], rows)
 
 

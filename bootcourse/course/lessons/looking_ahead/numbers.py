@@ -19,6 +19,7 @@ from bootcourse.road.state import EGO, TRAP_1, Accident, X
 from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS
 
 LATE = "everything a second late"
+NOISE = "places off by 1 m, speeds by 0.5 m/s"
 WRONG = list(figures.MEANINGS)  # of the study's models
 
 
@@ -78,9 +79,20 @@ def aim(gamma: float, with_worth: bool, measure: str = "success") -> np.ndarray:
     return figures.of_nine(shipped(), gamma, with_worth, measure)
 
 
+def with_aim(gamma: float, with_worth: bool) -> np.ndarray:
+    """How much more often than with neither W nor γ = 1 each of the nine gets out, (9,) shares of its drives."""
+    return aim(gamma, with_worth) - aim(0.8, False)
+
+
 def led_out(gamma: float, with_worth: bool) -> int:
     """How many of them get out in more than a tenth of their drives."""
     return int((aim(gamma, with_worth) > figures.LED).sum())
+
+
+def more_with(model: str) -> int:
+    """How many of Round 1's agents crash more with the look-ahead in a wrong model than alone."""
+    cells = (Cell("bootstrapped", model=model), Cell("bootstrapped", "alone"))
+    return int(np.greater(*(figures.per_thousand(shipped(), cell) for cell in cells)).sum())
 
 
 def wrong_but_late(base: str = "bootstrapped") -> list[float]:

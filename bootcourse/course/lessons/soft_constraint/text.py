@@ -130,14 +130,16 @@ check.soft_constraint(soft_constraint)
 # ## Round 2: what is left of the pull when it fades?
 #
 # In each state the agent has three goals: a high Q, entropy (a nat is worth α), and a small KL (a nat
-# costs ξ). The best π has the largest sum: its mean Q, plus α times its entropy, less ξ times its KL.
+# costs ξ). The best π has the largest sum:
+#
+# $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi) - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
 #
 # The paper sets ξ = {{ SETTINGS.xi_multiplier }} α, at first {{
 # SETTINGS.xi_multiplier * SETTINGS.alpha_init }}. The target entropy η = {{ SETTINGS.target_entropy }}
 # cannot be reached, so α falls, as in lesson [[discrete_sac]], and ξ with it.
 #
-# Where all Q are equal, the best π still prefers the rule's action. How much larger
-# its log π is there than any other action's is the rule's **head start**, in nats.
+# Where all Q are equal, the best π still prefers the rule's action. By how much its log π then
+# exceeds any other action's is the rule's **head start**, in nats.
 #
 # > **Predict.** α falls to a hundredth, and so does ξ. How much of the head start is left?
 
@@ -157,20 +159,15 @@ predicted("soft_constraint.2")
 explorable.pull()
 
 # %% [markdown]
-# **See.** *The head start stays, and the temperature fades.* Where all Q are equal, the last two
-# terms remain, and α is a factor of both: the head start is {{ 200 / 201 * math.log(72) | .2f }} nats for
+# **See.** *The head start stays, and the temperature fades.* Where all Q are equal, only the last two terms matter,
+# and with ξ = 200 α both contain the factor α: the head start is {{ 200 / 201 * math.log(72) | .2f }} nats for
 # every α. The smaller α and ξ become, the more the other action's lead of 1 in Q counts, until that action
 # wins. With a ξ that stays at 2 (grey) it does not.
 # <!-- claim: math.isclose(200 / 201 * math.log(8 * RULE_P / (1 - RULE_P)), 4.26, abs_tol=0.005) -->
 # <!-- claim: 1 < 2 * math.log(8 * RULE_P / (1 - RULE_P)) -->
 
 # %% [markdown]
-# The sum in symbols:
-#
-# $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
-# - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
-#
-# **Exercise (12 min, ●●●).** Derive the best π on paper, then write it. For ξ = 0
+# **Exercise (12 min, ●●●).** Derive the best π of this sum on paper, then write it. For ξ = 0
 # it is SAC's softmax(Q / α) of lesson [[discrete_sac]]. Write the KL out: it contains an entropy.
 
 
@@ -207,9 +204,10 @@ bc.show(figures.mixed(strengths, *examples.mixed(mix, strengths)))
 
 # %% [markdown]
 # **See.** *None of these four is fast and safe.* With ξ = 1 each returns {{ rule_on_these_roads() | .0f
-# }}, like the rule on these roads. With a smaller ξ they crash, and with Q alone, too. Were Q exact, its best
-# action would be worth at least as much, by Q, as
-# the agent's policy. Perhaps it errs on actions that the agent seldom takes.
+# }}, like the rule on these roads. With a smaller ξ they crash, and with Q alone, too. Were Q exact, driving by its
+# best
+# actions would be worth, discounted, at least as much as the agent's policy. Perhaps it errs on actions that the
+# agent seldom takes.
 # <!-- claim: not drives()[1][0].any() and (abs(drives()[0][0] - rule_on_these_roads()) < 1).all() -->
 # <!-- claim: (drives()[1][1:-1] > 0).all() and drives()[0][-1].min() > drives()[0][:-1].max() and
 #   (drives()[1][-1] < drives()[1][-2]).all() -->
@@ -360,7 +358,7 @@ bc.show(figures.courses(kinds))
 # %% [markdown]
 # **See.** *Each kind has a fault.* With ξ = 2 all find the way out (after {{ finding(stays(2)).min() }} to {{
 # finding(stays(2)).max() }} episodes), but stay slow, so the grey
-# curve is lowest. With 0.1 most find it later ({{
+# curve is lowest. With 0.1 eight find it (after {{
 # finding(stays(0.1))[finding(stays(0.1)) > 0].min() }} to {{ finding(stays(0.1)).max() }}), two never. Where ξ
 # falls, they
 # find it first ({{ finding(of('soft')).min() }} to {{ finding(of('soft')).max() }}), but {{
@@ -390,8 +388,8 @@ bc.show(figures.twenty(kinds))
 # **See.** *With a pull that is strong first, then weak but not gone (`bc.settings_for("soft", xi_min=0.1)`), all
 # twenty find the way out, keep it, and return more than twice as much as the rule.* With ξ = 2 leaving the rule
 # costs more than speed pays: none of the twenty is fast (the rule returns {{
-# of('rule').scores('returns').mean() | .0f }}). (In Round 2 ξ = 0.1 met a
-# finished Q; here Q is learned with it.) The floor keeps the temperature α + ξ up,
+# of('rule').scores('returns').mean() | .0f }}). (The drives with ξ = 0.1 in Round 2 used a Q that was learned with
+# another ξ.) The floor keeps the temperature α + ξ up,
 # too: whether that or the pull helps is open.
 #
 # {{ 100 * crashes(floored()) | .0f }} % of their drives crash; where ξ falls towards 0, {{ 100 *
@@ -435,7 +433,7 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. An action's price is −log π̃; a policy's is the KL from π̃.
+# 1. An action costs −log π̃, a policy its KL from π̃.
 # 2. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)).
 # 3. With ξ = {{ SETTINGS.xi_multiplier }} α the rule's head start, {{ 200 / 201 * math.log(72) | .2f }} nats,
 #    stays, but the temperature fades, so Q decides in the end.
