@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from bootcourse.colours import INK, OTHER, Style
 from bootcourse.course import charts, table
 from bootcourse.course.lessons.discrete_sac.explorable import ACTIONS, ALPHA, START
-from bootcourse.course.lessons.discrete_sac.own_parts import STEPS, SURE, Descent, Walked
+from bootcourse.course.lessons.discrete_sac.own_parts import STEPS, Descent, Walked
 from bootcourse.methods import style
 
 
@@ -28,13 +28,13 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
 
     knows: π(leave | trap) of an agent that knows the whole chain; walked: the learners at each temperature.
     """
-    title = "A small α finds too little, a large one takes too seldom"
+    title = "A small α does not find the road, a large one does not take it"
     named = {
         "takes: leaves, knowing the map": np.array(knows),
         "tries: finds the free road": walked.found.mean(axis=1),
-        "ends sure of leaving": (walked.leaves > SURE).mean(axis=1),
+        "the thirty leave, on average": walked.leaves.mean(axis=1),
     }
     looks = [Style(INK, "--"), Style(OTHER.colour, "--"), style("sac")]
     ends = (f"{name}: {line[0]:.2f} at {alphas[0]:g}, {line[-1]:.2f} at {alphas[-1]:g}" for name, line in named.items())
-    axes = "temperature α", "probability, or share of 30", "x", {"": 0.5}, (-0.02, 1.05), looks
+    axes = "temperature α", "probability, or share of 30", "x", {"a coin": 0.5}, (-0.02, 1.05), looks
     return charts.lines(alphas, named, title, *axes, f"{'; '.join(ends)}.")

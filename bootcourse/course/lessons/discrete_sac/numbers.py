@@ -62,20 +62,15 @@ def found(alpha: float) -> int:
 
 
 @cache
-def falling() -> np.ndarray:
-    """How probably the thirty learners leave in the end if α falls from 10, or from 1, to 0.01: (2, 30)."""
-    return walked(sac.soft_value, sac.critic_target, torch.tensor(np.geomspace((10, 1), 0.01, 1000))).leaves
+def falling() -> Walked:
+    """Thirty learners whose α falls from 10 to 0.01 by equal factors: each array (30,)."""
+    both = walked(sac.soft_value, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, 1000))[:, None])
+    return Walked(*(each[0] for each in both))
 
 
-def surely() -> np.ndarray:
-    """How many of thirty end sure of leaving, at each of the ALPHAS."""
-    return (constant().leaves > SURE).sum(axis=1)
-
-
-def sure() -> dict[str, np.ndarray]:
-    """How many of thirty leave surely in the end, and how many stay so, if α falls from 10, or from 1, by equal factors
-    to 0.01."""
-    return {"leave": (falling() > SURE).sum(axis=1), "stay": (1 - falling() > SURE).sum(axis=1)}
+def sure(leaves: np.ndarray) -> int:
+    """How many end sure of leaving."""
+    return int((leaves > SURE).sum())
 
 
 def reachable() -> np.ndarray:

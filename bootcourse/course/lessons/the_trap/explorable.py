@@ -24,10 +24,10 @@ def discount() -> Explorable:
 
     def draw(gamma: float) -> Drawing:
         out, quick, behind = (np.cumsum(gamma**times * rewards) for rewards in (by_rule, sooner, stay))
-        ranked = sorted(((out[-1], "the rule's way out"), (quick[-1], "the plan"), (behind[-1], "staying")))
+        ranked = sorted(((out[-1], "the rule's way out"), (quick[-1], "the blind plan"), (behind[-1], "staying")))
         named = {
             f"the rule's way out: {out[-1]:.2f} in 150 s": Curve(out[:SECONDS], style("rule").colour),
-            f"the plan: {quick[-1]:.2f} in 150 s": Curve(quick[:SECONDS], INK),
+            f"the blind plan: {quick[-1]:.2f} in 150 s": Curve(quick[:SECONDS], INK),
             f"staying behind: {behind[-1]:.2f} in 150 s": Curve(behind[:SECONDS], style("idle").colour, "--"),
         }
         what = "sum of the rewards until then, each × γ to the power of its second"

@@ -84,9 +84,9 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
 def bearable_risks(gammas: np.ndarray, risks: np.ndarray) -> Figure:
     """The share of early crashes that the rule's way and the plan bear at each γ, (gammas, 2)."""
     at = {gamma: 100 * risks[np.argmin(abs(gammas - gamma))] for gamma in (0.8, 0.95, 1.0)}
-    title = f"At γ = 0.8 the plan bears {at[0.8][1]:.0f} % of early crashes, compared with doing nothing"
+    title = f"At γ = 0.8 leaving by the blind plan pays only if under {at[0.8][1]:.0f} % crash early"
     figure, ax = one_axes(3.6, title, "γ, what a reward a second later is worth", "bearable risk of an early crash (%)")
-    ways = (("the rule's way", style("rule").colour, (0.928, 4)), ("the plan", INK, (0.93, 48)))
+    ways = (("the rule's way", style("rule").colour, (0.928, 4)), ("the blind plan", INK, (0.93, 48)))
     for (name, colour, place), risk in zip(ways, 100 * risks.T, strict=True):
         ax.plot(gammas, risk, color=colour, linewidth=2, clip_on=False)
         ax.text(*place, name, ha="right", fontsize=TEXT, color=colour)
@@ -97,7 +97,7 @@ def bearable_risks(gammas: np.ndarray, risks: np.ndarray) -> Figure:
                 ax.annotate(f"{value:.0f} %", (gamma, value), xytext=(-6, 4), textcoords="offset points", ha="right",
                             fontsize=TEXT, color=colour)  # fmt: skip
     ax.set(xlim=(gammas[0], gammas[-1]), ylim=(0, 85))
-    each = [f"at γ = {gamma:g} the rule's way {a:.0f} %, the plan {b:.0f} %" for gamma, (a, b) in at.items()]
+    each = [f"at γ = {gamma:g} the rule's way {a:.0f} %, the blind plan {b:.0f} %" for gamma, (a, b) in at.items()]
     return finish(figure, title, f"The bearable risk of an early crash grows with γ, {'; '.join(each)}.")
 
 
@@ -128,7 +128,7 @@ def what_they_learned(study: Results, plan: Episodes) -> Figure:
         )
         listed.append(f"{METHODS[method].name} {each}")
     rule = report.rule_results(DEFAULT, study.sizes[0])
-    drivers = (("the rule", rule.episodes, style("rule").colour), ("the plan of Round 1", partial(getattr, plan), INK))
+    drivers = (("the rule", rule.episodes, style("rule").colour), ("the blind plan", partial(getattr, plan), INK))
     for name, of, colour in drivers:
         crash, earned = 100 * (of("accident") > 0).mean(), of("returns").mean()
         ax.plot(crash, earned, "s", color=colour, markersize=7, zorder=4, clip_on=False)

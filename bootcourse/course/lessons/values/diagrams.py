@@ -135,6 +135,11 @@ def _square(ax: Axes, x: float, y: float, shade: str, size: float) -> None:
     ax.plot(x, y, "s", markersize=size, color=shade, markeredgecolor=QUIET, markeredgewidth=0.7, clip_on=False)
 
 
+def goes_on_from(q: np.ndarray, state: int) -> int:
+    """After which walk, of q (walks + 1, 5, 2), the learner goes on in a state, and no longer turns back."""
+    return len(q) - int(np.argmax((q[:, state, 1] <= q[:, state, 0])[::-1]))
+
+
 def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
     """The trap's two values while two learners walk, from their Q (5, 2) after each walk, the zeros before included.
 
@@ -152,10 +157,11 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
         ax.set(xlim=(0, decisions[-1]), ylim=(-0.26, 2.1), yticks=(0, 1, 2))
         ax.set_xlabel("decisions", fontsize=TEXT, color=INK)
         if q[-1, 0, 1] > q[-1, 0, 0]:
-            beaten = decisions[np.argmax(q[:, 1, 1] > q[:, 1, 0])]
-            ax.axvline(beaten, color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
-            words = {"fontsize": SMALL, "color": QUIET, "ha": "right", "va": "top"}
-            ax.text(beaten - 15, 2.05, "in state 1 going on\nbeats turning back", **words)
+            words = {"fontsize": SMALL, "color": QUIET, "ha": "center", "va": "bottom"}
+            for state in (3, 2, 1):
+                beaten = decisions[goes_on_from(q, state)]
+                ax.plot([beaten] * 2, [-0.05, 1.85], color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
+                ax.text(beaten, 1.87, str(state), **words)
         ends = [(q[-1, 0, 0], "Q(0, 0), stay", OTHER.colour), (q[-1, 0, 1], "Q(0, 1), leave", ON.colour)]
         label_ends(ax, ends)
         listed.append(
@@ -164,7 +170,7 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
             if len(arrived)
             else "no walk reaches the free road"
         )
-    key = "A tick: a walk that reaches the free road."
+    key = "A tick: a walk that reaches the free road. Dashed: from here on the learner goes on in state 3, 2 or 1."
     figure.text(0.012, 0.02, key, fontsize=SMALL, color=QUIET)
-    title = "Two of C: the value of leaving passes that of staying after many walks to the free road, not after two"
+    title = "Two of C: leaving wins on the eighth walk to the free road; two walks are not enough"
     return finish(figure, title, f"The trap's two values over 1,000 decisions. {'; '.join(listed)}. {key}")

@@ -1,8 +1,10 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from functools import cache
+
 import numpy as np
 
-from bootcourse.course.lessons.values import chain
+from bootcourse.course.lessons.values import chain, diagrams
 from bootcourse.course.lessons.values.exercises import bellman_sweep, temporal_difference
 
 
@@ -44,3 +46,19 @@ def walked(times: int, backwards: bool = False) -> list[bool]:
     for s in [*range(chain.STATES)][:: -1 if backwards else 1] * times:
         q[s, 1] += 0.3 * temporal_difference.solution(q, s, 1, chain.REWARD[s, 1], chain.NEXT[s, 1], 0.8)
     return (q[:, 1] > 0).tolist()
+
+
+@cache
+def walks(seed: int) -> np.ndarray:
+    """Q of one of the last figure's learners after each walk, the zeros before included: (walks + 1, 5, 2)."""
+    return np.array(chain.over_walks(0.5, 0.8, seed))
+
+
+def arrivals(seed: int) -> np.ndarray:
+    """The walks of such a learner that reach the free road."""
+    return 1 + np.flatnonzero((walks(seed)[1:, 4] != walks(seed)[:-1, 4]).any(axis=1))
+
+
+def walks_until(state: int, seed: int = 1) -> int:
+    """After how many of them it goes on in a state, or leaves the trap (0), for good."""
+    return int((arrivals(seed) <= diagrams.goes_on_from(walks(seed), state)).sum())

@@ -210,8 +210,8 @@ for _ in range(5):
 bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 
 # %% [markdown]
-# **Explain.** On the first walk the free road pays after the other four decisions have been
-# learned, so only Q(4, 1) rises. In the last row they are learned in reverse: from Q(3, 1) on, each
+# **Explain.** On the first walk the other four decisions are learned before the free road pays, so only Q(4, 1)
+# rises. In the last row they are learned in reverse: from Q(3, 1) on, each
 # next state already has a value.
 # <!-- claim: walked(1) == [False] * 4 + [True] and all(walked(1, backwards=True)) -->
 # <!-- claim: not walked(4)[0] and walked(5)[0] -->
@@ -231,8 +231,7 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 # - `chances` holds the random decisions, drawn beforehand.
 # - After each of its own decisions it learns from that one, then from every pair (s, a) in `taught`, a
 #   demonstration. A demonstration changes Q, but does not move the learner.
-# - After every 20 decisions the walk starts again in state 0. The twentieth is learned like any other: its target
-#   still counts the next state.
+# - After every 20 decisions the walk starts again in state 0. Learn from the twentieth, too, as if the walk went on.
 
 
 # %%
@@ -309,11 +308,15 @@ bc.show(diagrams.who_leaves(found))
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** Once is not enough. Turning back to the trap is worth γ · {{ 0.16 / 0.2 | .2f }} = {{
-# 0.8 * 0.16 / 0.2 | .2f }} in each of the states 1 to 3. While going on seems worth less there, leaving rests at γ · {{
-# 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}, below staying. Going on must first beat {{
-# 0.8 * 0.16 / 0.2 | .2f }} in state 3, then in 2, then in 1 (dashed), and each walk out carries its value back by one
-# state.
+# **Explain.** Turning back to the trap is worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }} in each of
+# the
+# states 1 to 3. While going on seems worth less there, leaving is worth γ · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{
+# 0.8**2 * 0.16 / 0.2 | .2f }}, below staying. Going on must first win in state 3, then in 2, then in 1 (dashed). On
+# the
+# right that takes {{ walks_until(3) }}, {{ walks_until(2) }} and {{ walks_until(1) }} walks to the free road, and
+# leaving
+# wins after {{ walks_until(0) }}. The left learner had two.
+# <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
 #   chain.over_walks(0.5, 0.8, seed)[12:36]) -->
 # <!-- claim: chain.leaves(chain.over_walks(0.5, 0.8, 1)[-1]) -->
@@ -340,8 +343,9 @@ compare_predictions(
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves
 #    Q(s, a) by a part of it, and needs no map.
 # 4. Learned forwards, a walk moves a value one state back; learned backwards, all the way.
-# 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and
-#    so does a replayed demonstration.
+# 5. On the chain none of A's thirty learners gets past the barrier. Finding the free road once is not enough; more
+#    random decisions help, and so does a replayed
+#    demonstration.
 #
 # **Three questions to think about**
 # - After 40 sweeps Q(0, 0) is {{ sweeps(40, 0.8)[0, 0] | .2f }}. Staying for ever is worth {{
