@@ -37,6 +37,7 @@ LEARNED = {
         "without the soft constraint": "learn=demos&agents=2&drives=600",
     },
 }
+BEFORE_THE_RULE = ("the_trap", "the_barrier")  # the sliders of the page that learns are of later lessons
 WORLD = re.compile(r'<img [^>]*data-world="([^"]*)"[^>]*>')  # the picture that a world leaves where no kernel runs
 SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 
@@ -66,7 +67,7 @@ def gather(to: Path, edition: str = "student") -> None:
         as_a_page(notebook, to / "lessons" / notebook.name)
         lesson = notebook.stem.partition("_")[2]
         if lesson in LEARNED:
-            add_learning(to / "lessons" / notebook.name, LEARNED[lesson], folded=lesson == "the_trap")
+            add_learning(to / "lessons" / notebook.name, LEARNED[lesson], folded=lesson in BEFORE_THE_RULE)
         if edition != "instructor":
             continue
         # The solved notebooks are not in the book: the page has the solutions itself, and says where they lie.

@@ -117,8 +117,9 @@ class LearnView {
       const unused = without.includes(dial.setting) || (dial.name === "c" && without.includes("beta_start")), value = numbers[dial.name] ?? defaults[dial.setting] ?? 2;
       this.turn(dial, unused ? 0 : value);
       dial.slider.value = dial.scale.at(unused ? 0 : value);
-      dial.slider.disabled = unused;
-      dial.slider.title = unused ? "This method does without it." : "";
+      const noRule = dial.name === "p" && without.includes("xi_multiplier") && without.includes("beta_start");
+      dial.slider.disabled = unused || noRule;
+      dial.slider.title = dial.slider.disabled ? "This method does without it." : "";
     }
     find("fixed").disabled = without.includes("xi_multiplier");
     this.fix(this.fixed && !find("fixed").disabled);

@@ -46,7 +46,7 @@ progress("learning_from_demonstrations")
 # Now a learner learns from the rule's drives, too: the **demonstrations**. The paper adds a **bonus** c to the
 # reward of each demonstrated second.
 #
-# In which seconds is the rest of the rule's drive worth less than staying behind? Then **drag** c up to 2.
+# In which seconds is the rest of the rule's drive worth less than staying behind? **Drag** c up to 2: what changes?
 
 # %%
 bc.panels.bonus_panel(c=0)

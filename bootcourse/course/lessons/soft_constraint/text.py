@@ -130,9 +130,7 @@ check.soft_constraint(soft_constraint)
 # ## Round 2: what is left of the pull when it fades?
 #
 # In each state the agent has three goals: a high Q, entropy (a nat is worth α), and a small KL (a nat
-# costs ξ). The best π has the largest sum:
-#
-# $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi) - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
+# costs ξ). The best π has the largest sum: its mean Q, plus α times its entropy, less ξ times its KL.
 #
 # The paper sets ξ = {{ SETTINGS.xi_multiplier }} α, at first {{
 # SETTINGS.xi_multiplier * SETTINGS.alpha_init }}. The target entropy η = {{ SETTINGS.target_entropy }}
@@ -159,14 +157,19 @@ predicted("soft_constraint.2")
 explorable.pull()
 
 # %% [markdown]
-# **See.** *The head start stays, and the temperature fades.* Where all Q are equal, only the last two terms matter,
-# and with ξ = 200 α both contain the factor α: the head start is {{ 200 / 201 * math.log(72) | .2f }} nats for
+# **See.** *The head start stays, and the temperature fades.* Where all Q are equal, only entropy and KL matter, and
+# with ξ = 200 α both count with the factor α: the head start is {{ 200 / 201 * math.log(72) | .2f }} nats for
 # every α. The smaller α and ξ become, the more the other action's lead of 1 in Q counts, until that action
 # wins. With a ξ that stays at 2 (grey) it does not.
 # <!-- claim: math.isclose(200 / 201 * math.log(8 * RULE_P / (1 - RULE_P)), 4.26, abs_tol=0.005) -->
 # <!-- claim: 1 < 2 * math.log(8 * RULE_P / (1 - RULE_P)) -->
 
 # %% [markdown]
+# The sum in symbols:
+#
+# $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
+# - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
+#
 # **Exercise (12 min, ●●●).** Derive the best π of this sum on paper, then write it. For ξ = 0
 # it is SAC's softmax(Q / α) of lesson [[discrete_sac]]. Write the KL out: it contains an entropy.
 

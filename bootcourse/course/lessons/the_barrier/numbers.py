@@ -50,22 +50,22 @@ MIDDLE, CHEAP, KEPT, BOTH = easier.MIDDLE, easier.CHEAP, easier.KEPT, easier.BOT
 stressed = easier.stressed
 
 
-def _freed() -> tuple[np.ndarray, np.ndarray]:
-    """Of the agents that escape with both changes: what each earns, and whether it is faster than 20 m/s."""
-    out = easy(BOTH).scores("success") >= ESCAPES
-    return easy(BOTH).scores("returns")[out], easy(BOTH).scores("speed")[out] > 20
+def _freed(kind: str) -> tuple[np.ndarray, np.ndarray]:
+    """Of the agents of a kind that escape: what each earns, and whether it is faster than 20 m/s."""
+    out = easy(kind).scores("success") >= ESCAPES
+    return easy(kind).scores("returns")[out], easy(kind).scores("speed")[out] > 20
 
 
-def too_fast() -> int:
-    """How many of them are faster than 20 m/s; each of these earns less than a car that stays."""
-    returns, fast = _freed()
-    assert (returns[fast] < easier.staying(BOTH)).all()
+def too_fast(kind: str) -> int:
+    """How many of those are faster than 20 m/s; each of these earns less than a car that stays."""
+    returns, fast = _freed(kind)
+    assert (returns[fast] < easier.staying(kind)).all()
     return int(fast.sum())
 
 
 def freed_and_slower() -> np.ndarray:
-    """What the others of them earn."""
-    returns, fast = _freed()
+    """What the others earn that escape with both changes."""
+    returns, fast = _freed(BOTH)
     return returns[~fast]
 
 

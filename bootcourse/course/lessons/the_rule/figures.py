@@ -115,7 +115,7 @@ def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure
     crashed = np.array([np.mean(each.accident > 0) for each in driven])
     figure, ax = one_axes(3.2, title, "how far the rule sees (m)", "return of an episode")
     ax.plot(sights, returns, "o-", color=style("rule").colour, linewidth=2, markersize=5)
-    ax.set_ylim(0, 1.2 * returns.max())
+    ax.set(ylim=(0, 1.2 * returns.max()), xticks=sights)
     words = {"textcoords": "offset points", "fontsize": TEXT}
     for x, y, each in zip(sights, returns, driven, strict=True):
         crashes = np.sum(each.accident > 0)

@@ -82,11 +82,17 @@ def speeds_up_behind() -> np.ndarray:
     return (free[1:] & ~free[:-1]).sum(axis=0)
 
 
-def apart() -> tuple[float, float]:
-    """The smallest and the largest distance (m) from trap 2 to trap 1 at the start, over the lesson's roads."""
-    starts = decided(20.0)[2][0]
-    distances = starts[:, TRAP_1, X] - starts[:, TRAP_2, X]
-    return distances.min(), distances.max()
+@cache
+def change(sight: float = 30.0) -> tuple[float, float, int]:
+    """How far ahead trap 1 is (m) when the first lane change begins, at least and at most over the lesson's roads, and
+    after how many seconds the slowest change ends in the next lane.
+    """
+    reasons, _, cars, _ = decided(sight)
+    roads, lanes = np.arange(len(ROADS)), cars[:, :, EGO, LANE]
+    began = (reasons == Reason.CHANGE).argmax(0)
+    ahead = (cars[:, :, TRAP_1, X] - cars[:, :, EGO, X])[began, roads]
+    takes = next(k for k in range(1, 10) if (lanes[began + k, roads] != lanes[began, roads]).all())
+    return ahead.min(), ahead.max(), takes
 
 
 class Followed(NamedTuple):

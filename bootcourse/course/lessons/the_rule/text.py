@@ -203,7 +203,8 @@ check.room_to_change(room_to_change)
 # applies (`bootcourse.rule.decide_rule`):
 #
 # 1. nobody ahead in sight in this lane, or already in the leftmost: stay;
-# 2. still more than {{ SETTLED }} m short of this lane's middle, coming from the right: finish this lane change first;
+# 2. still more than {{ SETTLED }} m short of this lane's middle, coming from the right: finish this lane change
+#    first;
 # 3. the gap to the new car ahead is not longer than $d_s$: fall back;
 # 4. a car behind in the new lane is too close: wait;
 # 5. else: change to the lane on the left.
@@ -278,7 +279,8 @@ bc.show(figures.speeds_by_sight(drive, near, alone))
 #
 # With 30 m it stays at 15 m/s here. Drivers on this road also weigh what the car behind them gains: the one ahead
 # makes way while the rule is still {{ makes_way(recorded(ROAD, 30.0), 4) | .0f }} m behind.
-# Among drivers who do not (dashed) the shorter sight gains {{ driven(30.0, ALOOF).returns.mean() - driven(200.0,
+# Dashed: drivers who do not. Among such, on 200 roads, the shorter sight gains {{ driven(30.0,
+# ALOOF).returns.mean() - driven(200.0,
 # ALOOF).returns.mean() | .0f }}, not {{ driven(30.0).returns.mean() - driven(200.0).returns.mean() | .0f }}.
 # <!-- claim: overtaken(recorded(ROAD, 30.0, ALOOF)) == overtaken(recorded(ROAD, 30.0)) -->
 # <!-- claim: (recorded(ROAD, 30.0).states[34:, EGO, SPEED] > 14.9).all() -->
@@ -293,10 +295,10 @@ bc.show(figures.speeds_by_sight(drive, near, alone))
 # %% [markdown]
 # ## Round 4: what makes it crash?
 #
-# > **Predict.** When a lane change begins, trap 2 is a little more than
-# > {{ DEFAULT.car.length + DEFAULT.rule.floor | g }} m ahead, and trap 1 another {{ apart()[0] | .0f }} to
-# > {{ apart()[1] | .0f }} m. A rule that does not see trap 1 stays in its lane and speeds up. Which of these
-# > sights, for both jobs, is the shortest without an accident?
+# > **Predict.** When a lane change begins, trap 1 is {{ change()[0] | .0f }} to {{ change()[1] | .0f }} m ahead. The
+# > change takes {{ change()[2] }} s, at 2 m/s less than the traps. A rule that loses trap 1 from sight stays in its
+# > lane
+# > and speeds up. Which of these sights, for both jobs, is the shortest without an accident?
 
 # %%
 choices = ["100 m", "50 m", "30 m", "20 m"]
@@ -310,7 +312,7 @@ safe = [s for s, each in zip(sights, by_sight, strict=True) if not each.accident
 bc.show(figures.against_sight(sights, by_sight))
 
 # %% [markdown]
-# Play one of the crashes, and read the reasons (the table repeats them): what is the cause?
+# Play one of the crashes. The table says what the rule *wants*; the car follows later. What is the cause?
 
 # %%
 bc.recording([rules.crash()], height=360)
@@ -321,7 +323,8 @@ figures.reasons(rules.crash())
 # %% [markdown]
 # **Explain.** Two causes:
 #
-# - *First* (4 s): trap 1 is out of sight. With "nobody ahead" the rule calls its lane change off, and speeds up.
+# - *First* (4 s): trap 1 is {{ crash().states[8, TRAP_1, X] - crash().states[8, EGO, X] | .0f }} m ahead, out of
+#   sight. With "nobody ahead" the rule calls its lane change off, and speeds up.
 # - *Second* (9 s): it changes lane {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster than trap 2,
 #   with a gap
 #   of {{ gap(crash(), 9) | .1f }} m. It asks for {{ DEFAULT.rule.t_safe * 3 | .1f }} m, but to brake takes {{
@@ -354,10 +357,11 @@ rules.ranked({"the rule": {}, "30 m": {"sight": 30}, "yours": mine})
 # accident, and it earns {{ split(20, 200).returns.mean() | .0f }} (the floor of 0.5 m below: {{
 # driven(20.0, floor=0.5).returns.mean() | .0f }}).
 #
-# So they do with a *floor of 0.5 m*, although it is meant for safety (with 1 m {{ (driven(20.0,
-# floor=1.0).accident > 0).sum() }} crash, and with n = 10 none, but only {{
-# driven(20.0, n=10).success.sum() }} get out): the lane change begins earlier, so {{ 'no' if not lost_in_change(0.5)
-# else lost_in_change(0.5) }} drive loses trap 1 in the next second (with 3 m, {{ lost_in_change(3.0) }} do).
+# The second: a *floor of 0.5 m*. The lane change begins earlier, and {{ 'no' if not lost_in_change(0.5)
+# else lost_in_change(0.5) }} drive loses trap 1 in the next second (with 3 m, {{ lost_in_change(3.0) }} do). But a
+# floor
+# is meant for safety: with 1 m, {{ (driven(20.0, floor=1.0).accident > 0).sum() }} crash. (n = 10 is not enough: none
+# crashes, {{ driven(20.0, n=10).success.sum() }} get out.)
 # <!-- claim: not driven(20.0, n=10).accident.any() --> With t_safe = 2 s none crashes, but about half stay
 # behind (with 1.5 s over a third): they lose trap 1 from sight, speed up, come too close and fall
 # back, again and again.
@@ -412,7 +416,8 @@ compare_predictions(
 #   driven(200.0).success[:10].all() -->
 # 3. Its target speed counts cars up to {{ DEFAULT.sight.distance | g }} m ahead, and that makes it
 #    slow: with 30 m it earns more than twice as much.
-# 4. With 20 m it loses trap 1 from sight in a lane change: {{ by_the_formula(20.0).crashed }} of 200 drives
+# 4. With 20 m it loses trap 1 from sight, most often in a lane change: {{ by_the_formula(20.0).crashed }} of 200
+#    drives
 #   crash, and {{ (~driven(20.0).success & (driven(20.0).accident == 0)).sum() }} stay behind. A long sight for
 #    the choice of lane repairs that.
 # <!-- claim: 0.45 < 1 - driven(20.0, t_safe=2.0).success.mean() < 0.55 and

@@ -60,7 +60,8 @@ explorable.two_poles()
 explorable.the_end()
 
 # %% [markdown]
-# With the mark, a push is worth less the nearer the fall. Else each push is worth 1 / (1 − γ).
+# With the mark, a push is worth less the nearer the fall. Without it, and with a fallen pole counted as a standing
+# one, each push is worth 1 / (1 − γ).
 #
 # SAC keeps its rows in the **replay buffer**. Each update learns from a **batch**: rows drawn
 # **uniformly with replacement**, at each draw each row with the same chance.
@@ -115,29 +116,25 @@ check.ReplayBuffer(ReplayBuffer)
 # >
 # > 2. **Batch.** Draw rows, uniformly with replacement.
 # > 3. **Target.** V(s') = Σₐ π(a|s') (minₖ Q̄ₖ(s', a) − α log π(a|s')), and
-# >    y = r + γ (1 − terminated) V(s'), held fixed: `soft_value`, `critic_target`.
-# > 4. **Critics.** L = mean (Q₁(s, a) − y)² + mean (Q₂(s, a) − y)²: `critic_loss`.
+# >    y = r + γ (1 − terminated) V(s'), held fixed:
+# >    `soft_value(log_pi, q, alpha)`, `critic_target(reward, terminated, next_value, gamma)`.
+# > 4. **Critics.** L = mean (Q₁(s, a) − y)² + mean (Q₂(s, a) − y)²:
+# >    `critic_loss(q_pair, action, target)`.
 # > 5. **Actor.** L = −mean Σₐ π(a|s) (minₖ Qₖ(s, a) − α log π(a|s)), with Q and α held fixed:
-# >    `actor_loss`.
-# > 6. **Temperature.** L = α (mean H(π(·|s)) − η), with H held fixed: `temperature_loss`.
+# >    `actor_loss(log_pi, q, alpha)`.
+# > 6. **Temperature.** L = α (mean H(π(·|s)) − η), with H held fixed:
+# >    `temperature_loss(log_alpha, state_entropy, target_entropy)`.
 # > 7. **Steps.** Compute the three losses, then make a gradient step for each.
 # > 8. **Copies.** Q̄ₖ becomes Q̄ₖ + τ (Qₖ − Q̄ₖ), weight by weight.
 #
-# The functions are those of lesson [[discrete_sac]]:
-#
-# ```
-# soft_value(log_pi, q, alpha)          critic_target(reward, terminated, next_value, gamma)
-# critic_loss(q_pair, action, target)   actor_loss(log_pi, q, alpha)
-# temperature_loss(log_alpha, state_entropy, target_entropy)
-# ```
-#
-# `agent` is a `by_hand.SAC`:
+# The functions are those of lesson [[discrete_sac]]. There `q_pair` is Q of both critics, and `q` the smaller of the
+# two. `agent` is a `by_hand.SAC`:
 #
 # | `agent.` | gives |
 # |---|---|
 # | `log_pi(states)` | log π, (batch, 2) |
-# | `q(states)`, `slow_q(states)` | a `q_pair`, (2, batch, 2); `q` is its minimum over the first axis |
-# | `gamma`, `tau`, `log_alpha`, `target_entropy` | numbers of steps 3, 8, 6 and 6; α is exp(`log_alpha`) |
+# | `q(states)`, `slow_q(states)` | a `q_pair`, (2, batch, 2) |
+# | `gamma`, `tau`, `log_alpha`, `target_entropy` | γ (step 3), τ (step 8), log α, η (step 6); α is exp(`log_alpha`) |
 # | `optimisers` | of the critics, the actor and log α |
 # | `critics.parameters()`, `copies.parameters()` | step 8 changes the copies in place |
 
@@ -263,8 +260,8 @@ explorable.trained_poles(agent, unmarked)
 # ## Round 4: why does it fall?
 #
 # The actor learns from its critics alone, so look at Q. It has a **limit**: if the
-# pole stood for ever, each push would pay 1, and at most α log 2 for its entropy. With γ = {{ by_hand.SAC.gamma }} that
-# sums to {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2).
+# pole stood for ever, each push would pay 1, and at most α log 2 for its entropy. So with γ = {{ by_hand.SAC.gamma }}
+# no right Q is above {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2).
 #
 # > **Predict.** What do the critics with the bug expect of a fallen pole, compared with a standing one?
 
@@ -280,7 +277,8 @@ print(f"Entropy with the bug, pole upright: {entropy:.2f} nats")
 
 # %% [markdown]
 # **See.** Along 40 falls of poles pushed to one side only, the critics with the bug expect most of the
-# fallen pole. To the actor a fall looks best: it is sure of its push even with the pole upright.
+# fallen pole. So a push towards the fall should look best to the
+# actor. It is indeed sure of its push even with the pole upright.
 #
 # Q is even above its limit (dotted; it depends on the agent's α), in {{ unmarked() }} of our {{
 # len(agents('unmarked')) }} agents with the bug and in none without it.
@@ -305,8 +303,9 @@ stands = by_hand.balanced(added)
 print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {tests[1]:.0f}.")
 
 # %% [markdown]
-# **Explain.** Rows are all that was added, and Q is possible. Before, a high guess for the fallen pole raised
-# Q of the last push, and that raised the guess again, as the same network gives both. Once they are
+# **Explain.** Rows are all that was added, and Q is possible. Before, we think, a high guess for the fallen pole
+# raised Q of the
+# last push, and that the guess, as the same network gives both. Once they are
 # learned, these rows say the same as a mark, apart from the entropy: from here on
 # every reward is 0. (In five of ours, trained on another
 # machine, Q is possible, too; they balance {{ after_a_block('paid-0').min() | .0f }} to {{
