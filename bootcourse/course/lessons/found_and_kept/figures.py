@@ -17,7 +17,7 @@ from bootcourse.statistics import IN_A_ROW, rolling_means
 
 # Titles that answer a prediction stand here, so that the student's cell does not give it away.
 IN_THE_STUDY = "With demonstrations alone half of the agents find the way out, and none keeps it"
-OF_TWO_GROUPS = "On the right all ten with demonstrations keep it, five with the soft constraint"
+OF_THREE_SETTINGS = "With demonstrations alone 2, 6 and 10 of ten keep it; with the soft constraint 6, 6 and 5"
 OF_EIGHT = "With one road and π̃, a quarter to a half of the draws have the paper's four rates"
 
 
@@ -53,6 +53,7 @@ def found_and_kept(panels: Mapping[str, Results], title: str) -> Figure:
     left, tall, alt_parts = 1.95, 0.34, []
     top = 0.95 if any(panels) else 0.75  # room for the panels' words
     figure, wide = new_figure(top + tall * len(VARIED) + 0.5), (WIDTH - left - 0.1) / len(panels)
+    size = 8.5 if len(panels) < 3 else 6.5
     for column, (panel, results) in enumerate(panels.items()):
         ax = axes_at(figure, left + column * wide, top, min(wide - 0.15, 4.0), tall * len(VARIED))
         for y, method in enumerate(VARIED):
@@ -60,7 +61,7 @@ def found_and_kept(panels: Mapping[str, Results], title: str) -> Figure:
             n, colour = len(results.of(method)), style(method).colour
             for first, after, fill in ((0, kept, colour), (kept, found, "white")):
                 at = range(first, after)
-                ax.plot(at, [y] * len(at), "s", ms=8.5, color=fill, mec=colour, mew=1.6)
+                ax.plot(at, [y] * len(at), "s", ms=size, color=fill, mec=colour, mew=1.6)
             ax.plot(range(found, n), [y] * (n - found), "o", ms=2.5, color=QUIET)
             counted = f"{found} of {n} found it, {kept} kept it"
             alt_parts.append(": ".join(part for part in ("" if y else panel, display_name(method), counted) if part))

@@ -71,6 +71,16 @@ def lost_least_if_both(low: int, high: int) -> bool:
     return all(lost(both, at).sum() < min(lost(each, at).sum() for each in success.values()) for at in limits)
 
 
+def kept_earned(words: str) -> np.ndarray:
+    """What those of a group earn that keep the way out."""
+    return group(words).earned[group(words).keep]
+
+
+def kept_elsewhere() -> np.ndarray:
+    """The same of the three other groups."""
+    return np.concatenate([kept_earned(words) for words in groups() if words != "β never ends, bonus"])
+
+
 def earns_less(both: Group, *others: Group) -> bool:
     """Does each agent of the first group earn less than each of the others that keeps the way out?"""
     return all(bool(both.earned.max() < each.earned[each.keep].min()) for each in others)

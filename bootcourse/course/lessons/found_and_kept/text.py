@@ -44,20 +44,14 @@ progress("found_and_kept")
 # %% [markdown]
 # ## Look first
 #
-# One of our ten agents with demonstrations alone, after its training. Watch it.
-
-# %% tags=["nbval-ignore-output"]
-study = bc.shipped_results()
-training = study.of("demos").curves["success"]
-best = int(np.argmax(training[:, 700:900].mean(axis=1)))
-drive = bc.record(bc.shipped_agents("demos")[best].as_policy(), [10], label="demos")[0]
-bc.recording([shipped.beginning(drive, 30)], height=240)
-
-# %% [markdown]
-# It stays behind trap 1. Yet in mid-training it was the best of the ten:
+# One of our ten agents with demonstrations alone stays behind trap 1 after its training. Yet in mid-training it was
+# the best of the ten:
 # <!-- claim: not of_the_agent_shown().success -->
 
 # %%
+study = bc.shipped_results()
+training = study.of("demos").curves["success"]
+best = int(np.argmax(training[:, 700:900].mean(axis=1)))
 title = "This agent learned the way out, and lost it"
 bc.show(figures.one_agent(study.of("demos"), best, title))
 
@@ -71,8 +65,9 @@ table(counts.BOTH_TABLES, counts.both_tables(study))
 # %% [markdown]
 # With one aid alone, the paper's agents get out with demonstrations, ours with the soft constraint.
 # Four things could explain it: (1) agents lose the way out (Rounds 1 and 2); (2) one agent may stand behind each
-# of the paper's rates (lesson [[how_many_seeds]]); (3) its training may differ (Round 3); (4) its traffic may: it is
-# printed only in part (not tested here).
+# of the paper's rates (lesson [[how_many_seeds]]); (3) its training may differ (Round 3); (4) its traffic may
+# differ, too: the paper prints it only in part, and
+# we did not test it.
 # <!-- claim: escaped('demos') == 0 < escaped('soft') and PRINTED['demos']['success'].mean == 100
 #   and PRINTED['soft']['success'].mean == 0 -->
 
@@ -176,10 +171,11 @@ explorable.losing()
 # <!-- claim: (group('β ends, no bonus').first <= 550).sum() == 6 and
 #   group('others: ends').first.min() > 900 > np.sort(group('others: no bonus').first)[2] -->
 #
-# *It has a price*: all ten get out, but earn {{ group('β never ends, bonus').earned.mean() | .0f }} on average,
-# where β ends {{ group('β ends, bonus').earned.mean() | .0f }}, and {{
-# group('β ends, no bonus').earned.mean() | .0f }} without the bonus. (Of the last group, which also earns {{
-# group('β never ends, no bonus').earned.mean() | .0f }}, {{ (~group('β never ends, no bonus').keep).sum() }} fail.)
+# *It has a price*: these ten earn {{ group('β never ends, bonus').earned.min() | .0f }} to {{
+# group('β never ends, bonus').earned.max() | .0f }}; those that keep the way out in the other groups earn {{
+# kept_elsewhere().min() | .0f }} or more. (Of the ten others {{
+# kept_earned('others: never').min() | .0f }} to {{ kept_earned('others: never').max() | .0f }}, against {{
+# min(kept_earned('others: ends').min(), kept_earned('others: no bonus').min()) | .0f }} or more.)
 # <!-- claim: len(clocks()['4', 'π̃'].of('soft')) == 3 -->
 # <!-- claim: (way(clocks()['1/4', 'μ'], 'demos').kept, way(clocks()['1/4', 'π̃'], 'demos').kept) == (2, 6) -->
 # <!-- claim: group('β never ends, bonus').keep.all() and earns_less(*map(group, ('β never ends, bonus',
@@ -210,24 +206,32 @@ explorable.losing()
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 -->
 #
 # So we trained for {{ SHORTER | , }} episodes in {{ len(clocks()) }} settings: ¼ update and four roads, or 1, 2 or 4
-# updates and one road; each with both drivers. Two of these, which differ in updates, roads and driver:
+# updates and one road; each with both drivers. Three of these; the first step changes the driver alone:
 # <!-- claim: {(u, a['envs_per_agent'], a['updates']) for (u, _), r in clocks().items() for a in
 #   r.agents} == {('1/4', 4, 1), ('1', 1, 1), ('2', 1, 2), ('4', 1, 4)} -->
 # <!-- claim: {r.curves['success'].shape[1] for r in clocks().values()} == {SHORTER} -->
 
 # %%
 cells = clocks.choices(shipped.shipped_experiment("clocks"))
-panels = {"¼ update, 4 roads, μ": cells["1/4", "μ"], "2 updates, one road, π̃": cells["2", "π̃"]}
-bc.show(figures.found_and_kept(panels, figures.OF_TWO_GROUPS))
+panels = {
+    "¼ update, 4 roads, μ": cells["1/4", "μ"],
+    "the same, π̃": cells["1/4", "π̃"],
+    "2 updates, one road, π̃": cells["2", "π̃"],
+}
+bc.show(figures.found_and_kept(panels, figures.OF_THREE_SETTINGS))
 
 # %% [markdown]
-# **See.** *On the right, as in the paper, demonstrations alone do better than the soft constraint alone.* The
-# demonstrations' row changes: {{ way(clocks()['1/4', 'μ'], 'demos').kept }}, then {{
-# way(clocks()['2', 'π̃'], 'demos').kept }} keep the way out. The constraint's row hardly does: {{
-# way(clocks()['1/4', 'μ'], 'soft').kept }}, then {{ way(clocks()['2', 'π̃'], 'soft').kept }}, where the paper prints
-# 0 %. (β has been 0 for the last 200 episodes only.)
-# <!-- claim: [way(clocks()[of], 'soft').kept for of in (('1/4', 'μ'), ('2', 'π̃'))] == [6, 5] and
-#   [way(clocks()[of], 'demos').kept for of in (('1/4', 'μ'), ('2', 'π̃'))] == [2, 10] -->
+# **See.** *On the right, as in the paper, more agents keep it with demonstrations alone than with the soft
+# constraint alone*:
+# 10 against 5 (p = {{ stats.fisher_exact([[10, 0], [5, 5]]).pvalue | .2f }}; but of {{ len(clocks()) }} settings we
+# chose
+# this one after we had seen the counts). Demonstrations alone: 2 keep it; 6, if π̃ demonstrates; 10, with two
+# updates and
+# one road as well. The constraint's row has no demonstrations, and hardly changes: 6, then 5, where the paper prints
+# 0 %.
+# (The study's setting, on the left, is tested after {{ SHORTER | , }} episodes here: 2 keep it, not 0.)
+# <!-- claim: [way(clocks()[of], 'soft').kept for of in (('1/4', 'μ'), ('1/4', 'π̃'), ('2', 'π̃'))] == [6, 6, 5] and
+#   [way(clocks()[of], 'demos').kept for of in (('1/4', 'μ'), ('1/4', 'π̃'), ('2', 'π̃'))] == [2, 6, 10] -->
 # <!-- claim: [way(clocks()['2', 'π̃'], m).kept for m in ('sac', 'soft', 'demos', 'bootstrapped')]
 #   == [0, 5, 10, 10] -->
 #
@@ -264,11 +268,12 @@ for setting, agents in cells.items():
 bc.show(figures.chances(cells, chance, figures.OF_EIGHT))
 
 # %% [markdown]
-# **See.** *In a third.* The soft constraint's row holds it down: it reads 0 % in {{
+# **See.** *In a third.* Mostly the soft constraint's row is in the way: it reads 0 % in only {{
 # 100 * row_reads('soft') | .0f }} % of the draws, each of the other three as printed in {{
 # 100 * min(map(row_reads, ('sac', 'demos', 'bootstrapped'))) | .0f }} % or more.
 #
-# With π̃, one update and one road the four rates come in {{ 100 * with_teacher('1') | .0f }} % of the draws, with four
+# With π̃, one update and one road the four rates come in {{ 100 * with_teacher('1') | .0f }} % of the draws, with
+# four
 # updates in {{ 100 * with_teacher('4') | .0f }} % (fewer agents), with ¼ update and four roads in {{
 # 100 * with_teacher('1/4') | .0f }} %. The bars, 95 % intervals, are wide, and overlap. Updates and roads change
 # together: which of them matters is open.
@@ -281,15 +286,18 @@ bc.show(figures.chances(cells, chance, figures.OF_EIGHT))
 # %% [markdown]
 # ## So why is our table not the paper's?
 #
-# 1. *Agents lose the way out*: a part of it. Of twenty with demonstrations alone {{ alone_and_ending().found
-#    }} find it and {{ alone_and_ending().kept }} keep it; if β never ends, {{ alone_and_staying()[1] }} find it and {{
-#    alone_and_staying()[2] }} keep it.
-# 2. *One agent behind each rate*: alone, rarely. From our table no draw reads as the paper's; from the ten others' {{
-#    100 * others_pattern() | .0f }} % do.
+# 1. *Agents lose the way out*: a part of it. Of twenty with demonstrations alone {{
+#    alone_and_ending().kept }} of {{ alone_and_ending().found }} finders keep it; if β never ends, {{
+#    alone_and_staying()[2]
+#    }} of {{ alone_and_staying()[1] }} ({{ alone_and_staying()[0] }} of those twenty lose it for a time).
+# 2. *One agent behind each rate*: this alone rarely does it. Draw one agent for each row of our table, and the
+#    paper's
+#    rates never come; of the ten others' table, in {{ 100 * others_pattern() | .0f }} %.
 # 3. *Another training, too*: likelier. With π̃ and one road {{ 100 * with_teacher('1') | .0f }} to {{
 #    100 * with_teacher('4') | .0f }} % of the draws do (95 % intervals: {{
 #    100 * min(pattern(clocks()[u, 'π̃']).low for u in '124') | .0f }} to {{
-#    100 * max(pattern(clocks()[u, 'π̃']).high for u in '124') | .0f }} %). That the authors trained so is *not shown*.
+#    100 * max(pattern(clocks()[u, 'π̃']).high for u in '124') | .0f }} %). That the authors trained so is *not
+#    shown*.
 # 4. *The traffic*: not tested.
 #
 # The returns cannot tell: even the untrained rule earns {{ of('rule').scores('returns').mean() | .0f }} here, and {{
@@ -322,15 +330,16 @@ compare_predictions(
 # 1. To find the way out and to keep it are two things, and one rate at the end mixes them.
 # 2. With both aids and ¼ update none of ten loses the way out if β never ends and the bonus is paid;
 #    in the other groups at least eight do.
-# 3. With two updates, π̃ and one road all ten with demonstrations alone keep it, and five with the soft
-#    constraint alone; with ¼ update, μ and four roads 2 and 6.
+# 3. With demonstrations alone 2 of ten keep it (¼ update, four roads, μ), 6 with π̃, and 10 with two updates and one
+#    road,
+#    too; with the soft constraint alone 6, 6 and 5.
 # 4. Print each agent, the updates, the roads at a time, and who demonstrated.
 # <!-- claim: all(0.5 < group('β never ends, bonus').earned.mean() / group(g).earned[group(g).keep].mean()
 #   < 0.55 for g in ('β ends, bonus', 'β ends, no bonus', 'β never ends, no bonus')) -->
 #
 # **Three questions to think about**
 # - Would you let β end at 0? What would you watch to decide it?
-# - We chose the setting of prediction 3 after we had seen the counts. How would you test it fairly?
+# - How would you test the setting of prediction 3 fairly?
 # - A reviewer asks for "the success rate". Which two numbers do you give, and over what?
 #
 # **Read on**: [the next lesson](recorded_drives.ipynb) learns from recorded drives alone.

@@ -70,7 +70,7 @@ study = bc.shipped_results()
 bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 
 # %% [markdown]
-# So yes or no says nearly all about these agents' success.
+# So of each agent we ask only: does it escape?
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask how many of them have published or handed in a figure with one training behind each line.
@@ -82,9 +82,11 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # that escapes would be the *true rate*.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
-# > **Predict.** At which true rate would eight or more of ten escape in just 2.5 % of all studies? (At any
-# > lower rate our eight would be luck too rare to believe.) (Ten fair coins show eight or more heads in
-# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all throws.)
+# > **Predict.** The lower the true rate, the rarer are eight or more of ten. At 50 % they come in
+# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all studies, as eight heads of ten fair coins do. At which rate do
+# > they
+# > come
+# > in 2.5 %? (Below it our eight would be luck too rare to believe.)
 
 # %%
 predict(
@@ -114,19 +116,13 @@ explorable.certainty()
 #
 # For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes, and of
 # ten others (lesson [[learning_from_demonstrations]]) {{ escapers(others('demos'), 'demos') }}.
-# The paper does not say how many agents drove, or how often. GAIL's row prints accidents of {{
-# PRINTED['gail']['collision'].mean | g }} ± {{ PRINTED['gail']['collision'].sd }} %,
-# as one accident in {{ EPISODES }} drives gives; this row's own {{ PRINTED['demos']['collision'].mean | g }} ± {{
-# PRINTED['demos']['collision'].sd }} % fits no number of drives.
+# The paper says neither how many agents drove nor how often; a spread in another row fits {{ EPISODES }} drives.
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
-# <!-- claim: (lambda x: round(x.mean(), 2) == PRINTED['gail']['collision'].mean and
-#   round(x.std(ddof=1), 2) == PRINTED['gail']['collision'].sd)(100.0 * (np.arange(EPISODES) < 1))
-#   -->
-# <!-- claim: fitting(*PRINTED['gail']['collision']) == [(1, EPISODES)] and
-#   fitting(*PRINTED['demos']['collision']) == [] -->
+# <!-- claim: fitting(*PRINTED['gail']['collision']) == [(1, EPISODES)] -->
 #
-# > **Predict.** Suppose that *one* agent made all 20 drives, and that it escapes. You want the rate of the *method*:
-# > how many of its agents do. Where does its exact interval begin?
+# > **Predict.** Suppose that *one* agent made {{ EPISODES }} drives, and got out in each. What share of the
+# > *method's*
+# > agents would escape? Where does the exact interval of this share begin?
 
 # %%
 predict(
@@ -331,24 +327,30 @@ bc.show(figures.nothing_changed(study))
 # <!-- claim: all(bad in (0, 3) for bad, effect in splits() if counts.leaves_out_0(effect)) -->
 #
 # Even at 5 % each, at least one of twenty independent comparisons leaves out 0 in
-# {{ 100 * (1 - 0.95**20) | .0f }} % of cases: **multiplicity**. Say beforehand which comparison counts. Or
-# take a p value of each
-# (Fisher's, Round 2), and multiply the smallest of n by n, the next by n − 1, and so on; none may come out
-# below the one before (*Holm*). The three comparisons of our first picture:
+# {{ 100 * (1 - 0.95**20) | .0f }} % of cases: **multiplicity**. Say beforehand which comparison counts. Or correct
+# each p (Fisher's, Round 2) by *Holm*: of n, the smallest times n,
+# the next times n − 1, and so on; where one comes out below the one before it, it takes that one's value. The three
+# comparisons of our first picture:
 
 # %%
 # NBVAL_CHECK_OUTPUT
 against = {"demonstrations only": 0, "plain SAC": 1, "soft constraint only": 8}
 p = [scipy.stats.fisher_exact([[7, 3], [k, 10 - k]]).pvalue for k in against.values()]
 rows = zip(against.items(), p, bc.statistics.holm(p), strict=True)
-rows = [[f"{name}, {k} of 10", f"{one:.3f}", f"{after:.3f}"] for (name, k), one, after in rows]
-table(["7 of 10 with both aids, against", "p", "after Holm"], rows)
+rows = [
+    [f"{name}, {k} of 10", f"{one:.3f}", f"× {3 - i}", f"{after:.3f}"]
+    for i, ((name, k), one, after) in enumerate(rows)  # in the order of p
+]
+table(["7 of 10 with both aids, against", "p", "times", "after Holm"], rows)
 
 # %% [markdown]
 # Two of the three survive. Of ten others of each {{ escapers(others('bootstrapped'), 'bootstrapped')
-# }} escape with both aids, {{ escapers(others('demos'), 'demos') }} with demonstrations only. On these
-# alone p is {{ fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('demos'),
-# 'demos')) | .2f }}: the same direction, but ten against ten often miss a large difference (Round 2).
+# }} escape with both aids, {{ 'none' if not escapers(others('sac'), 'sac') else escapers(others('sac'), 'sac') }}
+# with
+# plain SAC (p < 0.001), and {{ escapers(others('demos'), 'demos') }} with demonstrations only (p = {{
+# fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('demos'), 'demos')) | .2f }}: the same
+# direction, but ten against ten often miss a large difference, Round 2).
+# <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 # <!-- claim: 3 * fisher(7, 0) < 0.05 and 2 * fisher(7, 1) < 0.05 and fisher(7, 8) > 0.05 and
 #   fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('demos'), 'demos')) > 0.05 -->

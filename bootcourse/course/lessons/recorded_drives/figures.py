@@ -44,8 +44,12 @@ def returns(study: Results) -> Figure:
     by_rule, alt = rule_results(DEFAULT, study.tested["returns"].shape[1]).scores("returns").mean(), []
     ax.axvline(by_rule, color=style("rule").colour, linewidth=1.5, zorder=1)
     ax.text(by_rule + 0.6, 103, "the rule", fontsize=TEXT, color=style("rule").colour, va="top")
-    places = {"bc": (50.6, 8, "right"), "cql": (59, 6, "center"), "cql_sac": (12.5, 7, "center")}
-    places["gail"] = (16, 72, "left")
+    places = {
+        "bc": (50.6, 8, "right"),
+        "cql": (59, 6, "center"),
+        "cql_sac": (22, -0.5, "right"),
+        "gail": (16, 72, "left"),
+    }
     for method, (x, y, side) in places.items():
         mine, look = study.of(method), style(method)
         earns, hurt, ahead = mine.scores("returns"), 100 * mine.scores("accident"), mine.scores("success")
@@ -54,6 +58,16 @@ def returns(study: Results) -> Figure:
         words = f"{display_name(method)}: {escaped(study, method)} escape"
         shown = words.replace(": ", ":\n") if method in ("cql", "bc") else words  # in two lines, for want of room
         ax.text(x, y, shown, fontsize=TEXT, color=look.colour, ha=side)
+        if method == "cql_sac":
+            lost = int((hurt > 99).sum())
+            ax.text(
+                4,
+                100,
+                f"CQL with an actor:\n{lost} crash on every drive",
+                fontsize=TEXT,
+                color=look.colour,
+                va="center",
+            )
         alt.append(f"{words}, mean return {earns.mean():.1f}, {hurt.mean():.1f} % of drives end in an accident")
         if method == "gail":
             worst = np.argmax(np.where(ahead >= ESCAPES, hurt, -1))
