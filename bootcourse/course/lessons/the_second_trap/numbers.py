@@ -5,14 +5,18 @@ from functools import cache
 import numpy as np
 import torch
 
+from bootcourse.course.lessons import number
 from bootcourse.course.lessons.the_second_trap import explorable, ppo_kinds, second_trap  # noqa: F401 (for the text)
+from bootcourse.course.lessons.your_teacher import example_teachers
 from bootcourse.episodes.record import record
 from bootcourse.learn.ppo import advantages
 from bootcourse.learn.settings import settings_for
+from bootcourse.learn.teachers import teacher_policy
+from bootcourse.research.tables import markdown
 from bootcourse.road.formulas import speed_reward
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD, shipped_teachers
+from tools.course.known import ROAD, by_rule, discounted, idle, shipped_teachers
 
 
 def ppo(kind: str) -> dict:
@@ -77,6 +81,25 @@ def wherever_cut() -> np.ndarray:
     """The same with λ = 0.95, for each place of the first cut within PPO's data."""
     horizon = settings_for("ppo").horizon
     return np.array([judged_good(0.95, horizon, first) for first in range(1, horizon + 1)])
+
+
+@cache
+def worth(driver: str, gamma: float) -> float:
+    """The discounted return of a drive on road 10."""
+    drives = {"keeping straight": idle, "the rule": by_rule, "sprinting": ppo_drive}
+    careful = teacher_policy(example_teachers.careful)
+    return discounted(drives[driver]() if driver in drives else record(careful, [ROAD])[0], gamma)
+
+
+def worth_table() -> str:
+    """What four drives are worth with SAC's γ and with PPO's, as Markdown."""
+    gammas = {method: settings_for(method).gamma for method in ("sac", "ppo")}
+    names = {"careful": f"`careful` (lesson {number('your_teacher')})"}
+    rows = [
+        [names.get(driver, driver), f"{worth(driver, gammas['sac']):.1f}", f"{worth(driver, gammas['ppo']):.0f}"]
+        for driver in ("keeping straight", "the rule", "sprinting", "careful")
+    ]
+    return markdown(["", f"SAC's γ = {gammas['sac']}", f"PPO's γ = {gammas['ppo']}"], rows)
 
 
 def cloned_escape(teacher: str) -> int:

@@ -90,19 +90,13 @@ def of_six_teachers(computed: Cells) -> Figure:
     return in_rows(title, groups, ["bootstrapped"] * len(SIX), "success", left=1.5, of_drives=(headings, cells))
 
 
-def without_a_part(computed: Mapping[str, Results]) -> Figure:
-    """Each agent's return as a dot: from all the crashing drives, without the free lane, and without as much before it.
+def all_parts(computed: Mapping[str, Results]) -> Figure:
+    """Each agent's return as a dot, by the part of the crashing drives that it learned from, as the lesson lists them.
 
     computed: {kind of the experiment `crashes`: agents}, as it ships.
     """
-    title = "Without the free lane, students earn what keeping straight earns"
-    return of_kinds(title, computed, {"all": "all", "cut": "no free lane", "as-many": "the control"})
-
-
-def lane_or_accident(computed: Mapping[str, Results]) -> Figure:
-    """The same of agents from drives with the free lane without its accident, and with the accident alone."""
-    title = "The free lane teaches the way out, its accidents do not"
-    return of_kinds(title, computed, APART)
+    title = "Students get out where their drives show the free lane, crash or not"
+    return of_kinds(title, computed, {"all": "all", "cut": "no free lane", "as-many": "the control"} | APART)
 
 
 def of_kinds(title: str, computed: Mapping[str, Results], kinds: Mapping[str, str]) -> Figure:

@@ -215,13 +215,15 @@ bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 # %% [markdown]
 # **See.** In this short training success and return give the racer opposite verdicts. Its students
 # crash in {{ 100 * students('racer')['accident'].mean() | .0f }} % of drives, the racer itself in {{ 100 *
-# (teacher_exam('racer').accident > 0).mean() | .0f }} %. After {{ taught_agents.LONG | , }} updates {{
-# student_escapes(taught_agents.RACER_LONG) }} of its ten students escape, and the ten earn {{
+# (teacher_exam('racer').accident > 0).mean() | .0f }} %. After {{ taught_agents.LONG | , }} updates only {{
+# student_escapes(taught_agents.RACER_LONG) }} of its ten students escape, no longer {{ student_escapes('racer') }},
+# but the
+# ten earn {{
 # students(taught_agents.RACER_LONG)['returns'].mean() | .0f }}.
 #
 # `timid` helps by return: its students stay behind trap 1, without an accident.
 #
-# Of these four, only those that get out have students that escape.
+# Of these four, only those that get out have students that escape. Must a teacher get out?
 # <!-- claim: student_escapes('timid') == 0 and (students('timid')['alike'] == 1).all() and
 #   not students('timid')['accident'].any() and not students('timid')['success'].any() -->
 # <!-- claim: all(student_escapes(name) >= 5 for name in ('the rule', 'careful', 'racer')) -->
@@ -258,16 +260,15 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # **See.** All ten escape, although half random's drives are in the free lane for {{
 # in_free_lane('random-50') | .0f }} s on average. Of the
-# rule's ten, {{ escape_of(['rule']) }} do: no clear difference from half random's. (In Round 2's
-# short training {{ student_escapes('the rule') }} did.)
-# <!-- claim: student_escapes('the rule') == 10 -->
+# rule's ten, {{ escape_of(['rule']) }} do: no clear difference from half random's.
 # <!-- claim: not significant(10)[escape_of(['random-50']), escape_of(['rule'])] -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
 #   TAUGHT['soft'] == TAUGHT['bootstrapped'] -->
 #
 # Where the drives reach the free lane, {{ escape_of(['rule', 'late', 'random-25', 'random-50']) }} of 40 students
-# escape; where they do not, {{ escape_of(['timid', 'mirrored']) }} of 20. Reaching it may not be enough: the
-# racer's drives do, and {{ student_escapes(taught_agents.RACER_LONG) }} of its ten escape (Round 2's long training).
+# escape; where they do not, {{ escape_of(['timid', 'mirrored']) }} of 20. Reaching it may not be enough to *stay*
+# out: the racer's
+# drives do, and {{ student_escapes(taught_agents.RACER_LONG) }} of its ten escape at last.
 # <!-- claim: escape_of(['timid', 'mirrored']) == 0 and min(escape_of([name]) for name in ('rule',
 #   'late', 'random-25', 'random-50')) > 5 -->
 # <!-- claim: in_free_lane('timid') == in_free_lane('mirrored') == 0 < in_free_lane('random-50') and
@@ -297,18 +298,9 @@ bc.show(figures.of_six_teachers(taught))
 # |---|---|---|---|
 # | all | yes | yes | yes |
 # | no free lane | yes | – | – |
-# | the **control** | a random {{ before() - beyond() | .0f }} % | yes | yes |
+# | the **control** | {{ 100 * (before() - beyond()) / before() | .0f }} % of it, at random | yes | yes |
 # | lane, no accident | yes | yes | – |
 # | accident, no lane | yes | – | yes |
-
-# %%
-parted = shipped_experiment("crashes")
-bc.show(figures.without_a_part(parted))
-
-# %% [markdown]
-# **See.** Without the free lane {{ crash_escapes('cut') }} of ten escape, barely faster than the traps, and none earns
-# more than {{ crash_returns('cut').max() | .0f }}, about what staying pays. Having only {{ before() | .0f }} %
-# of the decisions is not the reason: so has the control, and it earns more (rank test, after Holm).
 # <!-- claim: not any(significant(10)[escape_of(['random-50']), crash_escapes(kind)] for kind in ('all',
 #   'no-labels')) -->
 # <!-- claim: DEFAULT.traps.speed - 0.1 < shipped_experiment('crashes')['cut'].scores('speed').min() and
@@ -323,7 +315,7 @@ bc.show(figures.without_a_part(parted))
 #   drive in crashes.crashed()) and crash_escapes('all') >= 5 -->
 # <!-- claim: all(drive.accident > 0 for drive in crashes.crashed()) -->
 #
-# > **Predict.** Now the last two rows, two agents each. Which get out?
+# > **Predict.** Which agents of the last two rows get out?
 
 # %%
 choices = ["both pairs", "lane, no accident", "accident, no lane", "neither"]
@@ -356,14 +348,19 @@ passed = check.without_the_accident(without_the_accident).passed
 figures.parted(without_the_accident) if passed else "First the exercise."
 
 # %% [markdown]
-# Two agents are no verdict. Here are ten each, after a whole training:
+# Two agents are no verdict. Here are ten of each row, after a whole training:
 
 # %%
-bc.show(figures.lane_or_accident(parted))
+bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
-# **Explain.** *What makes the difference in these drives is the free lane*, crash or not. The bonus matters,
-# too: without it {{ crash_escapes('no-bonus') }} of ten escape from all the drives.
+# **Explain.** *What makes the difference in these drives is the free lane*, crash or not. The number of decisions is
+# not the reason: "no free lane" and the control both have {{ before() | .0f }} % of them, and the control earns more
+# (rank
+# test, after Holm). The {{ crash_escapes('cut') }} that escape without the free lane are barely faster than the
+# traps, and
+# earn at most {{ crash_returns('cut').max() | .0f }}. The bonus matters, too: without it {{
+# crash_escapes('no-bonus') }} of ten escape from all the drives.
 # <!-- claim: in_free_lane('rule') > 0 and free_lane.shown('rule')[1] == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=1
@@ -429,7 +426,8 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 # 3. Success and return can give opposite verdicts on a teacher: give both.
 # 4. Half random was good at reaching the free lane: most students escaped if its drives showed it and the
 #    bonus was paid, crash or not.
-# <!-- claim: {kind for kind in crashes.KINDS if crash_escapes(kind) > 5} == {'all', 'no-labels', 'as-many', 'lane'} -->
+# <!-- claim: {kind for kind in crashes.KINDS if crash_escapes(kind) > 5} == {'all', 'no-labels', 'as-many', 'lane'}
+# -->
 #
 # **Three questions to think about**
 # - Could two bad teachers together be a good one?
@@ -437,8 +435,8 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 #   if the KL trusted it with that p, not {{ SETTINGS.rule_p }}?
 # <!-- claim: settings_for('soft').rule_p == settings_for('bootstrapped').rule_p == SETTINGS.rule_p
 #   and abs(like_the_rule('random-50') - 1 / 2 - 1 / 18) < 0.02 -->
-# - The racer's drives show the free lane, too, but only {{ student_escapes(taught_agents.RACER_LONG) }} of its ten
-#   students escape. What differs, and what would you test first?
+# - Of the racer's ten students {{ student_escapes('racer') }} escape early, and {{
+#   student_escapes(taught_agents.RACER_LONG) }} at last. What differs, and what would you test first?
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Answers to the three questions. (1) Ask what is missing. Once it is out, the racer looks at no
