@@ -99,6 +99,11 @@ def by_hand() -> dict[str, set[str]]:
     return {method: set(names) for method, names in common.items() if names}
 
 
+def accident_shares() -> np.ndarray:
+    """In how many % of the test's drives the agents of each method with a teacher have an accident, (methods,)."""
+    return 100 * np.array([at(method, "accident").mean() for method in TAUGHT])
+
+
 def decisions_per_update(method: str) -> float:
     """After how many decisions of their own these agents make an update, on average."""
     agent = later(method).agents[0]

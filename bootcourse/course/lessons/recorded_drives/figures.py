@@ -4,10 +4,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import torch
+from IPython.display import Markdown
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 from bootcourse.colours import GRID, INK, OTHER, QUIET
+from bootcourse.course import table
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.shipped import beginning, shipped_agents
 from bootcourse.episodes.record import record
@@ -156,3 +158,17 @@ def estimates(names: Sequence[str], alike: np.ndarray, estimated: np.ndarray, tr
     ax.set_xlim(0, 100)
     ax.xaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")
     return finish(figure, title, f"A dot for each agent: {'; '.join(said)}.")
+
+
+def chosen(study: Results, guesses: Sequence[float], truth: Sequence[float]) -> Markdown:
+    """A table of whom the largest estimate takes in each set of six agents, and who is truly worth most.
+
+    guesses, truth: of each agent, one set after the other.
+    """
+    earned = np.transpose([study.of(method).scores("returns") for method in choosing.METHODS])
+    both = (choosing.by_set(values).argmax(axis=1) for values in (guesses, truth))
+    rows = [
+        [f"{display_name(choosing.METHODS[one])}, {earned[place, one]:.0f}" for one in pair]
+        for place, pair in enumerate(zip(*both, strict=True))
+    ]
+    return table(["largest estimate, and its return", "truly worth most, and its return"], rows)

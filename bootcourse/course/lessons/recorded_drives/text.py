@@ -261,10 +261,7 @@ bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, tru
 # Now choose. **Best of N** takes the largest estimate of each set of six (a filled dot):
 
 # %%
-names, earned = [*sets[0]], np.transpose([study.of(m).scores("returns")[:5] for m in choosing.METHODS])
-taken, best = (choosing.by_set(each).argmax(1) for each in (guesses, truth))
-rows = [[f"{names[j]}, {earned[i, j]:.0f}" for j in both] for i, both in enumerate(zip(taken, best, strict=True))]
-table(["largest estimate, and its return", "truly worth most, and its return"], rows)
+figures.chosen(study, guesses, truth)
 
 # %% [markdown]
 # **See.** *Two things go wrong.* In two sets the estimate errs: the best was a bootstrapped agent that gets out. In
