@@ -267,9 +267,9 @@ figures.descents({"your loss": own_parts.descended(loss), "Q not detached": bare
 # Thirty learners walk the chain of lesson [[values]] for 1,000 decisions: SAC's pay without its networks (*soft
 # Q-learning*). Each draws from softmax(Q / α), and moves Q(s, a) by 0.3 of the way to its soft target.
 #
-# A learner must *find* the free road, and then *take* the way. It is worth taking: leaving is worth {{ 0.8**4 /
+# A learner must *find* the free road, and then *take* the way. Without pay, leaving is worth {{ 0.8**4 /
 # 0.2 | .2f }}, staying
-# once more {{ 0.16 + 0.8 * 0.8**4 / 0.2 | .2f }} (plain Bellman equation).
+# once more {{ 0.16 + 0.8 * 0.8**4 / 0.2 | .2f }} : the way is worth taking.
 # <!-- claim: abs(soft_q(1e-3)[0, 0] - 1.80) < 0.005 > abs(soft_q(1e-3)[0, 1] - 2.05) -->
 #
 # > **Predict.** At the best constant α from 0.01 to 10, how probably do the thirty leave the trap in the
@@ -289,19 +289,22 @@ bc.show(figures.two_jobs(alphas, knows, walked))
 
 # %% [markdown]
 # **Explain.** Below 0.5: never better than a coin (blue). **α does two jobs.** It decides how much a learner *tries*:
-# with a small α few find the free road (purple). And it decides how surely it *takes* what is better: leaving is
-# worth
-# only {{ 2.05 - 1.80 | .2f }} more, so with α = 1 even an agent that knows the whole chain leaves with {{
+# with a small α few find the free road (purple). And it decides how surely it *takes* what is better: with α = 1
+# leaving is
+# worth only {{ soft_q(1)[0, 1] - soft_q(1)[0, 0] | .2f }} more, pay included, so even an agent that knows the whole
+# chain leaves with {{
 # leave(1) | .2f }} (black). In between, finding the road once is not enough (lesson [[values]]): with α = 0.1 a third
 # find it, and none leaves.
 # <!-- claim: constant().leaves.mean(axis=1).max() < 0.5 -->
 # <!-- claim: found(0.1) == 10 and constant().leaves[np.abs(ALPHAS / 0.1 - 1).argmin()].max() < 0.1 -->
 # <!-- claim: 0.5 < leave(1) < 0.55 and max(abs(leave(a) - 0.5) for a in (2, 3, 5, 7, 10)) < 0.01 -->
 #
-# So begin high, to find, and let α fall, to take. By equal factors from 10 to 0.01, {{ falling().found.sum() }} of
+# So begin high, to find, and let α fall, to take: by equal factors from 10 to 0.01, {{ falling().found.sum() }} of
 # thirty
-# find the road, and {{ sure(falling().leaves) }} of them end sure of leaving (above {{ SURE }}). The {{
-# (~falling().found).sum() }} others end sure of staying.
+# find the road, and {{ sure(falling().leaves) }} end sure of leaving (above {{ SURE }}; with no constant α more than
+# {{
+# max(map(sure, constant().leaves)) }}). But {{ sure(1 - falling().leaves) }} end sure of staying: {{
+# (~falling().found).sum() }} of these never found the road.
 # <!-- claim: ((1 - falling().leaves > SURE) | falling().found).all() and not (falling().leaves >
 #   SURE)[~falling().found].any() -->
 
@@ -382,8 +385,10 @@ compare_predictions(
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed.
 # 3. The highest of many estimates is too high, so the smaller of two critics counts.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
-# 5. On the chain no constant α beats a coin: a small one finds too little, a large one takes too seldom. One that
-#    falls leads out {{ sure(falling().leaves) }} of thirty. A thermostat can rest if η is between 0 and log n.
+# 5. On the chain no constant α that we tried beats a coin: a small one finds too little, a large one takes too
+#    seldom.
+#    One that falls makes {{ sure(falling().leaves) }} of thirty sure of leaving. A thermostat can rest if η is
+#    between 0 and log n.
 
 # %% [markdown]
 # **Three questions to think about**

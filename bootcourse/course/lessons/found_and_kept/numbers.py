@@ -11,6 +11,7 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
+from bootcourse.research.tables import markdown
 from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost, rolling_means
 from tools.course.known import in_training, others, shipped_experiment, shipped_results
 
@@ -107,6 +108,30 @@ def alone_and_ending() -> Counted:
     """Of twenty agents with demonstrations alone and a β that ends: how many find the way out, and keep it."""
     each = [way(agents, "demos") for agents in (shipped_results(), shipped_experiment("stress")["demos"])]
     return Counted(sum(one.found for one in each), sum(one.kept for one in each))
+
+
+def losers(beta: str) -> int:
+    """How many of the study's ten with demonstrations alone ever lose the way out, where β "ends" or "stays"."""
+    agents = of_all() if beta == "ends" else shipped_experiment("ablations")["β for ever"]
+    return int(lost(agents.of("demos").curves["success"]).sum())
+
+
+def chances_table() -> str:
+    """How often single agents read as the paper's four rows, by training, as Markdown."""
+    cells = study_clocks.choices(shipped_experiment("clocks"))
+    quarter, *more = (study_clocks.pattern(cells[updates, "π̃"]) for updates in ("1/4", "1", "2", "4"))
+    low, high = (100 * end for end in (min(each.low for each in more), max(each.high for each in more)))
+    ours = 100 * study_clocks.pattern(of_all()).value
+    rows = [
+        ["as our study's (the ten others)", f"{ours:.0f} % ({100 * others_pattern():.0f} %)"],
+        ["with π̃", f"{100 * quarter.value:.0f} %"],
+        [
+            "with π̃, one road, and 1, 2 or 4 updates",
+            f"{', '.join(f'{100 * each.value:.0f}' for each in more)} % (intervals: {low:.0f} to {high:.0f} %)",
+        ],
+        ["in other traffic", "not tested"],
+    ]
+    return markdown(["trained", "of the draws"], rows)
 
 
 def alone_and_staying() -> tuple[int, int, int]:

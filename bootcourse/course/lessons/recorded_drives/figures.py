@@ -161,14 +161,15 @@ def estimates(names: Sequence[str], alike: np.ndarray, estimated: np.ndarray, tr
 
 
 def chosen(study: Results, guesses: Sequence[float], truth: Sequence[float]) -> Markdown:
-    """A table of whom the largest estimate takes in each set of six agents, and who is truly worth most.
+    """A table of whom the largest estimate takes in each set of six agents, who is truly worth most, and earns most.
 
     guesses, truth: of each agent, one set after the other.
     """
     earned = np.transpose([study.of(method).scores("returns") for method in choosing.METHODS])
-    both = (choosing.by_set(values).argmax(axis=1) for values in (guesses, truth))
+    guessed, worth = choosing.by_set(guesses), choosing.by_set(truth)
+    first = zip(*(values.argmax(axis=1) for values in (guessed, worth, earned[: len(worth)])), strict=True)
     rows = [
-        [f"{display_name(choosing.METHODS[one])}, {earned[place, one]:.0f}" for one in pair]
-        for place, pair in enumerate(zip(*both, strict=True))
+        [place + 1, *(f"{display_name(choosing.METHODS[one])}, {earned[place, one]:.0f}" for one in each)]
+        for place, each in enumerate(first)
     ]
-    return table(["largest estimate, and its return", "truly worth most, and its return"], rows)
+    return table(["set", "largest estimate", "truly worth most (γ = 0.8)", "highest return"], rows)

@@ -104,7 +104,7 @@ decoded = own_code.yours_or_ours("decode", doing="Steering")(np.arange(9))
 bc.show(figures.nine_actions(decoded, seconds=2))
 
 # %% [markdown]
-# **See.** Two seconds of steering do not straighten the car: a lane change needs a turn back.
+# **See.** After two seconds of steering the car points across the road: a lane change needs a turn back.
 #
 # A drive of at most {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s is an **episode**.
 # An **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive that ends ahead of
@@ -345,9 +345,10 @@ bc.show(figures.what_they_learned(study, blind))
 
 # %% [markdown]
 # **See.** Eight of plain SAC's ten get out on none of the roads, and hardly ever crash: they stay. One
-# escapes, but crashes afterwards on {{ 100 * of('sac').scores('accident')[of('sac').scores('success').argmax()] |
-# .0f }} %
-# of the roads. With help {{ escaped('bootstrapped') }} of ten escape, and {{ crash_on_most().sum() }} crash on most
+# escapes, but crashes on {{ 100 * of('sac').scores('accident')[of('sac').scores('success').argmax()] | .0f }} % of
+# the
+# roads, nearly always afterwards. With help {{ escaped('bootstrapped') }} of ten escape, and {{
+# crash_on_most().sum() }} crash on most
 # roads. The {{ escaped('bootstrapped') }} earn more than the rule and the blind plan.
 # <!-- claim: escaped('sac') == 1 and staying().sum() == 8 and (abs(of('sac').scores('returns') -
 #   idle().rewards.sum()) < 3)[staying()].all() -->
@@ -414,8 +415,8 @@ def bearable_risk(stay, out, crash):
 check.bearable_risk(bearable_risk)
 
 # %% [markdown]
-# Your `reward` and `bearable_risk` draw the next picture. An attempt drives like the rule or like the blind plan on
-# road {{ ROAD }}, or crashes after 3 s:
+# Your `reward` and `bearable_risk` draw the next picture. An attempt that goes well drives like the
+# rule, or like the blind plan, on road {{ ROAD }}; the others crash after 3 s:
 
 # %%
 bearable = own_code.yours_or_ours("bearable_risk", doing="Judging attempts")
@@ -429,11 +430,10 @@ for gamma in gammas:
 bc.show(figures.bearable_risks(gammas, np.array(risks)))
 
 # %% [markdown]
-# **Explain.** At γ = 0.8 the rule's way out is worth less than staying even if it never crashes. The blind plan is
-# worth more there, if fewer than {{ 100 * bearable_by_plan() | .0f }} % of attempts crash after 3 s. On the {{
+# **Explain.** At γ = 0.8 the rule's way out bears no risk: even without a crash it is worth less than staying. The
+# blind plan bears {{ 100 * bearable_by_plan() | .0f }} %, if the others go as on road {{ ROAD }}. On the {{
 # roads() | , }}
-# roads {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % crash, not all of them after 3 s: on average it is
-# worth {{
+# roads {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % crash, early or late, and on average it is worth {{
 # worth_of_plan() | .2f }} there, less than staying ({{ discounted(idle(), 0.8) | .2f }}).
 # <!-- claim: discounted(idle(), 0.8) > worth_of_plan() -->
 #

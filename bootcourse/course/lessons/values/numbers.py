@@ -62,3 +62,9 @@ def arrivals(seed: int) -> np.ndarray:
 def walks_until(state: int, seed: int = 1) -> int:
     """After how many of them it goes on in a state, or leaves the trap (0), for good."""
     return int((arrivals(seed) <= diagrams.goes_on_from(walks(seed), state)).sum())
+
+
+@cache
+def needed_walks() -> list[int]:
+    """How many walks to the free road each of C's learners that leave needed."""
+    return [walks_until(0, seed) for seed in range(30) if chain.leaves(walks(seed)[-1])]

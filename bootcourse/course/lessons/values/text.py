@@ -308,14 +308,13 @@ bc.show(diagrams.who_leaves(found))
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** Turning back to the trap is worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }} in each of
-# the
-# states 1 to 3. While going on seems worth less there, leaving is worth γ · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{
-# 0.8**2 * 0.16 / 0.2 | .2f }}, below staying. Going on must first win in state 3, then in 2, then in 1 (dashed). On
-# the
-# right that takes {{ walks_until(3) }}, {{ walks_until(2) }} and {{ walks_until(1) }} walks to the free road, and
-# leaving
-# wins after {{ walks_until(0) }}. The left learner had two.
+# **Explain.** In the states 1 to 3 turning back to the trap is worth γ · {{ 0.16 / 0.2 | .2f }} = {{
+# 0.8 * 0.16 / 0.2 | .2f }}. While that is the best there, leaving is worth γ · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{
+# 0.8**2 * 0.16 / 0.2 | .2f }}, less than staying. So going on must win in state 3, then in 2, then in 1 (dashed), and
+# each win takes more walks to the free road. The {{ len(needed_walks()) }} of C that leave needed {{
+# min(needed_walks())
+# }} to {{ max(needed_walks()) }}. The left learner had two, and still turns back in state 3.
+# <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
 #   chain.over_walks(0.5, 0.8, seed)[12:36]) -->
