@@ -41,36 +41,48 @@ def batches(settings: Settings, episodes: Sequence[int]) -> Figure:
     return finish(figure, title, f"A batch of {settings.batch} boxes, of which these are demonstrated: {words}.")
 
 
-def returns(groups: dict[str, Results]) -> Figure:
-    """The returns of groups of ten agents in their first training episodes; where a bonus is paid the ground is shaded.
+def returns(groups: dict[str, Results], others: dict[str, Results]) -> Figure:
+    """The returns of groups of ten agents in their first training episodes, and below them how often they succeed.
 
-    A thin line for each agent, a thick one for their mean, the mean of the first group in grey in each other panel.
+    A thin line for each agent, a thick one for their mean, the mean of the first group in grey in each other panel;
+    dotted: of ten others. Where a bonus is paid the ground is shaded.
     """
-    title = "With less bonus, or none, the return leaves the rule's sooner"
-    figure, rule, means = new_figure(3.6), evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value, {}
-    words = f"return without the bonus, mean of {WINDOW} episodes; thin: an agent, thick: all ten; grey: as on the left"
-    figure.text(0.012, 1 - 0.42 / 3.6, words, fontsize=TEXT, color=INK, va="top")
+    title = "With less bonus, or none, the return leaves the rule's sooner, and success falls sooner"
+    figure, rule, means = new_figure(5.5), evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value, {}
+    words = f"means of {WINDOW} episodes; thin: an agent, thick: all ten; grey: as on the left; dotted: ten others"
+    figure.text(0.012, 1 - 0.66 / 5.5, words, fontsize=TEXT, color=INK, va="top")
     for column, (name, agents) in enumerate(groups.items()):
         start, ends, bonus = (agents.agents[0][which] for which in ("beta_start", "beta_episodes", "bonus"))
         at, each = rolling_means(agents.curves["return"], WINDOW)
         means[name], colour = each.mean(axis=0), style("bootstrapped").colour if bonus else NO_BONUS
-        ax = axes_at(figure, 0.42 + 2.2 * column, 0.92, 2.03, 2.28)
-        plain_axes(ax, "")
+        above, below = (
+            axes_at(figure, 0.42 + 2.2 * column, top, 2.03, tall) for top, tall in ((1.2, 2.1), (3.72, 1.2))
+        )
+        plain_axes(above, "" if column else "return without the bonus")
+        plain_axes(below, "" if column else "succeed, %")
         for episode in range(0, ends if bonus else 0, STRIP):
             share = demonstration_share(episode, start, ends) / start
-            ax.axvspan(episode, episode + STRIP, color=style("demos").colour, alpha=0.4 * share, linewidth=0)
+            for ax in (above, below):
+                ax.axvspan(episode, episode + STRIP, color=style("demos").colour, alpha=0.4 * share, linewidth=0)
         if bonus:
-            ax.text(30, -17, "bonus paid", va="bottom", fontsize=SMALL, color=INK)
-        ax.plot(at, each.T, color=colour, linewidth=0.7, alpha=0.5)
-        ax.plot(at, next(iter(means.values())), color=QUIET, linewidth=1.4)
-        ax.plot(at, means[name], color=colour, linewidth=2.4)
-        ax.axhline(rule, color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
-        ax.text(LAST, rule - 2, "rule", ha="right", va="top", fontsize=SMALL, color=QUIET)
-        ax.set_title(name, loc="left", fontsize=TEXT, color=INK, fontweight="bold", pad=5)
-        ax.set(xlim=(0, LAST), ylim=(-20, 140), xticks=range(0, LAST, 300))
-        ax.xaxis.set_major_formatter("{x:,g}")
-        ax.tick_params(labelleft=not column)
-        ax.set_xlabel("training episode", fontsize=SMALL, color=INK)
+            above.text(30, -17, "bonus paid", va="bottom", fontsize=SMALL, color=INK)
+        above.plot(at, each.T, color=colour, linewidth=0.7, alpha=0.5)
+        above.plot(at, next(iter(means.values())), color=QUIET, linewidth=1.4)
+        above.plot(at, means[name], color=colour, linewidth=2.4)
+        above.axhline(rule, color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
+        above.text(LAST, rule - 2, "rule", ha="right", va="top", fontsize=SMALL, color=QUIET)
+        above.set_title(name, loc="right", fontsize=TEXT, color=INK, fontweight="bold", pad=18)
+        for some, look in ((agents, "-"), (others.get(name), ":")):
+            if some is not None:
+                when, succeed = rolling_means(some.curves["success"], WINDOW)
+                wide = 2.4 if look == "-" else 1.4
+                below.plot(when, 100 * succeed.mean(axis=0), color=colour, linewidth=wide, linestyle=look)
+        above.set(xlim=(0, LAST), ylim=(-20, 140), xticks=range(0, LAST, 300))
+        below.set(xlim=(0, LAST), ylim=(0, 104), xticks=range(0, LAST, 300), yticks=(0, 50, 100))
+        above.tick_params(labelleft=not column, labelbottom=False)
+        below.tick_params(labelleft=not column)
+        below.xaxis.set_major_formatter("{x:,g}")
+        below.set_xlabel("training episode", fontsize=SMALL, color=INK)
     at_these = {each: int(np.argmin(np.abs(at - each))) for each in (450, 900, 1050)}
     said = [f"{name}: " + ", ".join(f"{mean[i]:.0f}" for i in at_these.values()) for name, mean in means.items()]
     words = f"Three panels. Mean return near episodes {', '.join(f'{each:,}' for each in at_these)}: {'; '.join(said)}."

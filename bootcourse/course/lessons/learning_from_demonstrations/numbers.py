@@ -7,9 +7,8 @@ import numpy as np
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.research.results import Results
-from bootcourse.research.tables import markdown
 from bootcourse.statistics import rolling_means
-from tools.course.known import SETTINGS, by_rule, idle, shipped_experiment, shipped_results
+from tools.course.known import SETTINGS, by_rule, idle, of, shipped_experiment, shipped_results
 
 
 @cache
@@ -52,24 +51,17 @@ def staying(place: int) -> str:
     return measures.escape([study["β for ever"].of(method), others[f"{method}, β for ever"]])
 
 
-def success_table() -> str:
-    """How many training episodes succeed by the bonus in three windows, and at the end, as Markdown."""
-    windows = {
-        "episodes 300 to 400": (300, 400),
-        "450 to 500": (450, 500),
-        "1,000 to 1,050": (1000, 1050),
-        "1,900 to 2,000": (1900, 2000),
-    }
-    names = {"c = 2": "c = 2, β ends at 1,000", "300": "c = 2, β ends at 300", "c = 0": "c = 0"}
+def last_success(name: str, others: bool) -> str:
+    """In how many % of the training episodes 1,900 to 2,000 these agents, or the ten others, succeed."""
+    return f"{100 * training(name, 'success', 1900, 2000, others).mean():.0f}"
 
-    def cell(name: str, first: int, last: int) -> str:
-        each = [
-            100 * training(name, "success", first, last, which).mean() for which in (False, True)[: 1 + (name != "300")]
-        ]
-        return " ".join((f"{each[0]:.0f} %", *(f"({more:.0f} %)" for more in each[1:])))
 
-    rows = [[words, *(cell(name, *window) for window in windows.values())] for name, words in names.items()]
-    return markdown(["succeed (in brackets: ten others, who train on to 4,000)", *windows], rows)
+def above_the_rule() -> int:
+    """How many of twenty whose β and bonus of 2 stay earn more than the rule in the test."""
+    study, others = (shipped_experiment(name) for name in ("ablations", "stress"))
+    returns = [study["β for ever"].of("bootstrapped"), others["bootstrapped, β for ever"]]
+    rule = of("rule").scores("returns").max()
+    return int(sum((each.scores("returns") > rule).sum() for each in returns))
 
 
 def found(name: str) -> np.ndarray:
