@@ -39,18 +39,17 @@ progress("bug_hunt")
 # wrong, raises nothing and prints nothing. A letter names both seeds.
 # <!-- claim: len(bugs.LEARNERS) == 7 and bugs.SEEDS == 2 -->
 #
-# Here is each right line, and beside it the wrong one:
+# Each right line, and beside it what the bug puts there:
 #
 # ```python
-# label = rule(s)                                        # shifted_labels: rule(next_s)
-# kl = (pi * (log_pi - log_rule)).sum(-1)                # flipped_kl: rule * (log_rule - log_pi)
-# value = (pi * (q - alpha * log_pi)).sum(-1) - xi * kl  # sampled: (q - alpha * log_pi)[a], a ~ pi
-# actor_loss = -value  # with q.detach()                 # no_stop: with q
-# target = r + c * demo                                  # bonus_for_all: r + c
-# target += gamma * (1 - end) * next_value               # no_end: gamma * next_value
+# soft = q - alpha * log_pi
+# label = rule(s)                          # shifted_labels: rule(next_s)
+# kl = (pi * (log_pi - log_rule)).sum(-1)  # flipped_kl: rule * (log_rule - log_pi)
+# value = (pi * soft).sum(-1) - xi * kl    # sampled: soft[a] - xi * kl; a ~ pi, no gradient
+# actor_loss = -value  # with q.detach()   # no_stop: with q
+# target = r + c * demo                    # bonus_for_all: r + c
+# target += gamma * (1 - end) * next_value # no_end: gamma * next_value
 # ```
-#
-# The draw a has no gradient.
 #
 # A healthy agent and one with a bug drive here on the same road. Which has the bug? (Round 1 tells.)
 

@@ -113,9 +113,9 @@ def out_of_trap(
     for (name, driver), (gamma, with_worth) in zip(drivers.items(), AIMS, strict=True):
         here = int(drive_episodes(driver, roads).success.sum())
         out, hurt, driven = (of_nine(study, gamma, with_worth, of) for of in ("success", "accidents", "roads"))
-        each = " ".join(f"{100 * share:.0f}" for share in out)
-        rows.append([name, here, each, f"{1000 * hurt.sum() / driven.sum():.0f}"])
-    headings = ["what counts", f"drives out, of this agent's {len(roads)}", "each of all nine, % of its drives"]
+        led, crashes = int((out > LED).sum()), 1000 * hurt.sum() / driven.sum()
+        rows.append([name, here, led, f"{100 * out.mean():.0f}", f"{crashes:.0f}"])
+    headings = ["what counts", f"this agent's drives out, of {len(roads)}", "of all nine, led out", "drives out, %"]
     return [*headings, "accidents in 1,000"], rows
 
 

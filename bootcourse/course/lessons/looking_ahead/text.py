@@ -188,12 +188,10 @@ drivers = {name: imagined_road.driver(values_of, stuck, 10, *aim) for name, aim 
 table(*figures.out_of_trap(drivers, roads[:10], study))
 
 # %% [markdown]
-# **See.** *Open.* The chain of decisions leads some of the nine out with neither. W alone leads one agent out, the
-# fourth, that does not get out without; of the others two get out more often, and three less. With W *and* γ = 1
-# five get out more often, three less: nine agents do not tell. But nearly all the crashes are theirs: *out* is not
-# *better*.
-# <!-- claim: with_aim(0.8, True)[3] > 0.95 and (np.delete(with_aim(0.8, True), 3) > 0).sum() == 2 and
-#   (np.delete(with_aim(0.8, True), 3) < 0).sum() == 3 and aim(0.8, False)[3] < 0.03 -->
+# **See.** (*Led out*: in more than a tenth of its drives.) With neither, {{ led_out(0.8, False) }} of the nine are
+# led
+# out: the chain of decisions does it. *Open* is whether W or γ = 1 adds to it: with both five get out more often than
+# with neither, and three less. But nearly all the crashes are with both: *out* is not *better*.
 # <!-- claim: (with_aim(1.0, True) > 0).sum() == 5 and (with_aim(1.0, True) < 0).sum() == 3 and
 #   aim(1.0, True, 'returns').mean() < aim(0.8, False, 'returns').mean() -->
 #
@@ -277,10 +275,11 @@ bc.show(figures.wrong_models(study))
 #   len(each('ppo_cloned', 'alone', 'roads')) == 10 -->
 #
 # **Explain.** Is it the lost second? With only *the others* a second late {{
-# per_thousand('ppo_cloned', model='the others a second late') | .0f }} in 1,000 drives end in an accident. If we move
-# the whole late road on by one second, but the ego in it keeps straight, {{ moved_on(False).sum() }} of {{
-# len(moved_on(False)) }} do (five agents); if the ego takes the action that the car took, {{
-# 'none' if not moved_on(True).any() else moved_on(True).sum() }}. The late road lacked the car's own last action.
+# per_thousand('ppo_cloned', model='the others a second late') | .0f }} in 1,000 drives end in an accident. Move
+# the whole late road on by one second: if the ego in it keeps straight, {{ moved_on(False).sum() }} of {{
+# len(moved_on(False)) }} drives crash (five agents); if it repeats the car's own last action, {{
+# 'none' if not moved_on(True).any() else moved_on(True).sum() }} does. The late road lacked the car's own last
+# action.
 # <!-- claim: moved_on(False).all() and not moved_on(True).any() -->
 
 # %% [markdown] tags=["instructor"] minutes=4

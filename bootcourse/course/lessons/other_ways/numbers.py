@@ -127,13 +127,29 @@ def spent_table() -> str:
     kinds = {"ppo_cloned": "PPO", "bootstrapped": "bootstrapped", "jsrl": "jump-start", "rlpd": "RLPD", "ibrl": "IBRL"}
     clocks = {
         f"{equal_decisions.SECONDS} s of computing": (equal_decisions.SECONDS, explorable.SECONDS),
-        f"{on_road(explorable.EARLY):.0f} h on a road": (explorable.EARLY, explorable.DECISIONS),
+        f"{on_road(explorable.EARLY):.0f} h on a road, and {hours_before('rlpd'):.0f} h of the rule's": (
+            explorable.EARLY,
+            explorable.DECISIONS,
+        ),
         f"{FIRST:,} decisions": (FIRST, explorable.DECISIONS),
     }
     scores = {words: training_scores(*spent) for words, spent in clocks.items()}
-    rows = [[words, *(f"{each[method].value:.0f}" for method in kinds)] for words, each in scores.items()]
+    rows = [[words, *(_bold_if_apart(each, method) for method in kinds)] for words, each in scores.items()]
     taken = (f"*{at(method, 'seconds', FIRST).mean():.0f}*" for method in kinds)
     return markdown(["after", *kinds.values()], [*rows, [f"*seconds for {FIRST:,}*", *taken]])
+
+
+def _bold_if_apart(scores: dict, method: str) -> str:
+    """A mean, bold if its interval and that of PPO after cloning have nothing in common."""
+    mine, ppo = scores[method], scores["ppo_cloned"]
+    words = f"{mine.value:.0f}"
+    return f"**{words}**" if mine.low > ppo.high or mine.high < ppo.low else words
+
+
+def jump_start_later() -> float:
+    """What jump-start RL earns in training after as many hours of its own as the others have with the rule's."""
+    decisions = round(explorable.EARLY * (1 + hours_before("rlpd") / on_road(explorable.EARLY)))
+    return training_scores(decisions, explorable.DECISIONS)["jsrl"].value
 
 
 def below_all_others(method: str, spent: float, count: str) -> bool:

@@ -214,9 +214,9 @@ training = own_code.training([bc.settings_for("jsrl", envs_per_agent=8)], 80)
 bc.show(figures.handing_over(*measures.handed_over(training)))
 
 # %% [markdown]
-# **See.** (Yours will differ.) The first mean has nothing to beat, so h shrinks; later means have only a low one.
-# (Drives
-# under way keep their h.)
+# **See.** (Yours will differ.) The first mean has nothing to beat, so h shrinks. Later means must come near the best
+# so far, and
+# that is low. (Drives under way keep their h.)
 #
 # **Explain.** The judgement compares with the past, not with a goal. This is a **curriculum**: it begins
 # with the end of the way and moves backwards.
@@ -279,7 +279,7 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 #
 # | | PPO | bootstrapped SAC | jump-start RL | RLPD | IBRL |
 # |---|---|---|---|---|---|
-# | {{ hours_before('rlpd') | .0f }} h of the rule's drives, not counted | of π̃ | yes | no | yes | yes |
+# | {{ hours_before('rlpd') | .0f }} h of the rule's drives, not counted | yes, drawn from π̃ | yes | no | yes | yes |
 # | the rule acts | no | no | in training, counted | no | in training and test |
 # | updates a decision | – | ¼ | ¼ | ½ | ¼ |
 # | three values were tried of | roads at once | target entropy | target entropy | target entropy | target entropy |
@@ -312,7 +312,7 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 predict("other_ways.5", "Where is PPO after cloning?", ["first", "in the middle", "last"])
 
 # %% [markdown]
-# **Switch** from decisions to seconds of computing. On a road a decision takes a second. (Jump-start RL's and
+# **Switch** from seconds of computing to decisions: on a road each takes a second. (Jump-start RL's and
 # IBRL's returns contain the rule's actions. Not counted: PPO's cloning, and the rule's drives of the table above.)
 
 # %%
@@ -324,22 +324,19 @@ explorable.TwoCounts(compared, by_rule.returns.mean())
 #
 # {{ spent_table() }}
 #
-# In the first three lines PPO's 95 % interval is apart from the other four, except after {{
-# on_road(explorable.EARLY) | .0f }} h
-# from jump-start RL's and RLPD's ({{ training_scores(explorable.EARLY, explorable.DECISIONS)['rlpd'].low | .0f }} to
-# {{
-# training_scores(explorable.EARLY, explorable.DECISIONS)['rlpd'].high | .0f }}).
+# Bold: its 95 % interval is apart from PPO's. (Jump-start RL has none of the rule's {{ hours_before('rlpd') | .0f }}
+# h:
+# after {{ on_road(explorable.EARLY) + hours_before('rlpd') | .0f }} h of its own it earns {{ jump_start_later() |
+# .0f }}.)
 # <!-- claim: (lambda of: of['ppo_cloned'].low > max(of[m].high for m in of if m != 'ppo_cloned')
 #   and of['rlpd'].high < min(of[m].low for m in of if m != 'rlpd'))(training_scores(
 #   equal_decisions.SECONDS, explorable.SECONDS)) and equal_decisions.SECONDS == 5 -->
 # <!-- claim: (lambda of: of['ppo_cloned'].high < min(of[m].low for m in ('bootstrapped', 'ibrl')))(
 #   training_scores(explorable.EARLY, explorable.DECISIONS)) -->
 #
-# **Explain.** PPO's decisions are cheap (last line), but it needs more of them: with {{
-# equal_decisions.SECONDS }} s it is
-# the best choice, with {{ on_road(explorable.EARLY) | .0f }} h on a road IBRL and bootstrapped SAC earn more. So it
-# matters
-# when seconds or hours are few. After {{ SECOND | , }} decisions for each ({{ at('ppo_cloned', 'seconds',
+# **Explain.** PPO's decisions are cheap (last line), but it needs more of them. So the
+# choice matters when seconds or hours are few. After {{ SECOND | , }} decisions for each ({{ at('ppo_cloned',
+# 'seconds',
 # SECOND).mean() | .0f }} s to {{
 # at('rlpd', 'seconds', SECOND).mean() / 60 | .0f }} minutes) our tests show no difference.
 

@@ -46,6 +46,12 @@ def easy(kind: str) -> Results:
     return shipped_experiment("easier")[kind]
 
 
+def farther_one() -> Results:
+    """The ten of Round 1's twenty agents that have γ = 0.95."""
+    agents = easy("as it is")
+    return agents.pick([i for i, agent in enumerate(agents.agents) if agent["gamma"] == 0.95])
+
+
 MIDDLE, CHEAP, KEPT, BOTH = easier.MIDDLE, easier.CHEAP, easier.KEPT, easier.BOTH
 stressed = easier.stressed
 

@@ -27,13 +27,21 @@ def when_to_change(drive: Rollout) -> Figure:
     gap, t_safe = ahead - scenario.car.length, scenario.rule.t_safe
     needed = np.array([safety_distance(a, b, b, t_safe, scenario.rule.floor) for a, b in zip(v, slower, strict=True)])
     printed, first = (v - slower) * t_safe, int(np.argmax(gap > needed))
-    figure = new_figure(3.5)
+    figure = new_figure(3.2)
     panels = (
-        ("ours (m)", (gap, "gap to trap 2,\nbumper to bumper", green), (needed, "safety distance")),
-        ("printed (m)", (printed, "left side", ALARM), (ahead, "right side")),
+        (
+            "ours: the gap > the safety distance (m)",
+            (gap, "gap to trap 2,\nbumper to bumper", green),
+            (needed, "safety distance"),
+        ),
+        (
+            "printed: closing speed × time > distance (m)",
+            (printed, "closing speed\n× time", ALARM),
+            (ahead, "distance"),
+        ),
     )
     for column, (words, (has_to_rise, name, colour), (above, named)) in enumerate(panels):
-        ax = axes_at(figure, 0.45 + 3.75 * column, 1.0, 2.1, 1.85)
+        ax = axes_at(figure, 0.45 + 3.75 * column, 0.75, 2.1, 1.85)
         ax.plot(seconds, has_to_rise, color=colour, linewidth=2.5)
         ax.plot(seconds, above, color=INK, linewidth=2, linestyle="--")
         plain_axes(ax, words)
@@ -50,7 +58,7 @@ def when_to_change(drive: Rollout) -> Figure:
         f"of {needed[first]:.1f} m from {seconds[first]:g} s on. Printed: the left side goes from {printed[0]:.1f} to "
         f"{printed[-1]:.1f} m, the right side from {ahead[0]:.1f} to {ahead[-1]:.1f} m."
     )
-    return finish(figure, "Our solid line rises above the dashed one, the printed one stays below it", alt)
+    return finish(figure, f"Ours is true from {seconds[first]:g} s on, the printed condition never", alt)
 
 
 def speed_over_time(drive: Rollout) -> Figure:

@@ -199,7 +199,7 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 explorable.later()
 
 # %% [markdown]
-# **See.** Falling back looks good from 0.85 on, if the data reach to the sprints.
+# **See.** Falling back looks bad at 0.8 and good at 0.85, if the data reach to the sprints.
 # <!-- claim: all(ppo_kinds.settings_of(kind).gae_lambda == settings_for('ppo').gae_lambda > 0 for
 #   kind in ppo_kinds.KINDS) -->
 # <!-- claim: [explorable.weighted(lam).sum() > 0 for lam in (0, 0.5, 0.8, 0.85, 0.95, 1)] ==
@@ -271,7 +271,8 @@ bc.show(figures.credit(speeds, found, 32))
 # ## Round 4: how far may one decision push?
 #
 # The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since
-# it was taken. A decision pushes ρ away from 1, but stops at ε = {{ 100 * settings_for('ppo').clip | .0f }} %.
+# it was taken. From ρ = 1 a decision can push it only so far: by
+# ε = {{ 100 * settings_for('ppo').clip | .0f }} %.
 #
 # > **Predict.** An action turned out badly, A = −2, but has become likelier, ρ = 1.5. Does this
 # > decision still change the policy?

@@ -205,8 +205,8 @@ figures.small_worlds(right, lost)
 # **See.** Without the bug each Q is right within 0.1. With it all are too high but the third, which has no
 # marks to lose.
 #
-# The target now counts the fallen state. No row begins there, so no row says what it is worth: the
-# network makes it up.
+# The target now counts the fallen state. No row begins there, so the network makes up what it is
+# worth. It isn't Round 1's 5: for that, rows must say that a fallen pole goes on earning.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Let those who have finished exchange their `update` with a neighbour and find the lines in which
@@ -259,7 +259,7 @@ explorable.trained_poles(agent, unmarked)
 # %% [markdown]
 # ## Round 4: why does it fall?
 #
-# The actor learns from its critics alone, so look at Q. It has a **limit**: if the
+# The actor hears of rewards only from its critics, so look at Q. It has a **limit**: if the
 # pole stood for ever, each push would pay 1, and at most α log 2 for its entropy. So with γ = {{ by_hand.SAC.gamma }}
 # no right Q is above {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2).
 #
@@ -278,7 +278,7 @@ print(f"Entropy with the bug, pole upright: {entropy:.2f} nats")
 # %% [markdown]
 # **See.** Along 40 falls of poles pushed to one side only, the critics with the bug expect most of the
 # fallen pole. So a push towards the fall should look best to the
-# actor. It is indeed sure of its push even with the pole upright.
+# actor. Upright it is sure of one side (entropy 0.00): pushed to one side only, a pole falls.
 #
 # Q is even above its limit (dotted; it depends on the agent's α), in {{ unmarked() }} of our {{
 # len(agents('unmarked')) }} agents with the bug and in none without it.
@@ -303,14 +303,12 @@ stands = by_hand.balanced(added)
 print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {tests[1]:.0f}.")
 
 # %% [markdown]
-# **Explain.** Rows are all that was added, and Q is possible. Before, we think, a high guess for the fallen pole
-# raised Q of the
-# last push, and that the guess, as the same network gives both. Once they are
-# learned, these rows say the same as a mark, apart from the entropy: from here on
-# every reward is 0. (In five of ours, trained on another
-# machine, Q is possible, too; they balance {{ after_a_block('paid-0').min() | .0f }} to {{
-# after_a_block('paid-0').max()
-# | .0f }} pushes, seed 1 {{ after_a_block('paid-0')[1] | .0f }}.)
+# **Explain.** Only rows were added, and Q is possible. Without them, we think, Q fed itself: the network guessed too
+# much for the fallen pole, the target passed that on to the last push, and as one network gives both, the guess rose
+# with it. The added rows say what a mark says: from here on every reward is 0. (What the line keeps at the fall can
+# be
+# entropy, worth up to what the dotted line has above 100. Q is possible in our 5 of 5, too; they balance {{
+# after_a_block('paid-0').min() | .0f }} to {{ after_a_block('paid-0').max() | .0f }} pushes.)
 # <!-- claim: possible('paid-0') == 5 == len(agents('paid-0')) and after_a_block('paid-0').argmax() == 1 -->
 #
 # The score shows that something is wrong. An impossible Q says where to look: at the critics and their rows.
@@ -335,7 +333,7 @@ compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: compared, 4
 # 2. An update steps the critics, the actor and the temperature; the copies follow.
 # 3. `terminated` says that from here on every reward is 0. A time limit does not say so.
 # 4. In a small world you know the right Q, so a bug can show as a wrong number.
-# 5. A critic makes up what no row tells it. If its Q is impossible, it is wrong.
+# 5. A critic makes up what no row tells it. A Q above its limit gives that away; one below it may still be wrong.
 
 # %% [markdown]
 # **Three questions to think about**

@@ -281,7 +281,7 @@ bc.show(figures.of_six_teachers(taught))
 #   settings_for('bootstrapped') -->
 #
 # From labels alone, without drives, {{ worth()['random-25', 'soft'].escapers('soft') }} of ten escape with quarter
-# random, {{ worth()['random-50', 'soft'].escapers('soft') }} with half random: half random needs its drives.
+# random, {{ worth()['random-50', 'soft'].escapers('soft') }} with half random: its labels are not enough.
 # <!-- claim: significant(10)[escape_of(['random-50']), worth()['random-50', 'soft'].escapers('soft')] -->
 
 # %% [markdown] tags=["instructor"] minutes=2
@@ -318,7 +318,7 @@ bc.show(figures.of_six_teachers(taught))
 # > **Predict.** Which agents of the last two rows get out?
 
 # %%
-choices = ["both pairs", "lane, no accident", "accident, no lane", "neither"]
+choices = ["both", "lane, no accident", "accident, no lane", "neither"]
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
@@ -340,7 +340,7 @@ def without_the_accident(lanes):
 check.without_the_accident(without_the_accident)
 
 # %% [markdown]
-# Then both pairs train as in Round 2 (half a minute).
+# Then two agents of each of the last two rows train as in Round 2 (half a minute).
 
 # %% tags=["nbval-ignore-output"]
 predicted("your_teacher.4")
@@ -354,13 +354,15 @@ figures.parted(without_the_accident) if passed else "First the exercise."
 bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
-# **Explain.** *What makes the difference in these drives is the free lane*, crash or not. The number of decisions is
-# not the reason: "no free lane" and the control both have {{ before() | .0f }} % of them, and the control earns more
-# (rank
-# test, after Holm). The {{ crash_escapes('cut') }} that escape without the free lane are barely faster than the
-# traps, and
-# earn at most {{ crash_returns('cut').max() | .0f }}. The bonus matters, too: without it {{
-# crash_escapes('no-bonus') }} of ten escape from all the drives.
+# **Explain.** With the free lane, crash or not, {{ sum(map(crash_escapes, ('all', 'as-many', 'lane'))) }} of 30
+# escape;
+# without it {{ sum(map(crash_escapes, ('cut', 'accident'))) }} of 20, barely faster than the traps (they earn at
+# most {{
+# crash_returns('cut').max() | .0f }}). *So half random must show the free lane; it may crash there.* The number of
+# decisions is not the reason: "no free lane" and the control both have {{ before() | .0f }} % of them, and the
+# control
+# earns more (rank test, after Holm). Nor is showing enough: without the bonus {{ crash_escapes('no-bonus') }} of ten
+# escape from all the drives.
 # <!-- claim: in_free_lane('rule') > 0 and free_lane.shown('rule')[1] == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=1
