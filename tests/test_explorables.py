@@ -143,8 +143,9 @@ def test_by_seconds_of_computing_the_last_learner_is_the_first_and_what_was_not_
         from_page(panel.count, index=count)
         pictures[count] = panel.svg
         assert panel.view.value == panel.svg and "nan" not in panel.svg
-    assert "decisions PPO after cloning earns the least" in pictures[0].alt and "plain SAC" in pictures[0]
-    assert "computing PPO after cloning earns the most" in pictures[1].alt and "plain SAC" not in pictures[1]
+    seconds, decisions = pictures[0], pictures[1]
+    assert "decisions PPO after cloning earns the least" in decisions.alt and "plain SAC" in decisions
+    assert "computing PPO after cloning earns the most" in seconds.alt and "plain SAC" not in seconds
 
 
 def test_a_move_is_answered_at_once():

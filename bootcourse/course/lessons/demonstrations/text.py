@@ -159,8 +159,9 @@ bc.show(figures.off_the_road(alone, driven["the rule"]))
 # where the rule's drives have no row, and nearly every decision is an error: these are **compounding errors**
 # (Ross and Bagnell 2010).
 #
-# Suppose a clone errs with probability ε in its teacher's states and, at worst, in every decision after its first
-# error. **Drag** ε from 0.5 % up to our
+# Suppose that in each second a share ε of the drives errs in the teacher's states, at worst always others, and that
+# every
+# decision after a first error is one, too. **Drag** ε from 0.5 % up to our
 # clones' 20 %: how many errors can a whole drive have?
 
 # %%
@@ -169,8 +170,10 @@ explorable.compounding()
 # %% [markdown]
 # At 20 % up to {{ np.minimum(1, 0.2 * np.arange(1, 151)).sum() | .0f }} of 150 decisions on average; if errors stay
 # alone (dashed), {{ 0.2 * 150 | .0f }}. Our clones lie between: in their own states, which Round 3 shows, they agree
-# less than in their data. Where errors are rare, of $T$ decisions on average at most $\epsilon \, T (T + 1) / 2$ are
-# errors: a drive twice as long has up to four times as many.
+# less than in their data. Of $T$
+# decisions on average at most $\epsilon \, T (T + 1) / 2$ are errors; where this is far below $T$, a drive twice as
+# long
+# has up to four times as many.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Draw both bounds, T and T²: the first error comes at decision t with a probability of at most ε,

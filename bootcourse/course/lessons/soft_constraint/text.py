@@ -209,8 +209,7 @@ bc.show(figures.mixed(strengths, *examples.mixed(mix, strengths)))
 # **See.** *None of these four is fast and safe.* With ξ = 1 each returns {{ rule_on_these_roads() | .0f
 # }}, like the rule on these roads. With a smaller ξ they crash, and with Q alone, too. Were Q exact, driving by its
 # best
-# actions would be worth, discounted, at least as much as the agent's policy. Perhaps it errs on actions that the
-# agent seldom takes.
+# actions would be worth, discounted, at least as much as the agent's policy. Where would you look for its errors?
 # <!-- claim: not drives()[1][0].any() and (abs(drives()[0][0] - rule_on_these_roads()) < 1).all() -->
 # <!-- claim: (drives()[1][1:-1] > 0).all() and drives()[0][-1].min() > drives()[0][:-1].max() and
 #   (drives()[1][-1] < drives()[1][-2]).all() -->
@@ -360,8 +359,8 @@ bc.show(figures.courses(kinds))
 
 # %% [markdown]
 # **See.** *Each kind has a fault.* With ξ = 2 all find the way out (after {{ finding(stays(2)).min() }} to {{
-# finding(stays(2)).max() }} episodes), but stay slow, so the grey
-# curve is lowest. With 0.1 eight find it (after {{
+# finding(stays(2)).max() }} episodes), but stay slow (the grey curve),
+# and {{ losing([stays(2)]) }} lose it again. With 0.1 eight find it (after {{
 # finding(stays(0.1))[finding(stays(0.1)) > 0].min() }} to {{ finding(stays(0.1)).max() }}), two never. Where ξ
 # falls, they
 # find it first ({{ finding(of('soft')).min() }} to {{ finding(of('soft')).max() }}), but {{
