@@ -19,8 +19,8 @@
 # - test a learner's labels and its target without training.
 #
 # **Time** 46 minutes; running it takes under one minute. **It builds on** the losses of lesson
-# [[discrete_sac]], the update of lesson [[update_and_loop]], the soft constraint
-# ([[soft_constraint]]) and learning from demonstrations ([[learning_from_demonstrations]]).
+# [[discrete_sac]], the update of lesson [[update_and_loop]], the soft constraint ([[soft_constraint]]) and
+# learning from demonstrations ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc
@@ -34,9 +34,9 @@ progress("bug_hunt")
 # %% [markdown]
 # ## Look first
 #
-# Seven versions of the paper's method had a short training: {{ bugs.UPDATES | , }} updates, two
-# seeds each. One is healthy. Each of the others, A to F, has one **silent bug**: a line that is
-# wrong, raises nothing and prints nothing. A letter names both seeds.
+# Seven versions of the paper's method had a short training: {{ bugs.UPDATES | , }} updates, two seeds each.
+# One is healthy. Each of the others, A to F, has one **silent bug**: a line that is wrong, raises nothing and
+# prints nothing. A letter names both seeds.
 # <!-- claim: len(bugs.LEARNERS) == 7 and bugs.SEEDS == 2 -->
 #
 # Each right line, and beside it what the bug puts there:
@@ -62,19 +62,20 @@ bc.recording(figures.two_drives(hunt), height=360)
 # %% [markdown]
 # ## Round 1: which agents would you suspect?
 #
-# The curves show the return in training, without a bonus. An agent that crashes early drives more
-# episodes in as many updates, so the axis is logarithmic.
+# The curves show the return in training, without a bonus. An agent that crashes early drives more episodes in
+# as many updates, so the axis is logarithmic.
 
 # %%
 bc.show(figures.returns(hunt))
 
 # %% [markdown]
-# **See.** *A curve can look right although the code is wrong.* A, C and D end about where the
-# healthy agent ends; B and F look ill; no curve names a bug.
+# **See.** *A curve can look right although the code is wrong.* A, C and D end about where the healthy agent
+# ends; B and F look ill; no curve names a bug.
 #
-# E, the second driver above, earns far *more*, but gets out in {{ late('E', 'success')[0] }} and {{
-# late('E', 'success')[1] }} of the last 30 episodes, and has accidents in {{ late('E', 'accident')[0] }} and {{
-# late('E', 'accident')[1] }} (a drive can do both); the healthy agent gets out in all, without an accident.
+# E, the second driver above, earns far *more*, but gets out in {{ late('E', 'success')[0] }} and
+# {{ late('E', 'success')[1] }} of the last 30 episodes, and has accidents in {{ late('E', 'accident')[0] }}
+# and {{ late('E', 'accident')[1] }} (a drive can do both); the healthy agent gets out in all, without an
+# accident.
 # <!-- claim: late('healthy', 'accident') == [0, 0] and late('healthy', 'success') == [30, 30] and
 #   max(h for n in 'ABCDF' for h in
 #   hunt().at_the_end('return')[n]) < min(hunt().at_the_end('return')['E']) -->
@@ -82,15 +83,14 @@ bc.show(figures.returns(hunt))
 # <!-- claim: max(ends('B'), ends('F')) < 0.1 -->
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Ask which agent they would have published. Then let each say of one bug what it could do to a
-# curve.
+# Ask which agent they would have published. Then let each say of one bug what it could do to a curve.
 
 # %% [markdown]
 # ## Round 2: what is an accident worth?
 #
-# A **probe** asks one part of a learner a question. Compare with the right answer, if you know it, or with a healthy
-# agent's.
-# Where an accident ends the episode, the right Q is the reward, {{ DEFAULT.reward.accident }}.
+# A **probe** asks one part of a learner a question. Compare with the right answer, if you know it, or with a
+# healthy agent's. Where an accident ends the episode, the right Q is the reward,
+# {{ DEFAULT.reward.accident }}.
 #
 # > **Predict.** Two of the six bugs change the target there. One of them can only raise it. Which one
 # > may pull Q *below* {{ DEFAULT.reward.accident }}?
@@ -100,8 +100,8 @@ names = list(bugs.BUGS)
 predict("bug_hunt.1", "Which bug pulls Q below −10 at accidents?", names)
 
 # %% [markdown]
-# **Exercise (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an
-# accident ended the drive?
+# **Exercise (6 min, ●●○).** Write the probe: by how much is Q above r, on average, where an accident ended
+# the drive?
 
 
 # %%
@@ -135,22 +135,23 @@ for name in hunt.names:
 bc.show(figures.accidents(hunt))
 
 # %% [markdown]
-# **See.** *One agent is far too low, in table and picture.* The healthy critic
-# is too high, with both seeds, from update 1,000 to the end; why was not tested. So compare with grey, not with
-# {{ DEFAULT.reward.accident | .0f }}: which agents lie outside *both* grey lines, above or below? In the table,
-# with one seed each, a difference like A's proves nothing.
+# **See.** *One agent is far too low, in table and picture.* The healthy critic is too high, with both seeds,
+# from update 1,000 to the end; why was not tested. So compare with grey, not with
+# {{ DEFAULT.reward.accident | .0f }}: which agents lie outside *both* grey lines, above or below? In the
+# table, with one seed each, a difference like A's proves nothing.
 # <!-- claim: asked('healthy') - asked('A') > 3 -->
 # <!-- claim: [n for n in hunt().names if asked(n) < -1] == ['D'] -->
 # <!-- claim: (hunt().probe('healthy', 'end')[:, hunt().updates >= 1000] > DEFAULT.reward.accident + 1).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Let them write the targets of `no_end` and `bonus_for_all` for a car that has just crashed, and
-# say for each whether it is above or below −10.
+# Let them write the targets of `no_end` and `bonus_for_all` for a car that has just crashed, and say for each
+# whether it is above or below −10.
 
 # %% [markdown]
 # ## Round 3: how much does the critic promise?
 #
-# In a state a critic *promises* Σ π Q. The picture shows the mean promise in the seconds of the *rule's* drives.
+# In a state a critic *promises* Σ π Q. The picture shows the mean promise in the seconds of the *rule's*
+# drives.
 #
 # > **Predict.** The road pays at most about 1 a second, and γ = {{ SETTINGS.gamma }}. What is the
 # > most that a critic may promise if it adds the bonus c = {{ SETTINGS.bonus | .0f }} in *every*
@@ -164,26 +165,26 @@ predicted("bug_hunt.2")
 bc.show(figures.promises(hunt))
 
 # %% [markdown]
-# **Explain.** With a bonus in every second the limit is (1 + c) / (1 − γ) = {{ (1 + SETTINGS.bonus)
-# / (1 - SETTINGS.gamma) | .0f }}; without any it is 1 / (1 − γ) = {{ 1 / (1 - SETTINGS.gamma) | .0f
-# }}. Grey may lie between them: demonstrations earn the bonus.
+# **Explain.** With a bonus in every second the limit is (1 + c) / (1 − γ) =
+# {{ (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}; without any it is 1 / (1 − γ) =
+# {{ 1 / (1 - SETTINGS.gamma) | .0f }}. Grey may lie between them: demonstrations earn the bonus.
 #
-# One agent promises up to {{ hunt().probe('F', 'promise').max() | .0f }}, beyond the picture: no
-# rewards and bonuses add up to that.
+# One agent promises up to {{ hunt().probe('F', 'promise').max() | .0f }}, beyond the picture: no rewards and
+# bonuses add up to that.
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} and
 #   hunt().probe('E', 'promise').max() < 15 and (hunt().probe('F', 'promise').max(axis=1) >
 #   20).all() and (hunt().probe('F', 'promise')[:, -1] < 20).all() -->
 # <!-- claim: (hunt().probe('healthy', 'promise')[:, -1] > 1 / (1 - SETTINGS.gamma)).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Ask which of the two probes one should watch during training: Q at accidents, or the promise. A
-# wrong promise shows without an accident.
+# Ask which of the two probes one should watch during training: Q at accidents, or the promise. A wrong
+# promise shows without an accident.
 
 # %% [markdown]
 # ## Round 4: which actions does the policy drop?
 #
-# In the same seconds, how probable is the policy's **rarest** action? The stochastic rule, towards
-# which the KL pulls, gives each action a little probability.
+# In the same seconds, how probable is the policy's **rarest** action? The stochastic rule, towards which the
+# KL pulls, gives each action a little probability.
 #
 # > **Predict.** The right KL charges the policy for going where the rule would not. The flipped KL
 # > charges it for *not* going where the rule might. How does the probability of an action that the
@@ -202,17 +203,17 @@ predicted("bug_hunt.3")
 bc.show(figures.rarest(hunt))
 
 # %% [markdown]
-# **Explain.** With the right KL it costs little to drop such an action. The flipped KL grows
-# without bound as its probability goes to zero, so the policy drops it more slowly.
+# **Explain.** With the right KL it costs little to drop such an action. The flipped KL grows without bound as
+# its probability goes to zero, so the policy drops it more slowly.
 #
-# *Two* agents drop theirs far more slowly. With `sampled` the actor learns nothing from Q: what would its return
-# be?
+# *Two* agents drop theirs far more slowly. With `sampled` the actor learns nothing from Q: what would its
+# return be?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'rarest')[:, -1].min() > -20} == {'A', 'B'}
 #   and (hunt().probe('healthy', 'rarest')[:, -1] < -30).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Ask for the limit of both divergences as one probability of π goes to zero, before anybody looks
-# at the picture.
+# Ask for the limit of both divergences as one probability of π goes to zero, before anybody looks at the
+# picture.
 
 # %% [markdown]
 # ## The verdict
@@ -243,19 +244,18 @@ check.diagnose(diagnose)
 # | E | `bonus_for_all` | promise between 10 and 15 |
 # | F | `no_stop` | promise beyond 15, one seed to the end |
 #
-# - **B**: the KL alone teaches the actor, towards the stochastic rule, which crashes in {{ ended().sum() }} of
-#   50 drives.
-# - **C** learns late: {{ accidents('C')[0] | .0f }} and {{ accidents('C')[1] | .0f }} accidents in
-#   training, the healthy agent {{ accidents('healthy')[0] | .0f }} and {{ accidents('healthy')[1] |
-#   .0f }}. A fourth probe shows it, but only while it learns. At updates 1,000 to 5,000 its
-#   likeliest action is the rule's in {{ 100 * alike('C', 1000, 5000) | .0f }} % of the seconds, the
-#   healthy agent's in {{ 100 * alike('healthy', 1000, 5000) | .0f }} %. From 9,000 on: {{ 100 * alike('C',
-#   9000, 10000) | .0f }} % and {{ 100 * alike('healthy', 9000, 10000) | .0f }} %.
+# - **B**: the KL alone teaches the actor, towards the stochastic rule, which crashes in {{ ended().sum() }}
+#   of 50 drives.
+# - **C** learns late: {{ accidents('C')[0] | .0f }} and {{ accidents('C')[1] | .0f }} accidents in training,
+#   the healthy agent {{ accidents('healthy')[0] | .0f }} and {{ accidents('healthy')[1] | .0f }}. A fourth
+#   probe shows it, but only while it learns. At updates 1,000 to 5,000 its likeliest action is the rule's in
+#   {{ 100 * alike('C', 1000, 5000) | .0f }} % of the seconds, the healthy agent's in
+#   {{ 100 * alike('healthy', 1000, 5000) | .0f }} %. From 9,000 on: {{ 100 * alike('C', 9000, 10000) | .0f }} %
+#   and {{ 100 * alike('healthy', 9000, 10000) | .0f }} %.
 # - **D** adds γ times the value of a car that has just crashed, far below 0 at the table's accidents. No row
 #   teaches that value: it can come out too high (lesson [[update_and_loop]]) or, as here, too low.
-# - **E** has left the rule: from update 9,000 on its likeliest action is the rule's in {{
-#   100 * alike('E', 9000, 10000) | .0f }} % of the seconds.
-#   Why it earns more was not tested.
+# - **E** has left the rule: from update 9,000 on its likeliest action is the rule's in
+#   {{ 100 * alike('E', 9000, 10000) | .0f }} % of the seconds. Why it earns more was not tested.
 # - **F**: the actor's loss changes the critic, and raises the Q of what the policy likes.
 #
 # </details>
@@ -269,9 +269,9 @@ check.diagnose(diagnose)
 #   all((hunt().probe(n, 'end')[:, -1] > DEFAULT.reward.accident).all() for n in 'ABCEF') -->
 
 # %% [markdown] tags=["instructor"] minutes=2
-# The order that works: F (promise leaves the axes for a time), E (promise too high, the *best*
-# return), D (accidents), B and A (rarest action; B has the low return), C (what is left). Let each
-# group defend its verdict with a single picture, and then think of a test for C before they go on.
+# The order that works: F (promise leaves the axes for a time), E (promise too high, the *best* return), D
+# (accidents), B and A (rarest action; B has the low return), C (what is left). Let each group defend its
+# verdict with a single picture, and then think of a test for C before they go on.
 
 # %% [markdown]
 # ## Two tests, no training, no healthy twin
@@ -284,12 +284,12 @@ check.diagnose(diagnose)
 # target = reward + bonus + gamma * next_value
 # ```
 #
-# The bonus belongs to demonstrations alone, and after an accident there is no next value. Four
-# transitions, the agent's own or a demonstration, ended or not, are enough for a test. Take another bonus than
-# 2, another γ than 0.8: some of the check's functions have those built in.
+# The bonus belongs to demonstrations alone, and after an accident there is no next value. Four transitions,
+# the agent's own or a demonstration, ended or not, are enough for a test. Take another bonus than 2, another
+# γ than 0.8: some of the check's functions have those built in.
 #
-# **Exercise (15 min, ●●●).** Write that test, of a function whose code you do not see. Bonus and
-# gamma are floats, the rest arrays of shape (batch,); demo and end hold 1 or 0.
+# **Exercise (15 min, ●●●).** Write that test, of a function whose code you do not see. Bonus and gamma are
+# floats, the rest arrays of shape (batch,); demo and end hold 1 or 0.
 
 
 # %%
@@ -301,7 +301,8 @@ def unmasks(target):
 check.unmasks(unmasks)
 
 # %% [markdown]
-# Now test the seven untrained learners, with labels from a drive of Round 2 ({{ len(labelled_drive().actions) }} s):
+# Now test the seven untrained learners, with labels from a drive of Round 2
+# ({{ len(labelled_drive().actions) }} s):
 
 # %%
 test = own_code.yours_or_ours("unmasks", doing="Testing")
@@ -311,16 +312,16 @@ for bug in bugs.LEARNERS:
     print(f"{bug:14} {share:5.0%}  {'WRONG' if test(bugs.target_of(bug)) else 'right'}")
 
 # %% [markdown]
-# **See.** *Before any training, two tests find three of the six bugs.* Shifted labels are right only
-# where the rule does the same a second later.
+# **See.** *Before any training, two tests find three of the six bugs.* Shifted labels are right only where
+# the rule does the same a second later.
 # <!-- claim: all(agree(bug).all() == (bug != 'shifted_labels') for bug in bugs.LEARNERS) -->
 # <!-- claim: (agree('shifted_labels')[:-1] == (labelled_drive().rule_actions[:-1] ==
 #   labelled_drive().rule_actions[1:])).all() -->
 # <!-- claim: found() == {'no_end', 'bonus_for_all'} -->
 
 # %% [markdown] tags=["instructor"] minutes=1
-# Ask which of the six their own programs test for today, and in which drive the test of the labels
-# would miss its bug: one in which the rule's answer stays the same.
+# Ask which of the six their own programs test for today, and in which drive the test of the labels would miss
+# its bug: one in which the rule's answer stays the same.
 
 # %%
 limit = round(figures.most(), 1)
@@ -331,9 +332,8 @@ compare_predictions("bug_hunt", {1: "no_end", 2: limit, 3: "it drops more slowly
 #
 # 1. A curve can look right: of six agents with a bug, three end about where the healthy one ends, and one
 #    earns far more.
-# 2. A probe needs a known right answer, or a healthy agent beside it. It clears only what it asks: one of the six
-#    bugs shows
-#    in none of our three, only in the curve: it learns late.
+# 2. A probe needs a known right answer, or a healthy agent beside it. It clears only what it asks: one of the
+#    six bugs shows in none of our three, only in the curve: it learns late.
 # 3. Labels and targets can be tested before any training.
 #
 # **Three questions to think about**
@@ -342,17 +342,16 @@ compare_predictions("bug_hunt", {1: "no_end", 2: limit, 3: "it drops more slowly
 # - A bug raises the return of your method in a paper's table. How would a reader find out?
 
 # %% [markdown] tags=["instructor"] minutes=1
-# Answers to the three questions. (1) The promise: it costs one pass through the networks, needs
-# neither accidents nor a teacher, and its limit is known, the largest reward of a second divided by
-# 1 − γ, here 5, and at most 15 with bonuses. (2) `flipped_kl`: the KL of two distributions, worked
-# out by hand. `no_stop`: the gradient of the actor's loss with respect to the critics is zero.
-# `sampled`: the actor's loss twice on one batch is the same number. (3) From the printed text
-# hardly; from the code, if it ships, with tests of single functions; or when somebody else's
-# program of the same method earns less.
+# Answers to the three questions. (1) The promise: it costs one pass through the networks, needs neither
+# accidents nor a teacher, and its limit is known, the largest reward of a second divided by 1 − γ, here 5,
+# and at most 15 with bonuses. (2) `flipped_kl`: the KL of two distributions, worked out by hand. `no_stop`:
+# the gradient of the actor's loss with respect to the critics is zero. `sampled`: the actor's loss twice on
+# one batch is the same number. (3) From the printed text hardly; from the code, if it ships, with tests of
+# single functions; or when somebody else's program of the same method earns less.
 
 # %% [markdown]
-# **Read on**: Henderson et al., *Deep Reinforcement Learning that Matters* (arXiv 1709.06560);
-# Engstrom et al., *Implementation Matters in Deep Policy Gradients* (arXiv 2005.12729). Next: [your
+# **Read on**: Henderson et al., *Deep Reinforcement Learning that Matters* (arXiv 1709.06560); Engstrom et
+# al., *Implementation Matters in Deep Policy Gradients* (arXiv 2005.12729). Next: [your
 # teacher](your_teacher.ipynb).
 
 # %% [markdown] tags=["instructor"]

@@ -35,16 +35,16 @@ progress("demonstrations")
 # %% [markdown]
 # ## Look first
 #
-# Drive this road until you get out once without an accident: you will train clones of your drive. (If you
-# do not, one drive of the rule stands for yours.)
+# Drive this road until you get out once without an accident: you will train clones of your drive. (If you do
+# not, one drive of the rule stands for yours.)
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
 (world := bc.world(road=ROAD))
 
 # %% [markdown]
-# Two others drive 60 roads, here in their first 30 seconds: the rule, and the stochastic rule with
-# p = {{ RULE_P }}, which draws one decision in ten from the other eight actions.
+# Two others drive 60 roads, here in their first 30 seconds: the rule, and the stochastic rule with p =
+# {{ RULE_P }}, which draws one decision in ten from the other eight actions.
 # <!-- claim: round(1 / (1 - RULE_P)) == 10 -->
 
 # %% tags=["hide-input"]
@@ -55,8 +55,8 @@ title = "The rule drives along a narrow path, the stochastic rule strays from it
 bc.show(figures.where_they_were(driven, seconds=30, title=title))
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Ask whose drives they would copy. Count hands for each of the two and let one of each side give a
-# reason. Do not resolve it.
+# Ask whose drives they would copy. Count hands for each of the two and let one of each side give a reason. Do
+# not resolve it.
 
 # %% [markdown]
 # ## Round 1: whose clones crash least?
@@ -71,8 +71,8 @@ own_rows = demonstration_rows(mine or [driven["the rule"][ROAD]])
 print(f"{len(own_rows)} transitions from {whose}")
 
 # %% [markdown]
-# **Behaviour cloning** (BC) is supervised learning, without rewards: the input is a state s, the right
-# answer $a_E$ the demonstrator's action. The loss is the mean of $-\log \pi(a_E | s)$.
+# **Behaviour cloning** (BC) is supervised learning, without rewards: the input is a state s, the right answer
+# $a_E$ the demonstrator's action. The loss is the mean of $-\log \pi(a_E | s)$.
 #
 # **Exercise (5 min, ●○○).** Write it, in torch.
 
@@ -89,10 +89,10 @@ def cloning_loss(log_pi, expert_actions):
 check.cloning_loss(cloning_loss)
 
 # %% [markdown]
-# Train five clones on each of three data sets: your drives, {{ SETTINGS.demonstration_episodes
-# }} drives of the rule, as many of the stochastic rule. Each clone then drives 100 new roads and takes
-# its most probable action. Its **agreement** is the share of its data in which this is the demonstrator's
-# action (on new drives of the stochastic rule {{ 100 * SETTINGS.rule_p | .0f }} % at best).
+# Train five clones on each of three data sets: your drives, {{ SETTINGS.demonstration_episodes }} drives of
+# the rule, as many of the stochastic rule. Each clone then drives 100 new roads and takes its most probable
+# action. Its **agreement** is the share of its data in which this is the demonstrator's action (on new drives
+# of the stochastic rule {{ 100 * SETTINGS.rule_p | .0f }} % at best).
 #
 # > **Predict.** Clones of which 200 drives have more accidents?
 
@@ -113,11 +113,11 @@ measured = {name: cloning.measure(clones[name], rows) for name, rows in data.ite
 bc.show(figures.clones(measured))
 
 # %% [markdown]
-# **See.** *Agreement with its data does not say who drives well.* Our clones of one drive know it
-# almost by heart, and mostly crash. Nearly all drives of the stochastic rule crash,
-# yet its clones crash less than the rule's. They take their most probable action, so they do not copy its one
-# random decision in ten; why they crash less than the rule's clones, Round 3 asks. (Not because the drives are
-# shorter: clones of the rule's drives, cut to the same lengths, crashed as often as those of the whole.)
+# **See.** *Agreement with its data does not say who drives well.* Our clones of one drive know it almost by
+# heart, and mostly crash. Nearly all drives of the stochastic rule crash, yet its clones crash less than the
+# rule's. They take their most probable action, so they do not copy its one random decision in ten; why they
+# crash less than the rule's clones, Round 3 asks. (Not because the drives are shorter: clones of the rule's
+# drives, cut to the same lengths, crashed as often as those of the whole.)
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
 # <!-- claim: of('bc').scores('returns').mean() < of('rule').scores('returns').mean() -->
 # <!-- claim: UPDATES == 1500 -->
@@ -129,18 +129,18 @@ bc.show(figures.clones(measured))
 # <!-- claim: clones_of_the_stochastic_rule().scores('accident').mean() > 10 * accidents('bc') -->
 
 # %% [markdown] tags=["instructor"] minutes=11
-# With a class: everybody keeps one drive that gets out, and you pool them. Return to the hands of
-# *Look first*. A group can cut the rule's drives to the lengths of the stochastic rule's
-# (`bc.demonstrate` keeps them drive by drive) and train twenty clones of each, as we did. Then ask what
-# the study's clones do and do not show: all ten of the rule escape (lesson [[recorded_drives]])
-# after a longer training. But the loss does not say when it is long enough.
+# With a class: everybody keeps one drive that gets out, and you pool them. Return to the hands of *Look
+# first*. A group can cut the rule's drives to the lengths of the stochastic rule's (`bc.demonstrate` keeps
+# them drive by drive) and train twenty clones of each, as we did. Then ask what the study's clones do and do
+# not show: all ten of the rule escape (lesson [[recorded_drives]]) after a longer training. But the loss does
+# not say when it is long enough.
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 -->
 
 # %% [markdown]
 # ## Round 2: how does one error lead to the next?
 #
-# A decision unlike the rule's counts as an **error** of a clone. The rule falls back behind the traps
-# and changes to the free left lane.
+# A decision unlike the rule's counts as an **error** of a clone. The rule falls back behind the traps and
+# changes to the free left lane.
 #
 # > **Predict.** Where do most accidents of its clones happen?
 
@@ -155,39 +155,35 @@ print(cloning.accidents(alone))
 bc.show(figures.off_the_road(alone, driven["the rule"]))
 
 # %% [markdown]
-# **See.** *The clone drifts off a free lane.* In most of its accidents errors take it left of the rule's path,
-# where the rule's drives have no row, and nearly every decision is an error: these are **compounding errors**
-# (Ross and Bagnell 2010).
+# **See.** *The clone drifts off a free lane.* In most of its accidents errors take it left of the rule's
+# path, where the rule's drives have no row, and nearly every decision is an error: these are **compounding
+# errors** (Ross and Bagnell 2010).
 #
-# Suppose that in each second a share ε of the drives errs in the teacher's states, at worst always others, and that
-# every
-# decision after a first error is one, too. **Drag** ε from 0.5 % up to our
-# clones' 20 %: how many errors can a whole drive have?
+# Suppose that in each second a share ε of the drives errs in the teacher's states, at worst always others,
+# and that every decision after a first error is one, too. **Drag** ε from 0.5 % up to our clones' 20 %: how
+# many errors can a whole drive have?
 
 # %%
 explorable.compounding()
 
 # %% [markdown]
-# At 20 % up to {{ np.minimum(1, 0.2 * np.arange(1, 151)).sum() | .0f }} of 150 decisions on average; if errors stay
-# alone (dashed), {{ 0.2 * 150 | .0f }}. Our clones lie between: in their own states, which Round 3 shows, they agree
-# less than in their data. Of $T$
-# decisions on average at most $\epsilon \, T (T + 1) / 2$ are errors; where this is far below $T$, a drive twice as
-# long
-# has up to four times as many.
+# At 20 % up to {{ np.minimum(1, 0.2 * np.arange(1, 151)).sum() | .0f }} of 150 decisions on average; if
+# errors stay alone (dashed), {{ 0.2 * 150 | .0f }}. Our clones lie between: in their own states, which Round
+# 3 shows, they agree less than in their data. Of $T$ decisions on average at most $\epsilon \, T (T + 1) / 2$
+# are errors; where this is far below $T$, a drive twice as long has up to four times as many.
 
 # %% [markdown] tags=["instructor"] minutes=7
-# Draw both bounds, T and T²: the first error comes at decision t with a probability of at most ε,
-# and T − t + 1 errors follow from it; add up over t. Then follow one line to the edge, and ask what
-# the rule would do there and where the clone could have learned it. The bars say that errors are
-# frequent where the rule has few rows, not that these errors cause the accidents: that needs an
-# experiment, which is Round 3.
+# Draw both bounds, T and T²: the first error comes at decision t with a probability of at most ε, and T − t +
+# 1 errors follow from it; add up over t. Then follow one line to the edge, and ask what the rule would do
+# there and where the clone could have learned it. The bars say that errors are frequent where the rule has
+# few rows, not that these errors cause the accidents: that needs an experiment, which is Round 3.
 
 # %% [markdown]
 # ## Round 3: which rows are missing?
 #
 # The stochastic rule's drives hold a few states farther left than any of the rule's. Label them with the
-# rule's actions and add them, five times each, to the rule's drives. For comparison,
-# add as many other rows of the stochastic rule, labelled alike.
+# rule's actions and add them, five times each, to the rule's drives. For comparison, add as many other rows
+# of the stochastic rule, labelled alike.
 #
 # > **Predict.** How many of the accidents remain with the rows from the edge?
 
@@ -208,30 +204,29 @@ fed_crash = {name: cloning.measure(fed[name], by_rule[::10]) for name in fed}
 bc.show(figures.added({name: measured[name] for name in KINDS}, fed_crash))
 
 # %% [markdown]
-# **See.** *The rows from the edge prevent most accidents; as many others do not.* The states that a data
-# set holds are its **coverage**. The stochastic rule's drives hold these rows: probably that is why its clones crash
-# less than the rule's, although they err more in their own states. Rows between 1 m left and the edge rows helped as
-# much when we tried: the rule comes there, too,
-# but with another heading.
+# **See.** *The rows from the edge prevent most accidents; as many others do not.* The states that a data set
+# holds are its **coverage**. The stochastic rule's drives hold these rows: probably that is why its clones
+# crash less than the rule's, although they err more in their own states. Rows between 1 m left and the edge
+# rows helped as much when we tried: the rule comes there, too, but with another heading.
 #
 # All this is after {{ UPDATES | , }} updates. Long training turns the order round: the study's ten clones of
-# the rule ({{
-# updates_of(of('bc')) / UPDATES | .0f }} times as many updates) crash in {{ 100 * accidents('bc') | .1f }} % of their
-# drives, those of the stochastic rule ({{ updates_of(clones_of_the_stochastic_rule()) / UPDATES | .0f }} times) in {{
-# 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %, nearly always once ahead.
+# the rule ({{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates) crash in
+# {{ 100 * accidents('bc') | .1f }} % of their drives, those of the stochastic rule
+# ({{ updates_of(clones_of_the_stochastic_rule()) / UPDATES | .0f }} times) in
+# {{ 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %, nearly always once ahead.
 
 # %% [markdown] tags=["instructor"] minutes=3
-# The rows from the edge suffice. Must it be these? A group can add the rows from 1 m left of the middle
-# up to the rule's farthest state: when we did, with ten clones, they helped as much, although the
-# rule's drives have such places, too (with other headings). Another can train on all of the stochastic
-# rule's states with the rule's labels: labels are not the reason why its clones crash seldom.
+# The rows from the edge suffice. Must it be these? A group can add the rows from 1 m left of the middle up to
+# the rule's farthest state: when we did, with ten clones, they helped as much, although the rule's drives
+# have such places, too (with other headings). Another can train on all of the stochastic rule's states with
+# the rule's labels: labels are not the reason why its clones crash seldom.
 
 # %% [markdown]
 # ## Round 4: what if the rule labels the clone's own states?
 #
-# We knew which rows to add. If you do not, let your clone drive, ask the rule what it would have done
-# there, add these labelled states to the data, and train again. This **DAgger** ("data aggregation")
-# needs a teacher that answers in any state.
+# We knew which rows to add. If you do not, let your clone drive, ask the rule what it would have done there,
+# add these labelled states to the data, and train again. This **DAgger** ("data aggregation") needs a teacher
+# that answers in any state.
 #
 # > **Predict.** Begin with 20 drives of the rule, and in each of two rounds add 20 labelled drives of the
 # > newest clone. All clones have equally many updates. Where does the last agree with the rule more
@@ -242,9 +237,9 @@ choices = ["in the rule's states and its own", "in its own alone", "in the rule'
 predict("demonstrations.4", "Where does the last clone agree more than the first?", choices)
 
 # %% [markdown]
-# **Exercise (12 min, ●●○).** Write DAgger. `train(rows)` returns a driver, `drive(driver)` the
-# transitions of its drives. Column `ACTION` holds what was done, which a clone copies, `RULE_ACTION`
-# what the rule would have done.
+# **Exercise (12 min, ●●○).** Write DAgger. `train(rows)` returns a driver, `drive(driver)` the transitions of
+# its drives. Column `ACTION` holds what was done, which a clone copies, `RULE_ACTION` what the rule would
+# have done.
 
 
 # %%
@@ -269,19 +264,19 @@ trainings = [cloning.measure(each, by_rule[::10]) for each in zip(*drivers, stri
 bc.show(figures.taught(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
-# **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom
-# crash.* DAgger adds the states that earlier clones came to, with what the rule does there. So on average the next
+# **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.*
+# DAgger adds the states that earlier clones came to, with what the rule does there. So on average the next
 # clone errs less in its *own* states. (Which errors are left matters, too: Round 3.)
 #
-# A clone's loss does not ask what an action leads to. The learner of lesson
-# [[learning_from_demonstrations]] does.
+# A clone's loss does not ask what an action leads to. The learner of lesson [[learning_from_demonstrations]]
+# does.
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody
-# must let a bad driver drive. Then ask why the method keeps the old rows beside the newest: a clone
-# that has learned to return to the path seldom visits the states beside it, and trained on its
-# newest rows alone it could forget what to do there. A group can give each training the drives of
-# another training's clones: in ten trainings of ours these helped as much as its own.
+# Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody must let a
+# bad driver drive. Then ask why the method keeps the old rows beside the newest: a clone that has learned to
+# return to the path seldom visits the states beside it, and trained on its newest rows alone it could forget
+# what to do there. A group can give each training the drives of another training's clones: in ten trainings
+# of ours these helped as much as its own.
 
 # %%
 crashed = {name: measured[name][:, 2].mean() for name in KINDS}
@@ -300,13 +295,12 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. A clone learns to predict the demonstrator's action. Its agreement with its data does not say how
-#    well it drives.
+# 1. A clone learns to predict the demonstrator's action. Its agreement with its data does not say how well it
+#    drives.
 # 2. It is trained on the teacher's states and drives in its own, where errors lead to errors: in most of our
-#    accidents they lead
-#    where the rule's drives have no row.
-# 3. A few rows from there prevent most of their accidents. Longer training can, too: the study's
-#    clones of the rule all escape.
+#    accidents they lead where the rule's drives have no row.
+# 3. A few rows from there prevent most of their accidents. Longer training can, too: the study's clones of
+#    the rule all escape.
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 and accidents('bc') < 0.01 -->
 # 4. DAgger finds such rows: the clone drives, the teacher labels.
 #
@@ -315,25 +309,25 @@ compare_predictions(
 # - The teacher is a person, who watches and says "left now". What becomes hard in DAgger?
 # - A demonstrator crashes at the end of each drive. Which of its rows would you keep?
 #
-# **Read on**: [the next lesson](soft_constraint.ipynb). Pomerleau, *ALVINN* (1989), an early clone;
-# Ross, Gordon and Bagnell on *DAgger* (arXiv 1011.0686); Laskey et al., *DART* (arXiv 1703.09327), which
-# disturbs the teacher.
+# **Read on**: [the next lesson](soft_constraint.ipynb). Pomerleau, *ALVINN* (1989), an early clone; Ross,
+# Gordon and Bagnell on *DAgger* (arXiv 1011.0686); Laskey et al., *DART* (arXiv 1703.09327), which disturbs
+# the teacher.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # **Model answers.**
 #
-# - *Errors on the right?* There are two more lanes, so the car has time to come back, and the edge is
-#   near on the left alone. What an error costs is a property of the road, too. (Other cars are there:
-#   a collision is possible, but it is rare in these drives.)
-# - *A person as the teacher?* A person corrects what happens and does not answer a question about a
-#   state: labels come late by a reaction time, and without the feedback of one's own steering they
-#   get worse. That is why variants let the person take over the wheel for a while.
-# - *A demonstrator that crashes?* Keep the rows that lead to good states, drop the last seconds.
-#   How many seconds? Go back to a state from which a driver that you trust avoids the accident.
-#   That can be tested: start the rule in these states.
+# - *Errors on the right?* There are two more lanes, so the car has time to come back, and the edge is near on
+#   the left alone. What an error costs is a property of the road, too. (Other cars are there: a collision is
+#   possible, but it is rare in these drives.)
+# - *A person as the teacher?* A person corrects what happens and does not answer a question about a state:
+#   labels come late by a reaction time, and without the feedback of one's own steering they get worse. That
+#   is why variants let the person take over the wheel for a while.
+# - *A demonstrator that crashes?* Keep the rows that lead to good states, drop the last seconds. How many
+#   seconds? Go back to a state from which a driver that you trust avoids the accident. That can be tested:
+#   start the rule in these states.
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** Two trajectories that part after one wrong action, and the shaded region where
-# the teacher was.
+# **On the board.** Two trajectories that part after one wrong action, and the shaded region where the teacher
+# was.
 #
 # **To discuss.** Who pays for labels in the real world, and what does that do to DAgger?

@@ -18,8 +18,8 @@
 # - write the soft value, the critics' target, and the losses, and say where a gradient must stop;
 # - say what the temperature does to a learner in the trap, and which target entropy can be reached.
 #
-# **Time** 48 minutes, 4 of them voluntary (*Further*). **It builds on** Python, a little torch, and
-# the Bellman equation of lesson [[values]].
+# **Time** 48 minutes, 4 of them voluntary (*Further*). **It builds on** Python, a little torch, and the
+# Bellman equation of lesson [[values]].
 
 # %%
 import bootcourse as bc
@@ -32,17 +32,17 @@ progress("discrete_sac")
 # %% [markdown]
 # ## Look first
 #
-# In lesson [[values]] learners stayed in the trap: most tried too little. *Soft actor-critic* (SAC) pays
-# an agent for being undecided, so that it tries more. **Does that lead out of the trap?** You write
-# SAC's parts; the [next lesson](update_and_loop.ipynb) puts them together.
+# In lesson [[values]] learners stayed in the trap: most tried too little. *Soft actor-critic* (SAC) pays an
+# agent for being undecided, so that it tries more. **Does that lead out of the trap?** You write SAC's parts;
+# the [next lesson](update_and_loop.ipynb) puts them together.
 
 # %%
 bc.show(diagrams.sac_diagram())
 
 # %% [markdown]
 # - The **actor** gives each action a probability, π(a|s): its **policy**.
-# - Two **critics** estimate Q(s, a), what each action is worth: its reward, and all later rewards and pay. Slow
-#   copies, the **target critics**, give them targets.
+# - Two **critics** estimate Q(s, a), what each action is worth: its reward, and all later rewards and pay.
+#   Slow copies, the **target critics**, give them targets.
 # - The **temperature** α sets how much the actor is paid for being undecided (for its *entropy*).
 # - The **replay buffer** keeps a row of each decision: state s, action a, reward r, next state s', and
 #   whether the world ended. An update learns from a **batch** of rows.
@@ -52,8 +52,8 @@ bc.show(diagrams.sac_diagram())
 # On the evening route this picture is enough: go on to [the barrier](the_barrier.ipynb).
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Follow one row of the buffer through the picture: who made it, and which three parts learn from
-# it? Leave the picture on the wall; Round 3 asks which of its arrows carry a gradient.
+# Follow one row of the buffer through the picture: who made it, and which three parts learn from it? Leave
+# the picture on the wall; Round 3 asks which of its arrows carry a gradient.
 
 # %% [markdown]
 # ## Round 1: what is a state worth if indecision is paid?
@@ -76,10 +76,9 @@ predicted("discrete_sac.1")
 explorable.undecided()
 
 # %% [markdown]
-# **Explain.** More than {{ max(q) | g }}. The agent could always go straight, but the pay outweighs
-# the loss: with Q = {{ q[0] | g }}, {{ q[1] | g }} and {{ q[2] | g }} and α = {{ ALPHA }}, as the panel
-# opens, Q gives {{ BY_Q | .2f }} and the
-# pay {{ WORTH - BY_Q | .2f }}.
+# **Explain.** More than {{ max(q) | g }}. The agent could always go straight, but the pay outweighs the loss:
+# with Q = {{ q[0] | g }}, {{ q[1] | g }} and {{ q[2] | g }} and α = {{ ALPHA }}, as the panel opens, Q gives
+# {{ BY_Q | .2f }} and the pay {{ WORTH - BY_Q | .2f }}.
 
 # %% [markdown]
 # The policy's **entropy** says how undecided it is, in *nats* (natural logarithm; 0 · log 0 = 0):
@@ -95,8 +94,7 @@ explorable.undecided()
 #
 # $$ V(s) = \sum_a \pi(a|s)\, Q(s,a) + \alpha\, \mathcal{H}(\pi(\cdot|s)) $$
 #
-# The policy that makes it largest is the panel's, a *softmax*: $\pi(a|s) \propto
-# \exp(Q(s,a)/\alpha)$.
+# The policy that makes it largest is the panel's, a *softmax*: $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$.
 #
 # **Exercise (4 min, ●○○).** Write the soft value.
 
@@ -112,16 +110,16 @@ def soft_value(log_pi, q, alpha):
 check.soft_value(soft_value)
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Those who know continuous SAC will want to sample an action and use Q − α log π of it. With two
-# or nine actions the expectation is a sum of two or nine terms, which we compute exactly. Ask what
-# sampling would add to the target (noise, with the variance of Q − α log π under π).
+# Those who know continuous SAC will want to sample an action and use Q − α log π of it. With two or nine
+# actions the expectation is a sum of two or nine terms, which we compute exactly. Ask what sampling would add
+# to the target (noise, with the variance of Q − α log π under π).
 
 # %% [markdown]
 # ## Round 2: what should the critic's estimate have been?
 #
-# The critic learns from **transitions**, the rows of the buffer. By the Bellman equation of lesson
-# [[values]] Q(s, a) should have been r + γ max Q(s', a'). SAC puts the soft value of s' in place of the
-# largest Q: r + γ V(s').
+# The critic learns from **transitions**, the rows of the buffer. By the Bellman equation of lesson [[values]]
+# Q(s, a) should have been r + γ max Q(s', a'). SAC puts the soft value of s' in place of the largest Q: r + γ
+# V(s').
 #
 # > **Predict.** In s' the critic expects 1 of going left and 3 of going right. The policy there is even:
 # > its entropy is log 2 = 0.69 nats. With α = 1, which target is higher?
@@ -145,11 +143,11 @@ explorable.backup()
 # %% [markdown]
 # $$ Q(s, a) = \mathbb{E}\big[\, r + \gamma V(s') \big] $$
 #
-# This is the **soft Bellman equation**; $\mathbb{E}$ is the mean over what may follow. One transition
-# gives one sample of the right side: the target y.
+# This is the **soft Bellman equation**; $\mathbb{E}$ is the mean over what may follow. One transition gives
+# one sample of the right side: the target y.
 #
-# Nothing follows if the *world* ends. In **CartPole**, the next lesson's world, each push pays 1 until
-# the pole falls: then `terminated` is 1, and y is r alone. If only its time limit, 500 pushes, is over,
+# Nothing follows if the *world* ends. In **CartPole**, the next lesson's world, each push pays 1 until the
+# pole falls: then `terminated` is 1, and y is r alone. If only its time limit, 500 pushes, is over,
 # `terminated` is 0: the pole would go on earning.
 # <!-- claim: (lambda env: (env.reset(seed=0), [env.step(0)[1:3] for _ in range(11)])[1])(
 #   gym.make('CartPole-v1')) == 10 * [(1, False)] + [(1, True)] -->
@@ -175,8 +173,8 @@ check.critic_target(critic_target)
 # ("tau") towards the critics', so that the critics do not chase a target that moves with them.
 #
 # **Exercise (6 min, ●●○).** Write the loss of both critics: for each the mean over the batch of
-# $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action taken. Hold y fixed: no gradient may run through
-# it, into the actor for example.
+# $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action taken. Hold y fixed: no gradient may run
+# through it, into the actor for example.
 
 
 # %%
@@ -188,10 +186,9 @@ def critic_loss(q_pair, action, target):
 check.critic_loss(critic_loss)
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Write a sum of three terms on the board, r₀ + γ (r₁ + α H₁) + γ² (r₂ + α H₂), take out γ, and let
-# them say which part is V(s'). Then ask what would change if the row came from an older policy
-# (nothing: a is given, and what follows is asked of the present policy). This is why the replay
-# buffer may hold old rows.
+# Write a sum of three terms on the board, r₀ + γ (r₁ + α H₁) + γ² (r₂ + α H₂), take out γ, and let them say
+# which part is V(s'). Then ask what would change if the row came from an older policy (nothing: a is given,
+# and what follows is asked of the present policy). This is why the replay buffer may hold old rows.
 
 # %% [markdown]
 # ## Round 3: how far may the actor trust the critics?
@@ -213,11 +210,11 @@ predicted("discrete_sac.3")
 explorable.overestimated()
 
 # %% [markdown]
-# **Explain.** Above 0: at {{ highest(9)[0] | .2f }}, if the standard deviation is 1. The actor
-# makes the highest estimates most probable, so V(s') is too high, too.
+# **Explain.** Above 0: at {{ highest(9)[0] | .2f }}, if the standard deviation is 1. The actor makes the
+# highest estimates most probable, so V(s') is too high, too.
 #
-# So SAC has **two critics** and takes for each action the smaller value, in V(s') and in the actor's
-# loss. With independent errors the highest of nine is at {{ highest(9)[1] | .2f }}.
+# So SAC has **two critics** and takes for each action the smaller value, in V(s') and in the actor's loss.
+# With independent errors the highest of nine is at {{ highest(9)[1] | .2f }}.
 # <!-- claim: too_high() > 0.2 and abs(highest(9)[1]) < highest(9)[0] -->
 
 # %% [markdown]
@@ -253,23 +250,22 @@ bare = own_parts.descended(lambda log_pi, q, alpha: -value(log_pi, q, alpha).mea
 figures.descents({"your loss": own_parts.descended(loss), "Q not detached": bare})
 
 # %% [markdown]
-# **See.** Your loss finds the softmax of Round 1. Without the stop straight "improves" from
-# {{ max(q) | g }} to {{ wished() | .0f }}, in the estimate alone.
+# **See.** Your loss finds the softmax of Round 1. Without the stop straight "improves" from {{ max(q) | g }}
+# to {{ wished() | .0f }}, in the estimate alone.
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Ask what an actor would do that may also raise Q. (With continuous actions it needs the gradient
-# through Q to the action; there only the critics' weights are held.) Then ask which arrows of the
-# picture carry a gradient, and where else one must stop (the target of the critics).
+# Ask what an actor would do that may also raise Q. (With continuous actions it needs the gradient through Q
+# to the action; there only the critics' weights are held.) Then ask which arrows of the picture carry a
+# gradient, and where else one must stop (the target of the critics).
 
 # %% [markdown]
 # ## Round 4: does the pay lead out of the trap?
 #
-# Thirty learners walk the chain of lesson [[values]] for 1,000 decisions: SAC's pay without its networks (*soft
-# Q-learning*). Each draws from softmax(Q / α), and moves Q(s, a) by 0.3 of the way to its soft target.
+# Thirty learners walk the chain of lesson [[values]] for 1,000 decisions: SAC's pay without its networks
+# (*soft Q-learning*). Each draws from softmax(Q / α), and moves Q(s, a) by 0.3 of the way to its soft target.
 #
-# A learner must *find* the free road, and then *take* the way. Without pay, leaving is worth {{ 0.8**4 /
-# 0.2 | .2f }}, staying
-# once more {{ 0.16 + 0.8 * 0.8**4 / 0.2 | .2f }} : the way is worth taking.
+# A learner must *find* the free road, and then *take* the way. Without pay, leaving is worth
+# {{ 0.8**4 / 0.2 | .2f }}, staying once more {{ 0.16 + 0.8 * 0.8**4 / 0.2 | .2f }} : the way is worth taking.
 # <!-- claim: abs(soft_q(1e-3)[0, 0] - 1.80) < 0.005 > abs(soft_q(1e-3)[0, 1] - 2.05) -->
 #
 # > **Predict.** At the best constant α from 0.01 to 10, how probably do the thirty leave the trap in the
@@ -288,30 +284,26 @@ knows = own_parts.would_leave(value, target, alphas)
 bc.show(figures.two_jobs(alphas, knows, walked))
 
 # %% [markdown]
-# **Explain.** Below 0.5: never better than a coin (blue). **α does two jobs.** It decides how much a learner *tries*:
-# with a small α few find the free road (purple). And it decides how surely it *takes* what is better: with α = 1
-# leaving is
-# worth only {{ soft_q(1)[0, 1] - soft_q(1)[0, 0] | .2f }} more, pay included, so even an agent that knows the whole
-# chain leaves with {{
-# leave(1) | .2f }} (black). In between, finding the road once is not enough (lesson [[values]]): with α = 0.1 a third
-# find it, and none leaves.
+# **Explain.** Below 0.5: never better than a coin (blue). **α does two jobs.** It decides how much a learner
+# *tries*: with a small α few find the free road (purple). And it decides how surely it *takes* what is
+# better: with α = 1 leaving is worth only {{ soft_q(1)[0, 1] - soft_q(1)[0, 0] | .2f }} more, pay included,
+# so even an agent that knows the whole chain leaves with {{ leave(1) | .2f }} (black). In between, finding
+# the road once is not enough (lesson [[values]]): with α = 0.1 a third find it, and none leaves.
 # <!-- claim: constant().leaves.mean(axis=1).max() < 0.5 -->
 # <!-- claim: found(0.1) == 10 and constant().leaves[np.abs(ALPHAS / 0.1 - 1).argmin()].max() < 0.1 -->
 # <!-- claim: 0.5 < leave(1) < 0.55 and max(abs(leave(a) - 0.5) for a in (2, 3, 5, 7, 10)) < 0.01 -->
 #
-# So begin high, to find, and let α fall, to take: by equal factors from 10 to 0.01, {{ falling().found.sum() }} of
-# thirty
-# find the road, and {{ sure(falling().leaves) }} end sure of leaving (above {{ SURE }}; with no constant α more than
-# {{
-# max(map(sure, constant().leaves)) }}). But {{ sure(1 - falling().leaves) }} end sure of staying: {{
-# (~falling().found).sum() }} of these never found the road.
+# So begin high, to find, and let α fall, to take: by equal factors from 10 to 0.01,
+# {{ falling().found.sum() }} of thirty find the road, and {{ sure(falling().leaves) }} end sure of leaving
+# (above {{ SURE }}; with no constant α more than {{ max(map(sure, constant().leaves)) }}). But
+# {{ sure(1 - falling().leaves) }} end sure of staying: {{ (~falling().found).sum() }} of these never found
+# the road.
 # <!-- claim: ((1 - falling().leaves > SURE) | falling().found).all() and not (falling().leaves >
 #   SURE)[~falling().found].any() -->
 
 # %% [markdown]
-# SAC adjusts α like a thermostat, by a
-# **target entropy** η ("eta"): while the entropy is above η, α falls; below, it rises. The paper and
-# our study set **η = {{ SETTINGS.target_entropy }}** for nine actions.
+# SAC adjusts α like a thermostat, by a **target entropy** η ("eta"): while the entropy is above η, α falls;
+# below, it rises. The paper and our study set **η = {{ SETTINGS.target_entropy }}** for nine actions.
 #
 # > **Predict.** At first the entropy is near log 9. What does α do?
 
@@ -327,28 +319,28 @@ predicted("discrete_sac.5")
 explorable.thermostat()
 
 # %% [markdown]
-# **Explain.** The entropy is never negative, so at least 1 above η = −1, and α falls at each
-# update. α can rest for η between 0 and log 9 = {{ math.log(9) | .1f }}; above, it rises for ever. On our
-# road α begins at {{ SETTINGS.alpha_init }}, so the pay is at most {{ SETTINGS.alpha_init * math.log(9) | .3f
-# }} a decision, against {{ idle().rewards[0] | .2f }} for staying.
+# **Explain.** The entropy is never negative, so at least 1 above η = −1, and α falls at each update. α can
+# rest for η between 0 and log 9 = {{ math.log(9) | .1f }}; above, it rises for ever. On our road α begins at
+# {{ SETTINGS.alpha_init }}, so the pay is at most {{ SETTINGS.alpha_init * math.log(9) | .3f }} a decision,
+# against {{ idle().rewards[0] | .2f }} for staying.
 # <!-- claim: 0 - SETTINGS.target_entropy == 1 -->
 #
 # <details><summary>Why −1? And is that why plain SAC stays in the trap of our road?</summary>
 #
-# The paper gives no reason for −1; with continuous actions, whose entropy can be negative, such targets
-# are usual. On our road a reachable η is not enough: three agents learned with η = 0.3 and three with 1:
+# The paper gives no reason for −1; with continuous actions, whose entropy can be negative, such targets are
+# usual. On our road a reachable η is not enough: three agents learned with η = 0.3 and three with 1:
 # {{ 'none' if not reachable().any() else reachable().sum() }} escapes.
 #
 # </details>
 
 # %% [markdown]
-# This loss does it: its slope in log α is α (H − η), so a step down it lowers α while H is above η
-# (the panel's steps are all of one size, much as Adam's):
+# This loss does it: its slope in log α is α (H − η), so a step down it lowers α while H is above η (the
+# panel's steps are all of one size, much as Adam's):
 #
 # $$ L_\alpha = \alpha\, (\mathcal{H}(\pi) - \eta) $$
 #
-# **Exercise (4 min, ●●○).** *Further:* write it. $\mathcal{H}(\pi)$ is the mean over the batch, held
-# fixed. The parameter is log α, so that α stays positive.
+# **Exercise (4 min, ●●○).** *Further:* write it. $\mathcal{H}(\pi)$ is the mean over the batch, held fixed.
+# The parameter is log α, so that α stays positive.
 
 
 # %%
@@ -363,14 +355,12 @@ check.temperature_loss(temperature_loss)
 
 # %% [markdown] tags=["instructor"] minutes=4
 # D of lesson [[values]] drove at random, too, but its target held the max, so its Q put leaving above
-# staying. On the chain, ask why π changes most where α is about as large as the lead of leaving, 0.25.
-# (From α = 3 on it is just below 0.5: a nearly even policy mostly falls back to the trap before the
-# free road.)
+# staying. On the chain, ask why π changes most where α is about as large as the lead of leaving, 0.25. (From
+# α = 3 on it is just below 0.5: a nearly even policy mostly falls back to the trap before the free road.)
 # <!-- claim: leave(0.1) > 0.9 and leave(1) < 0.55 and all(0.49 < leave(a) < 0.5 for a in (3, 5, 10)) -->
 #
-# The answer to discuss is "falls, and stops at η", as a thermostat in a room does. Ask which
-# entropy would have to be reached. It helps to write the range, 0 to log 9, on the board before
-# anybody answers.
+# The answer to discuss is "falls, and stops at η", as a thermostat in a room does. Ask which entropy would
+# have to be reached. It helps to write the range, 0 to log 9, on the board before anybody answers.
 
 # %%
 compare_predictions(
@@ -385,10 +375,9 @@ compare_predictions(
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed.
 # 3. The highest of many estimates is too high, so the smaller of two critics counts.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
-# 5. On the chain no constant α that we tried beats a coin: a small one finds too little, a large one takes too
-#    seldom.
-#    One that falls makes {{ sure(falling().leaves) }} of thirty sure of leaving. A thermostat can rest if η is
-#    between 0 and log n.
+# 5. On the chain no constant α that we tried beats a coin: a small one finds too little, a large one takes
+#    too seldom. One that falls makes {{ sure(falling().leaves) }} of thirty sure of leaving. A thermostat can
+#    rest if η is between 0 and log n.
 
 # %% [markdown]
 # **Three questions to think about**
@@ -396,22 +385,22 @@ compare_predictions(
 # - The target holds V(s'), an estimate. If it is ten times too high at first, does the error stay?
 # - Would you let α begin above {{ SETTINGS.alpha_init }} on the road? What could it cost?
 #
-# **Read on**: Haarnoja et al., SAC (arXiv 1801.01290) and its thermostat (arXiv 1812.05905); Fujimoto et
-# al., the smaller of two critics (TD3, arXiv 1802.09477); Christodoulou, SAC for discrete actions
-# (arXiv 1910.07207); Xu et al., its target entropy (arXiv 2112.02852).
+# **Read on**: Haarnoja et al., SAC (arXiv 1801.01290) and its thermostat (arXiv 1812.05905); Fujimoto et al.,
+# the smaller of two critics (TD3, arXiv 1802.09477); Christodoulou, SAC for discrete actions (arXiv
+# 1910.07207); Xu et al., its target entropy (arXiv 2112.02852).
 
 # %% [markdown] tags=["instructor"] minutes=4
-# *Answers to the three questions.* **η = log 9** is the largest entropy of nine actions. While the
-# policy is not even, H < η and α rises, until entropy outweighs the differences in Q and the agent
-# drives almost at random. **Ten times too high:** with exact values for each state the error
-# shrinks by γ at each step from target to estimate, since y holds γ V(s'); rewards set the rest.
-# With a network and old rows this is not certain: the next lesson shows a case. **A higher start:** on
-# the chain it finds the free road. On the road an even choice of nine actions also has accidents, which
-# end the drive, so more trying need not reach further; lesson [[the_barrier]] measures what trying costs.
+# *Answers to the three questions.* **η = log 9** is the largest entropy of nine actions. While the policy is
+# not even, H < η and α rises, until entropy outweighs the differences in Q and the agent drives almost at
+# random. **Ten times too high:** with exact values for each state the error shrinks by γ at each step from
+# target to estimate, since y holds γ V(s'); rewards set the rest. With a network and old rows this is not
+# certain: the next lesson shows a case. **A higher start:** on the chain it finds the free road. On the road
+# an even choice of nine actions also has accidents, which end the drive, so more trying need not reach
+# further; lesson [[the_barrier]] measures what trying costs.
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** Q(s, a) = r + γ V(s'), with V written out below it; a dashed line through each
-# place where no gradient passes.
+# **On the board.** Q(s, a) = r + γ V(s'), with V written out below it; a dashed line through each place where
+# no gradient passes.
 #
-# **To discuss.** The target is an estimate, too. Why does it help at all to learn an estimate from
-# an estimate?
+# **To discuss.** The target is an estimate, too. Why does it help at all to learn an estimate from an
+# estimate?

@@ -44,8 +44,8 @@ progress("found_and_kept")
 # %% [markdown]
 # ## Look first
 #
-# One of our ten agents with demonstrations alone stays behind trap 1 after its training. Yet in mid-training it was
-# the best of the ten:
+# One of our ten agents with demonstrations alone stays behind trap 1 after its training. Yet in mid-training
+# it was the best of the ten:
 # <!-- claim: not of_the_agent_shown().success -->
 
 # %%
@@ -63,24 +63,23 @@ bc.show(figures.one_agent(study.of("demos"), best, title))
 table(counts.BOTH_TABLES, counts.both_tables(study))
 
 # %% [markdown]
-# With one aid alone, the paper's agents get out with demonstrations, ours with the soft constraint.
-# Four things could explain it: (1) agents lose the way out (Rounds 1 and 2); (2) one agent may stand behind each
+# With one aid alone, the paper's agents get out with demonstrations, ours with the soft constraint. Four
+# things could explain it: (1) agents lose the way out (Rounds 1 and 2); (2) one agent may stand behind each
 # of the paper's rates (lesson [[how_many_seeds]]); (3) its training may differ (Round 3); (4) its traffic may
-# differ, too: the paper prints it only in part, and
-# we did not test it.
+# differ, too: the paper prints it only in part, and we did not test it.
 # <!-- claim: escaped('demos') == 0 < escaped('soft') and PRINTED['demos']['success'].mean == 100
 #   and PRINTED['soft']['success'].mean == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Ask what could have happened at the fall, and keep the answers for Round 2. (The paper's text says
-# that the soft constraint alone does worse than plain SAC; its table gives it the higher return.)
+# Ask what could have happened at the fall, and keep the answers for Round 2. (The paper's text says that the
+# soft constraint alone does worse than plain SAC; its table gives it the higher return.)
 # <!-- claim: PRINTED['soft']['returns'].mean > PRINTED['sac']['returns'].mean -->
 
 # %% [markdown]
 # ## Round 1: found, and kept
 #
-# - **Found**: in at least one *window*, {{ WINDOW }} training episodes in a row, more than half ended
-#   ahead of trap 1.
+# - **Found**: in at least one *window*, {{ WINDOW }} training episodes in a row, more than half ended ahead
+#   of trap 1.
 # - **Kept**: it found the way out and escapes after training: it is ahead on at least
 #   {{ 100 * ESCAPES | .0f }} % of the held-out roads.
 #
@@ -97,8 +96,8 @@ predicted("found_and_kept.1")
 bc.show(figures.found_and_kept({"": study}, figures.IN_THE_STUDY))
 
 # %% [markdown]
-# **See.** *A low count at the end can mean two things.* Nine agents of plain SAC never find the way
-# out. With demonstrations alone half of these ten find it, and none keeps it.
+# **See.** *A low count at the end can mean two things.* Nine agents of plain SAC never find the way out. With
+# demonstrations alone half of these ten find it, and none keeps it.
 #
 # Of *ten others* (lesson [[learning_from_demonstrations]]: other seeds, implementation and length)
 # {{ way(others('demos'), 'demos').found }} find it and {{ way(others('demos'), 'demos').kept }} keep it.
@@ -109,19 +108,17 @@ bc.show(figures.found_and_kept({"": study}, figures.IN_THE_STUDY))
 #   way(others('bootstrapped'), 'bootstrapped').kept and way(others('sac'), 'sac').found == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Ask which of the two, found or kept, an exploration bonus could improve, and which a larger replay
-# buffer.
+# Ask which of the two, found or kept, an exploration bonus could improve, and which a larger replay buffer.
 
 # %% [markdown]
 # ## Round 2: who loses it?
 #
-# The agent of the first curve lost the way out while its demonstrations ran out: their share β of each batch falls to
-# 0 by episode {{ SETTINGS.beta_episodes | , }}. Is that why? With demonstrations alone {{ losers('ends')
-# }} of ten lose it so, and {{ losers('stays') }} if β stays {{ SETTINGS.beta_start }}: no.
+# The agent of the first curve lost the way out while its demonstrations ran out: their share β of each batch
+# falls to 0 by episode {{ SETTINGS.beta_episodes | , }}. Is that why? With demonstrations alone
+# {{ losers('ends') }} of ten lose it so, and {{ losers('stays') }} if β stays {{ SETTINGS.beta_start }}: no.
 #
-# With both aids it is otherwise. Take forty agents, ten in each group: β ends as in the study, or stays; the bonus c
-# for
-# each demonstrated second is paid, or not (c = 0). All forty find the way out.
+# With both aids it is otherwise. Take forty agents, ten in each group: β ends as in the study, or stays; the
+# bonus c for each demonstrated second is paid, or not (c = 0). All forty find the way out.
 # <!-- claim: [(each.agents[0]['beta_episodes'], each.agents[0]['bonus']) for each in
 #   groups().values()] == [(1000, 2), (None, 2), (1000, 0), (None, 0)] and SETTINGS.beta_episodes ==
 #   1000 and {len(each) for each in groups().values()} == {10} and
@@ -131,8 +128,8 @@ bc.show(figures.found_and_kept({"": study}, figures.IN_THE_STUDY))
 #   An agent can lose the way out, find it again, and count as kept.
 # <!-- claim: LOST == WINDOW / 2 -->
 #
-# **Exercise (12 min, ●●●).** Which agents lose the way out at least once: after a window with at least
-# `had` ahead comes one with `limit` or fewer? The next panel counts with your function.
+# **Exercise (12 min, ●●●).** Which agents lose the way out at least once: after a window with at least `had`
+# ahead comes one with `limit` or fewer? The next panel counts with your function.
 
 
 # %%
@@ -173,25 +170,26 @@ explorable.losing()
 # <!-- claim: (group('β ends, no bonus').first <= 550).sum() == 6 and
 #   group('others: ends').first.min() > 900 > np.sort(group('others: no bonus').first)[2] -->
 #
-# *It has a price*: these ten earn {{ group('β never ends, bonus').earned.min() | .0f }} to {{
-# group('β never ends, bonus').earned.max() | .0f }}; those that keep the way out in the other groups earn {{
-# kept_elsewhere().min() | .0f }} or more. (The ten others earn {{
-# group('others: never').earned.min() | .0f }} to {{ group('others: never').earned.max() | .0f }}; there the ranges
-# overlap: {{ min(kept_earned('others: ends').min(), kept_earned('others: no bonus').min()) | .0f }} or more.)
+# *It has a price*: these ten earn {{ group('β never ends, bonus').earned.min() | .0f }} to
+# {{ group('β never ends, bonus').earned.max() | .0f }}; those that keep the way out in the other groups earn
+# {{ kept_elsewhere().min() | .0f }} or more. (The ten others earn
+# {{ group('others: never').earned.min() | .0f }} to {{ group('others: never').earned.max() | .0f }}; there
+# the ranges overlap:
+# {{ min(kept_earned('others: ends').min(), kept_earned('others: no bonus').min()) | .0f }} or more.)
 # <!-- claim: len(clocks()['4', 'π̃'].of('soft')) == 3 -->
 # <!-- claim: (way(clocks()['1/4', 'μ'], 'demos').kept, way(clocks()['1/4', 'π̃'], 'demos').kept) == (2, 6) -->
 # <!-- claim: group('β never ends, bonus').keep.all() and earns_less(*map(group, ('β never ends, bonus',
 #   'β ends, bonus', 'β ends, no bonus', 'β never ends, no bonus'))) and earns_less(group('others: never'),
 #   group('others: ends')) -->
 #
-# *A loss need not last*: where β ends and no bonus is paid, eight lose the way out, and all ten have it at the
-# end (of ten others all lose it, and {{ group('others: no bonus').keep.sum() }} have it at the end).
+# *A loss need not last*: where β ends and no bonus is paid, eight lose the way out, and all ten have it at
+# the end (of ten others all lose it, and {{ group('others: no bonus').keep.sum() }} have it at the end).
 # <!-- claim: group('β ends, no bonus').keep.sum() == 10 == group('others: no bonus').lost.sum() -->
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Return to the guesses from the start. Ask why the picture may not be quoted as "without
-# demonstrations agents forget": without the bonus, all ten lose the way out if β never ends, and all
-# ten have it at the end if it ends.
+# Return to the guesses from the start. Ask why the picture may not be quoted as "without demonstrations
+# agents forget": without the bonus, all ten lose the way out if β never ends, and all ten have it at the end
+# if it ends.
 
 # %% [markdown]
 # ## Round 3: how likely is the paper's table?
@@ -207,8 +205,9 @@ explorable.losing()
 #
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 -->
 #
-# So we trained for {{ SHORTER | , }} episodes in {{ len(clocks()) }} settings: ¼ update and four roads, or 1, 2 or 4
-# updates and one road; each with both drivers. Three of these; the first step changes the driver alone:
+# So we trained for {{ SHORTER | , }} episodes in {{ len(clocks()) }} settings: ¼ update and four roads, or 1,
+# 2 or 4 updates and one road; each with both drivers. Three of these; the first step changes the driver
+# alone:
 # <!-- claim: {(u, a['envs_per_agent'], a['updates']) for (u, _), r in clocks().items() for a in
 #   r.agents} == {('1/4', 4, 1), ('1', 1, 1), ('2', 1, 2), ('4', 1, 4)} -->
 # <!-- claim: {r.curves['success'].shape[1] for r in clocks().values()} == {SHORTER} -->
@@ -224,12 +223,10 @@ bc.show(figures.found_and_kept(panels, figures.OF_THREE_SETTINGS))
 
 # %% [markdown]
 # **See.** *On the right, as in the paper, more agents keep it with demonstrations alone than with the soft
-# constraint alone*:
-# 10 against 5 (p = {{ stats.fisher_exact([[10, 0], [5, 5]]).pvalue | .2f }}; but of {{ len(clocks()) }} settings we
-# chose
-# this one after we had seen the counts). The constraint's row has no demonstrations to
-# change: it stays at 6, and is 5 with two updates and one road. The paper prints 0 %.
-# (The study's setting, on the left, is tested after {{ SHORTER | , }} episodes here: 2 keep it, not 0.)
+# constraint alone*: 10 against 5 (p = {{ stats.fisher_exact([[10, 0], [5, 5]]).pvalue | .2f }}; but of
+# {{ len(clocks()) }} settings we chose this one after we had seen the counts). The constraint's row has no
+# demonstrations to change: it stays at 6, and is 5 with two updates and one road. The paper prints 0 %. (The
+# study's setting, on the left, is tested after {{ SHORTER | , }} episodes here: 2 keep it, not 0.)
 # <!-- claim: [way(clocks()[of], 'soft').kept for of in (('1/4', 'μ'), ('1/4', 'π̃'), ('2', 'π̃'))] == [6, 6, 5] and
 #   [way(clocks()[of], 'demos').kept for of in (('1/4', 'μ'), ('1/4', 'π̃'), ('2', 'π̃'))] == [2, 6, 10] -->
 # <!-- claim: [way(clocks()['2', 'π̃'], m).kept for m in ('sac', 'soft', 'demos', 'bootstrapped')]
@@ -245,9 +242,9 @@ how_often = ["in under 1 %", "in 10 to 60 %", "in over 90 %"]
 predict("found_and_kept.3", "How often do the four rates read as the paper's?", how_often)
 
 # %% [markdown]
-# **Exercise (10 min, ●●○).** Compute it. For each row you get the success rates of its agents, one of
-# which is drawn. A row prints 100 % (1) if all `episodes` drives of this agent succeed, 0 % (0) if
-# none does. The rows are independent.
+# **Exercise (10 min, ●●○).** Compute it. For each row you get the success rates of its agents, one of which
+# is drawn. A row prints 100 % (1) if all `episodes` drives of this agent succeed, 0 % (0) if none does. The
+# rows are independent.
 
 
 # %%
@@ -268,18 +265,18 @@ for setting, agents in cells.items():
 bc.show(figures.chances(cells, chance, figures.OF_EIGHT))
 
 # %% [markdown]
-# **See.** *In a third.* Mostly the soft constraint's row is in the way: it reads 0 % in only {{
-# 100 * row_reads('soft') | .0f }} % of the draws, each of the other three as printed in {{
-# 100 * min(map(row_reads, ('sac', 'demos', 'bootstrapped'))) | .0f }} % or more.
+# **See.** *In a third.* Mostly the soft constraint's row is in the way: it reads 0 % in only
+# {{ 100 * row_reads('soft') | .0f }} % of the draws, each of the other three as printed in
+# {{ 100 * min(map(row_reads, ('sac', 'demos', 'bootstrapped'))) | .0f }} % or more.
 #
-# Four updates rest on three agents a row (with μ {{ 100 * pattern(clocks()['4', 'μ']).value | .0f }} %). The bars,
-# 95 %
-# intervals, are wide, and overlap. Updates and roads change together: which of them matters is open.
+# Four updates rest on three agents a row (with μ {{ 100 * pattern(clocks()['4', 'μ']).value | .0f }} %). The
+# bars, 95 % intervals, are wide, and overlap. Updates and roads change together: which of them matters is
+# open.
 # <!-- claim: all(pattern(clocks()[u, 'π̃']).high - pattern(clocks()[u, 'π̃']).low > 0.35 for u in '124') -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Ask for the experiment that would separate the updates from the driver and from the roads: which
-# agents, how many of each? (`bc.statistics.power(0.6, 0.4, n)`.)
+# Ask for the experiment that would separate the updates from the driver and from the roads: which agents, how
+# many of each? (`bc.statistics.power(0.6, 0.4, n)`.)
 
 # %% [markdown]
 # ## So why is our table not the paper's?
@@ -288,24 +285,22 @@ bc.show(figures.chances(cells, chance, figures.OF_EIGHT))
 #
 # {{ chances_table() }}
 #
-# So one agent behind each rate alone rarely does it; with another training it is likelier. That the authors trained
-# so
-# is *not shown*. With demonstrations alone agents also lose the way out: of the finders {{ alone_and_ending().kept
-# }} of
-# {{ alone_and_ending().found }} keep it, {{ alone_and_staying()[2] }} of {{ alone_and_staying()[1] }} if β never
-# ends.
+# So one agent behind each rate alone rarely does it; with another training it is likelier. That the authors
+# trained so is *not shown*. With demonstrations alone agents also lose the way out: of the finders
+# {{ alone_and_ending().kept }} of {{ alone_and_ending().found }} keep it, {{ alone_and_staying()[2] }} of
+# {{ alone_and_staying()[1] }} if β never ends.
 #
-# The returns cannot tell: even the untrained rule earns {{ of('rule').scores('returns').mean() | .0f }} here, and {{
-# PRINTED['rule']['returns'].mean | .0f }} in the paper.
+# The returns cannot tell: even the untrained rule earns {{ of('rule').scores('returns').mean() | .0f }} here,
+# and {{ PRINTED['rule']['returns'].mean | .0f }} in the paper.
 # <!-- claim: of('demos').scores('success').max() == 0 == pattern(of_all()).value and with_teacher('1') <
 #   with_teacher('2') < with_teacher('4') -->
 # <!-- claim: (settings_for('demos', 'paper').updates, settings_for('demos', 'paper').envs_per_agent,
 #   settings_for('demos', 'paper').stochastic_demonstrations) == (2, 1, True) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Write "shown" and "not shown" on the board before they read this section, and let the class fill
-# them in. What would the authors have to print so that nobody had to guess? (Updates
-# for a decision, agents behind a row, all seeds.)
+# Write "shown" and "not shown" on the board before they read this section, and let the class fill them in.
+# What would the authors have to print so that nobody had to guess? (Updates for a decision, agents behind a
+# row, all seeds.)
 
 # %%
 finders = study.found_and_kept("demos")[0].sum()
@@ -323,10 +318,10 @@ compare_predictions(
 # ## What you now know
 #
 # 1. To find the way out and to keep it are two things, and one rate at the end mixes them.
-# 2. With both aids and ¼ update none of ten loses the way out if β never ends and the bonus is paid;
-#    in the other groups at least eight do.
-# 3. How likely a table of single agents is can be computed: here the paper's comes in 0 to {{
-#    100 * pattern(clocks()['4', 'μ']).value | .0f }} % of the draws, by training.
+# 2. With both aids and ¼ update none of ten loses the way out if β never ends and the bonus is paid; in the
+#    other groups at least eight do.
+# 3. How likely a table of single agents is can be computed: here the paper's comes in 0 to
+#    {{ 100 * pattern(clocks()['4', 'μ']).value | .0f }} % of the draws, by training.
 # 4. Print each agent, the updates, the roads at a time, and who demonstrated.
 # <!-- claim: all(0.5 < group('β never ends, bonus').earned.mean() / group(g).earned[group(g).keep].mean()
 #   < 0.55 for g in ('β ends, bonus', 'β ends, no bonus', 'β never ends, no bonus')) -->
@@ -336,20 +331,19 @@ compare_predictions(
 # - How would you test the setting of prediction 3 fairly?
 # - A reviewer asks for "the success rate". Which two numbers do you give, and over what?
 #
-# **Read on**: [the next lesson](recorded_drives.ipynb) learns from recorded drives alone.
-# Christodoulou (arXiv 1910.07207); Ecoffet et al. (arXiv 2004.12919).
+# **Read on**: [the next lesson](recorded_drives.ipynb) learns from recorded drives alone. Christodoulou
+# (arXiv 1910.07207); Ecoffet et al. (arXiv 2004.12919).
 
 # %% [markdown] tags=["instructor"] minutes=3
 # **Model answers.**
 #
-# - *Would you let β end?* A reason to end it: the road does not pay the demonstrations' bonus, so
-#   while it lasts the critic values imitation. A reason against: once it is gone
-#   {{ group('β ends, bonus').lost.sum() }} of ten agents lose the way out at least once. Watch the
-#   success of each seed, and the Q of the demonstrated actions.
-# - *A fair test?* Fix the setting and the number of agents now, train new seeds with it, and count
-#   once.
-# - *The reviewer?* How many trainings found it and how many kept it, each of how many, beside the
-#   share of drives of those that kept it.
+# - *Would you let β end?* A reason to end it: the road does not pay the demonstrations' bonus, so while it
+#   lasts the critic values imitation. A reason against: once it is gone
+#   {{ group('β ends, bonus').lost.sum() }} of ten agents lose the way out at least once. Watch the success of
+#   each seed, and the Q of the demonstrated actions.
+# - *A fair test?* Fix the setting and the number of agents now, train new seeds with it, and count once.
+# - *The reviewer?* How many trainings found it and how many kept it, each of how many, beside the share of
+#   drives of those that kept it.
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** One row of bars for each group, and beside it who keeps it and what they earn.

@@ -18,8 +18,8 @@
 # - say how many agents a comparison needs, before you train them;
 # - run an ablation of your own, and say what five seeds show.
 #
-# **Time** 50 minutes; running it takes about one minute. **It builds on** the soft constraint
-# (lesson [[soft_constraint]]) and learning from demonstrations ([[learning_from_demonstrations]]).
+# **Time** 50 minutes; running it takes about one minute. **It builds on** the soft constraint (lesson
+# [[soft_constraint]]) and learning from demonstrations ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc
@@ -42,8 +42,7 @@ progress("how_many_seeds")
 # %% [markdown]
 # ## Look first
 #
-# Two agents of plain SAC on one road, which differ in the *seed* of their random numbers alone.
-# Watch both.
+# Two agents of plain SAC on one road, which differ in the *seed* of their random numbers alone. Watch both.
 # <!-- claim: len({tuple((k, str(v)) for k, v in agent.items() if k != 'seed') for agent in
 #   of('sac').agents}) == 1 -->
 
@@ -56,14 +55,12 @@ for seed in (0, 3):
 bc.recording(drives, height=360)
 
 # %% [markdown]
-# Had you trained the second one alone, you would write that plain SAC leaves the trap. Our other nine
-# do not.
+# Had you trained the second one alone, you would write that plain SAC leaves the trap. Our other nine do not.
 # <!-- claim: escaped('sac') == 1 -->
 #
 # Here are all ten, and ten more with the soft constraint, ten with demonstrations, ten with both. This is an
-# **ablation**: leave out
-# parts of a method, train again, and see what gets worse. An agent *escapes* if it ends ahead of trap
-# 1 on at least {{ 100 * ESCAPES | .0f }} % of the held-out roads.
+# **ablation**: leave out parts of a method, train again, and see what gets worse. An agent *escapes* if it
+# ends ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the held-out roads.
 
 # %%
 study = bc.shipped_results()
@@ -78,8 +75,8 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # %% [markdown]
 # ## Round 1: what does eight of ten say?
 #
-# With the soft constraint alone, eight of ten agents escape. Had you trained thousands, the share
-# that escapes would be the *true rate*.
+# With the soft constraint alone, eight of ten agents escape. Had you trained thousands, the share that
+# escapes would be the *true rate*.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
 # > **Predict.** The lower the true rate, the rarer are eight or more of ten. At 50 % they come in
@@ -96,27 +93,26 @@ predict(
 )
 
 # %% [markdown]
-# **Drag** the true rate down until the blue part is 2.5 %, then up until it is so again. Then drag
-# the agents: how many make the interval half as wide?
+# **Drag** the true rate down until the blue part is 2.5 %, then up until it is so again. Then drag the
+# agents: how many make the interval half as wide?
 
 # %%
 predicted("how_many_seeds.1")
 explorable.certainty()
 
 # %% [markdown]
-# **See.** Eight of ten may mean a true rate of 44 or of 97 %. Half the width takes
-# {{ half_as_wide() }} agents: four times as many.
+# **See.** Eight of ten may mean a true rate of 44 or of 97 %. Half the width takes {{ half_as_wide() }}
+# agents: four times as many.
 # <!-- claim: half_as_wide() == 40 and [round(100 * each) for each in
 #   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
-# This is the **exact 95 % interval** of k out of n: at its low end, k *or more* have a chance of
-# 2.5 %; at its high end, k *or fewer* have. In the long run at least 95 % of such intervals contain
-# the true rate.
+# This is the **exact 95 % interval** of k out of n: at its low end, k *or more* have a chance of 2.5 %; at
+# its high end, k *or fewer* have. In the long run at least 95 % of such intervals contain the true rate.
 # <!-- claim: rarest_cover(10) >= 0.95 -->
 #
-# For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes, and of
-# ten others (lesson [[learning_from_demonstrations]]) {{ escapers(others('demos'), 'demos') }}.
-# The paper says neither how many agents drove nor how often; a spread in another row fits {{ EPISODES }} drives.
+# For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes, and of ten
+# others (lesson [[learning_from_demonstrations]]) {{ escapers(others('demos'), 'demos') }}. The paper says
+# neither how many agents drove nor how often; a spread in another row fits {{ EPISODES }} drives.
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
 # <!-- claim: fitting(*PRINTED['gail']['collision']) == [(1, EPISODES)] -->
 #
@@ -138,23 +134,22 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
     print(f"{k} of {n}: {100 * low:.1f} to {100 * high:.1f} %")
 
 # %% [markdown]
-# **See.** Twenty drives of one agent are *one* sample, not twenty, of how often training succeeds.
-# If one agent stands behind the paper's 100 %, it need not contradict our 0 of 10: true rates of
-# {{ math.ceil(100 * rate(np.ones(1)).low) }} to {{ int(100 * rate(np.zeros(10)).high) }} % lie in
-# both intervals.
+# **See.** Twenty drives of one agent are *one* sample, not twenty, of how often training succeeds. If one
+# agent stands behind the paper's 100 %, it need not contradict our 0 of 10: true rates of
+# {{ math.ceil(100 * rate(np.ones(1)).low) }} to {{ int(100 * rate(np.zeros(10)).high) }} % lie in both
+# intervals.
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Let them vote before the three intervals and keep the votes. What is the sample here: a drive, or
-# a training?
+# Let them vote before the three intervals and keep the votes. What is the sample here: a drive, or a
+# training?
 
 # %% [markdown]
 # ## Round 2: how many agents does it take?
 #
 # With the soft constraint alone eight of ten agents escape, with both aids seven. If the methods were alike,
-# how often would
-# luck split these fifteen escapes at least this unevenly? *Fisher's exact test* counts it: the **p value**;
-# below 0.05 we call it a difference. Here it is {{ fisher(8, 7) | .0f }}, as no split is more even; eight
-# against two would give {{ fisher(8, 2) | .2f }}.
+# how often would luck split these fifteen escapes at least this unevenly? *Fisher's exact test* counts it:
+# the **p value**; below 0.05 we call it a difference. Here it is {{ fisher(8, 7) | .0f }}, as no split is
+# more even; eight against two would give {{ fisher(8, 2) | .2f }}.
 # <!-- claim: escaped('soft') == 8 and escaped('bootstrapped') == 7 -->
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
@@ -168,8 +163,8 @@ predict(
 )
 
 # %% [markdown]
-# **Drag** the number of agents. From how many on do at least 80 of 100 studies find the difference?
-# And how far do thirty of each get with 80 against 60 %?
+# **Drag** the number of agents. From how many on do at least 80 of 100 studies find the difference? And how
+# far do thirty of each get with 80 against 60 %?
 
 # %%
 predicted("how_many_seeds.3")
@@ -181,12 +176,12 @@ explorable.studies()
 # is better nor that the two are alike.
 # <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 30) < 0.4 and fisher(8, 7) > 0.5 -->
 #
-# The share of studies that find it is the **power** of the comparison. Compute it before you train:
-# say which difference would matter to you, the **smallest effect of interest**, and take enough
-# agents for a power of 80 %; here {{ enough(0.8, 0.3) }} of each.
+# The share of studies that find it is the **power** of the comparison. Compute it before you train: say which
+# difference would matter to you, the **smallest effect of interest**, and take enough agents for a power of
+# 80 %; here {{ enough(0.8, 0.3) }} of each.
 #
-# **Exercise (12 min, ●●○).** Write it: add up the filled discs. In each group the number of agents
-# that escape is binomial. `shown[k, j]` says whether the test tells k of n from j of n.
+# **Exercise (12 min, ●●○).** Write it: add up the filled discs. In each group the number of agents that
+# escape is binomial. `shown[k, j]` says whether the test tells k of n from j of n.
 
 
 # %%
@@ -199,8 +194,8 @@ check.power(power)
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Let each group name a difference that it would care about, and look up the number of agents.
-# `bc.statistics.power(0.8, 0.6, 80)` takes some seconds. Then ask what to do if only ten can be
-# trained: choose a change with a larger effect, or a score that is not yes or no.
+# `bc.statistics.power(0.8, 0.6, 80)` takes some seconds. Then ask what to do if only ten can be trained:
+# choose a change with a larger effect, or a score that is not yes or no.
 
 # %% [markdown]
 # ## Round 3: are three seeds enough?
@@ -216,9 +211,9 @@ print(f"{', '.join(f'{each:.0f}' for each in returns)}; mean {returns.mean():.0f
 # <!-- claim: np.diff(np.sort(of('bootstrapped').scores('returns'))).max() > 40 and
 #   (of('bootstrapped').scores('returns') < 60).sum() == 3 -->
 #
-# How sure is a mean? From the agents *you trained* draw as many again, *uniformly with replacement*:
-# some come twice, others not at all. Take the mean, and repeat this some thousand times. The middle
-# 95 % of these means are the **bootstrap interval** (nothing to do with bootstrapped SAC).
+# How sure is a mean? From the agents *you trained* draw as many again, *uniformly with replacement*: some
+# come twice, others not at all. Take the mean, and repeat this some thousand times. The middle 95 % of these
+# means are the **bootstrap interval** (nothing to do with bootstrapped SAC).
 #
 # > **Predict.** Suppose that our ten stand for all agents. Somebody trains three, and computes their
 # > interval. In how many of 100 such studies does it contain the mean of all? (How
@@ -239,9 +234,9 @@ predicted("how_many_seeds.4")
 explorable.intervals()
 
 # %% [markdown]
-# **See.** *{{ explorable.holding(3) }} of 100, not 95.* In {{ 100 * 0.7**3 | .0f }} of 100 studies all
-# three do well. Resampling knows these three alone, so the interval is short, and lies above the mean
-# of all: *the shortest intervals miss.* Five seeds: {{ explorable.holding(5) }}. Ten: {{ explorable.holding(10) }}.
+# **See.** *{{ explorable.holding(3) }} of 100, not 95.* In {{ 100 * 0.7**3 | .0f }} of 100 studies all three
+# do well. Resampling knows these three alone, so the interval is short, and lies above the mean of all: *the
+# shortest intervals miss.* Five seeds: {{ explorable.holding(5) }}. Ten: {{ explorable.holding(10) }}.
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 and 88 <=
 #   explorable.holding(10) <= 92 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
@@ -267,18 +262,18 @@ check.bootstrap_interval(bootstrap_interval)
 #
 # Change one number of the method, and train five agents with the change, five without. `bonus=0.0` pays no
 # bonus for demonstrated seconds. Or change `rule_p` (now 0.9), `beta_start` (0.6), `gamma` (0.8),
-# `xi_multiplier` (200). Who learns the way out early? The score is an agent's success on 200 roads after
-# 150 episodes.
+# `xi_multiplier` (200). Who learns the way out early? The score is an agent's success on 200 roads after 150
+# episodes.
 #
-# Five against five are few: Fisher's test (Round 2) would tell 80 from 30 % in only {{ 100 * power(0.8, 0.3, 5)
-# | .0f }} of 100 studies.
+# Five against five are few: Fisher's test (Round 2) would tell 80 from 30 % in only
+# {{ 100 * power(0.8, 0.3, 5) | .0f }} of 100 studies.
 #
 # The score of a group is its **interquartile mean** (IQM): sort, leave out a quarter, rounded down, at each
-# end, and take the mean. Of five agents the middle three count. It shows a typical agent: the one of five that
-# fails, or alone succeeds, does not count.
+# end, and take the mean. Of five agents the middle three count. It shows a typical agent: the one of five
+# that fails, or alone succeeds, does not count.
 #
-# **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each
-# resample draws both groups anew. The next cell uses it.
+# **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each resample
+# draws both groups anew. The next cell uses it.
 
 
 # %%
@@ -304,8 +299,8 @@ interval_of = own_code.yours_or_ours("difference_interval", doing="Comparing")
 table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
-# **Explain.** If the interval contains 0, five seeds do not say which group learns earlier (they do not say "alike"
-# either). If it leaves out 0, that may be luck, as below.
+# **Explain.** If the interval contains 0, five seeds do not say which group learns earlier (they do not say
+# "alike" either). If it leaves out 0, that may be luck, as below.
 #
 # For an answer train a *new* set, large enough for your smallest effect of interest. If you add agents until
 # the interval leaves out 0, you take luck for an effect too often.
@@ -319,18 +314,17 @@ table(counts.ABLATION, *counts.ablation(success, interval_of))
 bc.show(figures.nothing_changed(study))
 
 # %% [markdown]
-# **See.** Read as ablations, the first says that your change costs {{ -halves()[0].value | .0f }}
-# points of return. It is luck: all three bad agents came into one half. Of all possible splits
-# of the ten, the interval leaves out 0 in {{ 100 * left_out() | .0f }} %, not in 5 %: here five agents give
-# too short an interval.
+# **See.** Read as ablations, the first says that your change costs {{ -halves()[0].value | .0f }} points of
+# return. It is luck: all three bad agents came into one half. Of all possible splits of the ten, the interval
+# leaves out 0 in {{ 100 * left_out() | .0f }} %, not in 5 %: here five agents give too short an interval.
 # <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
 # <!-- claim: all(bad in (0, 3) for bad, effect in splits() if counts.leaves_out_0(effect)) -->
 #
 # Even at 5 % each, at least one of twenty independent comparisons leaves out 0 in
-# {{ 100 * (1 - 0.95**20) | .0f }} % of cases: **multiplicity**. Say beforehand which comparison counts. Or correct
-# each p (Fisher's, Round 2) by *Holm*: of n, the smallest times n,
-# the next times n − 1, and so on; where one comes out below the one before it, it takes that one's value. The three
-# comparisons of our first picture:
+# {{ 100 * (1 - 0.95**20) | .0f }} % of cases: **multiplicity**. Say beforehand which comparison counts. Or
+# correct each p (Fisher's, Round 2) by *Holm*: of n, the smallest times n, the next times n − 1, and so on;
+# where one comes out below the one before it, it takes that one's value. The three comparisons of our first
+# picture:
 
 # %%
 # NBVAL_CHECK_OUTPUT
@@ -344,21 +338,21 @@ rows = [
 table(["7 of 10 with both aids, against", "p", "times", "after Holm"], rows)
 
 # %% [markdown]
-# Two of the three survive. Of ten others of each {{ escapers(others('bootstrapped'), 'bootstrapped')
-# }} escape with both aids, {{ 'none' if not escapers(others('sac'), 'sac') else escapers(others('sac'), 'sac') }}
-# with
-# plain SAC (p < 0.001), and {{ escapers(others('demos'), 'demos') }} with demonstrations only (p = {{
-# fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('demos'), 'demos')) | .2f }}: the same
-# direction, but ten against ten often miss a large difference, Round 2).
+# Two of the three survive. Of ten others of each {{ escapers(others('bootstrapped'), 'bootstrapped') }}
+# escape with both aids,
+# {{ 'none' if not escapers(others('sac'), 'sac') else escapers(others('sac'), 'sac') }} with plain SAC (p <
+# 0.001), and {{ escapers(others('demos'), 'demos') }} with demonstrations only (p =
+# {{ fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('demos'), 'demos')) | .2f }}:
+# the same direction, but ten against ten often miss a large difference, Round 2).
 # <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 # <!-- claim: 3 * fisher(7, 0) < 0.05 and 2 * fisher(7, 1) < 0.05 and fisher(7, 8) > 0.05 and
 #   fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('demos'), 'demos')) > 0.05 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Give each group another number to change, and collect the results on the board: one row for each
-# group, with its interval. How many leave out 0, and how many would if the changes did nothing?
-# Ask what to do about that (choose the one that counts, or make each interval wider).
+# Give each group another number to change, and collect the results on the board: one row for each group, with
+# its interval. How many leave out 0, and how many would if the changes did nothing? Ask what to do about that
+# (choose the one that counts, or make each interval wider).
 
 # %%
 compare_predictions(
@@ -381,32 +375,30 @@ compare_predictions(
 # 3. Compute the power before you train, for the smallest effect of interest.
 # 4. A short interval from three seeds may be luck: resampling knows these three alone.
 # 5. Five against five may differ by luck, the best of many comparisons most of all: name the one that counts,
-#   or correct each p.
+#    or correct each p.
 #
 # **Three questions to think about**
-# - Which difference between two *agents* can 20 drives of each show, and which between two
-#   *methods*?
-# - Forty more agents: ten of each method, or one of each of forty settings, of which you report the
-#   best?
+# - Which difference between two *agents* can 20 drives of each show, and which between two *methods*?
+# - Forty more agents: ten of each method, or one of each of forty settings, of which you report the best?
 # - Your sixth change raises the success, p = 0.04. What do you write?
 #
-# **Read on**: [lesson [[found_and_kept]]](found_and_kept.ipynb) asks why our table is not the
-# paper's. Agarwal et al. (arXiv 2108.13264); Henderson et al. (arXiv 1709.06560).
+# **Read on**: [lesson [[found_and_kept]]](found_and_kept.ipynb) asks why our table is not the paper's.
+# Agarwal et al. (arXiv 2108.13264); Henderson et al. (arXiv 1709.06560).
 
 # %% [markdown] tags=["instructor"]
 # **Model answers.**
 #
 # - *What can 20 drives show?* Of two agents: with 20 of 20 the interval of the rate begins at
-#   {{ 100 * rate(np.ones(20)).low | .0f }} %, so a difference of 30 points or more, roughly, shows.
-#   Of two methods: with one agent behind each row, nothing beyond these two agents.
-# - *40 more agents?* Ten more seeds for each method, if the question is whether the methods differ:
-#   eight against seven of ten does not say. Forty settings, if a better one is looked for: the best
-#   came out best partly by the luck of its seed, so report it with ten new ones.
-# - *The sixth change?* After Holm the smallest of six p values has to be below 0.05 / 6. Write that
-#   six changes were tried, which one looked best, and that new seeds have to confirm it.
+#   {{ 100 * rate(np.ones(20)).low | .0f }} %, so a difference of 30 points or more, roughly, shows. Of two
+#   methods: with one agent behind each row, nothing beyond these two agents.
+# - *40 more agents?* Ten more seeds for each method, if the question is whether the methods differ: eight
+#   against seven of ten does not say. Forty settings, if a better one is looked for: the best came out best
+#   partly by the luck of its seed, so report it with ten new ones.
+# - *The sixth change?* After Holm the smallest of six p values has to be below 0.05 / 6. Write that six
+#   changes were tried, which one looked best, and that new seeds have to confirm it.
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** Four rows of ten dots each, dark where the agent escapes; beside each row its
-# exact interval.
+# **On the board.** Four rows of ten dots each, dark where the agent escapes; beside each row its exact
+# interval.
 #
 # **To discuss.** You have one figure and one sentence for the press. Which result do you leave out?

@@ -43,22 +43,22 @@ progress("learning_from_demonstrations")
 # %% [markdown]
 # ## Look first
 #
-# Now a learner learns from the rule's drives, too: the **demonstrations**. The paper adds a **bonus** c to the
-# reward of each demonstrated second.
+# Now a learner learns from the rule's drives, too: the **demonstrations**. The paper adds a **bonus** c to
+# the reward of each demonstrated second.
 #
-# In which seconds is the rest of the rule's drive worth less than staying behind? **Drag** c up to 2: what changes?
+# In which seconds is the rest of the rule's drive worth less than staying behind? **Drag** c up to 2: what
+# changes?
 
 # %%
 bc.panels.bonus_panel(c=0)
 
 # %% [markdown]
-# *In its first 10 seconds clearly, in {{ (bonus_needed()[10:] > 0).sum() }} more by a hair. With c = {{
-# bonus_needed().max() | .3f }} or
-# more it is worth more in every second.* The
-# paper's c = {{ SETTINGS.bonus | g }} is more than thirty times as much. Paid each second, it adds c / (1 −
-# γ) = {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} (γ = {{ SETTINGS.gamma }}): as much as an accident
-# costs. No drive without a bonus is worth even {{ 1 / (1 - SETTINGS.gamma) | .0f }}. The learner's own
-# seconds get no bonus. What does so large a bonus do to the learner?
+# *In its first 10 seconds clearly, in {{ (bonus_needed()[10:] > 0).sum() }} more by a hair. With c =
+# {{ bonus_needed().max() | .3f }} or more it is worth more in every second.* The paper's c =
+# {{ SETTINGS.bonus | g }} is more than thirty times as much. Paid each second, it adds c / (1 − γ) =
+# {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} (γ = {{ SETTINGS.gamma }}): as much as an accident costs.
+# No drive without a bonus is worth even {{ 1 / (1 - SETTINGS.gamma) | .0f }}. The learner's own seconds get
+# no bonus. What does so large a bonus do to the learner?
 # <!-- claim: max(by_rule().rewards.max(), idle().rewards.max()) < 1 -->
 # <!-- claim: discounted(by_rule(), SETTINGS.gamma) < discounted(idle(), SETTINGS.gamma) -->
 # <!-- claim: SETTINGS.bonus > 30 * bonus_needed().max() and (bonus_needed()[:10] > 0).all() and
@@ -66,8 +66,8 @@ bc.panels.bonus_panel(c=0)
 # <!-- claim: math.isclose(SETTINGS.bonus / (1 - SETTINGS.gamma), -DEFAULT.reward.accident) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Let them drag γ towards 1 as well: the rule's drive needs no bonus then. Ask why the learner does
-# not take such a γ (lesson [[the_trap]]).
+# Let them drag γ towards 1 as well: the rule's drive needs no bonus then. Ask why the learner does not take
+# such a γ (lesson [[the_trap]]).
 
 # %% [markdown]
 # ## Round 1: how do the rule's actions reach the policy?
@@ -92,13 +92,13 @@ for loss in (bc.sac.critic_loss, bc.sac.actor_loss, bc.sac.temperature_loss):
     print(f"{loss.__name__} reads {', '.join(inspect.signature(loss).parameters)}")
 
 # %% [markdown]
-# **Explain.** Through the critics' Q: only their loss reads a row's action (`q_taken`) and its
-# reward with the bonus (`target`). An action that they value more becomes more probable.
+# **Explain.** Through the critics' Q: only their loss reads a row's action (`q_taken`) and its reward with
+# the bonus (`target`). An action that they value more becomes more probable.
 #
 # **Exercise (20 min, ●●●).** Write the mixed batch. Draw `round(beta * size)` rows from the table of
 # demonstrations, uniformly with replacement, and the others from your own replay buffer,
-# `own.sample(n, rng)`. Raise each demonstration's reward by the bonus, but do not change the table.
-# Return the rows, and a mark for each: 1 for a demonstration, else 0.
+# `own.sample(n, rng)`. Raise each demonstration's reward by the bonus, but do not change the table. Return
+# the rows, and a mark for each: 1 for a demonstration, else 0.
 
 # %%
 REWARD = -4  # the column of a row that holds the reward
@@ -115,9 +115,9 @@ def mixed_batch(own, demonstrations, size, beta, bonus, rng):
 check.mixed_batch(mixed_batch)
 
 # %% [markdown] tags=["instructor"] minutes=5
-# SQIL (Reddy et al.) pays 1 for demonstrations, 0 for everything else, and does not use the road's
-# reward. Ask how much of its argument applies here: with c = 2 and rewards below 1, most of it. A
-# good question is what a bonus on *all* rows would do: it pays for each second without an accident.
+# SQIL (Reddy et al.) pays 1 for demonstrations, 0 for everything else, and does not use the road's reward.
+# Ask how much of its argument applies here: with c = 2 and rewards below 1, most of it. A good question is
+# what a bonus on *all* rows would do: it pays for each second without an accident.
 # <!-- claim: SETTINGS.bonus == 2 and max(map(second_pays, np.arange(0, 25, 0.1))) < 1 -->
 
 # %% [markdown]
@@ -142,8 +142,8 @@ own_code.load()
 own_code.compare()
 
 # %% [markdown]
-# If a part differs, mend it and run both cells again. Then train two agents with the soft constraint,
-# one with demonstrations and one without. Watch whose success rises first; then look how the one with
+# If a part differs, mend it and run both cells again. Then train two agents with the soft constraint, one
+# with demonstrations and one without. Watch whose success rises first; then look how the one with
 # demonstrations drives.
 #
 # > **Predict.** Counted in its own episodes, does an agent find the way out sooner with demonstrations?
@@ -164,8 +164,8 @@ drive = bc.record(yours[0].as_policy(), [10], label="bootstrapped")[0]
 bc.recording([shipped.beginning(drive, 60)], height=480)
 
 # %% [markdown]
-# The study has ten agents of each kind; ten others have other seeds, another implementation and twice
-# the episodes:
+# The study has ten agents of each kind; ten others have other seeds, another implementation and twice the
+# episodes:
 # <!-- claim: others('soft').sizes[1] == 2 * of('soft').sizes[1] -->
 
 # %%
@@ -177,21 +177,20 @@ table(measures.FOUND, measures.found_and_escaped(kinds), below)
 
 # %% [markdown]
 # **See.** *With demonstrations and c = {{ SETTINGS.bonus | g }} each of the twenty found the way out before
-# any of the twenty without*, in the median about {{ round(np.median(found('none')) - np.median(found('c =
-# 2')), -1) | .0f }} episodes of their own sooner; with the rule's {{ SETTINGS.demonstration_episodes }}
-# counted, about {{ round(np.median(found('c = 2')) + SETTINGS.demonstration_episodes -
-# np.median(found('none')), -1) | .0f }} later. Without the bonus most of this lead remains.
+# any of the twenty without*, in the median about
+# {{ round(np.median(found('none')) - np.median(found('c = 2')), -1) | .0f }} episodes of their own sooner;
+# with the rule's {{ SETTINGS.demonstration_episodes }} counted, about
+# {{ round(np.median(found('c = 2')) + SETTINGS.demonstration_episodes - np.median(found('none')), -1) | .0f }}
+# later. Without the bonus most of this lead remains.
 # <!-- claim: np.median(found('none')) - np.median(found('c = 0')) > 3 *
 #   (np.median(found('c = 0')) - np.median(found('c = 2'))) > 0 -->
 # <!-- claim: len(found('c = 2')) == len(found('none')) == 20 and found('c = 2').max() <
 #   found('none').min() and (found('c = 0') < found('none').min()).sum() >= 19 -->
 #
-# *Not that more escape in the end*: {{ in_all('none') }} do in each row. *While β falls to 0, the rule's own drives
-# do not replace the soft constraint* (last column). If β stays at {{
-# SETTINGS.beta_start }} (c = {{ SETTINGS.bonus | g }}), {{ staying(1) }} escape without it and {{ staying(0) }} with
-# it,
-# but most are slow. Drives by π̃
-# can replace it (lesson [[found_and_kept]]).
+# *Not that more escape in the end*: {{ in_all('none') }} do in each row. *While β falls to 0, the rule's own
+# drives do not replace the soft constraint* (last column). If β stays at {{ SETTINGS.beta_start }} (c =
+# {{ SETTINGS.bonus | g }}), {{ staying(1) }} escape without it and {{ staying(0) }} with it, but most are
+# slow. Drives by π̃ can replace it (lesson [[found_and_kept]]).
 # <!-- claim: in_all('c = 2') == in_all('c = 0') == in_all('none') == '16 of 20' -->
 # <!-- claim: all(stats.mannwhitneyu(earned('none'), earned(name)).pvalue > 0.1 for name in
 #   ('c = 2', 'c = 0', 'margin')) -->
@@ -203,8 +202,8 @@ table(measures.FOUND, measures.found_and_escaped(kinds), below)
 #   -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Put the box on the wall. While the agents train, ask of each of its six lines: what happens without
-# it? Some of these are experiments of the study (lesson [[found_and_kept]]).
+# Put the box on the wall. While the agents train, ask of each of its six lines: what happens without it? Some
+# of these are experiments of the study (lesson [[found_and_kept]]).
 
 # %% [markdown]
 # ## Round 3: what does the bonus cost?
@@ -226,24 +225,21 @@ groups = measures.paid_until(bc.shipped_results(), changed)
 bc.show(figures.returns(groups, measures.others_of(groups, others)))
 
 # %% [markdown]
-# **See.** *Until episode 500 the return stays near the rule's: the bonus pays for the rule's speed.* From episode
-# 300 to 500 the ten on the left drive {{ training('c = 2', 'speed', 300, 500).mean() | .1f }}
-# m/s, the rule {{ of('rule').scores('speed').mean() | .1f }}. A
-# second at 15 m/s earns {{ second_pays(15) - second_pays(12) | .1f }} more than one at 12, but a demonstrated
-# second pays a bonus of {{ SETTINGS.bonus | g }}. So from 300 to 600 each of the ten earns less than each of the
-# other twenty. (Paid for ever, the bonus slows them, but does not hold them: {{ above_the_rule() }} of 20 end above
-# the
-# rule.)
+# **See.** *Until episode 500 the return stays near the rule's: the bonus pays for the rule's speed.* From
+# episode 300 to 500 the ten on the left drive {{ training('c = 2', 'speed', 300, 500).mean() | .1f }} m/s,
+# the rule {{ of('rule').scores('speed').mean() | .1f }}. A second at 15 m/s earns
+# {{ second_pays(15) - second_pays(12) | .1f }} more than one at 12, but a demonstrated second pays a bonus of
+# {{ SETTINGS.bonus | g }}. So from 300 to 600 each of the ten earns less than each of the other twenty. (Paid
+# for ever, the bonus slows them, but does not hold them: {{ above_the_rule() }} of 20 end above the rule.)
 # <!-- claim: training('c = 2', 'return', 300, 600).max() < min(training(name, 'return', 300,
 #   600).min() for name in ('300', 'c = 0')) -->
 # <!-- claim: abs(training('c = 2', 'return', 300, 600).mean() -
 #   of('rule').scores('returns').mean()) < 5 -->
 #
-# *It puts off a fall in success* (lower row), from near episode 475 to near 1,000. Whether fewer succeed in the end
-# is
-# open: in episodes 1,900 to 2,000 {{ last_success('c = 2', False) }} % with c = 2 and {{ last_success('c = 0',
-# False) }} %
-# with c = 0, but of the ten others' {{ last_success('c = 2', True) }} % and {{ last_success('c = 0', True) }} %.
+# *It puts off a fall in success* (lower row), from near episode 475 to near 1,000. Whether fewer succeed in
+# the end is open: in episodes 1,900 to 2,000 {{ last_success('c = 2', False) }} % with c = 2 and
+# {{ last_success('c = 0', False) }} % with c = 0, but of the ten others' {{ last_success('c = 2', True) }} %
+# and {{ last_success('c = 0', True) }} %.
 # <!-- claim: all(training('c = 2', 'success', 300, 600, which).mean() > training('c = 0', 'success', 300,
 #   600, which).mean() + 0.05 and stats.mannwhitneyu(training('c = 2', 'success', 300, 600, which),
 #   training('c = 0', 'success', 300, 600, which)).pvalue < 0.01 for which in (False, True)) -->
@@ -263,9 +259,9 @@ bc.show(figures.returns(groups, measures.others_of(groups, others)))
 bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)
 
 # %% [markdown] tags=["instructor"] minutes=4
-# The bonus buys some {{ round(np.median(found('c = 0')) - np.median(found('c = 2')), -1) | .0f }}
-# episodes at the start and a safer middle, and costs return for hundreds of episodes. Ask for a
-# schedule of c that has all three, and let a group try it in the panel.
+# The bonus buys some {{ round(np.median(found('c = 0')) - np.median(found('c = 2')), -1) | .0f }} episodes at
+# the start and a safer middle, and costs return for hundreds of episodes. Ask for a schedule of c that has
+# all three, and let a group try it in the panel.
 
 # %% [markdown]
 # ## Round 4: where can a margin teach?
@@ -281,15 +277,15 @@ by_rule = bc.record(bc.rule_policy(bc.DEFAULT), [10], label="rule")[0]
 explorable.nine_values(yours[0], by_rule, seconds=20)
 
 # %% [markdown]
-# *In place of the bonus* the paper also tries a loss: the demonstrated action $a_E$ is to lead every
-# other by a **margin** of {{ settings_for('margin').margin | .0f }}. **Drag** the margin: the loss is the
-# distance between the dashed lines.
+# *In place of the bonus* the paper also tries a loss: the demonstrated action $a_E$ is to lead every other by
+# a **margin** of {{ settings_for('margin').margin | .0f }}. **Drag** the margin: the loss is the distance
+# between the dashed lines.
 #
 # $$ J_E(Q) = \max_a \big[ Q(s,a) + l(a_E, a) \big] - Q(s,a_E), \qquad
 # l = 0 \text{ for } a_E, \text{ else } 1 $$
 #
-# It pushes the coloured bar up and the *best other* down, until the lead is the margin. (Your agent's Q has been
-# taught with the bonus.)
+# It pushes the coloured bar up and the *best other* down, until the lead is the margin. (Your agent's Q has
+# been taught with the bonus.)
 # <!-- claim: bool(bootstrap.large_margin_loss(torch.tensor([[3.0, 2.0, 0.0]]), torch.tensor([0]))
 #   == 0) -->
 #
@@ -309,8 +305,8 @@ def large_margin_loss(q, expert_action):
 check.large_margin_loss(large_margin_loss)
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Three bars for Q on the board, the margin on top of two of them. Let the class say for each of the
-# three actions as the expert's which bar is pushed, and in which direction.
+# Three bars for Q on the board, the margin on top of two of them. Let the class say for each of the three
+# actions as the expert's which bar is pushed, and in which direction.
 
 # %% [markdown]
 # > **Predict.** The paper's **Q-filter** counts this loss only where $Q(s,a_E) \ge \max_a Q(s,a)$. Where
@@ -326,11 +322,12 @@ loss = own_code.yours_or_ours("large_margin_loss", doing="Judging")
 table(measures.PUSHED, measures.pushed(loss, yours[0], by_rule, seconds=20))
 
 # %% [markdown]
-# **See.** *Where it leads by less than 1.* The filter drops each state in which another action comes
-# first: where the rule is worse, but also where the critic errs.
+# **See.** *Where it leads by less than 1.* The filter drops each state in which another action comes first:
+# where the rule is worse, but also where the critic errs.
 #
-# Whether this loss helps is open. With soft constraint and demonstrations, but no bonus, {{ in_all('margin') }}
-# escape with this loss, and {{ in_all('c = 0') }} without it (all of the study's ten, 6 of ten others).
+# Whether this loss helps is open. With soft constraint and demonstrations, but no bonus,
+# {{ in_all('margin') }} escape with this loss, and {{ in_all('c = 0') }} without it (all of the study's ten,
+# 6 of ten others).
 # <!-- claim: settings_for('margin_soft').bonus == 0 and settings_for('margin_soft').paper_q_filter
 #   and settings_for('margin_soft').xi_multiplier == settings_for('soft').xi_multiplier > 0 -->
 # <!-- claim: in_all('margin') == '10 of 10' == of_the_study('c = 0') and in_all('c = 0') == '16 of 20' -->
@@ -351,13 +348,13 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. A share β of each batch is the rule's, and falls to 0. Its actions reach the policy through the
-#    critics' Q.
-# 2. With demonstrations these agents found the way out after fewer episodes of their own; that more
-#    escape in the end is not shown.
-# 3. The bonus pays for what the rule does, its speed included. Until episode 500 these agents earned
-#    about what the rule earns, and nearly all their drives succeeded; near 1,000 their success fell, with c = 0
-# near 475.
+# 1. A share β of each batch is the rule's, and falls to 0. Its actions reach the policy through the critics'
+#    Q.
+# 2. With demonstrations these agents found the way out after fewer episodes of their own; that more escape in
+#    the end is not shown.
+# 3. The bonus pays for what the rule does, its speed included. Until episode 500 these agents earned about
+#    what the rule earns, and nearly all their drives succeeded; near 1,000 their success fell, with c = 0
+#    near 475.
 # 4. The paper's filter drops the margin loss where another action comes first.
 
 # %% [markdown]
@@ -366,29 +363,27 @@ compare_predictions(
 # - Where would you pay the bonus, so that it holds no agent back?
 # - In which states would you count the margin loss?
 #
-# **Read on**: [the next lesson](how_many_seeds.ipynb). Hester et al. (arXiv 1704.03732): margins.
-# Nair et al. (arXiv 1709.10089): the usual Q-filter. Reddy et al. (arXiv 1905.11108): a bonus in place of
-# the reward. Ball et al. (arXiv 2302.02948): prior data in half of each batch, no bonus.
+# **Read on**: [the next lesson](how_many_seeds.ipynb). Hester et al. (arXiv 1704.03732): margins. Nair et al.
+# (arXiv 1709.10089): the usual Q-filter. Reddy et al. (arXiv 1905.11108): a bonus in place of the reward.
+# Ball et al. (arXiv 2302.02948): prior data in half of each batch, no bonus.
 
 # %% [markdown] tags=["instructor"] minutes=2
-# *Answers to the three questions.* **c for γ = 0.95:** the rule's drive has to be worth more than
-# staying behind, at each second; the first panel shows the smallest such c when you drag γ. A
-# little more than that is enough. And c / (1 − γ) should stay below what an accident costs, or a
-# demonstrated drive that crashes may be worth more than one without bonus and accident: with γ =
-# 0.95, c below 0.5. **Where to pay:** on the free road the rule keeps its moderate speed and is
-# paid c for it, so the critic values the rule's speed above a higher one by up to c / (1 − γ), more
-# than a higher speed can earn there. A bonus for the way out alone (until trap 1 is passed) would
-# not have this effect. **The filter:** the usual one (Nair et al.; `paper_q_filter=False`) asks
-# that $Q(s,a_E)$ exceed the mean Q of the policy's actions. So it is on also where another action
-# comes first and the demonstrated one is above the mean. No agent of the study uses it. (In the paper's
-# own, ≥ means =: no action's Q exceeds the largest.)
+# *Answers to the three questions.* **c for γ = 0.95:** the rule's drive has to be worth more than staying
+# behind, at each second; the first panel shows the smallest such c when you drag γ. A little more than that
+# is enough. And c / (1 − γ) should stay below what an accident costs, or a demonstrated drive that crashes
+# may be worth more than one without bonus and accident: with γ = 0.95, c below 0.5. **Where to pay:** on the
+# free road the rule keeps its moderate speed and is paid c for it, so the critic values the rule's speed
+# above a higher one by up to c / (1 − γ), more than a higher speed can earn there. A bonus for the way out
+# alone (until trap 1 is passed) would not have this effect. **The filter:** the usual one (Nair et al.;
+# `paper_q_filter=False`) asks that $Q(s,a_E)$ exceed the mean Q of the policy's actions. So it is on also
+# where another action comes first and the demonstrated one is above the mean. No agent of the study uses it.
+# (In the paper's own, ≥ means =: no action's Q exceeds the largest.)
 # <!-- claim: 0.5 / (1 - 0.95) <= -DEFAULT.reward.accident + 1e-9 -->
 # <!-- claim: settings_for('margin').paper_q_filter and settings_for('margin_soft').paper_q_filter
 #   -->
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** One batch of 64 as a row of boxes, the demonstrated ones shaded, and how many
-# are shaded after 0, 500 and 1,000 episodes.
+# **On the board.** One batch of 64 as a row of boxes, the demonstrated ones shaded, and how many are shaded
+# after 0, 500 and 1,000 episodes.
 #
-# **To discuss.** The bonus pays for *who* acted, not for what happened. Where else do rewards do
-# that?
+# **To discuss.** The bonus pays for *who* acted, not for what happened. Where else do rewards do that?

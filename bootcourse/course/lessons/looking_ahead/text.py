@@ -18,8 +18,8 @@
 # - test two explanations of how a stuck agent gets out;
 # - find out what a wrong model, or a learned one, does not know.
 #
-# **Time** 45 minutes; running it takes about half a minute. **It builds on** the rule (lesson
-# [[the_rule]]), the barrier ([[the_barrier]]) and the second trap ([[the_second_trap]]).
+# **Time** 45 minutes; running it takes about half a minute. **It builds on** the rule (lesson [[the_rule]]),
+# the barrier ([[the_barrier]]) and the second trap ([[the_second_trap]]).
 
 # %%
 import bootcourse as bc
@@ -43,8 +43,8 @@ progress("looking_ahead")
 # %% [markdown]
 # ## Look first
 #
-# Of the five agents of the paper's method that ship, this one crashes most. It drives on 40
-# roads; the replay shows its first collision.
+# Of the five agents of the paper's method that ship, this one crashes most. It drives on 40 roads; the replay
+# shows its first collision.
 # <!-- claim: five_accidents()[0] > 4 * sorted(five_accidents())[-2] -->
 
 # %%
@@ -59,8 +59,8 @@ bc.recording([drive], height=360)
 # %% [markdown]
 # ## Round 1: nine futures
 #
-# The road is a program that can begin in any state. So at each decision you can copy it nine times,
-# take another action on each copy, and let the agent drive on.
+# The road is a program that can begin in any state. So at each decision you can copy it nine times, take
+# another action on each copy, and let the agent drive on.
 #
 # > **Predict.** The drive above ends just after its {{ len(ways_out()) }}th decision. You may change
 # > *one*; after it the agent drives on. At which is the last one that
@@ -82,15 +82,14 @@ explorable.futures(drive, agent.as_policy())
 #
 # $$ \hat Q(s, a) = \sum_{k=0}^{h-1} \gamma^k r_k + \gamma^h\, W(v_h) $$
 #
-# The **horizon** h is the number of decisions in the drive, the first included. An accident ends the
-# sum (but `step` drives on: remember who has crashed). Otherwise W follows: the return of an episode on an
-# empty road that begins at the last speed,
-# {{ worths().min() | .0f }} to {{ worths().max() | .0f }}. Here γ = 1. W is far more
-# than ten decisions can earn, so a drive without an accident is worth more than one with.
+# The **horizon** h is the number of decisions in the drive, the first included. An accident ends the sum (but
+# `step` drives on: remember who has crashed). Otherwise W follows: the return of an episode on an empty road
+# that begins at the last speed, {{ worths().min() | .0f }} to {{ worths().max() | .0f }}. Here γ = 1. W is
+# far more than ten decisions can earn, so a drive without an accident is worth more than one with.
 #
 # **Exercise (18 min, ●●●).** Write $\hat Q$ for all nine actions and many roads at once. You have
-# - `imagined_road.step(cars, actions)`: one decision. It returns the next cars, the rewards, and
-#   whether this decision ended in an accident;
+# - `imagined_road.step(cars, actions)`: one decision. It returns the next cars, the rewards, and whether this
+#   decision ended in an accident;
 # - `policy(cars)`: the actions of the base policy, the driver whose drives are imagined;
 # - `worth(speeds)`: W. The ego's speed is `cars[:, 0, 3]`.
 
@@ -108,14 +107,13 @@ def rollout_values(cars, policy, horizon, gamma, worth):
 check.rollout_values(rollout_values)
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Let somebody draw the nine drives as a tree before anybody writes code. Where is the agent asked,
-# and about which cars? Two wrong answers to discuss ask it about the real road, or hold the action
-# for all ten seconds. Ask why W has to be there: without it, what would the best action be just
-# before the horizon?
+# Let somebody draw the nine drives as a tree before anybody writes code. Where is the agent asked, and about
+# which cars? Two wrong answers to discuss ask it about the real road, or hold the action for all ten seconds.
+# Ask why W has to be there: without it, what would the best action be just before the horizon?
 
 # %% [markdown]
-# The **look-ahead** takes the best of the nine at each decision. Let the agent do so by your values,
-# ten decisions ahead.
+# The **look-ahead** takes the best of the nine at each decision. Let the agent do so by your values, ten
+# decisions ahead.
 
 # %%
 values_of = own_code.yours_or_ours("rollout_values", doing="Driving")
@@ -130,9 +128,9 @@ bc.recording(beginning(again, 40), height=360, futures=agent.as_policy())
 # %% [markdown]
 # In the replay the broad line is the imagined drive whose action was taken.
 #
-# **See.** The study has ten such agents. Each crashes less and earns more with the look-ahead: {{
-# accidents('bootstrapped', 'alone') | , }} of {{ drives('bootstrapped', 'alone') | , }} drives alone
-# end in an accident, {{ accidents('bootstrapped') | , }} with it.
+# **See.** The study has ten such agents. Each crashes less and earns more with the look-ahead:
+# {{ accidents('bootstrapped', 'alone') | , }} of {{ drives('bootstrapped', 'alone') | , }} drives alone end
+# in an accident, {{ accidents('bootstrapped') | , }} with it.
 # <!-- claim: (each('bootstrapped', 'rollouts', 'returns') > each('bootstrapped', 'alone',
 #   'returns')).all() -->
 # <!-- claim: (each('bootstrapped', 'rollouts', 'accidents') < each('bootstrapped', 'alone',
@@ -145,7 +143,8 @@ bc.recording(beginning(again, 40), height=360, futures=agent.as_policy())
 #
 # Of the study's ten plain SAC agents nine stay behind the traps. We imagined all nine futures at
 # {{ len(trapped_futures()) | , }} of their decisions there:
-# {{ 'none' if not trapped_futures().any() else trapped_futures().sum() }} is ahead of trap 1 after ten seconds.
+# {{ 'none' if not trapped_futures().any() else trapped_futures().sum() }} is ahead of trap 1 after ten
+# seconds.
 # <!-- claim: trapped_futures().shape[1] == 9 -->
 # <!-- claim: (lambda s: (s < 0.01).sum() == 9 and len(s) == 10)(outs('sac', 'alone')) -->
 #
@@ -172,8 +171,8 @@ bc.show(figures.each_agent(study, "sac"))
 # <!-- claim: (outs('sac', 'alone')[less_safe('sac')] < 0.01).all() and less_safe('sac').any() -->
 # <!-- claim: 0 < led_out(1.0, True) < 9 -->
 #
-# Is it W that leads them out, or γ = 1? The agent's own Q has γ = 0.8 and no W. Give your function one,
-# both or neither: it drives the first of the nine on ten roads.
+# Is it W that leads them out, or γ = 1? The agent's own Q has γ = 0.8 and no W. Give your function one, both
+# or neither: it drives the first of the nine on ten roads.
 # <!-- claim: settings_for('sac').gamma == 0.8 and outs('sac', 'alone')[0] < 0.01 -->
 
 # %%
@@ -188,23 +187,23 @@ drivers = {name: imagined_road.driver(values_of, stuck, 10, *aim) for name, aim 
 table(*figures.out_of_trap(drivers, roads[:10], study))
 
 # %% [markdown]
-# **See.** (*Led out*: in more than a tenth of its drives.) With neither, {{ led_out(0.8, False) }} of the nine are
-# led
-# out: the chain of decisions does it. *Open* is whether W or γ = 1 adds to it: with both five get out more often than
-# with neither, and three less. But nearly all the crashes are with both: *out* is not *better*.
+# **See.** (*Led out*: in more than a tenth of its drives.) With neither, {{ led_out(0.8, False) }} of the
+# nine are led out: the chain of decisions does it. *Open* is whether W or γ = 1 adds to it: with both five
+# get out more often than with neither, and three less. But nearly all the crashes are with both: *out* is not
+# *better*.
 # <!-- claim: (with_aim(1.0, True) > 0).sum() == 5 and (with_aim(1.0, True) < 0).sum() == 3 and
 #   aim(1.0, True, 'returns').mean() < aim(0.8, False, 'returns').mean() -->
 #
-# **Explain.** The look-ahead changes *one* decision; after it the base policy drives, and would turn back. So a step
-# on the way out is taken only if it pays within ten seconds, or, with W, leaves the car faster.
+# **Explain.** The look-ahead changes *one* decision; after it the base policy drives, and would turn back. So
+# a step on the way out is taken only if it pays within ten seconds, or, with W, leaves the car faster.
 #
-# Rollouts to the episode's end (true road, γ = 1, no W) would promise at least the base's return:
-# **policy improvement**. Ten decisions do not promise it: a drive can be lost after them.
+# Rollouts to the episode's end (true road, γ = 1, no W) would promise at least the base's return: **policy
+# improvement**. Ten decisions do not promise it: a drive can be lost after them.
 
 # %% [markdown] tags=["instructor"] minutes=4
-# *The proof of policy improvement*, where neither road nor policy draws. Let π be the base, T the
-# end of the episode, $V^\pi_t$ what π earns from decision t on, and $Q^\pi_t(s, a)$ the same after
-# the action a. π′ takes the best action by $Q^\pi_t$.
+# *The proof of policy improvement*, where neither road nor policy draws. Let π be the base, T the end of the
+# episode, $V^\pi_t$ what π earns from decision t on, and $Q^\pi_t(s, a)$ the same after the action a. π′
+# takes the best action by $Q^\pi_t$.
 # 1. The best of nine is at least the policy's own: $\max_a Q^\pi_t(s, a) \ge V^\pi_t(s)$.
 # 2. At the last decision π′ earns $\max_a Q^\pi_{T-1}(s, a)$, so $V^{\pi'}_{T-1} \ge V^\pi_{T-1}$.
 # 3. Assume $V^{\pi'}_{t+1} \ge V^\pi_{t+1}$ in all states.
@@ -212,15 +211,15 @@ table(*figures.out_of_trap(drivers, roads[:10], study))
 # 5. By line 3 this is at least $r + V^\pi_{t+1}(s') = Q^\pi_t(s, a^*)$.
 # 6. By line 1 that is at least $V^\pi_t(s)$. By induction it holds for all t.
 #
-# Ask for the state in which the rollouts of plain SAC *should* show the way out, and which sequence
-# of actions they would have to try. Count: nine to the power of how many? The planner of the course
-# searches sequences, keeps 200 of them, and takes a hundred times as long.
+# Ask for the state in which the rollouts of plain SAC *should* show the way out, and which sequence of
+# actions they would have to try. Count: nine to the power of how many? The planner of the course searches
+# sequences, keeps 200 of them, and takes a hundred times as long.
 
 # %% [markdown]
 # ## Round 3: a shield, and a model that is wrong
 #
-# The **shield** follows the base policy, and takes the best of the nine only where the imagined drive of
-# the policy's *own* action ends in an accident.
+# The **shield** follows the base policy, and takes the best of the nine only where the imagined drive of the
+# policy's *own* action ends in an accident.
 #
 # **Exercise (8 min, ●●○).** Write the shield for many roads at once.
 
@@ -259,12 +258,12 @@ bc.show(figures.wrong_models(study))
 
 # %% [markdown]
 # **See.** With everything a second late all {{ drives('ppo_cloned', model=LATE) | , }} drives with the
-# look-ahead end in an accident, nearly all with the shield. The look-ahead crashes more often than PPO alone with
-# {{ worse_than_alone('ppo_cloned', 'rollouts') }} of the six errors, the shield
-# with {{ worse_than_alone('ppo_cloned', 'shield') }}. Round 1's agents crash less with five of the six, on average:
-# {{
-# min(wrong_but_late()) | .0f }} to {{ max(wrong_but_late()) | .0f }} in 1,000 drives, {{
-# per_thousand('bootstrapped', 'alone') | .0f }} alone. But with noise {{ more_with(NOISE) }} of the ten crash more.
+# look-ahead end in an accident, nearly all with the shield. The look-ahead crashes more often than PPO alone
+# with {{ worse_than_alone('ppo_cloned', 'rollouts') }} of the six errors, the shield with
+# {{ worse_than_alone('ppo_cloned', 'shield') }}. Round 1's agents crash less with five of the six, on
+# average: {{ min(wrong_but_late()) | .0f }} to {{ max(wrong_but_late()) | .0f }} in 1,000 drives,
+# {{ per_thousand('bootstrapped', 'alone') | .0f }} alone. But with noise {{ more_with(NOISE) }} of the ten
+# crash more.
 # <!-- claim: max(wrong_but_late()) < per_thousand('bootstrapped', 'alone') and len(wrong_but_late()) == 5 -->
 # <!-- claim: accidents('ppo_cloned') == accidents('ppo_cloned', 'shield') == 0 -->
 # <!-- claim: accidents('ppo_cloned', model=LATE) == drives('ppo_cloned', model=LATE) -->
@@ -274,17 +273,17 @@ bc.show(figures.wrong_models(study))
 #   in WRONG if m != LATE) and per_thousand('ppo_cloned', 'shield', LATE) > 990 and len(WRONG) == 6 and
 #   len(each('ppo_cloned', 'alone', 'roads')) == 10 -->
 #
-# **Explain.** Is it the lost second? With only *the others* a second late {{
-# per_thousand('ppo_cloned', model='the others a second late') | .0f }} in 1,000 drives end in an accident. Move
-# the whole late road on by one second: if the ego in it keeps straight, {{ moved_on(False).sum() }} of {{
-# len(moved_on(False)) }} drives crash (five agents); if it repeats the car's own last action, {{
-# 'none' if not moved_on(True).any() else moved_on(True).sum() }} does. The late road lacked the car's own last
-# action.
+# **Explain.** Is it the lost second? With only *the others* a second late
+# {{ per_thousand('ppo_cloned', model='the others a second late') | .0f }} in 1,000 drives end in an accident.
+# Move the whole late road on by one second: if the ego in it keeps straight, {{ moved_on(False).sum() }} of
+# {{ len(moved_on(False)) }} drives crash (five agents); if it repeats the car's own last action,
+# {{ 'none' if not moved_on(True).any() else moved_on(True).sum() }} does. The late road lacked the car's own
+# last action.
 # <!-- claim: moved_on(False).all() and not moved_on(True).any() -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Which errors can a car measure while it drives? It can compare what it imagined a second ago with
-# what came. Ask how it should act when the two differ.
+# Which errors can a car measure while it drives? It can compare what it imagined a second ago with what came.
+# Ask how it should act when the two differ.
 
 # %% [markdown]
 # ## Round 4: a model that is learned
@@ -292,8 +291,8 @@ bc.show(figures.wrong_models(study))
 # A car has no simulator, but it has its own drives. From an observation and an action five small networks
 # learn the next observation, the reward, and whether an accident ends the drive.
 #
-# Our agent learns such a model from 200 of its drives. The figure shows where the model first
-# misleads the look-ahead on Round 1's drive.
+# Our agent learns such a model from 200 of its drives. The figure shows where the model first misleads the
+# look-ahead on Round 1's drive.
 
 # %% tags=["nbval-ignore-output"]
 own_drives = transitions_of(agent.as_policy(), bc.held_out_seeds(41, 200))
@@ -301,13 +300,13 @@ learned = learned_from(own_drives, updates=500)
 bc.show(figures.promised(agent, learned, drive, alone[:10]))
 
 # %% [markdown]
-# **See.** The model does not expect the accidents in red. The last line counts the decisions of ten drives that
-# had a safe action: the model's best of nine ends in an accident nearly as often as an action drawn at random, and
-# far more often than the agent's own.
+# **See.** The model does not expect the accidents in red. The last line counts the decisions of ten drives
+# that had a safe action: the model's best of nine ends in an accident nearly as often as an action drawn at
+# random, and far more often than the agent's own.
 # <!-- claim: 2 * misled()[2] < misled()[0] and 0.7 * misled()[1] < misled()[0] < misled()[1] -->
 #
-# When ten agents look ahead, each in its own model, all {{ learned_drives() | , }} drives end in an
-# accident; with the shield {{ learned('shield')[0] | .0f }} do, alone
+# When ten agents look ahead, each in its own model, all {{ learned_drives() | , }} drives end in an accident;
+# with the shield {{ learned('shield')[0] | .0f }} do, alone
 # {{ per_thousand('bootstrapped', 'alone') | .0f }}.
 # <!-- claim: (learned_model.per_thousand(learning(), 'mean of five')[:, 0] == 1000).all() and
 #   len(learning()) == 10 and learned_model.DRIVES == 200 -->
@@ -330,27 +329,27 @@ predicted("looking_ahead.4")
 bc.show(figures.learned(shipped_experiment("learned-model"), study))
 
 # %% [markdown]
-# **See.** More of the agent's own drives do not help, random actions do. The look-ahead's drives
-# helped these ten agents most on average ({{ own_better(0.1) }} crash less than with a tenth random,
-# {{ own_better(0.3) }} than with three tenths): too few to be sure.
+# **See.** More of the agent's own drives do not help, random actions do. The look-ahead's drives helped these
+# ten agents most on average ({{ own_better(0.1) }} crash less than with a tenth random, {{ own_better(0.3) }}
+# than with three tenths): too few to be sure.
 # <!-- claim: learned_without('mean of five') == 1000 and learned('mean of five')[-1] < 0.6 *
 #   learned_without('mean of five', share=0.1) and learned('mean of five')[-1] < 0.6 *
 #   learned_without('mean of five', share=0.3) and all(learned_without('mean of five', share=share) <
 #   800 for share in learned_model.RANDOM) -->
 # <!-- claim: learned_model.RANDOM == (0.1, 0.3) -->
 #
-# **Explain.** The agent takes its most probable action, so its drives show about one action in each
-# state; about the other eight the model guesses. The look-ahead's drives also hold more decisions than
-# the random ones. But the agent's own hold the most, and help least.
+# **Explain.** The agent takes its most probable action, so its drives show about one action in each state;
+# about the other eight the model guesses. The look-ahead's drives also hold more decisions than the random
+# ones. But the agent's own hold the most, and help least.
 # <!-- claim: all((learned_rows() > learned_rows(share)).all() for share in learned_model.RANDOM) and
 #   learning().measured['rows'].mean() > learned_rows().mean() -->
 #
-# Even so {{ still_worse() }} of the ten crash more than *they themselves* do alone (the dashed line is the mean of
-# all).
+# Even so {{ still_worse() }} of the ten crash more than *they themselves* do alone (the dashed line is the
+# mean of all).
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Ask what an honest learned model would have to say besides a number: how sure it is. Five networks
-# that agree can be wrong together, where none of them has a row.
+# Ask what an honest learned model would have to say besides a number: how sure it is. Five networks that
+# agree can be wrong together, where none of them has a row.
 
 # %%
 compare_predictions(
@@ -368,13 +367,12 @@ compare_predictions(
 #
 # 1. A rollout takes one action, follows a policy, and adds an estimate of what comes after.
 # 2. The best of nine changes one decision, without training. No future tried led a stuck agent out within ten
-#    seconds;
-#    a chain of such decisions led some out.
-# 3. With a wrong model agents that rarely crash alone have more to lose: four of the six errors make PPO's crash
-#    more, on average one makes Round 1's. A road that is late in everything harms because the car's own last action
-#    is missing.
-# 4. Random actions in its drives help a learned model, the look-ahead's own drives perhaps more. Even then {{
-#    still_worse() }} of ten crash more than they do alone.
+#    seconds; a chain of such decisions led some out.
+# 3. With a wrong model agents that rarely crash alone have more to lose: four of the six errors make PPO's
+#    crash more, on average one makes Round 1's. A road that is late in everything harms because the car's own
+#    last action is missing.
+# 4. Random actions in its drives help a learned model, the look-ahead's own drives perhaps more. Even then
+#    {{ still_worse() }} of ten crash more than they do alone.
 # <!-- claim: worse_than_alone('ppo_cloned', 'rollouts') == 4 and worse_than_alone('bootstrapped',
 #   'rollouts') == 1 and len(WRONG) == 6 -->
 #
@@ -384,22 +382,22 @@ compare_predictions(
 # - Do the look-ahead's drives help by what they show, or because they hold more decisions?
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Answers to the three questions. (1) In the exact model it imagines its last two actions first, from
-# the late road: this gives the road as it is now, and from there the nine. (2) A second improvement: each of
-# the 90 imagined decisions needs 90 of its own, so a decision costs about 8,000; it would find what is
-# two decisions away. (3) Give each model as many decisions, drawn from longer lists, or drive with
-# random actions until there are as many: `transitions_of` takes any policy. The look-ahead's model was
-# also learned anew after each 200 drives, so random actions should come in rounds, too.
+# Answers to the three questions. (1) In the exact model it imagines its last two actions first, from the late
+# road: this gives the road as it is now, and from there the nine. (2) A second improvement: each of the 90
+# imagined decisions needs 90 of its own, so a decision costs about 8,000; it would find what is two decisions
+# away. (3) Give each model as many decisions, drawn from longer lists, or drive with random actions until
+# there are as many: `transitions_of` takes any policy. The look-ahead's model was also learned anew after
+# each 200 drives, so random actions should come in rounds, too.
 
 # %% [markdown]
-# **Read on**: Tesauro and Galperin (1996), *On-line Policy Improvement using Monte-Carlo Search*.
-# Ross and Bagnell (2012, arXiv 1203.1007) and Chua et al. (2018, arXiv 1805.12114), on learned models.
+# **Read on**: Tesauro and Galperin (1996), *On-line Policy Improvement using Monte-Carlo Search*. Ross and
+# Bagnell (2012, arXiv 1203.1007) and Chua et al. (2018, arXiv 1805.12114), on learned models.
 #
-# **Try**: `bootcourse evaluate runs/mine --lookahead 10`, with your own agents.
-# Next: [other ways to use a teacher](other_ways.ipynb).
+# **Try**: `bootcourse evaluate runs/mine --lookahead 10`, with your own agents. Next: [other ways to use a
+# teacher](other_ways.ipynb).
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** A tree: one road, nine first actions, and after each the same driver; one of
-# nine branches bold.
+# **On the board.** A tree: one road, nine first actions, and after each the same driver; one of nine branches
+# bold.
 #
 # **To discuss.** Who checks a shield whose model of the road is wrong?

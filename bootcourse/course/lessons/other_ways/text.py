@@ -18,9 +18,8 @@
 # - name what has to be equal before methods can be compared;
 # - compare by decisions and by seconds, and say what the comparison leaves open.
 #
-# **Time** 45 minutes; running it takes a quarter of a minute. **It builds on** learning from
-# demonstrations (lesson [[learning_from_demonstrations]]) and the number of seeds
-# ([[how_many_seeds]]).
+# **Time** 45 minutes; running it takes a quarter of a minute. **It builds on** learning from demonstrations
+# (lesson [[learning_from_demonstrations]]) and the number of seeds ([[how_many_seeds]]).
 
 # %%
 import bootcourse as bc
@@ -54,23 +53,23 @@ bc.show(figures.what_is_taken())
 # **You have this rule. Does it matter which of the five you choose?**
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Ask what each of the five would do with a teacher that is wrong in one place, and what a person
-# who pays for computing time would count instead of decisions.
+# Ask what each of the five would do with a teacher that is wrong in one place, and what a person who pays for
+# computing time would count instead of decisions.
 
 # %% [markdown]
 # ## Round 1: can five critics all be wrong?
 #
-# RLPD (*reinforcement learning with prior data*) is SAC with half of each batch demonstrations,
-# without bonus, margin and KL. Its danger is that of lesson [[recorded_drives]]: Q of an untried
-# action may be guessed too high, and the policy follows the highest guess.
+# RLPD (*reinforcement learning with prior data*) is SAC with half of each batch demonstrations, without
+# bonus, margin and KL. Its danger is that of lesson [[recorded_drives]]: Q of an untried action may be
+# guessed too high, and the policy follows the highest guess.
 # <!-- claim: (lambda s: s.bonus == s.margin == s.xi_multiplier == 0 and s.beta_start == 0.5 and
 #   s.beta_episodes is None)(settings_for('rlpd')) -->
 #
 # RLPD has an **ensemble**: {{ settings_for('rlpd').critics }} critics instead of two. Each update draws
 # {{ settings_for('rlpd').target_critics }} of them, and the target takes the smaller of their values.
 #
-# **Exercise (4 min, ●○○).** Write the ensemble's part of the target: the smallest value of the
-# chosen critics.
+# **Exercise (4 min, ●○○).** Write the ensemble's part of the target: the smallest value of the chosen
+# critics.
 
 
 # %%
@@ -82,12 +81,11 @@ def smallest_of(q, chosen):
 check.smallest_of(smallest_of)
 
 # %% [markdown]
-# Now three agents learn with your ensemble from the rule's drives alone, where most actions are
-# untried.
+# Now three agents learn with your ensemble from the rule's drives alone, where most actions are untried.
 # <!-- claim: 0.05 == 10 * settings_for('rlpd').tau -->
 #
-# 1. *Normalised*: RLPD's **layer normalisation** shifts and scales a hidden layer's outputs to mean 0
-#    and variance 1. The last layer's weights then limit Q.
+# 1. *Normalised*: RLPD's **layer normalisation** shifts and scales a hidden layer's outputs to mean 0 and
+#    variance 1. The last layer's weights then limit Q.
 # 2. *Not normalised.*
 # 3. *The target asks the rule*: not normalised; the target takes the rule's next action.
 #
@@ -107,22 +105,22 @@ values = measures.from_drives_alone(own_code.training([settings] * 3), updates)
 bc.show(figures.believed(updates, values, measures.worth_at_most(settings.gamma)))
 
 # %% [markdown]
-# **See.** (Yours will differ.) The five rise together, so the smallest is as wrong as the largest.
-# With normalisation, or with actions that were tried, Q stays below
+# **See.** (Yours will differ.) The five rise together, so the smallest is as wrong as the largest. With
+# normalisation, or with actions that were tried, Q stays below
 # {{ worth_at_most(settings_for('rlpd').gamma) | .0f }} in these 500 updates.
 #
 # **Explain.** All five learn from one target, which contains the guess about untried actions.
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Ask what a drive of one's own with the untried action would change, and why the third agent learns
-# nothing that the rule does not know: its Q is that of the rule.
+# Ask what a drive of one's own with the untried action would change, and why the third agent learns nothing
+# that the rule does not know: its Q is that of the rule.
 
 # %% [markdown]
 # ## Round 2: who decides between teacher and agent?
 #
-# IBRL (*imitation-bootstrapped RL*) keeps the teacher to the end. In each state there are two
-# candidates, the rule's action μ(s) and an action a drawn from the agent's policy π. The one with the
-# higher Q is taken: on the road, and in the target for the next state.
+# IBRL (*imitation-bootstrapped RL*) keeps the teacher to the end. In each state there are two candidates, the
+# rule's action μ(s) and an action a drawn from the agent's policy π. The one with the higher Q is taken: on
+# the road, and in the target for the next state.
 # <!-- claim: METHODS['ibrl'].learner_class().needs_teacher -->
 #
 # **Drag** Q of the rule's action. Where does the picture change, and by how much?
@@ -164,26 +162,25 @@ training = own_code.training([bc.settings_for("ibrl", envs_per_agent=8)], 80)
 bc.show(figures.who_chose(measures.chosen_by_q(training)))
 
 # %% [markdown]
-# **See.** (Yours will differ.) Nearly all end in one, most within 20 s. Q refuses the rule's action in
-# about half of the decisions of the first 20 episodes, and more often later.
+# **See.** (Yours will differ.) Nearly all end in one, most within 20 s. Q refuses the rule's action in about
+# half of the decisions of the first 20 episodes, and more often later.
 #
 # **Explain.** Q is the judge. At first it knows nothing. Its first batches are mostly the rule's drives, so
 # *perhaps* it guesses untried actions too high, as in Round 1.
 # <!-- claim: settings_for('ibrl').beta_start > 0.5 and drives_before('ibrl') == 200 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Ask what happens if the critic is wrong about the rule's action. If it thinks too little of it, the
-# agent's own action is taken, and its value corrected. If it thinks too much of it, the rule's action
-# is taken, and its value is corrected, too. What is not corrected are the values of actions that
-# neither of the two takes.
+# Ask what happens if the critic is wrong about the rule's action. If it thinks too little of it, the agent's
+# own action is taken, and its value corrected. If it thinks too much of it, the rule's action is taken, and
+# its value is corrected, too. What is not corrected are the values of actions that neither of the two takes.
 
 # %% [markdown]
 # ## Round 3: when does the teacher hand over?
 #
-# In jump-start RL the rule makes the first h decisions of each episode, then the agent takes over. At
-# first h is {{ settings_for('jsrl').guide_decisions }}, about what the rule needs to get ahead of trap 1.
-# As soon as rule and agent together earn about as much as their best so far, h shrinks by a tenth of its first
-# value, down to 0.
+# In jump-start RL the rule makes the first h decisions of each episode, then the agent takes over. At first h
+# is {{ settings_for('jsrl').guide_decisions }}, about what the rule needs to get ahead of trap 1. As soon as
+# rule and agent together earn about as much as their best so far, h shrinks by a tenth of its first value,
+# down to 0.
 # <!-- claim: abs(rule_is_ahead() - settings_for('jsrl').guide_decisions) < 10 -->
 #
 # **Exercise (6 min, ●●○).** Write the judgement: does h shrink now?
@@ -214,17 +211,16 @@ training = own_code.training([bc.settings_for("jsrl", envs_per_agent=8)], 80)
 bc.show(figures.handing_over(*measures.handed_over(training)))
 
 # %% [markdown]
-# **See.** (Yours will differ.) The first mean has nothing to beat, so h shrinks. Later means must come near the best
-# so far, and
-# that is low. (Drives under way keep their h.)
+# **See.** (Yours will differ.) The first mean has nothing to beat, so h shrinks. Later means must come near
+# the best so far, and that is low. (Drives under way keep their h.)
 #
-# **Explain.** The judgement compares with the past, not with a goal. This is a **curriculum**: it begins
-# with the end of the way and moves backwards.
+# **Explain.** The judgement compares with the past, not with a goal. This is a **curriculum**: it begins with
+# the end of the way and moves backwards.
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Ask what h does if the teacher is the planner of lesson [[the_barrier]], which is out after ten
-# seconds, and what it does if the teacher never gets out. The paper's β fades by the number of
-# episodes, h by the return: ask which of them can fade too soon.
+# Ask what h does if the teacher is the planner of lesson [[the_barrier]], which is out after ten seconds, and
+# what it does if the teacher never gets out. The paper's β fades by the number of episodes, h by the return:
+# ask which of them can fade too soon.
 
 # %% [markdown]
 # ## Round 4: which of the five is best?
@@ -254,13 +250,13 @@ by_rule = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 200
 bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 
 # %% [markdown]
-# **See.** On average each of the five earns more than twice what the rule earns; PPO and plain SAC without
-# a teacher earn less than the rule.
+# **See.** On average each of the five earns more than twice what the rule earns; PPO and plain SAC without a
+# teacher earn less than the rule.
 #
-# Return is not safety: the five have accidents in {{ accident_shares().min() | .0f }} to {{
-# accident_shares().max() | .0f }} % of their drives, the rule in none; one agent of RLPD has them in {{
-# 100 * at('rlpd', 'accident').max() | .0f }} % and still earns {{
-# at('rlpd', 'returns')[at('rlpd', 'accident').argmax()] | .0f }}.
+# Return is not safety: the five have accidents in {{ accident_shares().min() | .0f }} to
+# {{ accident_shares().max() | .0f }} % of their drives, the rule in none; one agent of RLPD has them in
+# {{ 100 * at('rlpd', 'accident').max() | .0f }} % and still earns
+# {{ at('rlpd', 'returns')[at('rlpd', 'accident').argmax()] | .0f }}.
 # <!-- claim: of('rule').episodes('accident').sum() == 0 -->
 # <!-- claim: min(map(middle, TAUGHT)) > 2 * of('rule').scores('returns').mean() > 2 *
 #   max(score_at(m).high for m in compared() if m not in TAUGHT) -->
@@ -268,8 +264,8 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 #   max(at(m, 'returns').max() for m in compared() if m not in TAUGHT) -->
 #
 # **Explain.** Which of the five earns the most stays *open*. **Rank tests** of all ten pairs (lesson
-# [[your_teacher]]), corrected for their number ([[how_many_seeds]]), show only that bootstrapped
-# SAC and IBRL earn more than PPO after cloning; after {{ SECOND | , }} decisions not even that.
+# [[your_teacher]]), corrected for their number ([[how_many_seeds]]), show only that bootstrapped SAC and IBRL
+# earn more than PPO after cloning; after {{ SECOND | , }} decisions not even that.
 # <!-- claim: {pair for pair, p in pairs(FIRST).items() if p < 0.05} == {('bootstrapped',
 #   'ppo_cloned'), ('ibrl', 'ppo_cloned')} and min(pairs(SECOND).values()) > 0.05 and
 #   len(pairs(FIRST)) == 10 and all(middle(m) > middle('ppo_cloned') for m in ('bootstrapped',
@@ -284,8 +280,8 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 # | updates a decision | – | ¼ | ¼ | ½ | ¼ |
 # | three values were tried of | roads at once | target entropy | target entropy | target entropy | target entropy |
 #
-# Bootstrapped SAC's c and β were chosen by hand. RLPD's authors make 20 updates a decision, with ten critics; we have
-# {{ settings_for('rlpd').critics }}.
+# Bootstrapped SAC's c and β were chosen by hand. RLPD's authors make 20 updates a decision, with ten critics;
+# we have {{ settings_for('rlpd').critics }}.
 # <!-- claim: by_hand() == {'bootstrapped': {'bonus', 'beta_episodes'}} and {decisions_per_update(m) /
 #   decisions_per_update('rlpd') for m in ('bootstrapped', 'jsrl', 'ibrl')} == {2} and
 #   decisions_per_update('rlpd') == 2 -->
@@ -296,9 +292,9 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 #   METHODS[m].learner_class().needs_teacher} == {'ibrl'} -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Each group defends one method: with a slow car and a safe test track, with a fleet whose accidents
-# are in the papers, with drives on a disk and nothing to drive. What does the picture not show:
-# what it costs to ask the teacher, how much code it is, what three more settings would change.
+# Each group defends one method: with a slow car and a safe test track, with a fleet whose accidents are in
+# the papers, with drives on a disk and nothing to drive. What does the picture not show: what it costs to ask
+# the teacher, how much code it is, what three more settings would change.
 
 # %% [markdown]
 # ## Round 5: does the choice matter at all?
@@ -313,7 +309,8 @@ predict("other_ways.5", "Where is PPO after cloning?", ["first", "in the middle"
 
 # %% [markdown]
 # **Switch** from seconds of computing to decisions: on a road each takes a second. (Jump-start RL's and
-# IBRL's returns contain the rule's actions. Not counted: PPO's cloning, and the rule's drives of the table above.)
+# IBRL's returns contain the rule's actions. Not counted: PPO's cloning, and the rule's drives of the table
+# above.)
 
 # %%
 predicted("other_ways.5")
@@ -324,27 +321,25 @@ explorable.TwoCounts(compared, by_rule.returns.mean())
 #
 # {{ spent_table() }}
 #
-# Bold: its 95 % interval is apart from PPO's. (Jump-start RL has none of the rule's {{ hours_before('rlpd') | .0f }}
-# h:
-# after {{ on_road(explorable.EARLY) + hours_before('rlpd') | .0f }} h of its own it earns {{ jump_start_later() |
-# .0f }}.)
+# Bold: its 95 % interval is apart from PPO's. (Jump-start RL has none of the rule's
+# {{ hours_before('rlpd') | .0f }} h: after {{ on_road(explorable.EARLY) + hours_before('rlpd') | .0f }} h of
+# its own it earns {{ jump_start_later() | .0f }}.)
 # <!-- claim: (lambda of: of['ppo_cloned'].low > max(of[m].high for m in of if m != 'ppo_cloned')
 #   and of['rlpd'].high < min(of[m].low for m in of if m != 'rlpd'))(training_scores(
 #   equal_decisions.SECONDS, explorable.SECONDS)) and equal_decisions.SECONDS == 5 -->
 # <!-- claim: (lambda of: of['ppo_cloned'].high < min(of[m].low for m in ('bootstrapped', 'ibrl')))(
 #   training_scores(explorable.EARLY, explorable.DECISIONS)) -->
 #
-# **Explain.** PPO's decisions are cheap (last line), but it needs more of them. So the
-# choice matters when seconds or hours are few. After {{ SECOND | , }} decisions for each ({{ at('ppo_cloned',
-# 'seconds',
-# SECOND).mean() | .0f }} s to {{
-# at('rlpd', 'seconds', SECOND).mean() / 60 | .0f }} minutes) our tests show no difference.
+# **Explain.** PPO's decisions are cheap (last line), but it needs more of them. So the choice matters when
+# seconds or hours are few. After {{ SECOND | , }} decisions for each
+# ({{ at('ppo_cloned', 'seconds', SECOND).mean() | .0f }} s to
+# {{ at('rlpd', 'seconds', SECOND).mean() / 60 | .0f }} minutes) our tests show no difference.
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Ask who in the room has which clock: a simulator and one night, or a car and one day. A faster
-# computer makes the computing cheaper, and the road no faster: who gains? Jump-start RL
-# falls by half on its way, *perhaps* because the agent must then begin by itself. Ask how to find
-# out: train agents again, and compare each one's fall with the episode where its h comes to 0.
+# Ask who in the room has which clock: a simulator and one night, or a car and one day. A faster computer
+# makes the computing cheaper, and the road no faster: who gains? Jump-start RL falls by half on its way,
+# *perhaps* because the agent must then begin by itself. Ask how to find out: train agents again, and compare
+# each one's fall with the episode where its h comes to 0.
 # <!-- claim: 0.4 < left_of('jsrl') < 0.6 -->
 
 # %%
@@ -357,12 +352,12 @@ compare_predictions(
 # ## What you now know
 #
 # 1. A teacher can give data, a start, a second opinion, the first seconds or a pull.
-# 2. Critics with the same target can be wrong together; with layer
-#    normalisation Q stayed below the bound, for 500 updates.
-# 3. In IBRL Q judges the teacher, at first without knowing. Jump-start RL hands over when the return is
-#    near its own best, however low.
-# 4. After {{ FIRST | , }} decisions each of the five earns on average over twice what the rule earns.
-#    Which is best is open; all crash more than the rule.
+# 2. Critics with the same target can be wrong together; with layer normalisation Q stayed below the bound,
+#    for 500 updates.
+# 3. In IBRL Q judges the teacher, at first without knowing. Jump-start RL hands over when the return is near
+#    its own best, however low.
+# 4. After {{ FIRST | , }} decisions each of the five earns on average over twice what the rule earns. Which
+#    is best is open; all crash more than the rule.
 # 5. Seconds of computing and hours on a road put the methods in different orders.
 #
 # **Three questions to think about**
@@ -373,19 +368,19 @@ compare_predictions(
 # <!-- claim: at_edge() == {'bootstrapped', 'jsrl', 'rlpd', 'ppo_cloned'} -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Answers to the three questions. (1) An hour of driving is 3,600 decisions, an eighth of what RLPD,
-# IBRL, bootstrapped SAC and the clone had: nothing here shows that it is enough for them. IBRL
-# wants the person beside the learner for as long as it drives. (2) Some updates from the demonstrations before the
-# first drive; a pessimistic Q, the smaller of two or of an ensemble; a margin that an own action must
-# exceed. (3) One whose three settings differ much, or whose best
-# stands at the edge of what was tried; search again on the search's roads, and test once.
+# Answers to the three questions. (1) An hour of driving is 3,600 decisions, an eighth of what RLPD, IBRL,
+# bootstrapped SAC and the clone had: nothing here shows that it is enough for them. IBRL wants the person
+# beside the learner for as long as it drives. (2) Some updates from the demonstrations before the first
+# drive; a pessimistic Q, the smaller of two or of an ensemble; a margin that an own action must exceed. (3)
+# One whose three settings differ much, or whose best stands at the edge of what was tried; search again on
+# the search's roads, and test once.
 
 # %% [markdown]
 # **Read on**: Ball et al. (RLPD, arXiv 2302.02948); Hu, Mirchandani and Sadigh (IBRL, arXiv 2311.02198);
 # Uchendu et al. (jump-start RL, arXiv 2204.02372).
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** A teacher in the middle, an arrow for each thing that a learner takes from it,
-# and on the arrow until when.
+# **On the board.** A teacher in the middle, an arrow for each thing that a learner takes from it, and on the
+# arrow until when.
 #
 # **To discuss.** Your teacher can be asked a thousand questions. When do you ask them?

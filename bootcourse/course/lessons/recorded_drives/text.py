@@ -18,8 +18,8 @@
 # - write CQL's loss (and, *Further*, GAIL's reward);
 # - say why an estimate from recorded drives can be far off.
 #
-# **Time** 55 minutes, 10 of them voluntary (*Further*); running it takes under half a minute.
-# **It builds on** lessons [[update_and_loop]] and [[demonstrations]].
+# **Time** 55 minutes, 10 of them voluntary (*Further*); running it takes under half a minute. **It builds
+# on** lessons [[update_and_loop]] and [[demonstrations]].
 
 # %%
 import bootcourse as bc
@@ -42,8 +42,8 @@ progress("recorded_drives")
 # ## Look first
 #
 # Three agents learned from the same {{ SETTINGS.demonstration_episodes }} drives of the rule: GAIL
-# (*generative adversarial imitation learning*), a clone (BC, behaviour cloning) and CQL
-# (*conservative Q-learning*). Watch them.
+# (*generative adversarial imitation learning*), a clone (BC, behaviour cloning) and CQL (*conservative
+# Q-learning*). Watch them.
 
 # %% tags=["nbval-ignore-output"]
 bc.recording(figures.three_drives(), height=480)
@@ -52,8 +52,8 @@ bc.recording(figures.three_drives(), height=480)
 # All get ahead of trap 1. GAIL's car then leaves the road: we chose its drive for that.
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Let people say which of the three copies the rule and which only looks as if. Ask what each was
-# told, and what it had to find out.
+# Let people say which of the three copies the rule and which only looks as if. Ask what each was told, and
+# what it had to find out.
 
 # %% [markdown]
 # ## Round 1: three agents of one teacher
@@ -66,8 +66,8 @@ bc.recording(figures.three_drives(), height=480)
 # <!-- claim: [of(m).agents[0]['beta_start'] for m in ('bc', 'cql')] == [1, 1] and 0 <
 #   of('gail').agents[0]['beta_start'] < 1 -->
 #
-# BC and CQL learn **offline**: recorded drives are all they have. CQL learns Q and takes the action
-# whose Q is highest. GAIL is paid when a second network takes its driving for the rule's.
+# BC and CQL learn **offline**: recorded drives are all they have. CQL learns Q and takes the action whose Q
+# is highest. GAIL is paid when a second network takes its driving for the rule's.
 #
 # > **Predict.** The rule's return on the held-out roads is
 # > {{ of('rule').scores('returns').mean() | .0f }}. Which of the three earn more than that?
@@ -82,8 +82,7 @@ study = bc.shipped_results()
 bc.show(figures.returns(study))
 
 # %% [markdown]
-# **See.** *Each CQL agent earns more than its teacher*, each clone a little less, GAIL much less on
-# average.
+# **See.** *Each CQL agent earns more than its teacher*, each clone a little less, GAIL much less on average.
 # <!-- claim: escaped('cql') == len(of('cql')) == 10 and of('cql').scores('returns').min() >
 #   of('rule').scores('returns').max() -->
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 and of('bc').scores('returns').max() <
@@ -91,31 +90,30 @@ bc.show(figures.returns(study))
 #   of('rule').scores('returns').max() -->
 # <!-- claim: of('gail').scores('returns').mean() < 0.7 * of('rule').scores('returns').mean() -->
 #
-# An agent *escapes* if it is ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the roads.
-# Six of GAIL's do, but one of these leaves the road in {{ 100 * accidents_of_escapers().max() | .0f
-# }} % of its drives: *a success rate that counts who is ahead hides later accidents.*
+# An agent *escapes* if it is ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the roads. Six of
+# GAIL's do, but one of these leaves the road in {{ 100 * accidents_of_escapers().max() | .0f }} % of its
+# drives: *a success rate that counts who is ahead hides later accidents.*
 # <!-- claim: escaped('gail') == len(accidents_of_escapers()) == 6 -->
 #
-# *CQL with an actor*, as SAC has one, is told the rewards too: none of its ten escapes, and {{
-# (of('cql_sac').scores('accident') > 0.99).sum() }} never finish a drive.
-# (The paper prints 0 % success for CQL, but not which CQL.)
+# *CQL with an actor*, as SAC has one, is told the rewards too: none of its ten escapes, and
+# {{ (of('cql_sac').scores('accident') > 0.99).sum() }} never finish a drive. (The paper prints 0 % success
+# for CQL, but not which CQL.)
 # <!-- claim: escaped('cql_sac') == 0 and len(of('cql_sac')) == 10 -->
 # <!-- claim: of('cql_sac').scores('returns').mean() < of('gail').scores('returns').mean() -->
 # <!-- claim: PRINTED['cql']['success'].mean == 0 and of('cql_sac').scores('success').max() == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Collect the votes before the picture. The class will be tempted to conclude that the paper is
-# wrong. The picture shows less: "CQL stays in the trap" is not true of CQL as such. Is it fair to
-# train all methods for as many episodes, updates or seconds, or until each stops improving? It
-# depends on what the table is for, but a paper has to say which it took.
+# Collect the votes before the picture. The class will be tempted to conclude that the paper is wrong. The
+# picture shows less: "CQL stays in the trap" is not true of CQL as such. Is it fair to train all methods for
+# as many episodes, updates or seconds, or until each stops improving? It depends on what the table is for,
+# but a paper has to say which it took.
 
 # %% [markdown]
 # ## Round 2: Q-learning without driving
 #
-# Two agents now learn by Q-learning from the recorded drives alone, then drive with the highest Q.
-# Each target is r + γ times the smaller Q of two slower copies, for the next action whose Q is *highest*
-# (*double* Q-learning).
-# A recorded second shows what *one* of the nine led to. No recorded drive ends in an accident.
+# Two agents now learn by Q-learning from the recorded drives alone, then drive with the highest Q. Each
+# target is r + γ times the smaller Q of two slower copies, for the next action whose Q is *highest* (*double*
+# Q-learning). A recorded second shows what *one* of the nine led to. No recorded drive ends in an accident.
 # <!-- claim: float(choosing.recorded().terminated.sum()) == 0 -->
 #
 # > **Predict.** What will the two do?
@@ -141,20 +139,19 @@ without = learn(bc.Training(bc.with_seeds(bc.settings_for("cql", cql_weight=0.0)
 bc.show(figures.would_do({"Q-learning": without}))
 
 # %% [markdown]
-# **See.** *Both would accelerate in every recorded second, and crash on every road.* The
-# rule accelerated in {{ 100 * did()[0] | .0f }} % of the seconds. In the others Q of accelerating is a guess,
-# and the highest
-# of nine guesses tends to be too high: Q promises over 2.5 on average. (The rule earned {{
-# choosing.earned(choosing.recorded()) | .1f }} from there; these two crash.) Why
-# they accelerate in every second is open.
+# **See.** *Both would accelerate in every recorded second, and crash on every road.* The rule accelerated in
+# {{ 100 * did()[0] | .0f }} % of the seconds. In the others Q of accelerating is a guess, and the highest of
+# nine guesses tends to be too high: Q promises over 2.5 on average. (The rule earned
+# {{ choosing.earned(choosing.recorded()) | .1f }} from there; these two crash.) Why they accelerate in every
+# second is open.
 # <!-- claim: min(short(0.0)[0]) == 1 and short(0.0)[1] == [100, 100] and min(short(0.0)[2]) > 2.5 -->
 #
 # CQL's remedy is a term in the critic's loss, the mean of
 #
 # $$ \log \sum_a e^{Q(s,a)} - Q(s, a_\text{data}) $$
 #
-# The first part, a soft maximum, pushes all nine Q down, the highest most. The second pulls up that
-# of the data's action.
+# The first part, a soft maximum, pushes all nine Q down, the highest most. The second pulls up that of the
+# data's action.
 #
 # **Exercise (6 min, ●●○).** Write it, in torch.
 
@@ -171,15 +168,14 @@ def conservative_loss(q, actions):
 check.conservative_loss(conservative_loss)
 
 # %% [markdown]
-# It is the cloning loss of lesson [[demonstrations]] for the policy softmax(Q). So **CQL is
-# Q-learning and cloning in one.**
+# It is the cloning loss of lesson [[demonstrations]] for the policy softmax(Q). So **CQL is Q-learning and
+# cloning in one.**
 # <!-- claim: bool(torch.isclose(conservative_loss(torch.eye(9)[2:3], torch.tensor([4])),
 #   torch.nn.functional.cross_entropy(torch.eye(9)[2:3], torch.tensor([4])))) -->
 #
-# **Exercise (20 min, ●●●).** Write the whole loss of CQL's critic. The target y is Round 2's: the critic chooses the
-# next action, the target
-# critic says what that is worth. Which part must have no gradient? What comes after an accident (other data may
-# hold some)?
+# **Exercise (20 min, ●●●).** Write the whole loss of CQL's critic. The target y is Round 2's: the critic
+# chooses the next action, the target critic says what that is worth. Which part must have no gradient? What
+# comes after an accident (other data may hold some)?
 
 
 # %%
@@ -203,30 +199,29 @@ bc.show(figures.would_do({"with CQL's term": with_term}))
 
 # %% [markdown]
 # **See.** *With the term they crash on few roads, not on all*, though nobody showed them a crash. (Round 1's
-# agents, after
-# far more updates, crash on about one in 100.) The term pulls up Q of the actions that the data show. That is
-# the cloning. The Q-learning shows, too: in these seconds five CQL agents of Round 1 would accelerate in {{
-# 100 * would_do('cql')[:, 0].min() | .0f }} to {{ 100 * would_do('cql')[:, 0].max() | .0f }} %, five clones in
-# {{ 100 * would_do('bc')[:, 0].min() | .0f }} to {{ 100 * would_do('bc')[:, 0].max() | .0f }} %, the rule did
-# in {{ 100 * did()[0] | .0f }} %. That may be why
-# CQL earns more than its teacher. In the picture, Q now promises less than the rule earned.
+# agents, after far more updates, crash on about one in 100.) The term pulls up Q of the actions that the data
+# show. That is the cloning. The Q-learning shows, too: in these seconds five CQL agents of Round 1 would
+# accelerate in {{ 100 * would_do('cql')[:, 0].min() | .0f }} to {{ 100 * would_do('cql')[:, 0].max() | .0f }} %,
+# five clones in {{ 100 * would_do('bc')[:, 0].min() | .0f }} to {{ 100 * would_do('bc')[:, 0].max() | .0f }} %,
+# the rule did in {{ 100 * did()[0] | .0f }} %. That may be why CQL earns more than its teacher. In the
+# picture, Q now promises less than the rule earned.
 # <!-- claim: 0.5 < 100 * accidents('cql') < 1.5 and of('cql').curves['success'].shape[1] == 2000 -->
 # <!-- claim: max(short(1.0)[1]) < 30 and max(short(1.0)[0]) < 0.5 and
 #   max(short(1.0)[2]) < choosing.earned(choosing.recorded()) -->
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Let each group say in one sentence what the term does to an action that is missing from the data,
-# to one that is there, and to the car. For the fast: `settings_for("cql", cql_weight=5.0)`; a very
-# large weight is a clone.
+# Let each group say in one sentence what the term does to an action that is missing from the data, to one
+# that is there, and to the car. For the fast: `settings_for("cql", cql_weight=5.0)`; a very large weight is a
+# clone.
 
 # %% [markdown]
 # ## Round 3: choosing without a simulator
 #
-# You have 30 trained agents and the recorded drives. What is each agent worth, in discounted rewards
-# from the start of a drive (γ = 0.8)?
+# You have 30 trained agents and the recorded drives. What is each agent worth, in discounted rewards from the
+# start of a drive (γ = 0.8)?
 #
-# **Fitted Q evaluation** (FQE) estimates it: it learns Q of a *given* policy π from the recorded
-# seconds, with the target r + γ Q(s', π(s')).
+# **Fitted Q evaluation** (FQE) estimates it: it learns Q of a *given* policy π from the recorded seconds,
+# with the target r + γ Q(s', π(s')).
 #
 # > **Predict.** Of which agents will the estimates be furthest from the truth?
 
@@ -248,40 +243,39 @@ truth = [choosing.worth(agent, range(100), gamma=0.8) for agent in agents]
 bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, truth))))
 
 # %% [markdown]
-# **See.** *The less an agent acts as the data do, the further off its estimate can be.* Clones and CQL, on the
-# right, are less than 0.1 off (but so is the guess {{ choosing.rule_worth() | .2f }}, the rule's own worth). On the
-# left one is more than 1 too high: much, as no agent is truly
-# worth more than {{ truth().max() | .1f }}.
-# Return does not decide it: two of plain SAC's agents earn 23 and 24, and their estimates are {{ abs(off()[1, 4]) |
-# .1f }} and {{ abs(off()[2, 4]) | .1f }} off.
+# **See.** *The less an agent acts as the data do, the further off its estimate can be.* Clones and CQL, on
+# the right, are less than 0.1 off (but so is the guess {{ choosing.rule_worth() | .2f }}, the rule's own
+# worth). On the left one is more than 1 too high: much, as no agent is truly worth more than
+# {{ truth().max() | .1f }}. Return does not decide it: two of plain SAC's agents earn 23 and 24, and their
+# estimates are {{ abs(off()[1, 4]) | .1f }} and {{ abs(off()[2, 4]) | .1f }} off.
 # <!-- claim: abs(off()[:, :2]).max() < 0.1 and overlaps()[:, :2].min() > 0.85 -->
 # <!-- claim: overlaps()[:, 2:].max() < 0.7 and abs(choosing.rule_worth() - truth()[:, :2]).max() < 0.1 -->
 # <!-- claim: off()[overlaps() < 0.4].min() < -0.4 and off()[overlaps() < 0.4].max() > 1 -->
 # <!-- claim: [round(each) for each in returns()[1:3, 4]] == [23, 24] -->
 #
-# Now choose. **Best of N** takes the largest estimate of each set of six (a filled dot; behind each name its return):
+# Now choose. **Best of N** takes the largest estimate of each set of six (a filled dot; behind each name its
+# return):
 
 # %%
 figures.chosen(study, guesses, truth)
 
 # %% [markdown]
-# **See.** *Two things go wrong.* Sets 3 and 5: the estimate errs. Set 1: the estimate is right, but worth at γ = 0.8
-# looks
-# about five seconds ahead, and prefers an agent that stays in the trap to one that gets out.
+# **See.** *Two things go wrong.* Sets 3 and 5: the estimate errs. Set 1: the estimate is right, but worth at
+# γ = 0.8 looks about five seconds ahead, and prefers an agent that stays in the trap to one that gets out.
 # <!-- claim: estimated().argmax(1).min() > 1 and (of_taken(truth()) == truth().max(1)).sum() == 3 ==
 #   (of_taken(successes()) == 0).sum() -->
 # <!-- claim: ((of_taken(truth()) == truth().max(1)) & (of_taken(successes()) == 0)).sum() == 1 and
 #   truth().argmax(1).tolist() == [4, 5, 5, 5, 5] and successes()[0, 4] == 0 and successes()[1:, 5].min() > 0.98 -->
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Ask who would let the agent with the largest estimate drive, and who CQL. Then ask for a second
-# look that needs no simulator: overlap, more fits, γ nearer to 1.
+# Ask who would let the agent with the largest estimate drive, and who CQL. Then ask for a second look that
+# needs no simulator: overlap, more fits, γ nearer to 1.
 
 # %% [markdown]
 # ## Further: a reward that is learned
 #
-# GAIL's second network, the **discriminator**, learns to tell the rule's pairs (s, a) from the
-# agent's. D is its probability that a pair is the rule's. SAC (lesson [[update_and_loop]]) is paid
+# GAIL's second network, the **discriminator**, learns to tell the rule's pairs (s, a) from the agent's. D is
+# its probability that a pair is the rule's. SAC (lesson [[update_and_loop]]) is paid
 #
 # $$ r(s,a) = -\log (1 - D(s,a)) $$
 #
@@ -300,8 +294,8 @@ predict(
 # <!-- claim: math.isclose(torch.tensor(0.7).double().sigmoid(), 1 / (1 + math.exp(-0.7)),
 #   rel_tol=1e-6) -->
 #
-# **Exercise (6 min, ●●○).** Write the reward as a function of x, right from −100 to 100. Take care:
-# in 32-bit numbers σ(60) is exactly 1, and e¹⁰⁰ is too large.
+# **Exercise (6 min, ●●○).** Write the reward as a function of x, right from −100 to 100. Take care: in 32-bit
+# numbers σ(60) is exactly 1, and e¹⁰⁰ is too large.
 # <!-- claim: float(torch.tensor(60.0).sigmoid()) == 1 and
 #   bool(torch.tensor(100.0).exp().isinf()) -->
 
@@ -326,15 +320,14 @@ rows = [[name, *(f"{pay * weight:.2f}" for weight in weights)] for name, pay in 
 table(["reward at D = ½", "crash after 5 s", "drive of 150 s"], rows)
 
 # %% [markdown]
-# **Explain.** *The sign decides.* −log (1 − D) is above 0 for each D, so it pays to go on. log D is
-# below 0: each second costs, and at equal D an early crash is cheapest.
+# **Explain.** *The sign decides.* −log (1 − D) is above 0 for each D, so it pays to go on. log D is below 0:
+# each second costs, and at equal D an early crash is cheapest.
 #
 # Paid −log (1 − D), GAIL loses by a crash only the pay that it cuts off. The road's own −10 it is never told.
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Let them say in one sentence what a clone is told in a state that no demonstration holds, and what
-# the discriminator tells GAIL there. Ask what it would have to see, so that an accident costs
-# something.
+# Let them say in one sentence what a clone is told in a state that no demonstration holds, and what the
+# discriminator tells GAIL there. Ask what it would have to see, so that an accident costs something.
 
 # %%
 compare_predictions(
@@ -348,21 +341,18 @@ compare_predictions(
 # 1. BC and CQL learn without driving, GAIL by driving. BC and GAIL do not use the road's reward.
 # 2. A success rate that counts who is ahead hides accidents.
 # 3. Without driving, Q of an action that the data lack is a guess. Two agents of plain Q-learning crashed on
-#   every road; with CQL's term, the cloning loss of softmax(Q), two crashed less.
-# 4. FQE's estimates were close for agents that act as the recorded drives do (to guess the rule's own worth was as
-#    good). Others
-#    can
-#    be far off, the largest too.
-#    And worth at γ = 0.8 is not escape.
+#    every road; with CQL's term, the cloning loss of softmax(Q), two crashed less.
+# 4. FQE's estimates were close for agents that act as the recorded drives do (to guess the rule's own worth
+#    was as good). Others can be far off, the largest too. And worth at γ = 0.8 is not escape.
 # 5. *Further:* GAIL is paid by its discriminator; with a reward above 0 it pays to go on.
 #
 # **Three questions to think about**
 # - Why does GAIL often leave the road? Its pay (*Further*), or its target entropy? That is below 0, and no
 #   policy's entropy is. How would you find out?
-# - Take `choosing.fits(agents, data, times=2)[1]` in Round 3, a fit from other first weights and
-#   batches. Which choices change? Which errors do not?
-# - In a second study each of ten clones of the stochastic rule earns more than twice its teacher's
-#   return. A clone takes its likeliest action. Is that why? How would you find out?
+# - Take `choosing.fits(agents, data, times=2)[1]` in Round 3, a fit from other first weights and batches.
+#   Which choices change? Which errors do not?
+# - In a second study each of ten clones of the stochastic rule earns more than twice its teacher's return. A
+#   clone takes its likeliest action. Is that why? How would you find out?
 # <!-- claim: of('gail').scores('road_departure').mean() > 0.25 and of('gail').agents[0]['target_entropy'] < 0 -->
 # <!-- claim: len(of_paper('bc')) == 10 and
 #   of_paper('bc').agents[0]['stochastic_demonstrations'] -->
@@ -370,26 +360,24 @@ compare_predictions(
 #   by_stochastic_rule()]) -->
 
 # %% [markdown] tags=["instructor"]
-# Answers to the three questions. (1) Not settled. Where D is near 0 a second more pays nearly
-# nothing: compare −log (1 − D) at D = 0.1 and D = ½. With γ = 0.8 the agent looks about five
-# seconds ahead. Five agents with a target entropy that a policy can have leave the road in {{
-# departures(1) }} % of their drives, the same seeds without it in {{ departures(0) }} %.
-# Train again with a larger γ, or let the discriminator see what follows an accident (absorbing
-# states, as in Kostrikov et al.), one change at a time. (2) Of the five taken one is put too low by
-# more than 0.1: the largest estimate need not be too large. Five sets show how it can go, not how
-# often.
+# Answers to the three questions. (1) Not settled. Where D is near 0 a second more pays nearly nothing:
+# compare −log (1 − D) at D = 0.1 and D = ½. With γ = 0.8 the agent looks about five seconds ahead. Five
+# agents with a target entropy that a policy can have leave the road in {{ departures(1) }} % of their drives,
+# the same seeds without it in {{ departures(0) }} %. Train again with a larger γ, or let the discriminator
+# see what follows an accident (absorbing states, as in Kostrikov et al.), one change at a time. (2) Of the
+# five taken one is put too low by more than 0.1: the largest estimate need not be too large. Five sets show
+# how it can go, not how often.
 # <!-- claim: (of_taken(off()) < -0.1).sum() == 1 -->
 #
-# (3) Let the clones draw their actions, as the teacher does, and drive
-# the same roads.
+# (3) Let the clones draw their actions, as the teacher does, and drive the same roads.
 
 # %% [markdown]
-# **Read on**: CQL: Kumar et al. (arXiv 2006.04779); when it beats a clone: arXiv 2204.05618; FQE: Le
-# et al. (arXiv 1903.08738); GAIL: Ho and Ermon (arXiv 1606.03476), Kostrikov et al. (arXiv
-# 1809.02925), Orsini et al. (arXiv 2106.00672). Next: [the bug hunt](bug_hunt.ipynb).
+# **Read on**: CQL: Kumar et al. (arXiv 2006.04779); when it beats a clone: arXiv 2204.05618; FQE: Le et al.
+# (arXiv 1903.08738); GAIL: Ho and Ermon (arXiv 1606.03476), Kostrikov et al. (arXiv 1809.02925), Orsini et
+# al. (arXiv 2106.00672). Next: [the bug hunt](bug_hunt.ipynb).
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** Three agents as rows; columns: sees actions, sees rewards, drives itself. Then Q
-# of nine actions as bars: those in the data pulled up, the others pushed down.
+# **On the board.** Three agents as rows; columns: sees actions, sees rewards, drives itself. Then Q of nine
+# actions as bars: those in the data pulled up, the others pushed down.
 #
 # **To discuss.** When is it right to be pessimistic about what nobody has tried?

@@ -18,8 +18,8 @@
 # - derive the best compromise between Q and the rule, and say what is left of it when α fades;
 # - write the two losses that the pull enters, and say what a strong pull brings and costs.
 #
-# **Time** 55 minutes. **It builds on** the rule of lesson [[the_rule]], and actor, critic and soft
-# value of lesson [[discrete_sac]].
+# **Time** 55 minutes. **It builds on** the rule of lesson [[the_rule]], and actor, critic and soft value of
+# lesson [[discrete_sac]].
 
 # %%
 import math
@@ -43,12 +43,12 @@ progress("soft_constraint")
 # ## Look first
 #
 # A driver **escapes** if it ends ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the roads. The
-# rule does, but afterwards it is slow. An agent should follow it at first and improve on it later. For this it gets a
-# **pull** to the rule, the *soft constraint*, of strength ξ ("xi").
+# rule does, but afterwards it is slow. An agent should follow it at first and improve on it later. For this
+# it gets a **pull** to the rule, the *soft constraint*, of strength ξ ("xi").
 # <!-- claim: of('rule').scores('success').min() >= ESCAPES -->
 #
-# The thick line is a car that compromises between a trained agent's Q and the rule (red: it crashes), the thin
-# ones are the agent and the rule. The table is for Round 1.
+# The thick line is a car that compromises between a trained agent's Q and the rule (red: it crashes), the
+# thin ones are the agent and the rule. The table is for Round 1.
 #
 # **Drag** ξ down from 1, then type 0: how far does the car get in 40 s?
 
@@ -59,30 +59,30 @@ its_drive = bc.record(helped.as_policy(with_q=True), [ROAD], label="soft")[0]
 bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 
 # %% [markdown]
-# **See.** *With a strong pull the car is as slow as the rule.* With ξ = 1 it gets {{ metres(1) }} m, like
-# the rule; with ξ = 0 {{ metres(0) }} m, like the agent; with 0.1 it has an accident.
+# **See.** *With a strong pull the car is as slow as the rule.* With ξ = 1 it gets {{ metres(1) }} m, like the
+# rule; with ξ = 0 {{ metres(0) }} m, like the agent; with 0.1 it has an accident.
 # <!-- claim: accidents_of_the_panel(0.1) == ['this compromise'] and accidents_of_the_panel(0) ==
 #   accidents_of_the_panel(1) == [] -->
 # <!-- claim: way(1) == way(1, "the rule's way") and way(0) == way(0, "the agent's way") -->
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Collect ways to combine the bars of π and π̃ (mix them, multiply them, add a loss). Keep the list
-# for Round 2: the best compromise is a product.
+# Collect ways to combine the bars of π and π̃ (mix them, multiply them, add a loss). Keep the list for Round
+# 2: the best compromise is a product.
 
 # %% [markdown]
 # ## Round 1: what does it cost to ignore the rule?
 #
-# The rule names one action, μ(s). The stochastic rule π̃ ("pi tilde", lesson [[the_rule]]) takes it
-# with probability $p$ (Equation 16):
+# The rule names one action, μ(s). The stochastic rule π̃ ("pi tilde", lesson [[the_rule]]) takes it with
+# probability $p$ (Equation 16):
 #
 # $$ \tilde\pi(a|s) = p \text{ if } a = \mu(s), \qquad \tfrac{1-p}{8} \text{ otherwise} $$
 #
-# Call $-\log \tilde\pi(a|s)$ the **price** of an action. Its unit is the **nat**: an action with
-# probability $1/e$ costs one. **Drag** p in the panel above from 0.9 to 0.99: any other action
-# becomes ten times as unlikely, but its price grows by $\log 10$ = {{ math.log(10) | .1f }} nats.
+# Call $-\log \tilde\pi(a|s)$ the **price** of an action. Its unit is the **nat**: an action with probability
+# $1/e$ costs one. **Drag** p in the panel above from 0.9 to 0.99: any other action becomes ten times as
+# unlikely, but its price grows by $\log 10$ = {{ math.log(10) | .1f }} nats.
 #
-# A whole policy π is charged its mean price, less its entropy. This is the **Kullback-Leibler
-# divergence** (KL) from π̃:
+# A whole policy π is charged its mean price, less its entropy. This is the **Kullback-Leibler divergence**
+# (KL) from π̃:
 #
 # $$ D_\mathrm{KL}(\pi \,\|\, \tilde\pi) = \sum_a \pi(a|s) \big( -\log \tilde\pi(a|s) \big)
 # - \mathcal{H}(\pi) = \sum_a \pi(a|s) \log \frac{\pi(a|s)}{\tilde\pi(a|s)} $$
@@ -121,23 +121,23 @@ def soft_constraint(log_pi, rule_action, p):
 check.soft_constraint(soft_constraint)
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Write both prices for p = 0.9 on the board, 0.105 and 4.38, and leave them there: the later rounds
-# use them. Let one half of the room minimise KL(π‖π̃) over the policies of two actions, the other
-# half the reverse. Both find π̃: what differs is the gradient far away from it. ("Mode seeking" and
-# "mass covering" describe families of policies that do not contain π̃.)
+# Write both prices for p = 0.9 on the board, 0.105 and 4.38, and leave them there: the later rounds use them.
+# Let one half of the room minimise KL(π‖π̃) over the policies of two actions, the other half the reverse.
+# Both find π̃: what differs is the gradient far away from it. ("Mode seeking" and "mass covering" describe
+# families of policies that do not contain π̃.)
 
 # %% [markdown]
 # ## Round 2: what is left of the pull when it fades?
 #
-# In each state the agent has three goals: a high Q, entropy (a nat is worth α), and a small KL (a nat
-# costs ξ). The best π has the largest sum: its mean Q, plus α times its entropy, less ξ times its KL.
+# In each state the agent has three goals: a high Q, entropy (a nat is worth α), and a small KL (a nat costs
+# ξ). The best π has the largest sum: its mean Q, plus α times its entropy, less ξ times its KL.
 #
-# The paper sets ξ = {{ SETTINGS.xi_multiplier }} α, at first {{
-# SETTINGS.xi_multiplier * SETTINGS.alpha_init }}. The target entropy η = {{ SETTINGS.target_entropy }}
+# The paper sets ξ = {{ SETTINGS.xi_multiplier }} α, at first
+# {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}. The target entropy η = {{ SETTINGS.target_entropy }}
 # cannot be reached, so α falls, as in lesson [[discrete_sac]], and ξ with it.
 #
-# Where all Q are equal, the best π still prefers the rule's action. By how much its log π then
-# exceeds any other action's is the rule's **head start**, in nats.
+# Where all Q are equal, the best π still prefers the rule's action. By how much its log π then exceeds any
+# other action's is the rule's **head start**, in nats.
 #
 # > **Predict.** α falls to a hundredth, and so does ξ. How much of the head start is left?
 
@@ -149,18 +149,18 @@ predict(
 )
 
 # %% [markdown]
-# **Drag** α down. Another action's Q is 1 above the rule's: which number stays, and when does that
-# action win?
+# **Drag** α down. Another action's Q is 1 above the rule's: which number stays, and when does that action
+# win?
 
 # %%
 predicted("soft_constraint.2")
 explorable.pull()
 
 # %% [markdown]
-# **See.** *The head start stays, and the temperature fades.* Where all Q are equal, only entropy and KL matter, and
-# with ξ = 200 α both count with the factor α: the head start is {{ 200 / 201 * math.log(72) | .2f }} nats for
-# every α. The smaller α and ξ become, the more the other action's lead of 1 in Q counts, until that action
-# wins. With a ξ that stays at 2 (grey) it does not.
+# **See.** *The head start stays, and the temperature fades.* Where all Q are equal, only entropy and KL
+# matter, and with ξ = 200 α both count with the factor α: the head start is
+# {{ 200 / 201 * math.log(72) | .2f }} nats for every α. The smaller α and ξ become, the more the other
+# action's lead of 1 in Q counts, until that action wins. With a ξ that stays at 2 (grey) it does not.
 # <!-- claim: math.isclose(200 / 201 * math.log(8 * RULE_P / (1 - RULE_P)), 4.26, abs_tol=0.005) -->
 # <!-- claim: 1 < 2 * math.log(8 * RULE_P / (1 - RULE_P)) -->
 
@@ -170,8 +170,8 @@ explorable.pull()
 # $$ \max_\pi \; \sum_a \pi(a)\, Q(a) + \alpha\, \mathcal{H}(\pi)
 # - \xi\, D_\mathrm{KL}(\pi \| \tilde\pi) $$
 #
-# **Exercise (12 min, ●●●).** Derive the best π of this sum on paper, then write it. For ξ = 0
-# it is SAC's softmax(Q / α) of lesson [[discrete_sac]]. Write the KL out: it contains an entropy.
+# **Exercise (12 min, ●●●).** Derive the best π of this sum on paper, then write it. For ξ = 0 it is SAC's
+# softmax(Q / α) of lesson [[discrete_sac]]. Write the KL out: it contains an entropy.
 
 
 # %%
@@ -187,13 +187,13 @@ check.regularised_policy(regularised_policy)
 # %% [markdown]
 # <details><summary>The derivation</summary>
 #
-# The objective is $\sum_a \pi\,(Q + \xi\log\tilde\pi) - (\alpha+\xi) \sum_a \pi\log\pi$: SAC's
-# form. So $\pi^*(a) \propto \exp\frac{Q(a) + \xi\log\tilde\pi(a)}{\alpha+\xi}$.
+# The objective is $\sum_a \pi\,(Q + \xi\log\tilde\pi) - (\alpha+\xi) \sum_a \pi\log\pi$: SAC's form. So
+# $\pi^*(a) \propto \exp\frac{Q(a) + \xi\log\tilde\pi(a)}{\alpha+\xi}$.
 #
 # </details>
 #
-# *The best compromise is SAC's best policy for another Q and another temperature*,
-# $Q + \xi\log\tilde\pi$ and α + ξ. With ξ = 200 α:
+# *The best compromise is SAC's best policy for another Q and another temperature*, $Q + \xi\log\tilde\pi$ and
+# α + ξ. With ξ = 200 α:
 #
 # $$ \pi^*(a) \propto
 # \exp\Big( \frac{Q(a)}{201\,\alpha} + \tfrac{200}{201} \log\tilde\pi(a) \Big) $$
@@ -206,20 +206,20 @@ mix = own_code.yours_or_ours("regularised_policy", doing="Driving")
 bc.show(figures.mixed(strengths, *examples.mixed(mix, strengths)))
 
 # %% [markdown]
-# **See.** *None of these four is fast and safe.* With ξ = 1 each returns {{ rule_on_these_roads() | .0f
-# }}, like the rule on these roads. With a smaller ξ they crash, and with Q alone, too. Were Q exact, driving by its
-# best
-# actions would be worth, discounted, at least as much as the agent's policy. Where would you look for its errors?
+# **See.** *None of these four is fast and safe.* With ξ = 1 each returns {{ rule_on_these_roads() | .0f }},
+# like the rule on these roads. With a smaller ξ they crash, and with Q alone, too. Were Q exact, driving by
+# its best actions would be worth, discounted, at least as much as the agent's policy. Where would you look
+# for its errors?
 # <!-- claim: not drives()[1][0].any() and (abs(drives()[0][0] - rule_on_these_roads()) < 1).all() -->
 # <!-- claim: (drives()[1][1:-1] > 0).all() and drives()[0][-1].min() > drives()[0][:-1].max() and
 #   (drives()[1][-1] < drives()[1][-2]).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Do the derivation on the board up to the line in which π log π is collected, then let them finish.
-# Whoever is early: which π is best if all Q are equal and α = ξ? (The root of π̃, divided by its sum.)
+# Do the derivation on the board up to the line in which π log π is collected, then let them finish. Whoever
+# is early: which π is best if all Q are equal and α = ξ? (The root of π̃, divided by its sum.)
 #
-# Ask why Q alone crashes where the agent does not. (We have not tested it: a Q is trained mostly on
-# actions that its policy takes.)
+# Ask why Q alone crashes where the agent does not. (We have not tested it: a Q is trained mostly on actions
+# that its policy takes.)
 
 # %% [markdown]
 # ## Round 3: where does the pull enter the learner?
@@ -247,9 +247,9 @@ check.constrained_loss(constrained_loss)
 # %% [markdown]
 # **The critics' target** follows from the same sum. The KL in the target is a *value penalty*.
 #
-# **Exercise (10 min, ●●●).** Derive the target, then write it. In $Q(s,a)$ the action a is given: from
-# which state on does the policy choose, charged a KL and earning an entropy? Remember both critics and
-# the end of an episode.
+# **Exercise (10 min, ●●●).** Derive the target, then write it. In $Q(s,a)$ the action a is given: from which
+# state on does the policy choose, charged a KL and earning an entropy? Remember both critics and the end of
+# an episode.
 
 
 # %%
@@ -266,8 +266,8 @@ check.constrained_target(constrained_target)
 # %% [markdown]
 # <details><summary>The derivation</summary>
 #
-# In $Q(s,a)$ the action a is given, so Q contains neither the entropy nor the KL of s. From s' on the
-# policy chooses: $V(s')=\sum_a\pi\,\min_i Q_i(s',a)+\alpha\mathcal{H}-\xi D_\mathrm{KL}$, and
+# In $Q(s,a)$ the action a is given, so Q contains neither the entropy nor the KL of s. From s' on the policy
+# chooses: $V(s')=\sum_a\pi\,\min_i Q_i(s',a)+\alpha\mathcal{H}-\xi D_\mathrm{KL}$, and
 # $y=r+\gamma\,(1-\text{terminated})\,V(s')$.
 #
 # </details>
@@ -300,10 +300,9 @@ for what, (reward, price) in {"follow trap 1": follows, "fall back": falls_back}
 table(["what the car does", "Q without the value penalty", "Q with it"], rows)
 
 # %% [markdown]
-# **Explain.** *The value penalty takes {{ 8 * math.log(80) | .0f }} from an agent that leaves the rule
-# for ever, and {{ -8 * math.log(0.9) | .1f }} from one that obeys it.* With the penalty, falling back is worth
-# most and following least. (Falling back is paid, each second, what the
-# rule's fourth second pays.)
+# **Explain.** *The value penalty takes {{ 8 * math.log(80) | .0f }} from an agent that leaves the rule for
+# ever, and {{ -8 * math.log(0.9) | .1f }} from one that obeys it.* With the penalty, falling back is worth
+# most and following least. (Falling back is paid, each second, what the rule's fourth second pays.)
 # <!-- claim: 0.15625 * 5 - 2 * math.log(8 / 0.1) * 4 < DEFAULT.reward.accident < -1 <
 #   by_rule().rewards[3] * 5 + 2 * math.log(RULE_P) * 4 < 0.15625 -->
 # <!-- claim: math.isclose(0.8 / (1 - 0.8), 4) -->
@@ -332,17 +331,16 @@ live.show(training)
 
 # %% [markdown]
 # **See.** *The value penalty delays the way out*, although it makes following worth least. Each of the
-# study's ten agents without the penalty finds the way out before any of the ten with it; in the end {{
-# kept(actor_only()) }} and {{ kept(of('soft')) }} of ten escape. Why it delays is open.
+# study's ten agents without the penalty finds the way out before any of the ten with it; in the end
+# {{ kept(actor_only()) }} and {{ kept(of('soft')) }} of ten escape. Why it delays is open.
 # <!-- claim: len(of('soft')) == len(actor_only()) == found(of('soft')) == found(actor_only()) == 10
 #   and sooner_without() -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# In the paper the KL stands inside the discounted sum (its Equation 15), so it is a value penalty.
-# Why it delays is a good project for two students. After training {{ kept(actor_only()) }} of the ten
-# without it escape, {{ kept(of('soft')) }} with it: chance can explain this, hardly the delay. SAC with
-# the reward r + ξ log π̃(a|s) and the temperature α + ξ has our Q plus ξ log π̃(a|s), and the same
-# policies.
+# In the paper the KL stands inside the discounted sum (its Equation 15), so it is a value penalty. Why it
+# delays is a good project for two students. After training {{ kept(actor_only()) }} of the ten without it
+# escape, {{ kept(of('soft')) }} with it: chance can explain this, hardly the delay. SAC with the reward r + ξ
+# log π̃(a|s) and the temperature α + ξ has our Q plus ξ log π̃(a|s), and the same policies.
 # <!-- claim: stats.fisher_exact([[kept(each), 10 - kept(each)] for each in (actor_only(),
 #   of('soft'))]).pvalue > 0.5 -->
 # <!-- claim: stats.mannwhitneyu(*ways_out()).pvalue < 0.001 -->
@@ -350,30 +348,28 @@ live.show(training)
 # %% [markdown]
 # ## Round 4: must the pull fade?
 #
-# Three kinds of agents learn, with one update for four decisions, the third with the paper's ξ = {{
-# SETTINGS.xi_multiplier }} α.
+# Three kinds of agents learn, with one update for four decisions, the third with the paper's ξ =
+# {{ SETTINGS.xi_multiplier }} α.
 
 # %%
 kinds = ["ξ stays at 2", "ξ stays at 0.1", "ξ falls towards 0"]
 bc.show(figures.courses(kinds))
 
 # %% [markdown]
-# **See.** *Each kind has a fault.* With ξ = 2 all find the way out (after {{ finding(stays(2)).min() }} to {{
-# finding(stays(2)).max() }} episodes), but stay slow (the grey curve),
-# and {{ losing([stays(2)]) }} lose it again. With 0.1 eight find it (after {{
-# finding(stays(0.1))[finding(stays(0.1)) > 0].min() }} to {{ finding(stays(0.1)).max() }}), two never. Where ξ
-# falls, they
-# find it first ({{ finding(of('soft')).min() }} to {{ finding(of('soft')).max() }}), but {{
-# losing([of('soft')]) }} of ten
+# **See.** *Each kind has a fault.* With ξ = 2 all find the way out (after {{ finding(stays(2)).min() }} to
+# {{ finding(stays(2)).max() }} episodes), but stay slow (the grey curve), and {{ losing([stays(2)]) }} lose
+# it again. With 0.1 eight find it (after {{ finding(stays(0.1))[finding(stays(0.1)) > 0].min() }} to
+# {{ finding(stays(0.1)).max() }}), two never. Where ξ falls, they find it first
+# ({{ finding(of('soft')).min() }} to {{ finding(of('soft')).max() }}), but {{ losing([of('soft')]) }} of ten
 # **lose** it: once {{ HAD }} of {{ IN_A_ROW }} episodes in a row end ahead, later {{ LOST }} or fewer.
 # <!-- claim: found(stays(0.1)) == 8 -->
 # <!-- claim: found(stays(2)) == found(of('soft')) == len(of('soft')) == 10 -->
 # <!-- claim: same_until_the_floor() -->
 #
-# In a fourth kind ξ falls to 0.1 and no further. Each second with another action
-# than the rule's costs {{ math.log(8 * RULE_P / (1 - RULE_P)) | .2f }} ξ more than one with it; a second at 15
-# m/s pays {{ second_pays(15) - second_pays(10) | .2f }} more than one at 10. (Below,
-# each kind has ten more agents, with other seeds, another implementation and twice the episodes.)
+# In a fourth kind ξ falls to 0.1 and no further. Each second with another action than the rule's costs
+# {{ math.log(8 * RULE_P / (1 - RULE_P)) | .2f }} ξ more than one with it; a second at 15 m/s pays
+# {{ second_pays(15) - second_pays(10) | .2f }} more than one at 10. (Below, each kind has ten more agents,
+# with other seeds, another implementation and twice the episodes.)
 #
 # > **Predict.** How many of the fourth kind's twenty escape and are *fast*: return over twice what the rule does?
 
@@ -387,16 +383,16 @@ predicted("soft_constraint.5")
 bc.show(figures.twenty(kinds))
 
 # %% [markdown]
-# **See.** *With a pull that is strong first, then weak but not gone (`bc.settings_for("soft", xi_min=0.1)`), all
-# twenty find the way out, keep it, and return more than twice as much as the rule.* With ξ = 2 leaving the rule
-# costs more than speed pays: none of the twenty is fast (the rule returns {{
-# of('rule').scores('returns').mean() | .0f }}). (The drives with ξ = 0.1 in Round 2 used a Q that was learned with
-# another ξ.) The floor keeps the temperature α + ξ up,
-# too: whether that or the pull helps is open.
+# **See.** *With a pull that is strong first, then weak but not gone (`bc.settings_for("soft", xi_min=0.1)`),
+# all twenty find the way out, keep it, and return more than twice as much as the rule.* With ξ = 2 leaving
+# the rule costs more than speed pays: none of the twenty is fast (the rule returns
+# {{ of('rule').scores('returns').mean() | .0f }}). (The drives with ξ = 0.1 in Round 2 used a Q that was
+# learned with another ξ.) The floor keeps the temperature α + ξ up, too: whether that or the pull helps is
+# open.
 #
-# {{ 100 * crashes(floored()) | .0f }} % of their drives crash; where ξ falls towards 0, {{ 100 *
-# crashes(fading()) | .0f }} %; none of the rule's. But where ξ falls
-# towards 0, 14 of the 16 that escape return more than any of these twenty.
+# {{ 100 * crashes(floored()) | .0f }} % of their drives crash; where ξ falls towards 0,
+# {{ 100 * crashes(fading()) | .0f }} %; none of the rule's. But where ξ falls towards 0, 14 of the 16 that
+# escape return more than any of these twenty.
 # <!-- claim: escapers(stays(0.5), 'soft') == len(stays(0.5)) == 10 and
 #   stays(0.5).scores('returns').max() < 1.1 * of('rule').scores('returns').mean() -->
 # <!-- claim: (returning_more(), in_all(kept)) == (14, 16) -->
@@ -412,9 +408,9 @@ bc.show(figures.twenty(kinds))
 # <!-- claim: 0.1 < (second_pays(15) - second_pays(10)) / math.log(80) < 2 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Ask before the last prediction what an agent with ξ = 2 could do better than the rule, and what each
-# such second would cost it (8.8: far more than a second pays). Chance may explain {{ in_all(kept)
-# }} escapes against twenty, hardly {{ losing(fading()) }} losses against none.
+# Ask before the last prediction what an agent with ξ = 2 could do better than the rule, and what each such
+# second would cost it (8.8: far more than a second pays). Chance may explain {{ in_all(kept) }} escapes
+# against twenty, hardly {{ losing(fading()) }} losses against none.
 # <!-- claim: stats.fisher_exact([[20, 0], [in_all(kept), 20 - in_all(kept)]]).pvalue > 0.1 -->
 # <!-- claim: stats.fisher_exact([[20, 0], [20 - losing(fading()), losing(fading())]]).pvalue < 1e-6
 #   -->
@@ -439,10 +435,10 @@ compare_predictions(
 # 2. The best compromise is softmax((Q + ξ log π̃) / (α + ξ)).
 # 3. With ξ = {{ SETTINGS.xi_multiplier }} α the rule's head start, {{ 200 / 201 * math.log(72) | .2f }} nats,
 #    stays, but the temperature fades, so Q decides in the end.
-# 4. The KL in the actor's loss alone is policy regularisation, in the critics' target, too, a value penalty: it
-#    lowers the value of leaving the rule most, and delayed the way out in the study.
-# 5. With one update for four decisions, a ξ that stays at 2 holds agents near the rule's return; with
-#    0.1 throughout, not all find the way out; with a ξ that falls to 0.1, all twenty find and keep it.
+# 4. The KL in the actor's loss alone is policy regularisation, in the critics' target, too, a value penalty:
+#    it lowers the value of leaving the rule most, and delayed the way out in the study.
+# 5. With one update for four decisions, a ξ that stays at 2 holds agents near the rule's return; with 0.1
+#    throughout, not all find the way out; with a ξ that falls to 0.1, all twenty find and keep it.
 # <!-- claim: twenty(found) == twenty(kept) == 20 > in_all(found, 0.1) -->
 
 # %% [markdown]
@@ -454,24 +450,20 @@ compare_predictions(
 # - Where the rule is wrong, which p would you want? Could p depend on the state?
 # - Up to which ξ that stays would agents drive fast?
 #
-# **Read on**: [the next lesson](learning_from_demonstrations.ipynb). Huang et al. (arXiv 2103.10690):
-# an expert as a prior, in driving. Levine (arXiv 1805.00909): control as inference.
+# **Read on**: [the next lesson](learning_from_demonstrations.ipynb). Huang et al. (arXiv 2103.10690): an
+# expert as a prior, in driving. Levine (arXiv 1805.00909): control as inference.
 
 # %% [markdown] tags=["instructor"] minutes=2
-# *Answers to the three questions.* **η = 1:** without the pull a higher α makes the policy more even,
-# until its entropy is 1. With ξ = 200 α it comes nearer to π̃ instead: the entropy stays below 1, and
-# α and ξ rise at each update. The coupling runs away.
-# **Where the rule
-# is wrong:** a small p, with which π̃ is nearly even and the prices of the nine actions are about
-# the same. p could depend on the state, for instance on how often drives that followed the rule
-# from such states ended in an accident; then π̃ is surest where the rule has proved itself. **The
-# last ξ:** the critic counts each second's KL as a cost. A second at a higher speed pays a few
-# tenths more; at ξ = 2 leaving the rule for it costs 8.8. The break lies near the ξ at which the
-# two are equal. In our trial three of the four with 0.2 found the way, and drove fast; with 0.3
-# none did.
+# *Answers to the three questions.* **η = 1:** without the pull a higher α makes the policy more even, until
+# its entropy is 1. With ξ = 200 α it comes nearer to π̃ instead: the entropy stays below 1, and α and ξ rise
+# at each update. The coupling runs away. **Where the rule is wrong:** a small p, with which π̃ is nearly even
+# and the prices of the nine actions are about the same. p could depend on the state, for instance on how
+# often drives that followed the rule from such states ended in an accident; then π̃ is surest where the rule
+# has proved itself. **The last ξ:** the critic counts each second's KL as a cost. A second at a higher speed
+# pays a few tenths more; at ξ = 2 leaving the rule for it costs 8.8. The break lies near the ξ at which the
+# two are equal. In our trial three of the four with 0.2 found the way, and drove fast; with 0.3 none did.
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** Nine bars for π, nine for π̃; below them the two logarithms 0.105 and 4.38 for p
-# = 0.9.
+# **On the board.** Nine bars for π, nine for π̃; below them the two logarithms 0.105 and 4.38 for p = 0.9.
 #
 # **To discuss.** Name a field in which you would never let ξ go to 0.

@@ -43,8 +43,8 @@ progress("the_barrier")
 # %% [markdown]
 # ## Look first
 #
-# How well can one drive here? A planner knows the future: each second it tries all nine actions,
-# and keeps the best drives.
+# How well can one drive here? A planner knows the future: each second it tries all nine actions, and keeps
+# the best drives.
 # <!-- claim: DEFAULT.clock.decision_rate == 1 and N_ACTIONS == 9 -->
 
 # %%
@@ -57,19 +57,18 @@ title = f"The planner goes through between the traps and earns {earned}"
 bc.show(bc.top_view_over_time(planned, times=[0, 2, 4, 6, 8, 12], title=title))
 
 # %% [markdown]
-# **See.** This drive **ends ahead** of trap 1, and earns much more than staying. Does plain SAC
-# learn it?
+# **See.** This drive **ends ahead** of trap 1, and earns much more than staying. Does plain SAC learn it?
 # <!-- claim: planned() > 5 * idle().rewards.sum() -->
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Point to the picture after two seconds and ask who would dare to steer between the two cars. What
-# does the planner know that a driver does not?
+# Point to the picture after two seconds and ask who would dare to steer between the two cars. What does the
+# planner know that a driver does not?
 
 # %% [markdown]
 # ## Round 1: does plain SAC escape?
 #
-# Two agents learn by SAC, with {{ easier.UPDATES | , }} updates each. One has the paper's discount,
-# γ = {{ SETTINGS.gamma }}; the other looks further ahead, γ = 0.95.
+# Two agents learn by SAC, with {{ easier.UPDATES | , }} updates each. One has the paper's discount, γ =
+# {{ SETTINGS.gamma }}; the other looks further ahead, γ = 0.95.
 
 # %%
 SEEDS, UPDATES = 1, 2000  # SEEDS = 2: two agents with each γ
@@ -87,12 +86,12 @@ tests = [bc.evaluate(agent.as_policy(), 200, seed=5) for agent in alone.agents]
 figures.how_they_drive(alone.agents, tests)
 
 # %% [markdown]
-# **See.** An agent **escapes** if it ends ahead on {{ 100 * ESCAPES | .0f }} % of the roads or
-# more, crashed or not. Of twenty agents like these, ten with each γ, {{
-# easy('as it is').escapers('sac') }} escapes (γ = 0.8), {{ crash_on_most('as it is') }} crash on most
-# roads, and {{ stay('as it is') }} stay behind. None earns more than a car that does nothing. (They learned
-# for {{ driven().min() }} to {{ driven().max() | , }} drives. Those of lesson [[the_trap]], which crash less, learned
-# for {{ of('sac').curves['success'].shape[1] | , }}.)
+# **See.** An agent **escapes** if it ends ahead on {{ 100 * ESCAPES | .0f }} % of the roads or more, crashed
+# or not. Of twenty agents like these, ten with each γ, {{ easy('as it is').escapers('sac') }} escapes (γ =
+# 0.8), {{ crash_on_most('as it is') }} crash on most roads, and {{ stay('as it is') }} stay behind. None
+# earns more than a car that does nothing. (They learned for {{ driven().min() }} to {{ driven().max() | , }}
+# drives. Those of lesson [[the_trap]], which crash less, learned for
+# {{ of('sac').curves['success'].shape[1] | , }}.)
 # <!-- claim: of('sac').scores('accident').mean() < easy('as it is').scores('accident').mean() / 2 -->
 # <!-- claim: escaped_or_crash('as it is') + stay('as it is') == 20 -->
 # <!-- claim: easy('as it is').escapers('sac') == 1 and len(easy('as it is')) == 20 and not
@@ -126,15 +125,15 @@ below += "In its lane the best drive speeds up towards trap 1, then brakes."
 table(["drive", "worth at γ = 0.8"], rows, below=below)
 
 # %% [markdown]
-# **Explain.** *Staying is not best, even at γ = 0.8.* The planner knows the future, but
-# that is not needed: of the ten shipped agents
-# that learned with the rule (lessons [[soft_constraint]] and [[learning_from_demonstrations]]), {{
-# len(helped_better()) }} earn a larger discounted sum than doing nothing.
+# **Explain.** *Staying is not best, even at γ = 0.8.* The planner knows the future, but that is not needed:
+# of the ten shipped agents that learned with the rule (lessons [[soft_constraint]] and
+# [[learning_from_demonstrations]]), {{ len(helped_better()) }} earn a larger discounted sum than doing
+# nothing.
 # <!-- claim: searched().best.value > 2 * searched().keep_lane.value -->
 # <!-- claim: searched().leaves.value == 1 and len(helped()) == 10 -->
 #
-# A larger γ alone is not enough: {{ 'none' if not farther().any() else farther().sum() }} of {{
-# len(farther()) }} agents of plain SAC with γ from 0.9 to 0.99 escapes.
+# A larger γ alone is not enough: {{ 'none' if not farther().any() else farther().sum() }} of
+# {{ len(farther()) }} agents of plain SAC with γ from 0.9 to 0.99 escapes.
 #
 # What else could keep agents in?
 #
@@ -143,22 +142,21 @@ table(["drive", "worth at γ = 0.8"], rows, below=below)
 # - **Steering.** The way to the free lane takes seconds of steering that are hard to learn.
 
 # %% [markdown] tags=["instructor"] minutes=8
-# The training takes some seconds: collect explanations for a flat line while it runs. Somebody will
-# say "train longer". Let a group do that at home (`UPDATES = 30_000`) and bring the curves.
+# The training takes some seconds: collect explanations for a flat line while it runs. Somebody will say
+# "train longer". Let a group do that at home (`UPDATES = 30_000`) and bring the curves.
 #
-# The planner's number is a lower bound on the best: a beam of 50 can miss the best drive. Ask why
-# that does not weaken the conclusion. (The best is worth at least so much.)
+# The planner's number is a lower bound on the best: a beam of 50 can miss the best drive. Ask why that does
+# not weaken the conclusion. (The best is worth at least so much.)
 
 # %% [markdown]
 # ## Round 2: is it luck?
 #
-# Lesson [[the_trap]]'s plan *right 1, left 4, right 3* steers for {{ easier.LATER }} s, and then
-# accelerates. Suppose that at each of these {{ easier.LATER }} decisions `good` of the nine actions
-# are right. If one rare sequence is needed, `good` is 1.
+# Lesson [[the_trap]]'s plan *right 1, left 4, right 3* steers for {{ easier.LATER }} s, and then accelerates.
+# Suppose that at each of these {{ easier.LATER }} decisions `good` of the nine actions are right. If one rare
+# sequence is needed, `good` is 1.
 # <!-- claim: attempts.PLAN[:9] == [5] + 4 * [3] + 3 * [5] + [7] -->
 #
-# **Exercise (5 min, ●●○).** Write the chance that at least one of `tries` random attempts ends
-# ahead.
+# **Exercise (5 min, ●●○).** Write the chance that at least one of `tries` random attempts ends ahead.
 
 
 # %%
@@ -205,8 +203,8 @@ by_chance = chance_of(9 * tried.success.mean(), 1, 400)  # one decision, right w
 bc.show(figures.while_they_learned(trained["as it is"], by_chance))
 
 # %% [markdown]
-# **Explain.** *Most agents do end ahead: {{ (times_ahead() > 0).sum() }} of twenty at least once ({{
-# (times_ahead() == 1).sum() }} just once). Yet only one escapes.*
+# **Explain.** *Most agents do end ahead: {{ (times_ahead() > 0).sum() }} of twenty at least once
+# ({{ (times_ahead() == 1).sum() }} just once). Yet only one escapes.*
 # <!-- claim: abs(20 * (1 - np.exp(-400 * len(lucky()) / 5000)) - (times_ahead() > 0).sum()) < 3 -->
 # <!-- claim: (times_ahead() > 0).sum() > 15 and len(times_ahead()) == 20 -->
 #
@@ -220,39 +218,36 @@ bc.show(figures.while_they_learned(trained["as it is"], by_chance))
 # %% [markdown]
 # ## Round 3: the steering, the price, or both?
 #
-# You have driven part of lesson [[the_trap]]'s plan without a crash. What is the rest worth, if staying from the
-# start is
-# worth 1? **Drag** the price of an
-# accident and γ: when does the plan pay?
+# You have driven part of lesson [[the_trap]]'s plan without a crash. What is the rest worth, if staying from
+# the start is worth 1? **Drag** the price of an accident and γ: when does the plan pay?
 
 # %%
 explorable.barrier()
 
 # %% [markdown]
-# **See.** *This plan leads through a dip*, a **barrier**. In lesson [[values]] a barrier
-# costs pay; here it costs crashes, as the plan is driven blind. At the price of 10 and γ = 0.8 the plan is worth, at
-# its start, {{ hill(10, 0.8)[0] | .1f }} times as much as staying. After 4 s the rest is worth less than
-# nothing: in the next second {{ crash_by(5).sum() / 10 | .0f }} % of the drives crash. Past the traps it is worth {{
-# hill(10, 0.8)[-1] | .0f }} times staying.
+# **See.** *This plan leads through a dip*, a **barrier**. In lesson [[values]] a barrier costs pay; here it
+# costs crashes, as the plan is driven blind. At the price of 10 and γ = 0.8 the plan is worth, at its start,
+# {{ hill(10, 0.8)[0] | .1f }} times as much as staying. After 4 s the rest is worth less than nothing: in the
+# next second {{ crash_by(5).sum() / 10 | .0f }} % of the drives crash. Past the traps it is worth
+# {{ hill(10, 0.8)[-1] | .0f }} times staying.
 # <!-- claim: hill(10, 0.8).argmin() == 4 and hill(10, 0.8)[4] < 0 and not crash_by(4).any() and
 #   len(crash_by(5)) == 1000 -->
 #
 # With a price of 1, or with γ = 0.95, the dip is gone: the plan pays from its start. Yet with γ = 0.95 none
-# escapes (one nearly: it ends ahead on {{ 100 * farther_one().scores('success').max() | .0f }} % of the roads, and
-# crashes
-# on {{ 100 * farther_one().scores('accident')[farther_one().scores('success').argmax()] | .0f }} %). The curve is
-# for a driver who finishes the plan; a learner does not know how to. What frees
-# agents?
+# escapes (one nearly: it ends ahead on {{ 100 * farther_one().scores('success').max() | .0f }} % of the
+# roads, and crashes on
+# {{ 100 * farther_one().scores('accident')[farther_one().scores('success').argmax()] | .0f }} %). The curve
+# is for a driver who finishes the plan; a learner does not know how to. What frees agents?
 # <!-- claim: min(hill(1, 0.8)) > 1 and min(hill(10, 0.95)) > 1 -->
 #
 # Three easier roads:
 #
-# - *A lane keeper* steers: the nine actions are wishes for a lane and a speed. The
-#   wishes *slower* for 1 s, *left* for 5 s, *faster* for 5 s ended ahead on each of 100 roads, with {{
-#   wished().accident.sum() }} accidents.
-# - *A start mid-lane*: the car begins in the middle of the free lane, behind the traps and as fast as they are. The
-#   waiting, the steering and the dip are done. One acceleration ended ahead on each
-#   of 100 roads, without an accident.
+# - *A lane keeper* steers: the nine actions are wishes for a lane and a speed. The wishes *slower* for 1 s,
+#   *left* for 5 s, *faster* for 5 s ended ahead on each of 100 roads, with {{ wished().accident.sum() }}
+#   accidents.
+# - *A start mid-lane*: the car begins in the middle of the free lane, behind the traps and as fast as they
+#   are. The waiting, the steering and the dip are done. One acceleration ended ahead on each of 100 roads,
+#   without an accident.
 # - *Accidents cost 1* in place of 10.
 # <!-- claim: wished().ahead.all() and len(wished().ahead) == 100 and 2 * wished().accident.mean() <
 #   explorable.by_plan().accident.mean() -->
@@ -275,26 +270,24 @@ predicted("the_barrier.3")
 bc.show(figures.escapes(trained, easier.SHOWN))
 
 # %% [markdown]
-# **Explain.** *Neither price nor start is enough; together they free {{ easy(BOTH).escapers('sac') }}
-# of twenty agents.* The verdicts:
+# **Explain.** *Neither price nor start is enough; together they free {{ easy(BOTH).escapers('sac') }} of
+# twenty agents.* The verdicts:
 #
-# - **Luck**: cleared of the charge, {{ (times_ahead() > 0).sum() }} of twenty ended ahead (Round 2). A way out
-#   *without*
-#   an accident may still be rare.
-# - **Price**: guilty, but not alone. Mid-lane, cheap accidents free {{ easy(BOTH).escapers('sac') }} in place of {{
-#   easy(MIDDLE).escapers('sac') }}; from the usual start {{ easy(CHEAP).escapers('sac') }} in place of {{
-#   easy('as it is').escapers('sac') }}, and {{ crash_on_most(CHEAP) }} crash on most roads.
-# - **Steering** alone: not shown. A lane keeper frees none at either price, though at the low one {{
-#   earn_more(KEPT) }} earn more than by staying (of twenty others, with twice the updates, {{
-#   earn_more(KEPT, longer=True) }}).
-# - **The whole way**, wait, steering and dip: guilty, but not alone. A start mid-lane frees {{
-#   easy(MIDDLE).escapers('sac') }} in place of {{ easy('as it is').escapers('sac') }}, with cheap accidents {{
-#   easy(BOTH).escapers('sac') }} in place of {{ easy(CHEAP).escapers('sac') }}. Why {{
-#   20 - easy(MIDDLE).escapers('sac') }} do not learn one acceleration, this lesson does not show.
+# - **Luck**: cleared of the charge, {{ (times_ahead() > 0).sum() }} of twenty ended ahead (Round 2). A way
+#   out *without* an accident may still be rare.
+# - **Price**: guilty, but not alone. Mid-lane, cheap accidents free {{ easy(BOTH).escapers('sac') }} in place
+#   of {{ easy(MIDDLE).escapers('sac') }}; from the usual start {{ easy(CHEAP).escapers('sac') }} in place of
+#   {{ easy('as it is').escapers('sac') }}, and {{ crash_on_most(CHEAP) }} crash on most roads.
+# - **Steering** alone: not shown. A lane keeper frees none at either price, though at the low one
+#   {{ earn_more(KEPT) }} earn more than by staying (of twenty others, with twice the updates,
+#   {{ earn_more(KEPT, longer=True) }}).
+# - **The whole way**, wait, steering and dip: guilty, but not alone. A start mid-lane frees
+#   {{ easy(MIDDLE).escapers('sac') }} in place of {{ easy('as it is').escapers('sac') }}, with cheap
+#   accidents {{ easy(BOTH).escapers('sac') }} in place of {{ easy(CHEAP).escapers('sac') }}. Why
+#   {{ 20 - easy(MIDDLE).escapers('sac') }} do not learn one acceleration, this lesson does not show.
 #
-# To escape is not to earn: {{ too_fast(MIDDLE) }} of those {{ easy(MIDDLE).escapers('sac') }}, and {{ too_fast(BOTH)
-# }}
-# of the {{ easy(BOTH).escapers('sac') }}, are faster than 20 m/s, which pays little.
+# To escape is not to earn: {{ too_fast(MIDDLE) }} of those {{ easy(MIDDLE).escapers('sac') }}, and
+# {{ too_fast(BOTH) }} of the {{ easy(BOTH).escapers('sac') }}, are faster than 20 m/s, which pays little.
 # <!-- claim: earn_more('a lane keeper') == 0 -->
 # <!-- claim: stay(CHEAP) + crash_on_most(CHEAP) == 20 and
 #   escape_and_crash(CHEAP) == easy(CHEAP).escapers('sac') > 0 -->
@@ -313,13 +306,13 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 # <!-- claim: max(second_pays(v) for v in np.arange(20, 26)) < second_pays(15) / 15 -->
 
 # %% [markdown] tags=["instructor"] minutes=6
-# To see agents leave, run Round 1's training again on the last road: give `bc.Training` and
-# `bc.evaluate` `make_env=easier.costing(1.0, easier.MidLaneStart)`. Ask why γ = 0.95, at which the
-# plan pays, did not free the agents of Round 1. Ask why *free* accidents would be
-# a poor control: then a crash at once may pay more than to stay. `bootcourse study easier` has this
-# road and more, nine kinds in all. Why mid-lane? The plan's steering ends at the road's edge, where a
-# step to the left ends the drive: from there {{ 'none' if not easy('a later start').escapers('sac') else
-# easy('a later start').escapers('sac') }} of twenty agents escapes.
+# To see agents leave, run Round 1's training again on the last road: give `bc.Training` and `bc.evaluate`
+# `make_env=easier.costing(1.0, easier.MidLaneStart)`. Ask why γ = 0.95, at which the plan pays, did not free
+# the agents of Round 1. Ask why *free* accidents would be a poor control: then a crash at once may pay more
+# than to stay. `bootcourse study easier` has this road and more, nine kinds in all. Why mid-lane? The plan's
+# steering ends at the road's edge, where a step to the left ends the drive: from there
+# {{ 'none' if not easy('a later start').escapers('sac') else easy('a later start').escapers('sac') }} of
+# twenty agents escapes.
 # <!-- claim: step_to_the_left().accident.all() and step_to_the_left().lasted.max() == 1 -->
 # <!-- claim: len(easier.KINDS) == 9 -->
 
@@ -336,17 +329,16 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. Plain SAC seldom escapes: 1 of the twenty agents above, {{ escaped('sac') }} of the study's {{
-#    len(of('sac')) }}. With the rule's help {{ escaped('soft') }} of {{ len(of('soft')) }} do
-#    in lesson [[soft_constraint]], {{ escaped('bootstrapped') }} in [[learning_from_demonstrations]].
+# 1. Plain SAC seldom escapes: 1 of the twenty agents above, {{ escaped('sac') }} of the study's
+#    {{ len(of('sac')) }}. With the rule's help {{ escaped('soft') }} of {{ len(of('soft')) }} do in lesson
+#    [[soft_constraint]], {{ escaped('bootstrapped') }} in [[learning_from_demonstrations]].
 # <!-- claim: escaped('bootstrapped') > len(of('bootstrapped')) / 2 > escaped('sac') == 1 -->
 # 2. Staying is not best, even at γ = 0.8. A larger γ alone is not enough.
 # 3. Most agents end ahead while they learn, and do not escape.
-# 4. At γ = 0.8 lesson [[the_trap]]'s plan leads through a dip, even for a driver who finishes it. With γ = 0.95 it
-#    does
-#   not, and still no agent escapes.
-# 5. No change alone frees half of twenty agents. Cheap accidents with a start mid-lane free {{
-#    easy(BOTH).escapers('sac') }}, and {{ earn_more(BOTH) }} of these earn more than by staying.
+# 4. At γ = 0.8 lesson [[the_trap]]'s plan leads through a dip, even for a driver who finishes it. With γ =
+#    0.95 it does not, and still no agent escapes.
+# 5. No change alone frees half of twenty agents. Cheap accidents with a start mid-lane free
+#    {{ easy(BOTH).escapers('sac') }}, and {{ earn_more(BOTH) }} of these earn more than by staying.
 # <!-- claim: earn_more(BOTH) == len(freed_and_slower()) -->
 #
 # **Three questions to think about**
@@ -354,20 +346,19 @@ compare_predictions(
 # - Which part of the start mid-lane matters? How would you find out?
 # - Where would you let each drive begin, so that an agent learns what a free road is worth?
 #
-# **Read on**: [the rule](the_rule.ipynb). Ecoffet et al., *First return, then explore*
-# (arXiv 2004.12919).
+# **Read on**: [the rule](the_rule.ipynb). Ecoffet et al., *First return, then explore* (arXiv 2004.12919).
 
 # %% [markdown] tags=["instructor"] minutes=4
 # **Model answers.**
 #
 # - *A demonstration* can replace the start: it shows states ahead of the traps. The price stays.
-# - *Which part.* Keep the lane keeper and the cheap accidents, and begin after 2, 4 and 6 of the
-#   plan's seconds. Count who escapes: that tells the wait and the risk from the steering.
-# - *Where to begin.* Near the end of a drive that ends ahead, and then earlier and earlier: a value
-#   comes back from states that were visited. It needs a simulator that can begin anywhere.
+# - *Which part.* Keep the lane keeper and the cheap accidents, and begin after 2, 4 and 6 of the plan's
+#   seconds. Count who escapes: that tells the wait and the risk from the steering.
+# - *Where to begin.* Near the end of a drive that ends ahead, and then earlier and earlier: a value comes
+#   back from states that were visited. It needs a simulator that can begin anywhere.
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** Round 3's hill: worth against the seconds of the way out, with the dip that a
-# learner has to cross.
+# **On the board.** Round 3's hill: worth against the seconds of the way out, with the dip that a learner has
+# to cross.
 #
 # **To discuss.** How would you recognise in your own project that a learner sits behind such a hill?

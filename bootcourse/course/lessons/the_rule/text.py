@@ -40,9 +40,9 @@ progress("the_rule")
 # %% [markdown]
 # ## Look first
 #
-# A *rule controller* is a driver that somebody wrote by hand. In the next lessons this one teaches
-# your agent. Once a second it decides, and gives the reason. Watch the first minute of its
-# drive in lesson [[the_trap]].
+# A *rule controller* is a driver that somebody wrote by hand. In the next lessons this one teaches your
+# agent. Once a second it decides, and gives the reason. Watch the first minute of its drive in lesson
+# [[the_trap]].
 
 # %%
 ROAD = 10
@@ -61,13 +61,12 @@ bc.show(figures.speed_over_time(drive))
 # %% [markdown]
 # ## Round 1: how slow must it be?
 #
-# The paper's rule has five speeds: 6, 8.25, 10.5, 12.75 and 15 m/s. Its **target speed** is the fastest
-# of them that is *slower* than both cars ahead: the one in its own lane, and the one in the lane that
-# it wants. Behind the traps, at 10 m/s, it is 8.25 m/s.
+# The paper's rule has five speeds: 6, 8.25, 10.5, 12.75 and 15 m/s. Its **target speed** is the fastest of
+# them that is *slower* than both cars ahead: the one in its own lane, and the one in the lane that it wants.
+# Behind the traps, at 10 m/s, it is 8.25 m/s.
 # <!-- claim: (np.linspace(DEFAULT.rule.v_min, DEFAULT.rule.v_max, 5) == [6, 8.25, 10.5, 12.75, 15]).all() -->
 #
-# **Exercise (6 min, ●○○).** Write the target speed. If none of the speeds is slower, take the
-# slowest.
+# **Exercise (6 min, ●○○).** Write the target speed. If none of the speeds is slower, take the slowest.
 
 
 # %%
@@ -84,9 +83,8 @@ check.target_speed(target_speed)
 
 # %% [markdown]
 # The **tracker** (`bootcourse.rule.track`) turns the target into actions. The paper leaves it open, so it is
-# our choice; § marks
-# such choices from here on. It ignores a difference of {{ DEFAULT.ego.acceleration / 2 | g }} m/s or less, its
-# *dead band*: the picture shows 8 m/s, not 8.25.
+# our choice; § marks such choices from here on. It ignores a difference of
+# {{ DEFAULT.ego.acceleration / 2 | g }} m/s or less, its *dead band*: the picture shows 8 m/s, not 8.25.
 # <!-- claim: np.isclose(by_rule().states[6:13, EGO, SPEED], 8).all() -->
 #
 # > **Predict.** The rule and both traps start at 10 m/s. Give the rule another number of speeds,
@@ -106,32 +104,31 @@ for n in (2, 5, 6, 10):
 table(["speeds", "target behind the traps", "gets out, of 200 roads"], rows)
 
 # %% [markdown]
-# **Explain.** Six speeds are worse than two. Their target is only 0.4 m/s below the traps' speed, and
-# the tracker ignores that: the car stays at 10 m/s, and the gap does not grow.
+# **Explain.** Six speeds are worse than two. Their target is only 0.4 m/s below the traps' speed, and the
+# tracker ignores that: the car stays at 10 m/s, and the gap does not grow.
 # <!-- claim: not driven(n=6).success.any() and driven(n=5).success.all() and driven(n=2).success.all() -->
 # <!-- claim: np.isclose(10 - target_speed(10.0, 10.0, 6.0, 15.0, 6), 0.4) -->
 # <!-- claim: 10 - target_speed(10.0, 10.0, 6.0, 15.0, 6) < DEFAULT.ego.acceleration / 2 <
 #   10 - target_speed(10.0, 10.0, 6.0, 15.0, 5) -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Somebody will ask why not one speed just below the traps'. Five speeds are easy to explain and
-# to defend, and good enough to escape: that is how rules are made.
+# Somebody will ask why not one speed just below the traps'. Five speeds are easy to explain and to defend,
+# and good enough to escape: that is how rules are made.
 
 # %% [markdown]
 # ## Round 2: when to change lane?
 #
-# Suppose that the car ahead in the new lane is slower than you. The rule wants a gap that
-# would take t_safe seconds to close at this difference in speed, and at least {{ DEFAULT.rule.floor | g }} m,
-# its *floor* (§). The paper leaves t_safe open; we take {{ DEFAULT.rule.t_safe }} s (§). **Drag** it:
-# up to which difference in speed can the car, at {{ DEFAULT.ego.acceleration | g }} m/s², brake within
-# that gap?
+# Suppose that the car ahead in the new lane is slower than you. The rule wants a gap that would take t_safe
+# seconds to close at this difference in speed, and at least {{ DEFAULT.rule.floor | g }} m, its *floor* (§).
+# The paper leaves t_safe open; we take {{ DEFAULT.rule.t_safe }} s (§). **Drag** it: up to which difference
+# in speed can the car, at {{ DEFAULT.ego.acceleration | g }} m/s², brake within that gap?
 
 # %%
 explorable.gap()
 
 # %% [markdown]
-# **Exercise (5 min, ●○○).** Write this gap, the **safety distance** $d_s$. It looks at the slower
-# of the two cars ahead.
+# **Exercise (5 min, ●○○).** Write this gap, the **safety distance** $d_s$. It looks at the slower of the two
+# cars ahead.
 
 
 # %%
@@ -146,16 +143,16 @@ def safety_distance(v_ego, v_current, v_new, t_safe, floor):
 check.safety_distance(safety_distance)
 
 # %% [markdown]
-# The paper has no floor. As we read it, it prints this condition for a lane change, with $v_e$ your speed
-# and $\Delta x_\text{new}$ the distance to the new car ahead, from centre to centre:
+# The paper has no floor. As we read it, it prints this condition for a lane change, with $v_e$ your speed and
+# $\Delta x_\text{new}$ the distance to the new car ahead, from centre to centre:
 #
 # $$ (v_e - \min\{v_\text{current}, v_\text{new}\})\, t_\text{safe} > \Delta x_\text{new} $$
 #
 # <details><summary>Where it stands</summary>
 #
-# Equation 13 adds $\Delta x_\text{current} - \Delta x_\text{new}$, the distances to the two cars ahead,
-# to the left side. Algorithm 1 subtracts $\Delta x_\text{current}$ again, and changes lane when the rest
-# is above 0.
+# Equation 13 adds $\Delta x_\text{current} - \Delta x_\text{new}$, the distances to the two cars ahead, to
+# the left side. Algorithm 1 subtracts $\Delta x_\text{current}$ again, and changes lane when the rest is
+# above 0.
 #
 # </details>
 #
@@ -171,14 +168,14 @@ predicted("the_rule.2")
 bc.show(figures.when_to_change(drive))
 
 # %% [markdown]
-# **Explain.** While you are slower, the left side is negative. The condition would be true when you
-# close in fast on a near car, and then a lane change is dangerous. So we think its sign is a
-# misprint, and change lane when the gap is **longer** than the safety distance.
+# **Explain.** While you are slower, the left side is negative. The condition would be true when you close in
+# fast on a near car, and then a lane change is dangerous. So we think its sign is a misprint, and change lane
+# when the gap is **longer** than the safety distance.
 # <!-- claim: (8 - 10) * DEFAULT.rule.t_safe < 0 < 12 -->
 #
-# **Exercise (6 min, ●●○).** Decide whether there is room. The gap ahead, *from bumper to bumper*,
-# must be longer than $d_s$. Behind you the roles change: that gap must be longer than the floor, and
-# than the distance that the follower gains on you in t_safe.
+# **Exercise (6 min, ●●○).** Decide whether there is room. The gap ahead, *from bumper to bumper*, must be
+# longer than $d_s$. Behind you the roles change: that gap must be longer than the floor, and than the
+# distance that the follower gains on you in t_safe.
 
 
 # %%
@@ -194,17 +191,17 @@ def room_to_change(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor)
 check.room_to_change(room_to_change)
 
 # %% [markdown] tags=["instructor"] minutes=7
-# Do the misprint on the board: write Equation 13 as printed, $d_{13} = d_s + \Delta x_\text{current} -
-# \Delta x_\text{new}$, and Algorithm 1's $d_{13} - \Delta x_\text{current} > 0$, and let them cancel.
-# Then ask what a reviewer could have done to notice. (Work one example, or let it drive.)
+# Do the misprint on the board: write Equation 13 as printed, $d_{13} = d_s + \Delta x_\text{current} - \Delta
+# x_\text{new}$, and Algorithm 1's $d_{13} - \Delta x_\text{current} > 0$, and let them cancel. Then ask what
+# a reviewer could have done to notice. (Work one example, or let it drive.)
 
 # %% [markdown]
-# The rule always aims at the target speed, 15 m/s with nobody ahead. For the lane, it takes the first case that
-# applies (`bootcourse.rule.decide_rule`):
+# The rule always aims at the target speed, 15 m/s with nobody ahead. For the lane, it takes the first case
+# that applies (`bootcourse.rule.decide_rule`):
 #
 # 1. nobody ahead in sight in this lane, or already in the leftmost: stay;
-# 2. still more than {{ SETTLED }} m short of this lane's middle, coming from the right: finish this lane change
-#    first;
+# 2. still more than {{ SETTLED }} m short of this lane's middle, coming from the right: finish this lane
+#    change first;
 # 3. the gap to the new car ahead is not longer than $d_s$: fall back;
 # 4. a car behind in the new lane is too close: wait;
 # 5. else: change to the lane on the left.
@@ -222,11 +219,11 @@ table(["condition", "gets out, of 10 roads"], rows)
 # %% [markdown]
 # <details><summary>How the tracker steers, and how the car moves</summary>
 #
-# The tracker steers by *model predictive control*: it tries steering sequences on a model of the car,
-# does the *first step* of the best, and begins again.
+# The tracker steers by *model predictive control*: it tries steering sequences on a model of the car, does
+# the *first step* of the best, and begins again.
 #
-# The steering angle $\theta$ sets the angle $\varphi$ between the car's motion and its heading
-# $\psi$; $v$ is its speed, $L$ its length:
+# The steering angle $\theta$ sets the angle $\varphi$ between the car's motion and its heading $\psi$; $v$ is
+# its speed, $L$ its length:
 #
 # $$ \dot x = v \cos(\psi + \varphi), \quad \dot y = v \sin(\psi + \varphi), \quad \dot\psi =
 # \frac{2 v}{L} \sin\varphi, \quad \tan\varphi = \tfrac12 \tan\theta $$
@@ -238,13 +235,13 @@ table(["condition", "gets out, of 10 roads"], rows)
 # %% [markdown]
 # ## Round 3: what makes it slow?
 #
-# On {{ roads() | , }} roads the rule gets out each time without an accident, but earns about a third
-# of the {{ 150 * second_pays(15) | .0f }} that 150 s at 15 m/s pay.
+# On {{ roads() | , }} roads the rule gets out each time without an accident, but earns about a third of the
+# {{ 150 * second_pays(15) | .0f }} that 150 s at 15 m/s pay.
 # <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 -->
 # <!-- claim: 0.3 < of('rule').scores('returns').mean() / (150 * second_pays(15)) < 0.37 -->
 #
-# The rule sees cars up to {{ DEFAULT.sight.distance | g }} m ahead, its **sight**. The sight does two jobs: it
-# says which cars count for the target speed, and which for the choice of lane.
+# The rule sees cars up to {{ DEFAULT.sight.distance | g }} m ahead, its **sight**. The sight does two jobs:
+# it says which cars count for the target speed, and which for the choice of lane.
 #
 # > **Predict.** One job gets a sight of 30 m, the other keeps 200 m. For which job does this raise
 # > the return?
@@ -266,10 +263,10 @@ bc.show(figures.speeds_by_sight(drive, near, alone))
 
 # %% [markdown]
 # **Explain.** The sight for the speed does it: there a slow car counts as much at 200 m as at 20 m. With
-# {{ DEFAULT.sight.distance | g }} m, from 11 s on, the rule follows a car of {{ np.median(followed(by_rule(),
-# 11).speed)
-# | .0f }} m/s, more than 150 m ahead: its target is 10.5 m/s, and the dead band stops it at 10. When that car leaves
-# its sight, it accelerates, sees it again, and brakes to 11: that makes the saw teeth.
+# {{ DEFAULT.sight.distance | g }} m, from 11 s on, the rule follows a car of
+# {{ np.median(followed(by_rule(), 11).speed) | .0f }} m/s, more than 150 m ahead: its target is 10.5 m/s, and
+# the dead band stops it at 10. When that car leaves its sight, it accelerates, sees it again, and brakes to
+# 11: that makes the saw teeth.
 # <!-- claim: np.isclose(by_rule().states[22:67, EGO, SPEED], 10).all() and
 #   len(followed(by_rule(), 11, 33).car) == 22 and (by_rule().rule_speeds[11:33] == 10.5).all() -->
 # <!-- claim: set(followed(by_rule(), 11).car) == {4} and
@@ -277,11 +274,11 @@ bc.show(figures.speeds_by_sight(drive, near, alone))
 # <!-- claim: (split(30, 200).returns == driven(30.0).returns).all() and
 #   (split(200, 30).returns == driven(200.0).returns).all() -->
 #
-# With 30 m it stays at 15 m/s here. Drivers on this road also weigh what the car behind them gains: the one ahead
-# makes way while the rule is still {{ makes_way(recorded(ROAD, 30.0), 4) | .0f }} m behind.
-# Dashed: drivers who do not. Among such, on 200 roads, the shorter sight gains {{ driven(30.0,
-# ALOOF).returns.mean() - driven(200.0,
-# ALOOF).returns.mean() | .0f }}, not {{ driven(30.0).returns.mean() - driven(200.0).returns.mean() | .0f }}.
+# With 30 m it stays at 15 m/s here. Drivers on this road also weigh what the car behind them gains: the one
+# ahead makes way while the rule is still {{ makes_way(recorded(ROAD, 30.0), 4) | .0f }} m behind. Dashed:
+# drivers who do not. Among such, on 200 roads, the shorter sight gains
+# {{ driven(30.0, ALOOF).returns.mean() - driven(200.0, ALOOF).returns.mean() | .0f }}, not
+# {{ driven(30.0).returns.mean() - driven(200.0).returns.mean() | .0f }}.
 # <!-- claim: overtaken(recorded(ROAD, 30.0, ALOOF)) == overtaken(recorded(ROAD, 30.0)) -->
 # <!-- claim: (recorded(ROAD, 30.0).states[34:, EGO, SPEED] > 14.9).all() -->
 # <!-- claim: makes_way(recorded(ROAD, 30.0), 4) < 60 and makes_way(recorded(ROAD, 30.0, ALOOF), 4) > 1e9 -->
@@ -289,8 +286,8 @@ bc.show(figures.speeds_by_sight(drive, near, alone))
 #   (driven(30.0).returns.mean() - driven(200.0).returns.mean()) / 2 -->
 
 # %% [markdown] tags=["instructor"] minutes=7
-# Before the table, ask what each job would lose at 30 m. Then ask whether a teacher may rely on
-# others making way.
+# Before the table, ask what each job would lose at 30 m. Then ask whether a teacher may rely on others making
+# way.
 
 # %% [markdown]
 # ## Round 4: what makes it crash?
@@ -323,16 +320,15 @@ figures.reasons(rules.crash())
 # %% [markdown]
 # **Explain.** Two causes:
 #
-# - *First* (4 s): trap 1 is {{ crash().states[8, TRAP_1, X] - crash().states[8, EGO, X] | .0f }} m ahead, out of
-#   sight. With "nobody ahead" the rule calls its lane change off, and speeds up.
+# - *First* (4 s): trap 1 is {{ crash().states[8, TRAP_1, X] - crash().states[8, EGO, X] | .0f }} m ahead, out
+#   of sight. With "nobody ahead" the rule calls its lane change off, and speeds up.
 # - *Second* (9 s): it changes lane {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster than trap 2,
-#   with a gap
-#   of {{ gap(crash(), 9) | .1f }} m. It asks for {{ DEFAULT.rule.t_safe * 3 | .1f }} m, but to brake takes {{
-#   DEFAULT.clock.dt * np.arange(3, 0, -DEFAULT.clock.dt).sum() | .2f }} m (Round 2's picture).
+#   with a gap of {{ gap(crash(), 9) | .1f }} m. It asks for {{ DEFAULT.rule.t_safe * 3 | .1f }} m, but to
+#   brake takes {{ DEFAULT.clock.dt * np.arange(3, 0, -DEFAULT.clock.dt).sum() | .2f }} m (Round 2's picture).
 #
-# At 10 s it wants to fall back: too late, at 11 s it is in the middle lane. {{
-# len(by_the_formula(20.0).speeds) }} of the
-# 200 drives change lane that fast: {{ by_the_formula(20.0).crashed }} of these crash, and none of the others.
+# At 10 s it wants to fall back: too late, at 11 s it is in the middle lane.
+# {{ len(by_the_formula(20.0).speeds) }} of the 200 drives change lane that fast:
+# {{ by_the_formula(20.0).crashed }} of these crash, and none of the others.
 # <!-- claim: DEFAULT.rule.t_safe * 3 < gap(crash(), 9) < 5.25 -->
 # <!-- claim: called_off()[driven(20.0).accident > 0].all() -->
 # <!-- claim: by_the_formula(20.0).crashed == (driven(20.0).accident > 0).sum() -->
@@ -342,9 +338,8 @@ figures.reasons(rules.crash())
 #   ['CHANGE', 'FREE', 'FREE', 'CHANGE'] and crash().accident == 1 -->
 
 # %% [markdown]
-# **Repair it.** Keep the sight of 20 m for the speed, and change *one* other number of `mine`, so
-# that all {{ len(ROADS) }} drives get out. Which cause has to go, the first or the
-# second?
+# **Repair it.** Keep the sight of 20 m for the speed, and change *one* other number of `mine`, so that all
+# {{ len(ROADS) }} drives get out. Which cause has to go, the first or the second?
 
 # %%
 mine = {"sight": 20, "lane_sight": 20, "t_safe": 1.5, "floor": 3, "n": 5}
@@ -353,20 +348,18 @@ rules.ranked({"the rule": {}, "30 m": {"sight": 30}, "yours": mine})
 # %% [markdown]
 # <details><summary>The answer</summary>
 #
-# The *first* cause has to go: trap 1 must stay in sight. Two numbers do that, and then all {{
-# len(driven(20.0).success)
-# }} get out without an accident:
+# The *first* cause has to go: trap 1 must stay in sight. Two numbers do that, and then all
+# {{ len(driven(20.0).success) }} get out without an accident:
 #
 # - `lane_sight` = 200: it earns {{ split(20, 200).returns.mean() | .0f }}.
-# - a *floor of 0.5 m*: the lane change begins earlier, and {{ 'no' if not lost_in_change(0.5) else
-#   lost_in_change(0.5)
-#   }} drive loses trap 1 in the next second (with 3 m, {{ lost_in_change(3.0) }} do). It earns {{
-#   driven(20.0, floor=0.5).returns.mean() | .0f }}, but a floor is meant for safety: with 1 m, {{ (driven(20.0,
-#   floor=1.0).accident > 0).sum() }} crash.
+# - a *floor of 0.5 m*: the lane change begins earlier, and
+#   {{ 'no' if not lost_in_change(0.5) else lost_in_change(0.5) }} drive loses trap 1 in the next second (with
+#   3 m, {{ lost_in_change(3.0) }} do). It earns {{ driven(20.0, floor=0.5).returns.mean() | .0f }}, but a
+#   floor is meant for safety: with 1 m, {{ (driven(20.0, floor=1.0).accident > 0).sum() }} crash.
 #
-# To remove only the *second*, t_safe = 2 s, is not enough: none crashes, but about half stay behind. They lose trap 1
-# from sight, speed up, come too close and fall back, again and again. (With n = 10 none crashes, too, and {{
-# driven(20.0, n=10).success.sum() }} get out.)
+# To remove only the *second*, t_safe = 2 s, is not enough: none crashes, but about half stay behind. They
+# lose trap 1 from sight, speed up, come too close and fall back, again and again. (With n = 10 none crashes,
+# too, and {{ driven(20.0, n=10).success.sum() }} get out.)
 # <!-- claim: not driven(20.0, n=10).accident.any() and driven(20.0, floor=0.5).success.all() -->
 #
 # </details>
@@ -381,22 +374,22 @@ rules.ranked({"the rule": {}, "30 m": {"sight": 30}, "yours": mine})
 # We still keep {{ DEFAULT.sight.distance | g }} m for both jobs (§), the distance that the learner sees, too.
 # So the teacher is clearly **sub-optimal**. But **with a sight of 30 m the rule earns
 # {{ rule_seeing(30.0).returns.mean() | .0f }} on the same {{ roads() | , }} roads, and gets out on each
-# without an accident**. A later lesson that says "earns more than the rule" means the rule that *we*
-# made slow.
+# without an accident**. A later lesson that says "earns more than the rule" means the rule that *we* made
+# slow.
 # <!-- claim: rule_seeing(30.0).success.all() and not rule_seeing(30.0).accident.any() -->
 # <!-- claim: rule_seeing(30.0).returns.mean() > 2 * of('rule').scores('returns').mean() -->
 # <!-- claim: driven(20.0).accident.any() and not driven(30.0).accident.any() -->
 #
-# **What if the rule errs?** The **stochastic rule**, $\tilde\pi$ ("pi tilde"), takes the rule's
-# action with probability $p$, else one of the other eight, all equally likely. With p = 0.9, {{
-# 100 * erring(0.9) | .0f }} % of 1,000 drives end in an accident. But $\tilde\pi$ need not drive: lesson
+# **What if the rule errs?** The **stochastic rule**, $\tilde\pi$ ("pi tilde"), takes the rule's action with
+# probability $p$, else one of the other eight, all equally likely. With p = 0.9,
+# {{ 100 * erring(0.9) | .0f }} % of 1,000 drives end in an accident. But $\tilde\pi$ need not drive: lesson
 # [[soft_constraint]] only asks how probable it makes each action.
 # <!-- claim: N_ACTIONS - 1 == 8 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Ask for the cause of the crash before anybody unfolds it. Which number does it point to? Somebody
-# will propose to change two at once. Say why not. Then ask what a stochastic rule is good for if it
-# drives so badly. (A policy can be compared with it.)
+# Ask for the cause of the crash before anybody unfolds it. Which number does it point to? Somebody will
+# propose to change two at once. Say why not. Then ask what a stochastic rule is good for if it drives so
+# badly. (A policy can be compared with it.)
 
 # %%
 compare_predictions(
@@ -413,53 +406,45 @@ compare_predictions(
 # ## What you now know
 #
 # 1. The rule is two formulas, five cases for the lane, and a tracker with a dead band.
-# 2. It falls back until the gap is longer than the safety distance. With the printed condition it
-#    stays behind.
+# 2. It falls back until the gap is longer than the safety distance. With the printed condition it stays
+#    behind.
 # <!-- claim: not as_printed(target_speed).success.any() and not as_printed(target_speed).accident.any() and
 #   driven(200.0).success[:10].all() -->
-# 3. Its target speed counts cars up to {{ DEFAULT.sight.distance | g }} m ahead, and that makes it
-#    slow: with 30 m it earns more than twice as much where drivers make way, else {{ driven(30.0,
-#    ALOOF).returns.mean() /
-#    driven(200.0, ALOOF).returns.mean() | .1f }} times.
-# 4. With 20 m it loses trap 1 from sight, most often in a lane change: {{ by_the_formula(20.0).crashed }} of 200
-#    drives
-#   crash, and {{ (~driven(20.0).success & (driven(20.0).accident == 0)).sum() }} stay behind. A long sight for
-#    the choice of lane repairs that.
+# 3. Its target speed counts cars up to {{ DEFAULT.sight.distance | g }} m ahead, and that makes it slow: with
+#    30 m it earns more than twice as much where drivers make way, else
+#    {{ driven(30.0, ALOOF).returns.mean() / driven(200.0, ALOOF).returns.mean() | .1f }} times.
+# 4. With 20 m it loses trap 1 from sight, most often in a lane change: {{ by_the_formula(20.0).crashed }} of
+#    200 drives crash, and {{ (~driven(20.0).success & (driven(20.0).accident == 0)).sum() }} stay behind. A
+#    long sight for the choice of lane repairs that.
 # <!-- claim: 0.45 < 1 - driven(20.0, t_safe=2.0).success.mean() < 0.55 and
 #   not driven(20.0, t_safe=2.0).accident.any() -->
 # 5. The stochastic rule gives each action a probability above 0.
 #
 # **Three questions to think about**
 # - How would you choose the sight for a car that carries people?
-# - The rule reads the true state of the cars, the learner 26 numbers. Can a learner imitate it
-#   perfectly?
-# - The traps react to the car ahead of them. What should the rule look at if they reacted to cars
-#   beside them, too?
+# - The rule reads the true state of the cars, the learner 26 numbers. Can a learner imitate it perfectly?
+# - The traps react to the car ahead of them. What should the rule look at if they reacted to cars beside
+#   them, too?
 #
-# **Read on**: the [next lesson](demonstrations.ipynb) learns from this rule's drives. A
-# safety distance that grows with speed: Gipps, *A behavioural car-following model for computer
-# simulation* (1981).
+# **Read on**: the [next lesson](demonstrations.ipynb) learns from this rule's drives. A safety distance that
+# grows with speed: Gipps, *A behavioural car-following model for computer simulation* (1981).
 
 # %% [markdown] tags=["instructor"] minutes=3
 # *Model answers to the three questions:*
 #
-# - **The sight.** Not from this figure. Zero accidents on 200 roads are compatible with a rate of up
-#   to {{ 100 * (1 - 0.05 ** (1 / 200)) | .1f }} % (95 % confidence). Compute first
-#   how far it must see: at {{ DEFAULT.ego.acceleration | g }} m/s² it needs
-#   {{ (15 - 5) ** 2 / 2 / DEFAULT.ego.acceleration | .0f }} m to slow down from 15 m/s to a car at
-#   5 m/s without touching it. Take more than that, and test it on as many roads as the rate demands
-#   that you want to rule out.
-# - **Imitation.** Not perfectly. The rule may depend on a car that the observation leaves out (a
-#   fifth one within its sight) and on the number of its lane, which has to be read off y. Where two
-#   states give one observation and the rule acts differently, a learner can at best learn how often
-#   it does which.
-# - **Traps that look sideways.** A trap that brakes for you in the next lane reopens the gap that
-#   you fall back to find. Then the rule should look at how the gap changes after its own move, not
-#   at the gap now, which takes a model of the traps.
+# - **The sight.** Not from this figure. Zero accidents on 200 roads are compatible with a rate of up to
+#   {{ 100 * (1 - 0.05 ** (1 / 200)) | .1f }} % (95 % confidence). Compute first how far it must see: at
+#   {{ DEFAULT.ego.acceleration | g }} m/s² it needs {{ (15 - 5) ** 2 / 2 / DEFAULT.ego.acceleration | .0f }}
+#   m to slow down from 15 m/s to a car at 5 m/s without touching it. Take more than that, and test it on as
+#   many roads as the rate demands that you want to rule out.
+# - **Imitation.** Not perfectly. The rule may depend on a car that the observation leaves out (a fifth one
+#   within its sight) and on the number of its lane, which has to be read off y. Where two states give one
+#   observation and the rule acts differently, a learner can at best learn how often it does which.
+# - **Traps that look sideways.** A trap that brakes for you in the next lane reopens the gap that you fall
+#   back to find. Then the rule should look at how the gap changes after its own move, not at the gap now,
+#   which takes a model of the traps.
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** Gap against time while the driver falls back; a line at 3 m, where it may change
-# lane.
+# **On the board.** Gap against time while the driver falls back; a line at 3 m, where it may change lane.
 #
-# **To discuss.** Is a rule that never crashes in 1,000 drives a good rule? What would you ask about
-# it?
+# **To discuss.** Is a rule that never crashes in 1,000 drives a good rule? What would you ask about it?

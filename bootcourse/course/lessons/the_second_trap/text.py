@@ -36,9 +36,8 @@ progress("the_second_trap")
 #
 # Here is another learner: PPO, *proximal policy optimisation*. Ten agents, trained without a rule or
 # demonstrations, earn {{ ppo('alone')['returns'].mean() | .0f }} on {{ len(ppo_kinds.ROADS) }} new roads.
-# Keeping straight behind the traps earns {{
-# idle().rewards.sum() | .0f }}; the rule, which gets out, earns {{ drivers()['the rule'][0] |
-# .0f }}.
+# Keeping straight behind the traps earns {{ idle().rewards.sum() | .0f }}; the rule, which gets out, earns
+# {{ drivers()['the rule'][0] | .0f }}.
 # <!-- claim: ppo_agents() == 10 and drivers()['the rule'][1] == 1 and
 #   drivers()['keeping straight'][1] == 0 -->
 #
@@ -58,8 +57,8 @@ drive = bc.record(ppo_kinds.agent_of("alone").as_policy(), [ROAD], label="PPO al
 bc.recording([beginning(drive, 60)], height=360)
 
 # %% [markdown]
-# **See.** None of the ten ends ahead, on any of the {{ len(ppo_kinds.ROADS) }} roads. Yet they earn
-# twice what keeping straight (the *first trap*) earns: this is the **second trap**.
+# **See.** None of the ten ends ahead, on any of the {{ len(ppo_kinds.ROADS) }} roads. Yet they earn twice
+# what keeping straight (the *first trap*) earns: this is the **second trap**.
 # <!-- claim: (ppo('alone')['success'] == 0).all() and not ppo_drive().success -->
 # <!-- claim: ppo('alone')['returns'].mean() > 1.8 * idle().rewards.sum() and
 #   abs(ppo('alone')['returns'].mean() / of('rule').scores('returns')[0] - 1) < 0.25 -->
@@ -75,7 +74,8 @@ title = "This agent sprints and falls back, again and again, and does not pass t
 bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
 
 # %% [markdown]
-# As long as it stays behind trap 1, its *mean* speed is at most trap 1's, but for the few metres of the first gap.
+# As long as it stays behind trap 1, its *mean* speed is at most trap 1's, but for the few metres of the first
+# gap.
 # <!-- claim: ppo_gap().min() < -40 and ppo_speeds().max() > 13.5 and ppo_speeds()[40:].min() < 7
 #   -->
 # <!-- claim: ppo_drive().states[-1, EGO, X] < ppo_drive().states[-1, TRAP_1, X] and
@@ -99,11 +99,11 @@ predicted("the_second_trap.2")
 explorable.sprints()
 
 # %% [markdown]
-# **See.** Changing between 5 and 15 m/s pays almost four times as much. A swing of up to 2.5 m/s
-# pays nothing more: from 5 to 12.5 m/s, r_v is a straight line.
+# **See.** Changing between 5 and 15 m/s pays almost four times as much. A swing of up to 2.5 m/s pays nothing
+# more: from 5 to 12.5 m/s, r_v is a straight line.
 #
-# A function whose slope never falls, like r_v up to 15 m/s, is **convex**: the mean of its values at
-# several speeds is at least its value at the mean speed (*Jensen's inequality*). What is the difference in the
+# A function whose slope never falls, like r_v up to 15 m/s, is **convex**: the mean of its values at several
+# speeds is at least its value at the mean speed (*Jensen's inequality*). What is the difference in the
 # agent's drive?
 # <!-- claim: 3.5 < np.divide(*explorable.paid(speed_reward, 5)) < 4 and
 #   abs(np.divide(*explorable.paid(speed_reward, 2.5)) - 1) < 1e-9 <
@@ -118,8 +118,8 @@ steady = bc.formulas.speed_reward(speeds.mean())
 print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {steady:.2f}")
 
 # %% [markdown]
-# **Explain.** The sprints pay, but late: first the agent falls back to {{ ppo_speeds().min() | .0f
-# }} m/s. On this road, discounted:
+# **Explain.** The sprints pay, but late: first the agent falls back to {{ ppo_speeds().min() | .0f }} m/s. On
+# this road, discounted:
 #
 # {{ worth_table() }}
 #
@@ -134,20 +134,18 @@ print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {s
 #   settings_for('ppo').gamma) < 2.2 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Ask for everyday payments that are convex: bonuses above a threshold, overtime at a higher rate.
-# Who finds a way to earn them by irregular work? Then ask what a *concave* one would do, before
-# round 2 does it.
+# Ask for everyday payments that are convex: bonuses above a threshold, overtime at a higher rate. Who finds a
+# way to earn them by irregular work? Then ask what a *concave* one would do, before round 2 does it.
 
 # %% [markdown]
 # ## Round 2: do the sprints keep it there?
 #
 # Take their pay away: let r_v be √((v − 5) / 10) from 5 to 15 m/s, and 0 below. From 5 m/s on its slope
-# falls: there it is **concave**. At a mean speed of
-# 10 m/s, a steady drive now pays most. Ten agents were trained with it.
+# falls: there it is **concave**. At a mean speed of 10 m/s, a steady drive now pays most. Ten agents were
+# trained with it.
 #
-# Getting out pays, even as the rule does it: on this road the rule earns {{ paid_concavely(by_rule()) | .0f }},
-# keeping
-# straight {{ paid_concavely(idle()) | .0f }}.
+# Getting out pays, even as the rule does it: on this road the rule earns
+# {{ paid_concavely(by_rule()) | .0f }}, keeping straight {{ paid_concavely(idle()) | .0f }}.
 # <!-- claim: all(paid_concavely(by_rule(), g) > paid_concavely(idle(), g) for g in (1,
 #   settings_for('ppo').gamma)) and by_rule().success -->
 # <!-- claim: [float(second_trap.concave_speed_reward(np.float64(v))) for v in (5, 15)] == [0, 1]
@@ -166,9 +164,8 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 
 # %% [markdown]
 # **See.** None of the ten sprints on this road, and none gets out: all ten stay behind the traps, and one of
-# them crashes there on {{ 100 * ppo('concave')['accident'].max() | .0f }} % of the roads. **So the sprints are not
-# all
-# that keeps PPO there.**
+# them crashes there on {{ 100 * ppo('concave')['accident'].max() | .0f }} % of the roads. **So the sprints
+# are not all that keeps PPO there.**
 # <!-- claim: 1 - second_trap.concave_speed_reward(np.float64(10)) < (1 - speed_reward(10)) / 2 and
 #   paid_concavely(by_rule()) - paid_concavely(idle()) < by_rule().rewards.sum() - idle().rewards.sum() -->
 # <!-- claim: ppo('concave')['success'].max() == 0 and abs(ppo('concave')['returns'].mean() /
@@ -177,20 +174,20 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 #   range(ppo_agents())) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Let them propose other rewards that need no sprints, and say for each what a driver who has never
-# been ahead learns from it about the way out.
+# Let them propose other rewards that need no sprints, and say for each what a driver who has never been ahead
+# learns from it about the way out.
 
 # %% [markdown]
 # ## Round 3: how does PPO see pay that comes late?
 #
 # PPO has no replay buffer. With its policy, π_old, it drives {{ settings_for('ppo').horizon }} decisions on
-# each of {{ ppo_kinds.settings_of('alone').envs_per_agent }} roads, takes {{ ppo_kinds.QUICK['epochs'] }} passes over
-# them in random parts (*minibatches*), throws them away, and drives again. The **advantage** A of
+# each of {{ ppo_kinds.settings_of('alone').envs_per_agent }} roads, takes {{ ppo_kinds.QUICK['epochs'] }}
+# passes over them in random parts (*minibatches*), throws them away, and drives again. The **advantage** A of
 # an action is what came of it, less what was expected. A above 0: it did better than expected.
 #
-# Suppose that PPO expects a steady 10 m/s. The car falls back to 5 m/s for ten seconds, then sprints
-# at 15 for ten. A bar is the *surprise* of one second: what it pays, less what was expected. A of
-# the first second is the sum of the filled bars.
+# Suppose that PPO expects a steady 10 m/s. The car falls back to 5 m/s for ten seconds, then sprints at 15
+# for ten. A bar is the *surprise* of one second: what it pays, less what was expected. A of the first second
+# is the sum of the filled bars.
 #
 # λ, the weight of the later seconds, is PPO's {{ settings_for('ppo').gae_lambda }}. **Drag** it down: where
 # does falling back stop looking good?
@@ -209,15 +206,14 @@ explorable.later()
 #
 # $$ \delta_t = r_t + \gamma V(s_{t+1}) - V(s_t) $$
 #
-# and the advantage adds those that follow, each with less weight (GAE, *generalised advantage
-# estimation*):
+# and the advantage adds those that follow, each with less weight (GAE, *generalised advantage estimation*):
 #
 # $$ A_t = \delta_t + \gamma\lambda\, \delta_{t+1} + (\gamma\lambda)^2 \delta_{t+2} + \dots $$
 #
 # V learns by squared error; its target is A + V(s).
 #
-# **Two endings need care.** After an accident nothing follows: V is 0. If the time is over, the
-# last state still has its value. At both the sum stops, as it does where the data end.
+# **Two endings need care.** After an accident nothing follows: V is 0. If the time is over, the last state
+# still has its value. At both the sum stops, as it does where the data end.
 #
 # **Exercise (15 min, ●●●).** Write the advantages, in torch.
 
@@ -255,13 +251,11 @@ found = {name: advantage_of(r, V, V, no, end, 0.99, 0.95) for name, end in ends.
 bc.show(figures.credit(speeds, found, 32))
 
 # %% [markdown]
-# **See.** Of the {{ (ppo_speeds() < 10).sum() }} seconds below 10 m/s, {{ judged_good(0.95) }} have A above 0 if A
-# sees the whole drive (in most others the drive ends before the sprint pays). Cut every {{
-# settings_for('ppo').horizon }}
-# decisions, as
-# in training, {{ judged_good(0.95, settings_for('ppo').horizon) }} do
-# ({{ wherever_cut().mean() | .0f }} on average over all places of the cuts): pay beyond the cut reaches A only
-# through V, which must learn it first.
+# **See.** Of the {{ (ppo_speeds() < 10).sum() }} seconds below 10 m/s, {{ judged_good(0.95) }} have A above 0
+# if A sees the whole drive (in most others the drive ends before the sprint pays). Cut every
+# {{ settings_for('ppo').horizon }} decisions, as in training,
+# {{ judged_good(0.95, settings_for('ppo').horizon) }} do ({{ wherever_cut().mean() | .0f }} on average over
+# all places of the cuts): pay beyond the cut reaches A only through V, which must learn it first.
 # <!-- claim: (np.flatnonzero((ppo_speeds() < 10) & (credit(0.95) <= 0)) > 120).mean() > 0.9 -->
 # <!-- claim: ppo_kinds.settings_of('alone').horizon == settings_for('ppo').horizon -->
 # <!-- claim: judged_good(0.0) == 0 and (credit(0.95)[(ppo_speeds() < 10) & (np.arange(150) < 120)] >
@@ -270,9 +264,8 @@ bc.show(figures.credit(speeds, found, 32))
 # %% [markdown]
 # ## Round 4: how far may one decision push?
 #
-# The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since
-# it was taken. From ρ = 1 a decision can push it only so far: by
-# ε = {{ 100 * settings_for('ppo').clip | .0f }} %.
+# The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since it
+# was taken. From ρ = 1 a decision can push it only so far: by ε = {{ 100 * settings_for('ppo').clip | .0f }} %.
 #
 # > **Predict.** An action turned out badly, A = −2, but has become likelier, ρ = 1.5. Does this
 # > decision still change the policy?
@@ -286,8 +279,8 @@ predicted("the_second_trap.4")
 bc.show(figures.hinges(0.2))
 
 # %% [markdown]
-# **See.** Where the line is flat, the decision has no gradient. Other decisions may still push its
-# action further. The loss is
+# **See.** Where the line is flat, the decision has no gradient. Other decisions may still push its action
+# further. The loss is
 #
 # $$ L = -\,\mathrm{mean}\big[\min(\rho A,\ \mathrm{clip}(\rho, 1 - ε, 1 + ε)\, A)\big] $$
 #
@@ -310,16 +303,16 @@ def clipped_loss(ratio, advantage, clip):
 check.clipped_loss(clipped_loss)
 
 # %% [markdown] tags=["instructor"] minutes=7
-# The two endings are the hard part. Draw two rows, one that ends in an accident and one
-# that runs out of time, and fill in δ and the sum for both. Who thinks that clipping is a limit on
-# the policy? It takes the payment away, and other rows of the batch can push the policy further.
+# The two endings are the hard part. Draw two rows, one that ends in an accident and one that runs out of
+# time, and fill in δ and the sum for both. Who thinks that clipping is a limit on the policy? It takes the
+# payment away, and other rows of the batch can push the policy further.
 
 # %% [markdown]
 # ## Round 5: start as a clone
 #
-# The rule drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads,
-# stochastically, to show more states, and the actor is *cloned*: it learns
-# the rule's own action in each. Then PPO begins, without the rule.
+# The rule drives {{ settings_for('ppo_cloned').demonstration_episodes }} roads, stochastically, to show more
+# states, and the actor is *cloned*: it learns the rule's own action in each. Then PPO begins, without the
+# rule.
 # <!-- claim: ppo_escapes('alone') == ppo_escapes('concave') == 0 -->
 # <!-- claim: settings_for('ppo_cloned').xi_multiplier == 0 ==
 #   settings_for('ppo_cloned').beta_start -->
@@ -342,10 +335,9 @@ yours = ppo_kinds.train(training, decisions=150_000).agent
 bc.show(figures.plane(clone, ppo_kinds.driven(yours.as_policy())))
 
 # %% [markdown]
-# **See.** The arrow is your training. The ten that ship had {{ ppo_kinds.KINDS['cloned'].decisions |
-# , }} decisions: all ten escape, earn over twice what sprinting earns, and crash in {{
-# 100 * ppo('cloned')['accident'].mean() | .1f }} % of
-# their drives, the rule in none.
+# **See.** The arrow is your training. The ten that ship had {{ ppo_kinds.KINDS['cloned'].decisions | , }}
+# decisions: all ten escape, earn over twice what sprinting earns, and crash in
+# {{ 100 * ppo('cloned')['accident'].mean() | .1f }} % of their drives, the rule in none.
 # <!-- claim: ppo('cloned')['returns'].mean() > 2 * ppo('alone')['returns'].mean() and
 #   discounted(ppo_drive('cloned'), settings_for('ppo').gamma) > 2 * discounted(ppo_drive(),
 #   settings_for('ppo').gamma) -->
@@ -361,21 +353,20 @@ bc.show(figures.plane(clone, ppo_kinds.driven(yours.as_policy())))
 bc.show(figures.ahead_in_training(ppo_kinds.reference()))
 
 # %% [markdown]
-# **See.** Alone, PPO *does* get ahead at times, with drawn actions: each agent in {{ 100 *
-# ppo('alone')['escapes'].max(1).min() | .0f }} to {{ 100 * ppo('alone')['escapes'].max(1).max() | .0f }} % of 300
-# drives at its best moment, and in no more than {{ 100 * ppo('alone')['escapes'][:, 8:].max() | .0f }} % in the
-# second
-# half. After cloning, in {{ 100 * ppo('cloned')['escapes'].min() | .0f }} % or more at every point.
+# **See.** Alone, PPO *does* get ahead at times, with drawn actions: each agent in
+# {{ 100 * ppo('alone')['escapes'].max(1).min() | .0f }} to
+# {{ 100 * ppo('alone')['escapes'].max(1).max() | .0f }} % of 300 drives at its best moment, and in no more
+# than {{ 100 * ppo('alone')['escapes'][:, 8:].max() | .0f }} % in the second half. After cloning, in
+# {{ 100 * ppo('cloned')['escapes'].min() | .0f }} % or more at every point.
 # <!-- claim: ppo('alone')['at'][0][8] > 400_000 and ppo('alone')['escapes'][:, -1].max() == 0 -->
 #
-# **Explain.** A compares with V, learned from PPO's *own* drives. After cloning many of these get ahead; alone
-# few do. Is it how many get ahead, or how much these earn? That was not tested.
+# **Explain.** A compares with V, learned from PPO's *own* drives. After cloning many of these get ahead;
+# alone few do. Is it how many get ahead, or how much these earn? That was not tested.
 # <!-- claim: ppo('cloned')['escapes'].min() > 0.3 > 3 * ppo('alone')['escapes'].max() -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Ask which of the course's figures would have looked the same for the second trap: those that
-# show returns. Then ask for one sentence for an abstract about PPO alone that is true, and does
-# not mislead.
+# Ask which of the course's figures would have looked the same for the second trap: those that show returns.
+# Then ask for one sentence for an abstract about PPO alone that is true, and does not mislead.
 
 # %%
 compare_predictions(
@@ -392,8 +383,8 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. After {{ ppo_kinds.KINDS['alone'].decisions | , }} decisions ten agents of PPO alone earn
-#    twice what keeping straight earns, and none gets out: look at success, and at a drive.
+# 1. After {{ ppo_kinds.KINDS['alone'].decisions | , }} decisions ten agents of PPO alone earn twice what
+#    keeping straight earns, and none gets out: look at success, and at a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one.
 # 3. With a concave reward ten agents do not sprint on our road, and none escapes.
 # 4. A decision with an A above its minibatch's mean pushes until its action is likelier by ε.
@@ -401,21 +392,19 @@ compare_predictions(
 #
 # **Three questions to think about**
 # - Which number, other than success, would have shown the second trap?
-# - Could cloning `racer` or `timid` of lesson [[your_teacher]] work as well? (Of ten clones of half random, {{
-#   cloned_escape('random-50') }} escape after PPO.)
-# - A *shaping reward* γ Φ(s') − Φ(s) leaves the best policy as it is (Ng, Harada and Russell 1999).
-#   Let the *potential* Φ be {{ second_trap.PER_LANE | .0f }} for each lane
-#   that the car
-#   has come to the left, 0 after an accident, and γ = 1. What do its payments add up to in an attempt that
-#   ends in an accident?
+# - Could cloning `racer` or `timid` of lesson [[your_teacher]] work as well? (Of ten clones of half random,
+#   {{ cloned_escape('random-50') }} escape after PPO.)
+# - A *shaping reward* γ Φ(s') − Φ(s) leaves the best policy as it is (Ng, Harada and Russell 1999). Let the
+#   *potential* Φ be {{ second_trap.PER_LANE | .0f }} for each lane that the car has come to the left, 0 after
+#   an accident, and γ = 1. What do its payments add up to in an attempt that ends in an accident?
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Answers to the three questions. (1) The largest speed beside the mean speed: it shows the sprints.
-# Or one drive that is looked at. The return does not show it. (2) The racer leads past the traps
-# and crashes later, as a clone of the quarter-random teacher does: try it. From `timid` {{
-# cloned_escape('timid') }} of ten escape. (3) To −Φ of the first state, whatever lies between: an
-# accident takes back what the lanes to the left have paid. Of ten agents of PPO alone that were
-# trained with this guide (at PPO's γ) {{ ppo_escapes('shaped') }} escape.
+# Answers to the three questions. (1) The largest speed beside the mean speed: it shows the sprints. Or one
+# drive that is looked at. The return does not show it. (2) The racer leads past the traps and crashes later,
+# as a clone of the quarter-random teacher does: try it. From `timid` {{ cloned_escape('timid') }} of ten
+# escape. (3) To −Φ of the first state, whatever lies between: an accident takes back what the lanes to the
+# left have paid. Of ten agents of PPO alone that were trained with this guide (at PPO's γ)
+# {{ ppo_escapes('shaped') }} escape.
 # <!-- claim: len(ppo('shaped')['success']) == 10 and abs(sum(second_trap.shaping_reward(20.0 * t,
 #   20.0 * t + 20, t == 2, 1.0) for t in range(3))) < 1e-9 -->
 
@@ -426,8 +415,8 @@ compare_predictions(
 # Next: [looking ahead](looking_ahead.ipynb).
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** r_v against v with a chord from 5 to 15 m/s; below it the speed of an agent that
-# lives on the difference.
+# **On the board.** r_v against v with a chord from 5 to 15 m/s; below it the speed of an agent that lives on
+# the difference.
 #
-# **To discuss.** You read only a table of returns. Which number beside it would have shown that the
-# agent is in a trap?
+# **To discuss.** You read only a table of returns. Which number beside it would have shown that the agent is
+# in a trap?

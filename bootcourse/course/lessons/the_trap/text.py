@@ -40,9 +40,9 @@ progress("the_trap")
 # %% [markdown]
 # ## Look first
 #
-# This is the trap of lesson [[start]]. The driver, **ego**, starts at {{ DEFAULT.ego.speed }} m/s,
-# boxed in by two dark red cars as fast as itself: **trap 1** is ahead in its lane, **trap 2** in the
-# next lane, a few metres ahead. The left lane is free. Grey cars are traffic.
+# This is the trap of lesson [[start]]. The driver, **ego**, starts at {{ DEFAULT.ego.speed }} m/s, boxed in
+# by two dark red cars as fast as itself: **trap 1** is ahead in its lane, **trap 2** in the next lane, a few
+# metres ahead. The left lane is free. Grey cars are traffic.
 # <!-- claim: DEFAULT.traps.speed == DEFAULT.ego.speed -->
 # <!-- claim: all(4 < idle(road).states[0, TRAP_2, X] < 7.5 for road in (7, ROAD)) -->
 #
@@ -62,20 +62,19 @@ title = "The rule falls back, then changes lane behind trap 2"
 bc.show(bc.top_view_over_time(by_rule, times=[0, 3, 6, 9, 20, bc.overtaken(by_rule)], title=title))
 
 # %% [markdown]
-# **See.** The rule brakes, falls farther behind both traps and changes left twice. Then it waits until second 33 to
-# speed up: it is safe, but slow.
+# **See.** The rule brakes, falls farther behind both traps and changes left twice. Then it waits until second
+# 33 to speed up: it is safe, but slow.
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Let them drive road 7 for three minutes, and count who got out without braking. Ask those who
-# drove in lesson [[start]] what they tried first, and what the rule does instead. Some will say that
-# one has to fall back: Round 1 asks whether that is so.
+# Let them drive road 7 for three minutes, and count who got out without braking. Ask those who drove in
+# lesson [[start]] what they tried first, and what the rule does instead. Some will say that one has to fall
+# back: Round 1 asks whether that is so.
 
 # %% [markdown]
 # ## Round 1: do you have to brake?
 #
-# Once a second you take one of nine **actions**: brake or accelerate by {{
-# DEFAULT.ego.acceleration }} m/s² or keep the speed, and steer left or right by π/{{ math.pi /
-# DEFAULT.ego.steering }} rad or go straight.
+# Once a second you take one of nine **actions**: brake or accelerate by {{ DEFAULT.ego.acceleration }} m/s²
+# or keep the speed, and steer left or right by π/{{ math.pi / DEFAULT.ego.steering }} rad or go straight.
 # <!-- claim: N_ACTIONS == 9 and DEFAULT.clock.decision_rate == 1 -->
 #
 # | | left | straight | right |
@@ -87,8 +86,8 @@ bc.show(bc.top_view_over_time(by_rule, times=[0, 3, 6, 9, 20, bc.overtaken(by_ru
 # <!-- claim: list(ACTION_NAMES) == [f'{a} {b}' for a in ('brake', 'keep', 'accelerate') for b in
 #   ('left', 'straight', 'right')] -->
 #
-# **Exercise (5 min, ●○○).** Turn action numbers into what the car does. The axis y points to the
-# *right*, so steering left is negative.
+# **Exercise (5 min, ●○○).** Turn action numbers into what the car does. The axis y points to the *right*, so
+# steering left is negative.
 
 
 # %%
@@ -106,13 +105,13 @@ bc.show(figures.nine_actions(decoded, seconds=2))
 # %% [markdown]
 # **See.** After two seconds of steering the car points across the road: a lane change needs a turn back.
 #
-# A drive of at most {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s is an **episode**.
-# An **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive that ends ahead of
+# A drive of at most {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s is an **episode**. An
+# **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive that ends ahead of
 # trap 1 *gets out*: it is a **success**, even if it ends in a crash. *Unhurt*: without an accident.
 # <!-- claim: len(KINDS) == 3 -->
 #
-# A **plan** is a list of actions; after the last the car goes straight on. Take the {{ 3 ** 8 | , }}
-# plans that steer left, straight or right in each of eight seconds, and then accelerate for five.
+# A **plan** is a list of actions; after the last the car goes straight on. Take the {{ 3 ** 8 | , }} plans
+# that steer left, straight or right in each of eight seconds, and then accelerate for five.
 #
 # > **Predict.** How many of them get out unhurt on road 7? On an empty road {{ into_left_lane().sum() }} of them
 # > would end in the left lane, parallel to it, without leaving the road. They must also miss trap 2.
@@ -123,9 +122,9 @@ choices = ["1", "about 10", "about 100", "about 1,000"]
 predict("the_trap.1", "How many of the 6,561 plans get out unhurt on road 7?", choices)
 
 # %% [markdown]
-# **Exercise (10 min, ●●○).** A **planner** is a program that tries out the future before it acts.
-# Ours tries its plans on the road itself, so it knows what the traffic will do. Draw plans at
-# random, let them drive, and return one that gets out unhurt.
+# **Exercise (10 min, ●●○).** A **planner** is a program that tries out the future before it acts. Ours tries
+# its plans on the road itself, so it knows what the traffic will do. Draw plans at random, let them drive,
+# and return one that gets out unhurt.
 
 
 # %%
@@ -155,13 +154,11 @@ for road in (7, ROAD, 1):  # all plans, on three roads
     print(f"road {road}: {out.sum()} of {len(all_plans):,} plans get out unhurt")
 
 # %% [markdown]
-# **Explain.** There are ways out without braking, but few of these plans find one, and on road 1
-# none does.
+# **Explain.** There are ways out without braking, but few of these plans find one, and on road 1 none does.
 # <!-- claim: 70 < getting_out(7) < 150 and 0 < getting_out(ROAD) < 10 and getting_out(1) == 0 -->
 #
-# One of road {{ ROAD }}'s {{ getting_out(ROAD) }} plans, the **blind plan**, now drives {{ roads() | , }} other
-# roads,
-# looking at nothing:
+# One of road {{ ROAD }}'s {{ getting_out(ROAD) }} plans, the **blind plan**, now drives {{ roads() | , }}
+# other roads, looking at nothing:
 # <!-- claim: on_road(ROAD)(np.array([[5, 3, 3, 3, 3, 5, 5, 5]])).all() and ROAD not in
 #   held_out_seeds(1, roads()) -->
 
@@ -176,7 +173,8 @@ print(f"The blind plan gets out unhurt on {unhurt:.0%}, crashes on {np.mean(hurt
 # **See.** It is quick, but crashes on about every fourth road.
 # <!-- claim: 0.2 < np.mean(blind_plan().accident > 0) < 0.3 -->
 #
-# The simulation moves the cars in *time steps* of {{ DEFAULT.clock.dt }} s. Is that fine enough? **Halve the step**:
+# The simulation moves the cars in *time steps* of {{ DEFAULT.clock.dt }} s. Is that fine enough? **Halve the
+# step**:
 
 # %%
 finer = time_step.unhurt(blind_plan, time_step.OURS, step=0.25)
@@ -188,13 +186,12 @@ print(f"In steps of 0.25 s it gets out unhurt on {finer:.0%}")
 #
 # <details><summary>When the time step matters</summary>
 #
-# highway-env is the simulator under our road. With its own traffic, 0.5 s is too long: the blind plan gets out
-# unhurt on {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.5) | .0f }} % of the roads; in steps of
-# 0.25 s, on {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.25) | .0f }} %. That traffic corrects its heading with a
-# *time constant* of {{ time_step.HIGHWAY_ENVS }} s. A step of {{
-# DEFAULT.clock.dt }} s multiplies the error by 1 − 0.5 / 0.2 = {{ 1 - 0.5 / 0.2 | .1f }}: cars swing
-# more and more. highway-env takes steps of 1/{{ highway_env_rate() }} s; we take {{ time_step.OURS }} s
-# as the time constant.
+# highway-env is the simulator under our road. With its own traffic, 0.5 s is too long: the blind plan gets
+# out unhurt on {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.5) | .0f }} % of the roads; in steps of 0.25 s, on
+# {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.25) | .0f }} %. That traffic corrects its heading with a *time
+# constant* of {{ time_step.HIGHWAY_ENVS }} s. A step of {{ DEFAULT.clock.dt }} s multiplies the error by 1 −
+# 0.5 / 0.2 = {{ 1 - 0.5 / 0.2 | .1f }}: cars swing more and more. highway-env takes steps of
+# 1/{{ highway_env_rate() }} s; we take {{ time_step.OURS }} s as the time constant.
 #
 # </details>
 # <!-- claim: time_step.HIGHWAY_ENVS == 0.2 and DEFAULT.clock.dt == 0.5 -->
@@ -203,10 +200,9 @@ print(f"In steps of 0.25 s it gets out unhurt on {finer:.0%}")
 # The rule is slow, and the blind plan crashes. Can a program learn to do better?
 
 # %% [markdown] tags=["instructor"] minutes=8
-# Collect the guesses for all plans before anybody runs the planner. At the table ask where else
-# a step meets a rate: gradient descent with a learning rate times a curvature above 2 diverges with
-# the same alternating signs. The report's page of claims says which of the course's results we
-# computed again at 0.25 s.
+# Collect the guesses for all plans before anybody runs the planner. At the table ask where else a step meets
+# a rate: gradient descent with a learning rate times a curvature above 2 diverges with the same alternating
+# signs. The report's page of claims says which of the course's results we computed again at 0.25 s.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
 
 # %% [markdown]
@@ -224,8 +220,8 @@ bc.show(figures.reward_curve())
 # {{ DEFAULT.reward.w_v }},\; w_y = w_\theta = {{ DEFAULT.reward.w_y }} $$
 #
 # - $r_v$ is the curve above;
-# - $r_y = \exp(-{{ -math.log(centring_reward(1.0)) }}\, d_e^2)$ pays for the middle of the lane,
-#   $d_e$ metres away;
+# - $r_y = \exp(-{{ -math.log(centring_reward(1.0)) }}\, d_e^2)$ pays for the middle of the lane, $d_e$ metres
+#   away;
 # - $r_\theta = -|\sin\theta|$ charges for steering by an angle $\theta$.
 #
 # > **Predict.** You do nothing: 10 m/s, centred, no steering. What does one second earn? Use pen and
@@ -235,9 +231,9 @@ bc.show(figures.reward_curve())
 predict("the_trap.2", "What does one second of doing nothing earn?", unit="")
 
 # %% [markdown]
-# **Exercise (6 min, ●○○).** Write the reward of one second. The terms are
-# `formulas.speed_reward(v_lon)`, `formulas.centring_reward(offset)` and
-# `formulas.steering_reward(theta)`. An accident pays {{ DEFAULT.reward.accident }} and nothing else.
+# **Exercise (6 min, ●○○).** Write the reward of one second. The terms are `formulas.speed_reward(v_lon)`,
+# `formulas.centring_reward(offset)` and `formulas.steering_reward(theta)`. An accident pays
+# {{ DEFAULT.reward.accident }} and nothing else.
 # <!-- claim: (Accident.COLLISION, Accident.ROAD_DEPARTURE, Accident.STOPPAGE, Accident.NONE) == (1,
 #   2, 3, 0) -->
 
@@ -272,34 +268,33 @@ print(f"doing nothing, 150 s: {driving.paid(pay, idle).sum():.4f}")
 print(f"the rule's way out, 150 s: {driving.paid(pay, by_rule).sum():.4f}")
 
 # %% [markdown]
-# **Explain.** Staying behind trap 1 returns about {{ idle().rewards.sum() | .0f }}, and the rule's
-# way out about twice as much. An accident costs about what a minute behind the traps earns, and ends the drive: a
-# crash
-# after 3 s returns {{ idle().rewards.sum() - DEFAULT.reward.accident - 3 *
-# idle().rewards[0] | .0f }} less than staying.
+# **Explain.** Staying behind trap 1 returns about {{ idle().rewards.sum() | .0f }}, and the rule's way out
+# about twice as much. An accident costs about what a minute behind the traps earns, and ends the drive: a
+# crash after 3 s returns {{ idle().rewards.sum() - DEFAULT.reward.accident - 3 * idle().rewards[0] | .0f }}
+# less than staying.
 # <!-- claim: 1.8 < by_rule().rewards.sum() / idle().rewards.sum() < 2.2 -->
 # <!-- claim: np.ptp(idle().rewards) < 1e-9 and idle().rewards.min() > 0 -->
 # <!-- claim: 50 < -DEFAULT.reward.accident / second_pays(DEFAULT.traps.speed) < 70 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Let two or three read their number for one second aloud before the cell is run. {{ (1.5 *
-# speed_reward(10) + 0.05) / 1.55 | .3f }} means that the third weight was left out of the mean, {{
-# 1.5 * speed_reward(10) + 0.05 }} that nothing was divided.
+# Let two or three read their number for one second aloud before the cell is run.
+# {{ (1.5 * speed_reward(10) + 0.05) / 1.55 | .3f }} means that the third weight was left out of the mean,
+# {{ 1.5 * speed_reward(10) + 0.05 }} that nothing was divided.
 
 # %% [markdown]
 # ## Round 3: what does a program learn?
 #
-# An **agent** is a program that learns from rewards, by trying: this is *reinforcement learning*. Once
-# a second it gets an **observation**, numbers that describe what it sees, and chooses an action. A
-# second later it gets the reward.
+# An **agent** is a program that learns from rewards, by trying: this is *reinforcement learning*. Once a
+# second it gets an **observation**, numbers that describe what it sees, and chooses an action. A second later
+# it gets the reward.
 
 # %%
 bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", reward="one number"))
 
 # %% [markdown]
-# **See.** Of the 26 numbers six describe the ego (such as its place, its speed and $d_e$), and five
-# each of the four nearest cars within {{ DEFAULT.sight.distance }} m: whether it is there, where, and
-# how much faster or slower.
+# **See.** Of the 26 numbers six describe the ego (such as its place, its speed and $d_e$), and five each of
+# the four nearest cars within {{ DEFAULT.sight.distance }} m: whether it is there, where, and how much faster
+# or slower.
 # <!-- claim: [name for name in observation.names(DEFAULT) if not name.startswith('car')] ==
 #   ['presence', 'x', 'y', 'v_lon', 'v_lat', 'd_e'] -->
 # <!-- claim: [name.removeprefix('car 1 ') for name in observation.names(DEFAULT) if
@@ -309,9 +304,9 @@ bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", rewa
 # The agent's **policy**, π ("pi"), gives each action a probability. Each **update** corrects what the agent
 # expects of actions that it took, and makes the more promising ones a little more probable.
 #
-# Four agents learn for about 10 seconds by a method called SAC, *soft actor-critic*: two alone
-# (*plain SAC*), two with the rule's help (*bootstrapped SAC*). The helped two also learn from drives
-# of the rule, and are pulled towards its actions; the help fades.
+# Four agents learn for about 10 seconds by a method called SAC, *soft actor-critic*: two alone (*plain SAC*),
+# two with the rule's help (*bootstrapped SAC*). The helped two also learn from drives of the rule, and are
+# pulled towards its actions; the help fades.
 
 # %% tags=["nbval-ignore-output"]
 agents = bc.with_seeds(bc.settings_for("sac"), 2)
@@ -322,14 +317,13 @@ learned = training.run(progress=False, callback=live, updates=1500)
 live.show(training)
 
 # %% [markdown]
-# **See.** A crash in the first seconds returns about −9.5. In the run saved here both returns rise
-# from there, but success rises only with help.
+# **See.** A crash in the first seconds returns about −9.5. In the run saved here both returns rise from
+# there, but success rises only with help.
 #
-# Two agents and 1,500 updates say little. In our study {{ len(of('sac')) }} agents of each kind
-# learned for {{ of('sac').curves['success'].shape[1] | , }} drives each. Those of a kind differ only
-# in their **seed**, from which all chance in training is drawn. Then each drove {{ roads() | , }}
-# **held-out** roads, not used in training. An agent **escapes** if it gets out on at least {{ 100 *
-# ESCAPES | .0f }} % of these.
+# Two agents and 1,500 updates say little. In our study {{ len(of('sac')) }} agents of each kind learned for
+# {{ of('sac').curves['success'].shape[1] | , }} drives each. Those of a kind differ only in their **seed**,
+# from which all chance in training is drawn. Then each drove {{ roads() | , }} **held-out** roads, not used
+# in training. An agent **escapes** if it gets out on at least {{ 100 * ESCAPES | .0f }} % of these.
 # <!-- claim: len(of('sac')) == len(of('bootstrapped')) -->
 # <!-- claim: of('sac').curves['success'].shape == of('bootstrapped').curves['success'].shape -->
 #
@@ -345,11 +339,10 @@ bc.show(figures.what_they_learned(study, blind))
 
 # %% [markdown]
 # **See.** Eight of plain SAC's ten get out on none of the roads, and hardly ever crash: they stay. One
-# escapes, but crashes on {{ 100 * of('sac').scores('accident')[of('sac').scores('success').argmax()] | .0f }} % of
-# the
-# roads, nearly always afterwards. With help {{ escaped('bootstrapped') }} of ten escape, and {{
-# crash_on_most().sum() }} crash on most
-# roads. The {{ escaped('bootstrapped') }} earn more than the rule and the blind plan.
+# escapes, but crashes on {{ 100 * of('sac').scores('accident')[of('sac').scores('success').argmax()] | .0f }} %
+# of the roads, nearly always afterwards. With help {{ escaped('bootstrapped') }} of ten escape, and
+# {{ crash_on_most().sum() }} crash on most roads. The {{ escaped('bootstrapped') }} earn more than the rule
+# and the blind plan.
 # <!-- claim: escaped('sac') == 1 and staying().sum() == 8 and (abs(of('sac').scores('returns') -
 #   idle().rewards.sum()) < 3)[staying()].all() -->
 # <!-- claim: of('sac').scores('accident')[staying()].max() < 0.05 -->
@@ -365,16 +358,16 @@ bc.show(figures.what_they_learned(study, blind))
 # Why do so many stay?
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Ask what is missing from the {{ DEFAULT.observation_size }} numbers before they read on: how long
-# ago a car considered a lane change, the traffic beyond {{ DEFAULT.sight.distance }} m or beyond
-# the fourth car, the seconds that are left. Let somebody read the live curve aloud. Most will say
-# that the agents alone "do not learn". Ask what their return says.
+# Ask what is missing from the {{ DEFAULT.observation_size }} numbers before they read on: how long ago a car
+# considered a lane change, the traffic beyond {{ DEFAULT.sight.distance }} m or beyond the fourth car, the
+# seconds that are left. Let somebody read the live curve aloud. Most will say that the agents alone "do not
+# learn". Ask what their return says.
 
 # %% [markdown]
 # ## Round 4: when does an attempt pay?
 #
-# The agents of Round 3 **discount** rewards: one that comes t seconds later counts γᵗ times what it pays. At the
-# paper's γ ("gamma"), {{ SETTINGS.gamma }}, a reward in ten seconds counts {{ 0.8 ** 10 | .2f }}.
+# The agents of Round 3 **discount** rewards: one that comes t seconds later counts γᵗ times what it pays. At
+# the paper's γ ("gamma"), {{ SETTINGS.gamma }}, a reward in ten seconds counts {{ 0.8 ** 10 | .2f }}.
 # <!-- claim: SETTINGS.gamma == 0.8 -->
 #
 # > **Predict.** On road {{ ROAD }} the rule drives at 8 to 10 m/s until second 33, and then at 11 to
@@ -394,16 +387,15 @@ predicted("the_trap.4")
 explorable.discount()
 
 # %% [markdown]
-# **See.** The rule's way out costs now and pays later. It is worth more than staying from
-# γ = {{ pays_from() }} on. The blind plan is out sooner, but what if it crashes?
+# **See.** The rule's way out costs now and pays later. It is worth more than staying from γ =
+# {{ pays_from() }} on. The blind plan is out sooner, but what if it crashes?
 # <!-- claim: discounted(on_ten(), 0.8) > discounted(idle(), 0.8) > discounted(by_rule(), 0.8) -->
 # <!-- claim: all(discounted(by_rule(), percent / 100) < discounted(idle(), percent / 100) for percent
 #   in range(50, round(100 * pays_from()))) -->
 #
-# **Exercise (8 min, ●●○).** A driver that does nothing earns the return `stay`. An
-# attempt to get out ends in an accident with probability q, and then returns `crash`; otherwise
-# `out`, which is more than `crash`. What is the largest q at which an attempt returns, on average,
-# at least as much as staying?
+# **Exercise (8 min, ●●○).** A driver that does nothing earns the return `stay`. An attempt to get out ends in
+# an accident with probability q, and then returns `crash`; otherwise `out`, which is more than `crash`. What
+# is the largest q at which an attempt returns, on average, at least as much as staying?
 
 
 # %%
@@ -415,8 +407,8 @@ def bearable_risk(stay, out, crash):
 check.bearable_risk(bearable_risk)
 
 # %% [markdown]
-# Your `reward` and `bearable_risk` draw the next picture. An attempt that goes well drives like the
-# rule, or like the blind plan, on road {{ ROAD }}; the others crash after 3 s:
+# Your `reward` and `bearable_risk` draw the next picture. An attempt that goes well drives like the rule, or
+# like the blind plan, on road {{ ROAD }}; the others crash after 3 s:
 
 # %%
 bearable = own_code.yours_or_ours("bearable_risk", doing="Judging attempts")
@@ -430,22 +422,22 @@ for gamma in gammas:
 bc.show(figures.bearable_risks(gammas, np.array(risks)))
 
 # %% [markdown]
-# **Explain.** At γ = 0.8 the rule's way out bears no risk: even without a crash it is worth less than staying. The
-# blind plan bears {{ 100 * bearable_by_plan() | .0f }} %, if the others go as on road {{ ROAD }}. On the {{
-# roads() | , }}
-# roads {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % crash, early or late, and on average it is worth {{
-# worth_of_plan() | .2f }} there, less than staying ({{ discounted(idle(), 0.8) | .2f }}).
+# **Explain.** At γ = 0.8 the rule's way out bears no risk: even without a crash it is worth less than
+# staying. The blind plan bears {{ 100 * bearable_by_plan() | .0f }} %, if the others go as on road
+# {{ ROAD }}. On the {{ roads() | , }} roads {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % crash,
+# early or late, and on average it is worth {{ worth_of_plan() | .2f }} there, less than staying
+# ({{ discounted(idle(), 0.8) | .2f }}).
 # <!-- claim: discounted(idle(), 0.8) > worth_of_plan() -->
 #
-# That is not the whole answer to why so many stay: of nine agents of plain SAC with γ = 0.9, 0.95 or
-# 0.99 {{ 'none' if not farther_escape() else farther_escape() }} escapes. Lesson [[the_barrier]] looks
-# for the rest.
+# That is not the whole answer to why so many stay: of nine agents of plain SAC with γ = 0.9, 0.95 or 0.99
+# {{ 'none' if not farther_escape() else farther_escape() }} escapes. Lesson [[the_barrier]] looks for the
+# rest.
 # <!-- claim: sum(len(varied()[f'γ = {gamma}'].of('sac')) for gamma in FARTHER) == 9 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Let them argue about the exercise before the picture is shown: "the agent is stupid" is a common
-# first answer. Ask what would have to change: better attempts (a teacher), another reward, a larger
-# γ, or an agent that judges an attempt by its best case.
+# Let them argue about the exercise before the picture is shown: "the agent is stupid" is a common first
+# answer. Ask what would have to change: better attempts (a teacher), another reward, a larger γ, or an agent
+# that judges an attempt by its best case.
 
 # %%
 compare_predictions(
@@ -456,36 +448,36 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. One can get out without falling back: a plan that looks at nothing gets out on most roads, but
-#    crashes on about every fourth.
+# 1. One can get out without falling back: a plan that looks at nothing gets out on most roads, but crashes on
+#    about every fourth.
 # 2. Doing nothing earns about {{ idle().rewards.sum() | .0f }}; an early crash costs more than that.
-# 3. An agent learns from the rewards that follow its actions. Of ten agents of plain SAC {{
-#    escaped('sac') }} escapes, of ten with the rule's help {{ escaped('bootstrapped') }}.
-# 4. At γ = {{ SETTINGS.gamma }} the rule's way out is worth less than staying. A quicker one can be
-#    worth more, if it seldom crashes.
+# 3. An agent learns from the rewards that follow its actions. Of ten agents of plain SAC {{ escaped('sac') }}
+#    escapes, of ten with the rule's help {{ escaped('bootstrapped') }}.
+# 4. At γ = {{ SETTINGS.gamma }} the rule's way out is worth less than staying. A quicker one can be worth
+#    more, if it seldom crashes.
 #
 # **Three questions to think about**
 # - Would it still be a trap if trap 2 drove 0.5 m/s faster than you?
 # - Which reward would you change so that a learner leaves at once? What else would it do then?
 # - Which two situations on this road give the same observation, but call for different actions?
 #
-# **Read on**: [the next lesson](values.ipynb) says what a state is worth. Sutton and Barto,
-# *Reinforcement Learning* (2018), chapter 3. highway-env: Leurent, *An Environment for Autonomous
-# Driving Decision-Making* (2018).
+# **Read on**: [the next lesson](values.ipynb) says what a state is worth. Sutton and Barto, *Reinforcement
+# Learning* (2018), chapter 3. highway-env: Leurent, *An Environment for Autonomous Driving Decision-Making*
+# (2018).
 
 # %% [markdown] tags=["instructor"] minutes=3
 # *Model answers to the three questions:*
 #
-# - **Trap 2 drives 0.5 m/s faster.** After ten seconds it is 5 m further ahead, and the middle lane
-#   opens beside you. Then steering left works without braking. Doing nothing still pays the same
-#   each second, so it is still a trap, but it should be a weaker one.
-# - **Another reward.** If a second behind the traps *cost* something, to stay would not pay. But
-#   then an early crash, which ends the cost, may be the best way out for a learner that has not
-#   found the way out. A smaller penalty for accidents makes attempts cheaper, and the trained driver
-#   may crash more. A bonus for being ahead of trap 1 pays for a crash just after overtaking, too.
-# - **Same observation, other action.** A neighbour that is about to change lane looks like one that
-#   stays. A fifth car may close the gap that you aim for. The seconds that are left are not among
-#   the numbers; the place x along the road hints at them, since it grows with time.
+# - **Trap 2 drives 0.5 m/s faster.** After ten seconds it is 5 m further ahead, and the middle lane opens
+#   beside you. Then steering left works without braking. Doing nothing still pays the same each second, so it
+#   is still a trap, but it should be a weaker one.
+# - **Another reward.** If a second behind the traps *cost* something, to stay would not pay. But then an
+#   early crash, which ends the cost, may be the best way out for a learner that has not found the way out. A
+#   smaller penalty for accidents makes attempts cheaper, and the trained driver may crash more. A bonus for
+#   being ahead of trap 1 pays for a crash just after overtaking, too.
+# - **Same observation, other action.** A neighbour that is about to change lane looks like one that stays. A
+#   fifth car may close the gap that you aim for. The seconds that are left are not among the numbers; the
+#   place x along the road hints at them, since it grows with time.
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** r_v against v, with its bends at 5, 12.5 and 15 m/s; a dot at 10 m/s.

@@ -18,8 +18,7 @@
 # - test them in small worlds whose right Q you can work out, then solve the pole;
 # - say why a fall counts as terminated, and the end of the time does not.
 #
-# **Time** 55 minutes; the machine computes for about 30 seconds. **It builds on** lesson
-# [[discrete_sac]].
+# **Time** 55 minutes; the machine computes for about 30 seconds. **It builds on** lesson [[discrete_sac]].
 
 # %%
 import bootcourse as bc
@@ -42,9 +41,9 @@ progress("update_and_loop")
 # %% [markdown]
 # ## Look first
 #
-# A cart carries a pole. Each push, left or right, pays 1. An episode ends with a fall (the
-# pole leans by more than {{ fallen_at() | .0f }}°, dashed, or the cart leaves its track), or after 500
-# pushes. An untrained agent pushes one cart, a rule the other. **Drag** the push. When does a pole fall?
+# A cart carries a pole. Each push, left or right, pays 1. An episode ends with a fall (the pole leans by more
+# than {{ fallen_at() | .0f }}°, dashed, or the cart leaves its track), or after 500 pushes. An untrained
+# agent pushes one cart, a rule the other. **Drag** the push. When does a pole fall?
 
 # %%
 explorable.two_poles()
@@ -52,26 +51,26 @@ explorable.two_poles()
 # %% [markdown]
 # ## Round 1: what does an update learn from?
 #
-# Each push leaves a row (s, a, r, terminated, s'). *Terminated* is as in lesson [[discrete_sac]]: 1 after
-# a fall, and 0 when only the time is up, since the pole would go on earning. **Drag** γ. What is the last push
+# Each push leaves a row (s, a, r, terminated, s'). *Terminated* is as in lesson [[discrete_sac]]: 1 after a
+# fall, and 0 when only the time is up, since the pole would go on earning. **Drag** γ. What is the last push
 # before a fall worth if the row marks the fall, and if a fallen pole counts as a standing one?
 
 # %%
 explorable.the_end()
 
 # %% [markdown]
-# With the mark, a push is worth less the nearer the fall. Without it, and with a fallen pole counted as a standing
-# one, each push is worth 1 / (1 − γ).
+# With the mark, a push is worth less the nearer the fall. Without it, and with a fallen pole counted as a
+# standing one, each push is worth 1 / (1 − γ).
 #
-# SAC keeps its rows in the **replay buffer**. Each update learns from a **batch**: rows drawn
-# **uniformly with replacement**, at each draw each row with the same chance.
+# SAC keeps its rows in the **replay buffer**. Each update learns from a **batch**: rows drawn **uniformly
+# with replacement**, at each draw each row with the same chance.
 #
-# Most rows come from earlier policies: SAC learns **off-policy**, as Q-learning does (lesson
-# [[values]]). That works because a row says only what the *world* did; the target asks the *present* policy what it
-# would do in s'. The rows must cover the states and actions.
+# Most rows come from earlier policies: SAC learns **off-policy**, as Q-learning does (lesson [[values]]).
+# That works because a row says only what the *world* did; the target asks the *present* policy what it would
+# do in s'. The rows must cover the states and actions.
 #
-# **Exercise (4 min, ●○○).** Write `sample`, with the generator `rng`. Training calls it thousands of
-# times: do not copy the whole buffer.
+# **Exercise (4 min, ●○○).** Write `sample`, with the generator `rng`. Training calls it thousands of times:
+# do not copy the whole buffer.
 
 
 # %%
@@ -98,8 +97,8 @@ class ReplayBuffer:
 check.ReplayBuffer(ReplayBuffer)
 
 # %% [markdown] tags=["instructor"] minutes=5
-# To stack the whole list at each draw gives the right rows and makes the training slow: the check
-# says so. Ask what `add` would have to do if it kept the rows in the order of their age.
+# To stack the whole list at each draw gives the right rows and makes the training slow: the check says so.
+# Ask what `add` would have to do if it kept the rows in the order of their age.
 
 # %% [markdown]
 # ## Round 2: does the whole algorithm learn what is right?
@@ -127,8 +126,8 @@ check.ReplayBuffer(ReplayBuffer)
 # > 7. **Steps.** Compute the three losses, then make a gradient step for each.
 # > 8. **Copies.** Q̄ₖ becomes Q̄ₖ + τ (Qₖ − Q̄ₖ), weight by weight.
 #
-# The functions are those of lesson [[discrete_sac]]. There `q_pair` is Q of both critics, and `q` the smaller of the
-# two. `agent` is a `by_hand.SAC`:
+# The functions are those of lesson [[discrete_sac]]. There `q_pair` is Q of both critics, and `q` the smaller
+# of the two. `agent` is a `by_hand.SAC`:
 #
 # | `agent.` | gives |
 # |---|---|
@@ -163,8 +162,8 @@ check.update(update)
 # **Exercise (12 min, ●●●).** Write the loop: steps 1 and 2, and the call of `update`.
 #
 # - `env` is gymnasium's: `state, info = env.reset()`, and
-#   `next_state, reward, terminated, truncated, info = env.step(action)`. *Truncated*: the time is up.
-#   Reset after either.
+#   `next_state, reward, terminated, truncated, info = env.step(action)`. *Truncated*: the time is up. Reset
+#   after either.
 # - `agent.draw(state, rng)` draws an action, `by_hand.row(s, a, r, terminated, s')` makes a row.
 # - `by_hand.batch_of(buffer.sample(256, rng))` is a batch for `update`.
 # - A call begins with a reset. Count the pushes of this call: no update up to push 256, even if the buffer is
@@ -180,8 +179,8 @@ def train(agent, env, buffer, update, pushes, rng):
 check.train(train)
 
 # %% [markdown]
-# Before the pole, test your parts in **probe environments**: worlds so small that you can work out the
-# right Q (entropy apart: α begins at 0.01). A new agent with γ = {{ GAMMA }}, τ = 0.5 learns in each.
+# Before the pole, test your parts in **probe environments**: worlds so small that you can work out the right
+# Q (entropy apart: α begins at 0.01). A new agent with γ = {{ GAMMA }}, τ = 0.5 learns in each.
 # <!-- claim: np.isclose(by_hand.SAC().log_alpha.exp().item(), 0.01) -->
 
 # %%
@@ -205,22 +204,21 @@ figures.small_worlds(right, lost)
 # **See.** Without the bug each Q is right within 0.1. With it all are too high but the third, which has no
 # marks to lose.
 #
-# The target now counts the fallen state. No row begins there, so the network makes up what it is
-# worth. It isn't Round 1's 5: for that, rows must say that a fallen pole goes on earning.
+# The target now counts the fallen state. No row begins there, so the network makes up what it is worth. It
+# isn't Round 1's 5: for that, rows must say that a fallen pole goes on earning.
 
 # %% [markdown] tags=["instructor"] minutes=7
-# Let those who have finished exchange their `update` with a neighbour and find the lines in which
-# they differ. Then each plants a bug in the other's, and looks which of the four worlds shows it: the
-# second a lost γ, the third an end of the time that counts as a fall, the fourth exchanged actions.
+# Let those who have finished exchange their `update` with a neighbour and find the lines in which they
+# differ. Then each plants a bug in the other's, and looks which of the four worlds shows it: the second a
+# lost γ, the third an end of the time that counts as a fall, the fourth exchanged actions.
 
 # %% [markdown]
 # ## Round 3: is the pole solved without the bug, and with it?
 #
-# Gymnasium calls the pole *solved* at a mean of {{
-# gym.spec('CartPole-v1').reward_threshold | .0f }} of {{
-# gym.spec('CartPole-v1').max_episode_steps }} pushes. Your agent is tested every {{ BLOCK | , }} pushes
-# from ten fixed starts, by its most probable pushes, until two tests in a row reach that. A second
-# agent, equal at the start, learns for {{ BLOCK | , }} pushes with the bug.
+# Gymnasium calls the pole *solved* at a mean of {{ gym.spec('CartPole-v1').reward_threshold | .0f }} of
+# {{ gym.spec('CartPole-v1').max_episode_steps }} pushes. Your agent is tested every {{ BLOCK | , }} pushes
+# from ten fixed starts, by its most probable pushes, until two tests in a row reach that. A second agent,
+# equal at the start, learns for {{ BLOCK | , }} pushes with the bug.
 #
 # > **Predict.** How long does it balance the pole, compared with yours after as many pushes?
 
@@ -243,25 +241,25 @@ bc.show(figures.tests_in_training(tests, BLOCK, with_bug))
 explorable.trained_poles(agent, unmarked)
 
 # %% [markdown]
-# **See.** **Drag** the push. {{ fell_at_once() }} of our {{ len(agents('unmarked')) }} agents with
-# the bug let the pole fall after {{ after_a_block('unmarked').max() | .0f }} pushes on average, as when
-# untrained ({{ agents('unmarked').notes['tests'][:, 0].min() | .0f }} to {{
-# agents('unmarked').notes['tests'][:, 0].max() | .0f }}). Without the bug, after the same {{ BLOCK | , }}
-# pushes of training, ours balance it for {{
-# after_a_block().min() | .0f }} to {{ after_a_block().max() | .0f }}.
+# **See.** **Drag** the push. {{ fell_at_once() }} of our {{ len(agents('unmarked')) }} agents with the bug
+# let the pole fall after {{ after_a_block('unmarked').max() | .0f }} pushes on average, as when untrained
+# ({{ agents('unmarked').notes['tests'][:, 0].min() | .0f }} to
+# {{ agents('unmarked').notes['tests'][:, 0].max() | .0f }}). Without the bug, after the same {{ BLOCK | , }}
+# pushes of training, ours balance it for {{ after_a_block().min() | .0f }} to
+# {{ after_a_block().max() | .0f }}.
 #
-# Without the bug {{ solved() }} of {{ len(tests()) }} (seeds 0 to 4; the settings were chosen on others) solve the
-# pole, after {{ min(pushes()) | , }} to {{ max(pushes()) | , }} pushes, and then balance it for {{
-# agents().measured['after'].min() | .0f }} on average over 100 episodes. (Seed 1 is the quickest; on
-# your machine it may differ.)
+# Without the bug {{ solved() }} of {{ len(tests()) }} (seeds 0 to 4; the settings were chosen on others)
+# solve the pole, after {{ min(pushes()) | , }} to {{ max(pushes()) | , }} pushes, and then balance it for
+# {{ agents().measured['after'].min() | .0f }} on average over 100 episodes. (Seed 1 is the quickest; on your
+# machine it may differ.)
 # <!-- claim: agents().measured['after'].min() == 500 and np.argmin(pushes()) == 1 -->
 
 # %% [markdown]
 # ## Round 4: why does it fall?
 #
-# The actor hears of rewards only from its critics, so look at Q. It has a **limit**: if the
-# pole stood for ever, each push would pay 1, and at most α log 2 for its entropy. So with γ = {{ by_hand.SAC.gamma }}
-# no right Q is above {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2).
+# The actor hears of rewards only from its critics, so look at Q. It has a **limit**: if the pole stood for
+# ever, each push would pay 1, and at most α log 2 for its entropy. So with γ = {{ by_hand.SAC.gamma }} no
+# right Q is above {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2).
 #
 # > **Predict.** What do the critics with the bug expect of a fallen pole, compared with a standing one?
 
@@ -276,12 +274,12 @@ entropy = sac.entropy(unmarked.log_pi(torch.zeros(1, 4))).item()
 print(f"Entropy with the bug, pole upright: {entropy:.2f} nats")
 
 # %% [markdown]
-# **See.** Along 40 falls of poles pushed to one side only, the critics with the bug expect most of the
-# fallen pole. So a push towards the fall should look best to the
-# actor. Upright it is sure of one side (entropy 0.00): pushed to one side only, a pole falls.
+# **See.** Along 40 falls of poles pushed to one side only, the critics with the bug expect most of the fallen
+# pole. So a push towards the fall should look best to the actor. Upright it is sure of one side (entropy
+# 0.00): pushed to one side only, a pole falls.
 #
-# Q is even above its limit (dotted; it depends on the agent's α), in {{ unmarked() }} of our {{
-# len(agents('unmarked')) }} agents with the bug and in none without it.
+# Q is even above its limit (dotted; it depends on the agent's α), in {{ unmarked() }} of our
+# {{ len(agents('unmarked')) }} agents with the bug and in none without it.
 # <!-- claim: along_falls().max() < 1 / (1 - by_hand.SAC.gamma) -->
 
 # %% [markdown]
@@ -303,22 +301,22 @@ stands = by_hand.balanced(added)
 print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {tests[1]:.0f}.")
 
 # %% [markdown]
-# **Explain.** Only rows were added, and Q is possible. Without them, we think, Q fed itself: the network guessed too
-# much for the fallen pole, the target passed that on to the last push, and as one network gives both, the guess rose
-# with it. The added rows say what a mark says: from here on every reward is 0. (What the line keeps at the fall can
-# be
-# entropy, worth up to what the dotted line has above 100. Q is possible in our 5 of 5, too; they balance {{
-# after_a_block('paid-0').min() | .0f }} to {{ after_a_block('paid-0').max() | .0f }} pushes.)
+# **Explain.** Only rows were added, and Q is possible. Without them, we think, Q fed itself: the network
+# guessed too much for the fallen pole, the target passed that on to the last push, and as one network gives
+# both, the guess rose with it. The added rows say what a mark says: from here on every reward is 0. (What the
+# line keeps at the fall can be entropy, worth up to what the dotted line has above 100. Q is possible in our
+# 5 of 5, too; they balance {{ after_a_block('paid-0').min() | .0f }} to
+# {{ after_a_block('paid-0').max() | .0f }} pushes.)
 # <!-- claim: possible('paid-0') == 5 == len(agents('paid-0')) and after_a_block('paid-0').argmax() == 1 -->
 #
 # The score shows that something is wrong. An impossible Q says where to look: at the critics and their rows.
 
 # %% [markdown] tags=["instructor"] minutes=7
-# A belief to name: "without marks the critics would find the constant" of round 1. They approach it
-# if rows tell them what a fallen pole is worth: let them run the last cell with `PAID = 1`. Q is
-# then possible in {{ possible('paid-1') }} of five agents and nearly flat, and they balance {{
-# after_a_block('paid-1').max() | .0f }} pushes at most. `bootcourse study pole --out DIR` trains
-# our agents again.
+# A belief to name: "without marks the critics would find the constant" of round 1. They approach it if rows
+# tell them what a fallen pole is worth: let them run the last cell with `PAID = 1`. Q is then possible in
+# {{ possible('paid-1') }} of five agents and nearly flat, and they balance
+# {{ after_a_block('paid-1').max() | .0f }} pushes at most. `bootcourse study pole --out DIR` trains our
+# agents again.
 
 # %%
 length = lengths[2 - np.digitize(with_bug / tests[1], [0.1, 0.75])]
@@ -333,22 +331,23 @@ compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: compared, 4
 # 2. An update steps the critics, the actor and the temperature; the copies follow.
 # 3. `terminated` says that from here on every reward is 0. A time limit does not say so.
 # 4. In a small world you know the right Q, so a bug can show as a wrong number.
-# 5. A critic makes up what no row tells it. A Q above its limit gives that away; one below it may still be wrong.
+# 5. A critic makes up what no row tells it. A Q above its limit gives that away; one below it may still be
+#    wrong.
 
 # %% [markdown]
 # **Three questions to think about**
-# - With `PAID = 1` a fallen pole is paid as a standing one. Which line of round 1 does Q resemble?
-#   Is Q possible, and does the pole stand?
+# - With `PAID = 1` a fallen pole is paid as a standing one. Which line of round 1 does Q resemble? Is Q
+#   possible, and does the pole stand?
 # - Let `sample` give 256 rows that follow each other. What do you expect?
 # - What could four updates after each push do?
 #
-# **Read on**: Jones, *Debugging RL, Without the Agonizing Pain* (2021), on probe environments. Mnih et
-# al., *Human-level control through deep reinforcement learning* (Nature, 2015). Sutton and Barto,
-# *Reinforcement Learning*, chapter 11, on the *deadly triad*: with a network, estimates learned from
-# estimates, and rows of other policies, a critic can diverge.
+# **Read on**: Jones, *Debugging RL, Without the Agonizing Pain* (2021), on probe environments. Mnih et al.,
+# *Human-level control through deep reinforcement learning* (Nature, 2015). Sutton and Barto, *Reinforcement
+# Learning*, chapter 11, on the *deadly triad*: with a network, estimates learned from estimates, and rows of
+# other policies, a critic can diverge.
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** Four boxes: memory, critics, actor, temperature; an arrow for each quantity that
-# one takes from another.
+# **On the board.** Four boxes: memory, critics, actor, temperature; an arrow for each quantity that one takes
+# from another.
 #
 # **To discuss.** Which of the four boxes could you leave out and still have a learner?

@@ -31,9 +31,9 @@ progress("values")
 # %% [markdown]
 # ## Look first
 #
-# Here is the trap of lesson [[the_trap]] as a **chain** of five states, with a quick, safe way
-# out. You start in state 0, the trap. Arrows are actions, 0 or 1. Staying pays a little in the trap
-# and much on the free road; the way between pays nothing.
+# Here is the trap of lesson [[the_trap]] as a **chain** of five states, with a quick, safe way out. You start
+# in state 0, the trap. Arrows are actions, 0 or 1. Staying pays a little in the trap and much on the free
+# road; the way between pays nothing.
 # <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
 #   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
 #
@@ -44,14 +44,14 @@ progress("values")
 explorable.worths()
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Draw the chain on the board and keep it there. Let two people walk it aloud, one who stays and one
-# who goes, and add up what they get.
+# Draw the chain on the board and keep it there. Let two people walk it aloud, one who stays and one who goes,
+# and add up what they get.
 
 # %% [markdown]
 # ## Round 1: the discounted return
 #
-# The **discounted return** is the sum of all rewards from now on, each times γ to the power of its
-# delay, in decisions:
+# The **discounted return** is the sum of all rewards from now on, each times γ to the power of its delay, in
+# decisions:
 #
 # $$ G = r_0 + \gamma\, r_1 + \gamma^2\, r_2 + \dots $$
 #
@@ -69,9 +69,9 @@ def discounted_return(rewards, gamma):
 check.discounted_return(discounted_return)
 
 # %% [markdown]
-# Staying is worth $0.16 + 0.16\,\gamma + 0.16\,\gamma^2 + \dots = 0.16 / (1 - \gamma)$. Leaving
-# pays nothing for four decisions, and then 1 at each: it is worth $\gamma^4 / (1 - \gamma)$. So
-# leaving is worth more where $\gamma^4 > 0.16$.
+# Staying is worth $0.16 + 0.16\,\gamma + 0.16\,\gamma^2 + \dots = 0.16 / (1 - \gamma)$. Leaving pays nothing
+# for four decisions, and then 1 at each: it is worth $\gamma^4 / (1 - \gamma)$. So leaving is worth more
+# where $\gamma^4 > 0.16$.
 #
 # > **Predict.** The way out gets one state longer. From which γ on is leaving worth more now?
 
@@ -86,19 +86,19 @@ better = [g for g in gammas if worth([0.0] * 5 + [1.0] * 495, g) > worth([0.16] 
 print(f"γ = {min(better):.2f}")
 
 # %% [markdown]
-# **Explain.** With one state more $\gamma^5 > 0.16$ decides: from {{ 0.16**0.2 | .2f }} on, not {{
-# 0.16**0.25 | .2f }}.
+# **Explain.** With one state more $\gamma^5 > 0.16$ decides: from {{ 0.16**0.2 | .2f }} on, not
+# {{ 0.16**0.25 | .2f }}.
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Ask what γ means in seconds: at 0.8 a reward in ten decisions counts {{ 0.8**10 | .2f }}. Nothing
-# in the trap of lesson [[the_trap]] forces this γ; it is a choice about how far to look.
+# Ask what γ means in seconds: at 0.8 a reward in ten decisions counts {{ 0.8**10 | .2f }}. Nothing in the
+# trap of lesson [[the_trap]] forces this γ; it is a choice about how far to look.
 
 # %% [markdown]
 # ## Round 2: a value from the next value
 #
-# A **state** says all that matters of the present: what may come next depends on it and the action
-# alone. Such a world is a *Markov decision process* (MDP). On the road our learners treat the 26
-# numbers that they see as the state, although these leave out all but the four nearest cars.
+# A **state** says all that matters of the present: what may come next depends on it and the action alone.
+# Such a world is a *Markov decision process* (MDP). On the road our learners treat the 26 numbers that they
+# see as the state, although these leave out all but the four nearest cars.
 # <!-- claim: DEFAULT.observation_size == 26 and DEFAULT.sight.neighbours == 4 -->
 #
 # The **value** of action a in state s, **Q(s, a)**, is the discounted return if you take a once and then act
@@ -109,8 +109,8 @@ print(f"γ = {min(better):.2f}")
 #
 # Where chance decides s', the right side is a mean.
 #
-# To find Q, begin with Q = 0 everywhere and compute the right side for all ten pairs (s, a) at once.
-# This is one **sweep**; the next begins with the new Q.
+# To find Q, begin with Q = 0 everywhere and compute the right side for all ten pairs (s, a) at once. This is
+# one **sweep**; the next begins with the new Q.
 #
 # > **Predict.** After which sweep does Q(0, 1), the value of leaving the trap, first contain a part
 # > of the free road's reward?
@@ -120,8 +120,8 @@ choices = ["1", "2", "4", "5"]
 predict("values.2", "After which sweep does Q(0, 1) know of the free road?", choices)
 
 # %% [markdown]
-# **Exercise (8 min, ●●○).** Write one sweep. `chain.REWARD[s, a]` and `chain.NEXT[s, a]`, arrays
-# (5, 2), hold the chain's rewards and next states.
+# **Exercise (8 min, ●●○).** Write one sweep. `chain.REWARD[s, a]` and `chain.NEXT[s, a]`, arrays (5, 2), hold
+# the chain's rewards and next states.
 
 
 # %%
@@ -142,33 +142,32 @@ for _ in range(40):
 bc.show(diagrams.sweeps(found))
 
 # %% [markdown]
-# **Explain.** A sweep looks one decision ahead, so each one carries the free road's value one state
-# back. (White numbers above 0 come from the trap's pay.) Sweep 40 gives the blue bars of *Look first* at γ = 0.8.
+# **Explain.** A sweep looks one decision ahead, so each one carries the free road's value one state back.
+# (White numbers above 0 come from the trap's pay.) Sweep 40 gives the blue bars of *Look first* at γ = 0.8.
 # <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
 # <!-- claim: (np.abs(sweeps(40, 0.8)[:, 1] - 5 * 0.8 ** np.arange(4, -1, -1)) < 0.005).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=4
-# Do two sweeps on the board with γ = 1/2. Each sweep multiplies the largest distance from the true
-# values by γ or less. Ask why: two maxima differ by no more than their numbers do, and γ times that
-# is left. Ask why "at once" matters: with new values in the same sweep the result comes sooner, but
-# it is another algorithm.
+# Do two sweeps on the board with γ = 1/2. Each sweep multiplies the largest distance from the true values by
+# γ or less. Ask why: two maxima differ by no more than their numbers do, and γ times that is left. Ask why
+# "at once" matters: with new values in the same sweep the result comes sooner, but it is another algorithm.
 # <!-- claim: np.abs(sweeps(11, 0.8) - sweeps(300, 0.8)).max()
 #   <= 0.8 * np.abs(sweeps(10, 0.8) - sweeps(300, 0.8)).max() + 1e-9 -->
 
 # %% [markdown]
 # ## Round 3: learning from one decision
 #
-# A sweep needs the whole map. A learner on the road has none: after each decision it sees one reward
-# and one next state. How much better than expected this went is the **temporal difference**:
+# A sweep needs the whole map. A learner on the road has none: after each decision it sees one reward and one
+# next state. How much better than expected this went is the **temporal difference**:
 #
 # $$ \delta = r + \gamma \max_{a'} Q(s', a') - Q(s, a) $$
 #
 # The part before the minus is the **target**. **Q-learning** moves Q(s, a) a part of the way there,
-# $Q(s, a) \leftarrow Q(s, a) + \text{step} \cdot \delta$. The **step**, also called *learning
-# rate*, is 0.3 here.
+# $Q(s, a) \leftarrow Q(s, a) + \text{step} \cdot \delta$. The **step**, also called *learning rate*, is 0.3
+# here.
 #
-# The target contains the learner's own estimate of the next state. Textbooks call this
-# **bootstrapping**; *bootstrapped SAC* has its name from the rule's help.
+# The target contains the learner's own estimate of the next state. Textbooks call this **bootstrapping**;
+# *bootstrapped SAC* has its name from the rule's help.
 #
 # **Exercise (4 min, ●○○).** Write the difference.
 
@@ -210,28 +209,28 @@ for _ in range(5):
 bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 
 # %% [markdown]
-# **Explain.** On the first walk the other four decisions are learned before the free road pays, so only Q(4, 1)
-# rises. In the last row they are learned in reverse: from Q(3, 1) on, each
-# next state already has a value.
+# **Explain.** On the first walk the other four decisions are learned before the free road pays, so only Q(4,
+# 1) rises. In the last row they are learned in reverse: from Q(3, 1) on, each next state already has a value.
 # <!-- claim: walked(1) == [False] * 4 + [True] and all(walked(1, backwards=True)) -->
 # <!-- claim: not walked(4)[0] and walked(5)[0] -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Let them say in one sentence what is different from Round 2: one pair instead of ten, what was
-# seen instead of a map, a part of the way instead of all of it.
+# Let them say in one sentence what is different from Round 2: one pair instead of ten, what was seen instead
+# of a map, a part of the way instead of all of it.
 
 # %% [markdown]
 # ## Round 4: what gets a learner across?
 #
-# The learner is **ε-greedy** ("epsilon"): with probability 1 − ε it takes the action with the larger
-# Q, else it **explores**: it draws one at random.
+# The learner is **ε-greedy** ("epsilon"): with probability 1 − ε it takes the action with the larger Q, else
+# it **explores**: it draws one at random.
 #
 # **Exercise (20 min, ●●●).** Write this learner.
 #
 # - `chances` holds the random decisions, drawn beforehand.
 # - After each of its own decisions it learns from that one, then from every pair (s, a) in `taught`, a
 #   demonstration. A demonstration changes Q, but does not move the learner.
-# - After every 20 decisions the walk starts again in state 0. Learn from the twentieth, too, as if the walk went on.
+# - After every 20 decisions the walk starts again in state 0. Learn from the twentieth, too, as if the walk
+#   went on.
 
 
 # %%
@@ -259,8 +258,8 @@ def learn_chain(chances, gamma, step, taught):
 check.learn_chain(learn_chain)
 
 # %% [markdown]
-# Thirty learners of each kind make 1,000 decisions. A learner has learned to leave if in the end
-# Q(0, 1) > Q(0, 0).
+# Thirty learners of each kind make 1,000 decisions. A learner has learned to leave if in the end Q(0, 1) >
+# Q(0, 0).
 #
 # - *A*: ε = 0.1 and the paper's γ = {{ SETTINGS.gamma }};
 # - *B*: as A, with γ = 0.95;
@@ -288,17 +287,16 @@ found = {kind: chain.learned(*how, learn=learn) for kind, how in kinds.items()}
 bc.show(diagrams.who_leaves(found))
 
 # %% [markdown]
-# **Explain.** In A none learns to leave, although leaving is worth more. The way out costs the
-# trap's pay now, and earns at its end: this is a **barrier**. Chance gets through in one attempt in
-# {{ 20**4 | ,.0f }}. A longer view alone does not help here: none of B's thirty reached the free
-# road, so none knows its value.
+# **Explain.** In A none learns to leave, although leaving is worth more. The way out costs the trap's pay
+# now, and earns at its end: this is a **barrier**. Chance gets through in one attempt in {{ 20**4 | ,.0f }}.
+# A longer view alone does not help here: none of B's thirty reached the free road, so none knows its value.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
 # More exploration helps: all of D, which act at random, learn to leave. So does a replayed demonstration (E):
-# Q-learning can learn from decisions that it did not make. It is **off-policy**, and so is the learner of the next
-# lessons.
+# Q-learning can learn from decisions that it did not make. It is **off-policy**, and so is the learner of the
+# next lessons.
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
 #
 # In C {{ free_road_seen(0.5, 0.8) }} reach the free road, but only {{ leaving(0.5, 0.8) }} learn to leave.
@@ -308,12 +306,12 @@ bc.show(diagrams.who_leaves(found))
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** In the states 1 to 3 turning back to the trap is worth γ · {{ 0.16 / 0.2 | .2f }} = {{
-# 0.8 * 0.16 / 0.2 | .2f }}. While that is the best there, leaving is worth γ · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{
-# 0.8**2 * 0.16 / 0.2 | .2f }}, less than staying. So going on must win in state 3, then in 2, then in 1 (dashed), and
-# each win takes more walks to the free road. The {{ len(needed_walks()) }} of C that leave needed {{
-# min(needed_walks())
-# }} to {{ max(needed_walks()) }}. The left learner had two, and still turns back in state 3.
+# **Explain.** In the states 1 to 3 turning back to the trap is worth γ · {{ 0.16 / 0.2 | .2f }} =
+# {{ 0.8 * 0.16 / 0.2 | .2f }}. While that is the best there, leaving is worth γ ·
+# {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}, less than staying. So going on must win in
+# state 3, then in 2, then in 1 (dashed), and each win takes more walks to the free road. The
+# {{ len(needed_walks()) }} of C that leave needed {{ min(needed_walks()) }} to {{ max(needed_walks()) }}. The
+# left learner had two, and still turns back in state 3.
 # <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
@@ -324,8 +322,8 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# What happens at the last decision separates two ideas that lesson [[update_and_loop]] needs: an
-# accident *terminates* (nothing follows), the end of the time *truncates* (we stop looking).
+# What happens at the last decision separates two ideas that lesson [[update_and_loop]] needs: an accident
+# *terminates* (nothing follows), the end of the time *truncates* (we stop looking).
 
 # %%
 compare_predictions(
@@ -336,44 +334,42 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. The discounted return is the sum of the rewards from now on, each × γ to the power of its
-#    delay.
+# 1. The discounted return is the sum of the rewards from now on, each × γ to the power of its delay.
 # 2. The Bellman equation says what a value is; sweeps of it find it.
-# 3. A temporal difference says how much better one decision went than expected. Q-learning moves
-#    Q(s, a) by a part of it, and needs no map.
+# 3. A temporal difference says how much better one decision went than expected. Q-learning moves Q(s, a) by a
+#    part of it, and needs no map.
 # 4. Learned forwards, a walk moves a value one state back; learned backwards, all the way.
-# 5. On the chain none of A's thirty learners gets past the barrier. Finding the free road once is not enough; more
-#    random decisions help, and so does a replayed
-#    demonstration.
+# 5. On the chain none of A's thirty learners gets past the barrier. Finding the free road once is not enough;
+#    more random decisions help, and so does a replayed demonstration.
 #
 # **Three questions to think about**
-# - After 40 sweeps Q(0, 0) is {{ sweeps(40, 0.8)[0, 0] | .2f }}. Staying for ever is worth {{
-#   0.16 / 0.2 | .2f }}. Why is Q(0, 0) more?
-# - Of two equal actions your learner takes 0. If it takes 1, {{ with_ties("1") }} of A's thirty leave;
-#   if it draws one, hardly any. Why?
-# - Your car sees 26 numbers. What replaces the chain's table of ten values, and what can then go
-#   wrong with a replayed demonstration?
+# - After 40 sweeps Q(0, 0) is {{ sweeps(40, 0.8)[0, 0] | .2f }}. Staying for ever is worth
+#   {{ 0.16 / 0.2 | .2f }}. Why is Q(0, 0) more?
+# - Of two equal actions your learner takes 0. If it takes 1, {{ with_ties("1") }} of A's thirty leave; if it
+#   draws one, hardly any. Why?
+# - Your car sees 26 numbers. What replaces the chain's table of ten values, and what can then go wrong with a
+#   replayed demonstration?
 # <!-- claim: with_ties("random") == 0 and with_ties("1") > 20 -->
 # <!-- claim: abs(sweeps(40, 0.8)[0, 0] - (0.16 + 0.8 * 0.8**4 / 0.2)) < 0.01 -->
 #
-# **Read on**: [](discrete_sac.ipynb), with networks in place of the table. Sutton and Barto,
-# *Reinforcement Learning*, chapters 3, 4 and 6.
+# **Read on**: [](discrete_sac.ipynb), with networks in place of the table. Sutton and Barto, *Reinforcement
+# Learning*, chapters 3, 4 and 6.
 
 # %% [markdown] tags=["instructor"] minutes=2
 # **Model answers.**
 #
-# - *Staying once.* Q(0, 0) means staying *once* and then acting as well as possible: the trap's
-#   pay, and then 0.8 times what leaving is worth.
-# - *Equal actions.* At first all values are equal, so a learner that takes 1 walks straight out,
-#   and does so again until the values have arrived. With a draw the first decision to stay is soon
-#   made. It pays, and from then on the greedy action is to stay.
-# - *The table.* A function with fewer numbers than states: a network. It answers for states that it
-#   has not seen, which is its use and its danger. States of 26 numbers rarely come twice, and a
-#   network carries an error from one state to the next. The rule's drives also show a slow way,
-#   which on road 10 is worth less than staying at γ = 0.8 (lesson [[the_trap]]).
+# - *Staying once.* Q(0, 0) means staying *once* and then acting as well as possible: the trap's pay, and then
+#   0.8 times what leaving is worth.
+# - *Equal actions.* At first all values are equal, so a learner that takes 1 walks straight out, and does so
+#   again until the values have arrived. With a draw the first decision to stay is soon made. It pays, and
+#   from then on the greedy action is to stay.
+# - *The table.* A function with fewer numbers than states: a network. It answers for states that it has not
+#   seen, which is its use and its danger. States of 26 numbers rarely come twice, and a network carries an
+#   error from one state to the next. The rule's drives also show a slow way, which on road 10 is worth less
+#   than staying at γ = 0.8 (lesson [[the_trap]]).
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** Five boxes in a row, the two ends with what they pay; under each box what it is
-# worth, filled in from the right.
+# **On the board.** Five boxes in a row, the two ends with what they pay; under each box what it is worth,
+# filled in from the right.
 #
 # **To discuss.** Where in your own work does a reward come long after the decision that earned it?

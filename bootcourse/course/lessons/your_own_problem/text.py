@@ -20,9 +20,8 @@
 # - tell which of a teacher's errors its clone outvotes;
 # - compute the bonus above which a loop pays more than the goal.
 #
-# **Time** 45 minutes, without your own problem and the challenge; running it takes about half a
-# minute. **It builds on** lessons [[soft_constraint]], [[learning_from_demonstrations]] and
-# [[your_teacher]].
+# **Time** 45 minutes, without your own problem and the challenge; running it takes about half a minute. **It
+# builds on** lessons [[soft_constraint]], [[learning_from_demonstrations]] and [[your_teacher]].
 
 # %%
 import bootcourse as bc
@@ -43,15 +42,15 @@ progress("your_own_problem")
 # %% [markdown]
 # ## Look first
 #
-# MountainCar is a car in a valley. It pays −1 per decision until the flag, at position 0.5, for at most
-# 200 decisions.
+# MountainCar is a car in a valley. It pays −1 per decision until the flag, at position 0.5, for at most 200
+# decisions.
 
 # %%
 bc.show(figures.climbs())
 
 # %% [markdown]
-# **See.** Pushed to the right only, the car stays in the valley: to get up it has to drive *away* from the flag for a
-# while. The reward does not say so.
+# **See.** Pushed to the right only, the car stays in the valley: to get up it has to drive *away* from the
+# flag for a while. The reward does not say so.
 # <!-- claim: loops.climbed(lambda position, speed: 2).max() < 0 -->
 # <!-- claim: loops.climbed(lambda position, speed: 2 if speed >= 0 else 0)[-1] >= 0.5 -->
 
@@ -70,9 +69,8 @@ def climb_rule(position, speed):
 check.climb_rule(climb_rule)
 
 # %% [markdown]
-# Your rule is the teacher. `bc.compare` trains five agents of each method for equally many
-# *decisions*; demonstrations are free. Two methods are controls: plain SAC has no teacher, the clone only
-# the teacher.
+# Your rule is the teacher. `bc.compare` trains five agents of each method for equally many *decisions*;
+# demonstrations are free. Two methods are controls: plain SAC has no teacher, the clone only the teacher.
 
 # %% tags=["nbval-ignore-output"]
 climb = own_code.yours_or_ours("climb_rule", doing="Teaching")
@@ -93,8 +91,8 @@ bc.compare(methods, decisions=1_000, make_env=car, teacher=teacher, **how)
 #   score('mountain-car', 'good', 'cloning', 'returns')) < 5 and 50 * -earned('good') > 1_000 -->
 #
 # **On yours.** Take a gymnasium environment with discrete actions and vectors of numbers near 1 as
-# observations (we divided MountainCar's speed by 0.07, and leave CartPole as it is), and write a rule. Ours is
-# CartPole: balance a pole, for 1 per decision, at most 500 times. It reports no success (–).
+# observations (we divided MountainCar's speed by 0.07, and leave CartPole as it is), and write a rule. Ours
+# is CartPole: balance a pole, for 1 per decision, at most 500 times. It reports no success (–).
 
 
 # %% tags=["nbval-ignore-output"]
@@ -111,9 +109,9 @@ print(f"the rule itself earns {loops.earns(own_rule, my_env):.0f}")
 bc.compare(methods, decisions=1_000, make_env=my_env, teacher=own_rule, **how)
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Collect problems of their own first: what is the reward, does it tell early drives apart, who can
-# write a rule? Then ask of each rule which kind of error it makes. Rules that people write may err
-# systematically: they forget a situation.
+# Collect problems of their own first: what is the reward, does it tell early drives apart, who can write a
+# rule? Then ask of each rule which kind of error it makes. Rules that people write may err systematically:
+# they forget a situation.
 
 # %% [markdown]
 # ## Round 2: did the agents need the reward?
@@ -134,15 +132,13 @@ predicted("your_own_problem.1")
 bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0)))
 
 # %% [markdown]
-# **Explain.** After 1,000 decisions they change their push near the dashes, and a
-# rule that changes there earns {{ speed_rule_earns() | .0f }}. After 3,000 they are better copies, and earn less:
-# *one
-# budget can mislead.*
+# **Explain.** After 1,000 decisions they change their push near the dashes, and a rule that changes there
+# earns {{ speed_rule_earns() | .0f }}. After 3,000 they are better copies, and earn less: *one budget can
+# mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
-# Now five agents with the reward, under those without. How much of what Round 1's soft constraint earned is owed to
-# the
-# reward?
+# Now five agents with the reward, under those without. How much of what Round 1's soft constraint earned is
+# owed to the reward?
 
 # %% tags=["nbval-ignore-output"]
 for pays, gamma in ((0, 0), (1, 0.99)):  # on yours
@@ -173,8 +169,10 @@ bc.show(figures.clones())
 
 # %% [markdown]
 # **See.** (Lunar lander: land softly.) Clones of these random teachers earn far more than their teachers; on
-# CartPole {{ (cells().scores('cartpole', 'random', 'cloning', 'returns') > score('cartpole', 'good', 'the teacher',
-# 'returns')).sum() }} of ten earn more than the good one, too.
+# CartPole
+# {{ (cells().scores('cartpole', 'random', 'cloning', 'returns') > score('cartpole', 'good', 'the teacher',
+# 'returns')).sum() }}
+# of ten earn more than the good one, too.
 # <!-- claim: {len(cells().scores(p, t, 'cloning')) for p, t in SHOWN} == {10} -->
 # <!-- claim: all(score(p, 'random', 'cloning', 'returns') > score(p, 'random', 'the teacher',
 #   'returns') + 20 and score(p, 'random', 'cloning', 'returns') > score(p, 'good', 'the teacher',
@@ -182,8 +180,8 @@ bc.show(figures.clones())
 # <!-- claim: all(score(p, 'systematic', 'cloning', 'returns') < score(p, 'systematic', 'the
 #   teacher', 'returns') + 10 for p in THREE) -->
 #
-# **Drag** *reach*: each square takes the majority's action among the squares up to this far away. Which errors
-# vanish?
+# **Drag** *reach*: each square takes the majority's action among the squares up to this far away. Which
+# errors vanish?
 
 # %%
 explorable.votes()
@@ -218,8 +216,8 @@ bc.show(figures.clones_that_draw())
 # %% [markdown]
 # ## Round 4: what if states come back?
 #
-# In DoorKey an agent fetches a key, opens a door and walks to a goal, in at most 100 decisions. Only the
-# goal pays: at most 1, the sooner the more.
+# In DoorKey an agent fetches a key, opens a door and walks to a goal, in at most 100 decisions. Only the goal
+# pays: at most 1, the sooner the more.
 
 # %%
 bc.show(figures.room(loops.drive_in_a_loop(), "Here DoorKey's random teacher ends in a loop"))
@@ -235,10 +233,9 @@ for name in ("mountain-car", "doorkey"):
     print(f"{name}: {len(seen):,} labels, {loops.states(seen):,} states, {outvoted:.0%} outvoted")
 
 # %% [markdown]
-# **See.** In DoorKey the clone outvotes none. Its teacher errs in {{ doorkey_errors()[0] }} states, in its loops {{
-# doorkey_errors()[1] | , }} times. With one-hot inputs the network tells each state from its neighbours, so these
-# cannot
-# outvote it: not even in the state that was seen {{ doorkey_errors()[2] }} times.
+# **See.** In DoorKey the clone outvotes none. Its teacher errs in {{ doorkey_errors()[0] }} states, in its
+# loops {{ doorkey_errors()[1] | , }} times. With one-hot inputs the network tells each state from its
+# neighbours, so these cannot outvote it: not even in the state that was seen {{ doorkey_errors()[2] }} times.
 # <!-- claim: [((cloned == good)[taught != good].mean() > 0.9, (cloned == good)[taught != good].any(),
 #   len(seen) > 50 * loops.states(seen)) for seen, taught, cloned, good in
 #   map(loops.labels, ('mountain-car', 'doorkey'))] == [(True, True, False), (False, False, True)] -->
@@ -249,8 +246,8 @@ seen = bc.demonstrate(50, None, teacher=own_rule, make_env=my_env).observations
 print(f"{len(seen):,} labels, {loops.states(seen):,} states")
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Ask for the vote in DoorKey before the count: who are the neighbours of a state there? Each of its
-# parts is one-hot, so the network can tell every state from the others.
+# Ask for the vote in DoorKey before the count: who are the neighbours of a state there? Each of its parts is
+# one-hot, so the network can tell every state from the others.
 
 # %% [markdown]
 # ## Round 5: how large may the bonus be?
@@ -269,8 +266,8 @@ predicted("your_own_problem.4")
 bc.show(figures.bonuses())
 
 # %% [markdown]
-# **See.** With c = 2 and a flawed teacher hardly any drive reaches the goal; with the good teacher nearly
-# all do, at each c.
+# **See.** With c = 2 and a flawed teacher hardly any drive reaches the goal; with the good teacher nearly all
+# do, at each c.
 # <!-- claim: all(np.diff(by_bonus(t)).max() < 0 and round(100 * by_bonus(t)[-1]) == 0 for t in
 #   ('random', 'systematic')) and by_bonus('good').min() > 0.99 -->
 
@@ -281,10 +278,10 @@ bc.show(figures.bonuses())
 explorable.loop_or_goal()
 
 # %% [markdown]
-# **Exercise (15 min, ●●●).** A demonstrated loop earns `reward` + c in each decision, for ever: the
-# time limit is no end for the critic (lesson [[update_and_loop]]). The way to the goal has `decisions`
-# decisions. Each earns `reward` + c, the last one also `goal`; then the episode ends. At which c are both
-# worth the same, discounted?
+# **Exercise (15 min, ●●●).** A demonstrated loop earns `reward` + c in each decision, for ever: the time
+# limit is no end for the critic (lesson [[update_and_loop]]). The way to the goal has `decisions` decisions.
+# Each earns `reward` + c, the last one also `goal`; then the episode ends. At which c are both worth the
+# same, discounted?
 
 
 # %%
@@ -296,20 +293,20 @@ def drowning_bonus(reward, goal, decisions, gamma):
 check.drowning_bonus(drowning_bonus)
 
 # %% [markdown]
-# **Explain.** Your threshold, here at most {{ drowning_bonus(0, 1, 1, PROBLEMS['doorkey'].gamma) | .3f }}, depends
-# on the reward, the goal's pay and γ; on the way's length only if the goal's pay does. *It is a
+# **Explain.** Your threshold, here at most {{ drowning_bonus(0, 1, 1, PROBLEMS['doorkey'].gamma) | .3f }},
+# depends on the reward, the goal's pay and γ; on the way's length only if the goal's pay does. *It is a
 # warning, not a sharp limit*: with c = 0.1 most drives by drawn actions still reach the goal.
 # <!-- claim: math.isclose(drowning_bonus(0, 1, 1, 0.97), drowning_bonus(0, 1, 90, 0.97)) -->
 # <!-- claim: list(BONUSES)[2] == 'c = 0.1' and min(by_bonus(t)[2] for t in TEACHERS) > 0.5 -->
 #
-# **Is it the loop?** Drives that reach the goal, %, by drawn actions (plain SAC: {{
-# 100 * score('doorkey', 'none', 'SAC', 'drawn_success') | .0f }}):
+# **Is it the loop?** Drives that reach the goal, %, by drawn actions (plain SAC:
+# {{ 100 * score('doorkey', 'none', 'SAC', 'drawn_success') | .0f }}):
 #
 # {{ loops_table() }}
 #
-# Beside a soft constraint c = 2 ruins only what has loops. (Line 2 also has far fewer demonstrations, and its most
-# probable actions reach the goal in {{ 100 * without_loops('success') | .0f }} % only.) Without one it takes no loop
-# (last line; we do not know why).
+# Beside a soft constraint c = 2 ruins only what has loops. (Line 2 also has far fewer demonstrations, and its
+# most probable actions reach the goal in {{ 100 * without_loops('success') | .0f }} % only.) Without one it
+# takes no loop (last line; we do not know why).
 # <!-- claim: without_loops('drawn_success') > 0.8 and without_loops('success') < 0.75 * score('doorkey', 'none',
 #   'SAC') and alone('') < 0.01 < 0.5 < alone(', c = 0') and score('doorkey', 'good', 'the teacher') == 1 -->
 
@@ -318,10 +315,9 @@ check.drowning_bonus(drowning_bonus)
 # drowning_bonus(reward=-1, goal=0, decisions=120, gamma=0.99)
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Ask for a bonus that cannot be earned in a circle. A potential (lesson [[the_second_trap]]) is
-# one: what a circle gains it gives back. Ask how a bonus harms without a demonstrated loop.
-# *Perhaps* the agent closes a loop of its
-# own: a demonstrated decision, which pays c, and the way back.
+# Ask for a bonus that cannot be earned in a circle. A potential (lesson [[the_second_trap]]) is one: what a
+# circle gains it gives back. Ask how a bonus harms without a demonstrated loop. *Perhaps* the agent closes a
+# loop of its own: a demonstrated decision, which pays c, and the way back.
 
 # %%
 compare_predictions(
@@ -337,8 +333,7 @@ compare_predictions(
 # %% [markdown]
 # ## Finale: the challenge
 #
-# Train five drivers for the course's road, with any learner, teacher and training reward. Our
-# entries:
+# Train five drivers for the course's road, with any learner, teacher and training reward. Our entries:
 
 # %%
 bc.show(figures.ranking())
@@ -349,14 +344,15 @@ bc.show(figures.ranking())
 # <!-- claim: {m for m, place in places().items() if place == 1} == {m for m, place in
 #   places(5).items() if place == 1} == set(entries()) - {'ppo', 'sac'} -->
 #
-# - **Budget**: five agents of one setting, seeds 0 to 4; {{ BOARD | , }} decisions each; demonstrations are free.
+# - **Budget**: five agents of one setting, seeds 0 to 4; {{ BOARD | , }} decisions each; demonstrations are
+#   free.
 # - **Test**: 1,000 held-out roads, drawn when all have handed in; most probable actions. An entry that asks
 #   its teacher there says so.
 # - **Hand in**: one page, and the folder that `bc.save_runs(enter(200_000), "challenge")` writes.
 # - **Clone**: an entry with a teacher must beat the teacher's clone.
 #
-# **The page**: your predictions; your changes, and why; plain SAC, the clone and a failed try; the decisions of all
-# tries; answers to the five questions below.
+# **The page**: your predictions; your changes, and why; plain SAC, the clone and a failed try; the decisions
+# of all tries; answers to the five questions below.
 
 
 # %%
@@ -374,8 +370,8 @@ def enter(decisions):
 # 1. *Does a teacher help?* Compare with plain SAC and the clone, at equal decisions and several budgets.
 # 2. *Did the agents need the reward?* Train without it, at several budgets.
 # 3. *Which errors does the teacher make?* The most probable action can outvote random ones.
-# 4. *Do states come back?* Where a network can tell them apart, its clone repeats the error: in DoorKey, in all {{
-#    doorkey_errors()[0] }} states.
+# 4. *Do states come back?* Where a network can tell them apart, its clone repeats the error: in DoorKey, in
+#    all {{ doorkey_errors()[0] }} states.
 # 5. *What pays in a loop?* With a bonus it can be worth more than the goal.
 #
 # **Three questions to think about**
@@ -384,18 +380,18 @@ def enter(decisions):
 # - Take the result of this course that you believe most. Which of the five questions has nobody asked of it?
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Answers to the three questions. (1) Its sight of 200 m keeps it slow behind the traffic; all good
-# agents drive faster. (2) The formula gives no threshold there; what counts is which states are
-# paid. Staying behind trap 1 pays about 0.16 a decision and never ends, so every c > 0 that is paid
-# there for ever would help staying; the demonstrations leave the trap, so they pay for leaving. (3)
-# Open. Let each group name a result, and the control that it would train.
+# Answers to the three questions. (1) Its sight of 200 m keeps it slow behind the traffic; all good agents
+# drive faster. (2) The formula gives no threshold there; what counts is which states are paid. Staying behind
+# trap 1 pays about 0.16 a decision and never ends, so every c > 0 that is paid there for ever would help
+# staying; the demonstrations leave the trap, so they pay for leaving. (3) Open. Let each group name a result,
+# and the control that it would train.
 
 # %% [markdown]
-# **Read on**: where else a teacher helps, `assets/report/elsewhere.md`. Chevalier-Boisvert et al., *Minigrid &
-# Miniworld* (arXiv 2306.13831), where DoorKey is from.
+# **Read on**: where else a teacher helps, `assets/report/elsewhere.md`. Chevalier-Boisvert et al., *Minigrid
+# & Miniworld* (arXiv 2306.13831), where DoorKey is from.
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** A table: problems as rows, methods as columns, a colour for the share of the gap
-# that is closed; one row left empty for the room's own problem.
+# **On the board.** A table: problems as rows, methods as columns, a colour for the share of the gap that is
+# closed; one row left empty for the room's own problem.
 #
 # **To discuss.** Whose rule errs at random, and whose systematically?

@@ -18,9 +18,9 @@
 # - judge a teacher by its students, by success and by return;
 # - say what students learn from drives that all crash.
 #
-# **Time** 55 minutes, 25 of them voluntary (*Further*); running it takes under one minute.
-# **It builds on** the rule (lesson [[the_rule]]), the soft constraint ([[soft_constraint]]) and
-# learning from demonstrations ([[learning_from_demonstrations]]).
+# **Time** 55 minutes, 25 of them voluntary (*Further*); running it takes under one minute. **It builds on**
+# the rule (lesson [[the_rule]]), the soft constraint ([[soft_constraint]]) and learning from demonstrations
+# ([[learning_from_demonstrations]]).
 
 # %%
 import bootcourse as bc
@@ -50,10 +50,9 @@ progress("your_teacher")
 # %% [markdown]
 # ## Look first
 #
-# Here are three teachers. `racer` gets out of
-# the trap, then aims for 20 m/s and ignores the other cars. `timid` keeps straight behind trap 1.
-# **Half random** is the rule of lesson [[the_rule]], with its action replaced in half of
-# the states by one drawn at random once and for all. Watch them. Which earns most?
+# Here are three teachers. `racer` gets out of the trap, then aims for 20 m/s and ignores the other cars.
+# `timid` keeps straight behind trap 1. **Half random** is the rule of lesson [[the_rule]], with its action
+# replaced in half of the states by one drawn at random once and for all. Watch them. Which earns most?
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
@@ -66,15 +65,15 @@ drives = [bc.record(teacher_policy(rule), [ROAD], label=name)[0] for name, rule 
 bc.recording([beginning(drive, 30) for drive in drives], height=480)
 
 # %% [markdown]
-# Each drives 100 roads, and so do the rule and `careful`, which goes left as soon as there is room,
-# then drives 15 m/s.
+# Each drives 100 roads, and so do the rule and `careful`, which goes left as soon as there is room, then
+# drives 15 m/s.
 
 # %%
 figures.exam_of_all()
 
 # %% [markdown]
-# **See.** The racer gets out on each of these roads, and on each earns *less* than `timid`: the
-# reward pays next to nothing for 20 m/s.
+# **See.** The racer gets out on each of these roads, and on each earns *less* than `timid`: the reward pays
+# next to nothing for 20 m/s.
 # <!-- claim: speed_reward(17) < 0.02 -->
 # <!-- claim: all(teacher_exam(n).success.all() for n in ('careful', 'racer')) -->
 # <!-- claim: not teacher_exam('timid').success.any() -->
@@ -84,9 +83,8 @@ figures.exam_of_all()
 # **The question**: what must a teacher be good at, so that its students get out?
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Ask for a ranking of the students of these four, on the board. Keep it visible until Round 3. The
-# one training of this lesson comes out differently on another processor; the groups of ten ship
-# with the course.
+# Ask for a ranking of the students of these four, on the board. Keep it visible until Round 3. The one
+# training of this lesson comes out differently on another processor; the groups of ten ship with the course.
 
 # %% [markdown]
 # ## Round 1: a rule of your own
@@ -106,8 +104,8 @@ for lane in (2, 1, 0):
 figures.cars_in_rows(cars)
 
 # %% [markdown]
-# Your rule decides on a **speed** and a **lane**. `toward(cars, speed, lane, scenario)` finds the
-# action that brings the car there. The racer is one line:
+# Your rule decides on a **speed** and a **lane**. `toward(cars, speed, lane, scenario)` finds the action that
+# brings the car there. The racer is one line:
 
 # %% tags=["nbval-ignore-output"]
 source("bootcourse.course.lessons.your_teacher.example_teachers", "racer")
@@ -120,10 +118,10 @@ source("bootcourse.course.lessons.your_teacher.example_teachers", "racer")
 predict("your_teacher.1", "At its best speed it gets out on ...", ["none", "about half", "all"])
 
 # %% [markdown]
-# **Exercise (12 min, ●●○).** Write a rule that is ahead of trap 1 at the end of each of the check's 24
-# roads, without an accident. It draws nothing at random, remembers nothing, and leaves `cars` as it
-# is. Use `ahead`, `toward`, `cars[EGO, LANE]` and `cars[EGO, Y]`: a change lasts some
-# seconds, and ends at {{ DEFAULT.road.lane_width | .0f }} m × lane.
+# **Exercise (12 min, ●●○).** Write a rule that is ahead of trap 1 at the end of each of the check's 24 roads,
+# without an accident. It draws nothing at random, remembers nothing, and leaves `cars` as it is. Use `ahead`,
+# `toward`, `cars[EGO, LANE]` and `cars[EGO, Y]`: a change lasts some seconds, and ends at
+# {{ DEFAULT.road.lane_width | .0f }} m × lane.
 # <!-- claim: len(registry()['my_rule'].worked) +
 #   len([*registry()['my_rule'].cases(np.random.default_rng(0))]) == 24 -->
 
@@ -150,8 +148,8 @@ predicted("your_teacher.1")
 figures.of_speeds()
 
 # %% [markdown]
-# **Explain.** Up to 10 m/s the car is no faster than the traps; from 11 m/s on it crashes on each of
-# these roads. Two speeds are enough, *without a look at any gap*.
+# **Explain.** Up to 10 m/s the car is no faster than the traps; from 11 m/s on it crashes on each of these
+# roads. Two speeds are enough, *without a look at any gap*.
 # <!-- claim: not any(one_situation(v).success.any() for v in range(8, 16)) and
 #   all((one_situation(v).accident > 0).all() for v in range(11, 16)) -->
 # <!-- claim: DEFAULT.traps.speed == 10 -->
@@ -164,23 +162,23 @@ mine = my_rule if check.my_rule(my_rule).passed else example_teachers.careful
 print(example_teachers.examine(mine))
 
 # %% [markdown] tags=["instructor"] minutes=3
-# A first attempt that changes left at once, at 10 m/s, hits a car on {{ 100 *
-# (two_situations(10.0).accident > 0).mean() | .0f }} % of the roads. Let them print the seconds
-# before such an accident. With 1 m/s less the same rule passes. A group that finds this has a
-# rule of two speeds: let the others say why it works. A rule that passes but brakes to 6 m/s is
-# worth keeping, too: look whether its students are slow as well.
+# A first attempt that changes left at once, at 10 m/s, hits a car on
+# {{ 100 * (two_situations(10.0).accident > 0).mean() | .0f }} % of the roads. Let them print the seconds
+# before such an accident. With 1 m/s less the same rule passes. A group that finds this has a rule of two
+# speeds: let the others say why it works. A rule that passes but brakes to 6 m/s is worth keeping, too: look
+# whether its students are slow as well.
 # <!-- claim: (two_situations(10.0).accident == Accident.COLLISION).sum() ==
 #   (two_situations(10.0).accident > 0).sum() > 0 -->
 
 # %% [markdown]
 # ## Round 2: success or return?
 #
-# A teacher enters the learner in three places: it **drives** the demonstrations, and in each row of a
-# batch it **labels** s, for the actor's KL, and s′, for the KL in the critic's target.
+# A teacher enters the learner in three places: it **drives** the demonstrations, and in each row of a batch
+# it **labels** s, for the actor's KL, and s′, for the KL in the critic's target.
 # `Training(..., teacher=my_rule)` swaps all three.
 #
-# Two agents learn from your rule with the paper's method, for {{ taught_agents.UPDATES | , }}
-# updates. **Yours will differ** with your processor.
+# Two agents learn from your rule with the paper's method, for {{ taught_agents.UPDATES | , }} updates.
+# **Yours will differ** with your processor.
 
 # %% tags=["nbval-ignore-output"]
 settings = bc.with_seeds(bc.settings_for("bootstrapped"), 2)
@@ -213,13 +211,12 @@ verdicts = taught_agents.verdicts(groups)
 bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 
 # %% [markdown]
-# **See.** In this short training success and return give the racer opposite verdicts. Its students
-# crash in {{ 100 * students('racer')['accident'].mean() | .0f }} % of drives, the racer itself in {{ 100 *
-# (teacher_exam('racer').accident > 0).mean() | .0f }} %. After {{ taught_agents.LONG | , }} updates only {{
-# student_escapes(taught_agents.RACER_LONG) }} of its ten students escape, no longer {{ student_escapes('racer') }},
-# but the
-# ten earn {{
-# students(taught_agents.RACER_LONG)['returns'].mean() | .0f }}.
+# **See.** In this short training success and return give the racer opposite verdicts. Its students crash in
+# {{ 100 * students('racer')['accident'].mean() | .0f }} % of drives, the racer itself in
+# {{ 100 * (teacher_exam('racer').accident > 0).mean() | .0f }} %. After {{ taught_agents.LONG | , }} updates
+# only {{ student_escapes(taught_agents.RACER_LONG) }} of its ten students escape, no longer
+# {{ student_escapes('racer') }}, but the ten earn
+# {{ students(taught_agents.RACER_LONG)['returns'].mean() | .0f }}.
 #
 # `timid` helps by return: its students stay behind trap 1, without an accident.
 #
@@ -233,18 +230,18 @@ bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 #   'hurts'} and verdicts()['timid'] == {'success': 'not shown', 'returns': 'helps'} -->
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Ask which of the columns a paper would print, and what a reader would then miss. Let each group
-# defend one verdict, and say which measurement would overturn it.
+# Ask which of the columns a paper would print, and what a reader would then miss. Let each group defend one
+# verdict, and say which measurement would overturn it.
 
 # %% [markdown]
 # ## Round 3: a teacher that crashes
 #
-# Half random's {{ len(demonstrated('random-50')) }} drives all end in an accident, and half of its labels
-# are random.
+# Half random's {{ len(demonstrated('random-50')) }} drives all end in an accident, and half of its labels are
+# random.
 # <!-- claim: all(drive.accident > 0 for drive in demonstrated('random-50')) -->
 #
-# The figure has more teachers: **quarter random**, random in a quarter of the states; **late**, the
-# rule 0.75 s late; **mirrored**, the rule with left and right exchanged.
+# The figure has more teachers: **quarter random**, random in a quarter of the states; **late**, the rule 0.75
+# s late; **mirrored**, the rule with left and right exchanged.
 #
 # > **Predict.** Ten students learn from half random's drives and labels, in a whole training
 # > ({{ TAUGHT['bootstrapped'][1] | , }} episodes; Round 2's was short). How many escape?
@@ -258,17 +255,17 @@ taught = shipped_teachers()
 bc.show(figures.of_six_teachers(taught))
 
 # %% [markdown]
-# **See.** All ten escape, although half random's drives are in the free lane for {{
-# in_free_lane('random-50') | .0f }} s on average. Of the
-# rule's ten, {{ escape_of(['rule']) }} do: no clear difference from half random's.
+# **See.** All ten escape, although half random's drives are in the free lane for
+# {{ in_free_lane('random-50') | .0f }} s on average. Of the rule's ten, {{ escape_of(['rule']) }} do: no
+# clear difference from half random's.
 # <!-- claim: not significant(10)[escape_of(['random-50']), escape_of(['rule'])] -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
 #   TAUGHT['soft'] == TAUGHT['bootstrapped'] -->
 #
-# Where the drives reach the free lane, {{ escape_of(['rule', 'late', 'random-25', 'random-50']) }} of 40 students
-# escape; where they do not, {{ escape_of(['timid', 'mirrored']) }} of 20. Reaching it may not be enough to *stay*
-# out: the racer's
-# drives do, and {{ student_escapes(taught_agents.RACER_LONG) }} of its ten escape at last.
+# Where the drives reach the free lane, {{ escape_of(['rule', 'late', 'random-25', 'random-50']) }} of 40
+# students escape; where they do not, {{ escape_of(['timid', 'mirrored']) }} of 20. Reaching it may not be
+# enough to *stay* out: the racer's drives do, and {{ student_escapes(taught_agents.RACER_LONG) }} of its ten
+# escape at last.
 # <!-- claim: escape_of(['timid', 'mirrored']) == 0 and min(escape_of([name]) for name in ('rule',
 #   'late', 'random-25', 'random-50')) > 5 -->
 # <!-- claim: in_free_lane('timid') == in_free_lane('mirrored') == 0 < in_free_lane('random-50') and
@@ -280,19 +277,20 @@ bc.show(figures.of_six_teachers(taught))
 # <!-- claim: dataclasses.replace(settings_for('soft'), method='bootstrapped', beta_start=0.6) ==
 #   settings_for('bootstrapped') -->
 #
-# From labels alone, without drives, {{ worth()['random-25', 'soft'].escapers('soft') }} of ten escape with quarter
-# random, {{ worth()['random-50', 'soft'].escapers('soft') }} with half random: its labels are not enough.
+# From labels alone, without drives, {{ worth()['random-25', 'soft'].escapers('soft') }} of ten escape with
+# quarter random, {{ worth()['random-50', 'soft'].escapers('soft') }} with half random: its labels are not
+# enough.
 # <!-- claim: significant(10)[escape_of(['random-50']), worth()['random-50', 'soft'].escapers('soft')] -->
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Return to the ranking on the board. Ask which column of the figure would have sorted the students,
-# and what else the six teachers differ in.
+# Return to the ranking on the board. Ask which column of the figure would have sorted the students, and what
+# else the six teachers differ in.
 
 # %% [markdown]
 # ## Round 4: the free lane, or its accidents?
 #
-# Leave out the {{ gets_ahead('random-50') }} of half random's drives that end ahead of trap 1. Of the other {{
-# len(crashes.crashed()) }}, {{ reach_free_lane() }} reach the free lane. Ten new agents each learn from:
+# Leave out the {{ gets_ahead('random-50') }} of half random's drives that end ahead of trap 1. Of the other
+# {{ len(crashes.crashed()) }}, {{ reach_free_lane() }} reach the free lane. Ten new agents each learn from:
 #
 # | | before the free lane ({{ before() | .0f }} % of all) | in it | its {{ reach_free_lane() }} accidents |
 # |---|---|---|---|
@@ -354,15 +352,12 @@ figures.parted(without_the_accident) if passed else "First the exercise."
 bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
-# **Explain.** With the free lane, crash or not, {{ sum(map(crash_escapes, ('all', 'as-many', 'lane'))) }} of 30
-# escape;
-# without it {{ sum(map(crash_escapes, ('cut', 'accident'))) }} of 20, barely faster than the traps (they earn at
-# most {{
-# crash_returns('cut').max() | .0f }}). *So half random must show the free lane; it may crash there.* The number of
-# decisions is not the reason: "no free lane" and the control both have {{ before() | .0f }} % of them, and the
-# control
-# earns more (rank test, after Holm). Nor is showing enough: without the bonus {{ crash_escapes('no-bonus') }} of ten
-# escape from all the drives.
+# **Explain.** With the free lane, crash or not, {{ sum(map(crash_escapes, ('all', 'as-many', 'lane'))) }} of
+# 30 escape; without it {{ sum(map(crash_escapes, ('cut', 'accident'))) }} of 20, barely faster than the traps
+# (they earn at most {{ crash_returns('cut').max() | .0f }}). *So half random must show the free lane; it may
+# crash there.* The number of decisions is not the reason: "no free lane" and the control both have
+# {{ before() | .0f }} % of them, and the control earns more (rank test, after Holm). Nor is showing enough:
+# without the bonus {{ crash_escapes('no-bonus') }} of ten escape from all the drives.
 # <!-- claim: in_free_lane('rule') > 0 and free_lane.shown('rule')[1] == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=1
@@ -394,10 +389,10 @@ at, speed = queue[:, X], queue[:, SPEED]
 print(f"{min(at):.0f} to {max(at):.0f} m from you, {min(speed):.1f} to {max(speed):.1f} m/s")
 
 # %% [markdown]
-# **Exercise (25 min, ●●●).** Write a rule that gets out on such roads, too, without an
-# accident. The check drives it on {{ len(registry()['watchful_rule'].all_arguments) }}. The rule of
-# two speeds collides on {{ dense('without_a_look')[COLLIDES] }}, and `careful`, which does not look
-# behind, on {{ dense('careful')[COLLIDES] }}.
+# **Exercise (25 min, ●●●).** Write a rule that gets out on such roads, too, without an accident. The check
+# drives it on {{ len(registry()['watchful_rule'].all_arguments) }}. The rule of two speeds collides on
+# {{ dense('without_a_look')[COLLIDES] }}, and `careful`, which does not look behind, on
+# {{ dense('careful')[COLLIDES] }}.
 # <!-- claim: [*dense('watchful')] == [OUT] -->
 
 
@@ -412,9 +407,9 @@ check.watchful_rule(watchful_rule)
 # %% [markdown]
 # ## Further: ask only when unsure
 #
-# Your worse student drives, and asks your rule whenever your two students disagree,
-# or about as often at random. Compare the accidents. With one student this is an example: no
-# proof that asking helps, or that disagreement picks better seconds than chance.
+# Your worse student drives, and asks your rule whenever your two students disagree, or about as often at
+# random. Compare the accidents. With one student this is an example: no proof that asking helps, or that
+# disagreement picks better seconds than chance.
 
 # %% tags=["nbval-ignore-output"]
 worse_first = [students[place] for place in learned["success"].argsort()]
@@ -433,27 +428,27 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 #
 # **Three questions to think about**
 # - Could two bad teachers together be a good one?
-# - Half random's label is the rule's in {{ 1 / 2 + 1 / 18 | .2f }} of the states. Would it teach more
-#   if the KL trusted it with that p, not {{ SETTINGS.rule_p }}?
+# - Half random's label is the rule's in {{ 1 / 2 + 1 / 18 | .2f }} of the states. Would it teach more if the
+#   KL trusted it with that p, not {{ SETTINGS.rule_p }}?
 # <!-- claim: settings_for('soft').rule_p == settings_for('bootstrapped').rule_p == SETTINGS.rule_p
 #   and abs(like_the_rule('random-50') - 1 / 2 - 1 / 18) < 0.02 -->
-# - Of the racer's ten students {{ student_escapes('racer') }} escape early, and {{
-#   student_escapes(taught_agents.RACER_LONG) }} at last. What differs, and what would you test first?
+# - Of the racer's ten students {{ student_escapes('racer') }} escape early, and
+#   {{ student_escapes(taught_agents.RACER_LONG) }} at last. What differs, and what would you test first?
 
 # %% [markdown] tags=["instructor"] minutes=2
-# Answers to the three questions. (1) Ask what is missing. Once it is out, the racer looks at no
-# car, and `timid` looks at none anywhere, so these two mixed do not look either. Let them try a
-# mixture with `example_teachers.examine`. (2) Open. A lower p pulls more weakly towards each label,
-# the right ones too: `settings_for("soft", rule_p=0.56)`. (3) Open. The racer's
-# free lane is driven at 20 m/s, where a second pays next to nothing but the bonus. Let it aim for 15 m/s.
+# Answers to the three questions. (1) Ask what is missing. Once it is out, the racer looks at no car, and
+# `timid` looks at none anywhere, so these two mixed do not look either. Let them try a mixture with
+# `example_teachers.examine`. (2) Open. A lower p pulls more weakly towards each label, the right ones too:
+# `settings_for("soft", rule_p=0.56)`. (3) Open. The racer's free lane is driven at 20 m/s, where a second
+# pays next to nothing but the bonus. Let it aim for 15 m/s.
 
 # %% [markdown]
-# **Read on**: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372).
-# Next: [the second trap](the_second_trap.ipynb).
+# **Read on**: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372). Next: [the second
+# trap](the_second_trap.ipynb).
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** Three arrows from the teacher into the learner: actions in the memory, labels
-# for the KL, drives at the start.
+# **On the board.** Three arrows from the teacher into the learner: actions in the memory, labels for the KL,
+# drives at the start.
 #
-# **To discuss.** Would you rather have a teacher that is right in nine states of ten, or one that
-# knows when it is wrong?
+# **To discuss.** Would you rather have a teacher that is right in nine states of ten, or one that knows when
+# it is wrong?
