@@ -89,8 +89,7 @@ bc.show(figures.returns(hunt))
 # ## Round 2: what is an accident worth?
 #
 # A **probe** asks one part of a learner a question. Compare with the right answer, if you know it, or with a
-# healthy agent's. Where an accident ends the episode, the right Q is the reward,
-# {{ DEFAULT.reward.accident }}.
+# healthy agent's. Where an accident ends the episode, the right Q is the reward, {{ DEFAULT.reward.accident }}.
 #
 # > **Predict.** Two of the six bugs change the target there. One of them can only raise it. Which one
 # > may pull Q *below* {{ DEFAULT.reward.accident }}?
@@ -166,8 +165,9 @@ bc.show(figures.promises(hunt))
 
 # %% [markdown]
 # **Explain.** With a bonus in every second the limit is (1 + c) / (1 − γ) =
-# {{ (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}; without any it is 1 / (1 − γ) =
-# {{ 1 / (1 - SETTINGS.gamma) | .0f }}. Grey may lie between them: demonstrations earn the bonus.
+# {{ (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}; without any it is 1 / (1 − γ) = {{ 1 / (1 -
+# SETTINGS.gamma) | .0f }}.
+# Grey may lie between them: demonstrations earn the bonus.
 #
 # One agent promises up to {{ hunt().probe('F', 'promise').max() | .0f }}, beyond the picture: no rewards and
 # bonuses add up to that.

@@ -228,9 +228,10 @@ bc.show(figures.returns(groups, measures.others_of(groups, others)))
 # **See.** *Until episode 500 the return stays near the rule's: the bonus pays for the rule's speed.* From
 # episode 300 to 500 the ten on the left drive {{ training('c = 2', 'speed', 300, 500).mean() | .1f }} m/s,
 # the rule {{ of('rule').scores('speed').mean() | .1f }}. A second at 15 m/s earns
-# {{ second_pays(15) - second_pays(12) | .1f }} more than one at 12, but a demonstrated second pays a bonus of
-# {{ SETTINGS.bonus | g }}. So from 300 to 600 each of the ten earns less than each of the other twenty. (Paid
-# for ever, the bonus slows them, but does not hold them: {{ above_the_rule() }} of 20 end above the rule.)
+# {{ second_pays(15) - second_pays(12) | .1f }} more than one at 12, but a demonstrated second pays a bonus of {{
+# SETTINGS.bonus | g }}.
+# So from 300 to 600 each of the ten earns less than each of the other twenty. (Paid for ever, the bonus slows
+# them, but does not hold them: {{ above_the_rule() }} of 20 end above the rule.)
 # <!-- claim: training('c = 2', 'return', 300, 600).max() < min(training(name, 'return', 300,
 #   600).min() for name in ('300', 'c = 0')) -->
 # <!-- claim: abs(training('c = 2', 'return', 300, 600).mean() -

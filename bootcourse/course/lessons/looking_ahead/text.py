@@ -259,11 +259,11 @@ bc.show(figures.wrong_models(study))
 # %% [markdown]
 # **See.** With everything a second late all {{ drives('ppo_cloned', model=LATE) | , }} drives with the
 # look-ahead end in an accident, nearly all with the shield. The look-ahead crashes more often than PPO alone
-# with {{ worse_than_alone('ppo_cloned', 'rollouts') }} of the six errors, the shield with
-# {{ worse_than_alone('ppo_cloned', 'shield') }}. Round 1's agents crash less with five of the six, on
-# average: {{ min(wrong_but_late()) | .0f }} to {{ max(wrong_but_late()) | .0f }} in 1,000 drives,
-# {{ per_thousand('bootstrapped', 'alone') | .0f }} alone. But with noise {{ more_with(NOISE) }} of the ten
-# crash more.
+# with {{ worse_than_alone('ppo_cloned', 'rollouts') }} of the six errors, the shield with {{
+# worse_than_alone('ppo_cloned', 'shield') }}.
+# Round 1's agents crash less with five of the six, on average: {{ min(wrong_but_late()) | .0f }} to
+# {{ max(wrong_but_late()) | .0f }} in 1,000 drives, {{ per_thousand('bootstrapped', 'alone') | .0f }} alone.
+# But with noise {{ more_with(NOISE) }} of the ten crash more.
 # <!-- claim: max(wrong_but_late()) < per_thousand('bootstrapped', 'alone') and len(wrong_but_late()) == 5 -->
 # <!-- claim: accidents('ppo_cloned') == accidents('ppo_cloned', 'shield') == 0 -->
 # <!-- claim: accidents('ppo_cloned', model=LATE) == drives('ppo_cloned', model=LATE) -->
@@ -306,8 +306,7 @@ bc.show(figures.promised(agent, learned, drive, alone[:10]))
 # <!-- claim: 2 * misled()[2] < misled()[0] and 0.7 * misled()[1] < misled()[0] < misled()[1] -->
 #
 # When ten agents look ahead, each in its own model, all {{ learned_drives() | , }} drives end in an accident;
-# with the shield {{ learned('shield')[0] | .0f }} do, alone
-# {{ per_thousand('bootstrapped', 'alone') | .0f }}.
+# with the shield {{ learned('shield')[0] | .0f }} do, alone {{ per_thousand('bootstrapped', 'alone') | .0f }}.
 # <!-- claim: (learned_model.per_thousand(learning(), 'mean of five')[:, 0] == 1000).all() and
 #   len(learning()) == 10 and learned_model.DRIVES == 200 -->
 #

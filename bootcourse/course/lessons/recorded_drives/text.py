@@ -245,9 +245,10 @@ bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, tru
 # %% [markdown]
 # **See.** *The less an agent acts as the data do, the further off its estimate can be.* Clones and CQL, on
 # the right, are less than 0.1 off (but so is the guess {{ choosing.rule_worth() | .2f }}, the rule's own
-# worth). On the left one is more than 1 too high: much, as no agent is truly worth more than
-# {{ truth().max() | .1f }}. Return does not decide it: two of plain SAC's agents earn 23 and 24, and their
-# estimates are {{ abs(off()[1, 4]) | .1f }} and {{ abs(off()[2, 4]) | .1f }} off.
+# worth). On the left one is more than 1 too high: much, as no agent is truly worth more than {{ truth().max() |
+# .1f }}.
+# Return does not decide it: two of plain SAC's agents earn 23 and 24, and their estimates are
+# {{ abs(off()[1, 4]) | .1f }} and {{ abs(off()[2, 4]) | .1f }} off.
 # <!-- claim: abs(off()[:, :2]).max() < 0.1 and overlaps()[:, :2].min() > 0.85 -->
 # <!-- claim: overlaps()[:, 2:].max() < 0.7 and abs(choosing.rule_worth() - truth()[:, :2]).max() < 0.1 -->
 # <!-- claim: off()[overlaps() < 0.4].min() < -0.4 and off()[overlaps() < 0.4].max() > 1 -->
@@ -260,7 +261,7 @@ bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, tru
 figures.chosen(study, guesses, truth)
 
 # %% [markdown]
-# **See.** *Two things go wrong.* Sets 3 and 5: the estimate errs. Set 1: the estimate is right, but worth at
+# **See.** *Two things go wrong.* Sets 3 and 5 (on our processor): the estimate errs. Set 1: the estimate is right, but worth at
 # γ = 0.8 looks about five seconds ahead, and prefers an agent that stays in the trap to one that gets out.
 # <!-- claim: estimated().argmax(1).min() > 1 and (of_taken(truth()) == truth().max(1)).sum() == 3 ==
 #   (of_taken(successes()) == 0).sum() -->

@@ -132,9 +132,9 @@ check.soft_constraint(soft_constraint)
 # In each state the agent has three goals: a high Q, entropy (a nat is worth α), and a small KL (a nat costs
 # ξ). The best π has the largest sum: its mean Q, plus α times its entropy, less ξ times its KL.
 #
-# The paper sets ξ = {{ SETTINGS.xi_multiplier }} α, at first
-# {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}. The target entropy η = {{ SETTINGS.target_entropy }}
-# cannot be reached, so α falls, as in lesson [[discrete_sac]], and ξ with it.
+# The paper sets ξ = {{ SETTINGS.xi_multiplier }} α, at first {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }}.
+# The target entropy η = {{ SETTINGS.target_entropy }} cannot be reached, so α falls, as in lesson
+# [[discrete_sac]], and ξ with it.
 #
 # Where all Q are equal, the best π still prefers the rule's action. By how much its log π then exceeds any
 # other action's is the rule's **head start**, in nats.

@@ -329,9 +329,9 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. Plain SAC seldom escapes: 1 of the twenty agents above, {{ escaped('sac') }} of the study's
-#    {{ len(of('sac')) }}. With the rule's help {{ escaped('soft') }} of {{ len(of('soft')) }} do in lesson
-#    [[soft_constraint]], {{ escaped('bootstrapped') }} in [[learning_from_demonstrations]].
+# 1. Plain SAC seldom escapes: 1 of the twenty agents above, {{ escaped('sac') }} of the study's {{ len(of('sac')) }}.
+#    With the rule's help {{ escaped('soft') }} of {{ len(of('soft')) }} do in lesson [[soft_constraint]],
+#    {{ escaped('bootstrapped') }} in [[learning_from_demonstrations]].
 # <!-- claim: escaped('bootstrapped') > len(of('bootstrapped')) / 2 > escaped('sac') == 1 -->
 # 2. Staying is not best, even at γ = 0.8. A larger γ alone is not enough.
 # 3. Most agents end ahead while they learn, and do not escape.

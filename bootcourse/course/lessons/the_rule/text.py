@@ -277,8 +277,8 @@ bc.show(figures.speeds_by_sight(drive, near, alone))
 # With 30 m it stays at 15 m/s here. Drivers on this road also weigh what the car behind them gains: the one
 # ahead makes way while the rule is still {{ makes_way(recorded(ROAD, 30.0), 4) | .0f }} m behind. Dashed:
 # drivers who do not. Among such, on 200 roads, the shorter sight gains
-# {{ driven(30.0, ALOOF).returns.mean() - driven(200.0, ALOOF).returns.mean() | .0f }}, not
-# {{ driven(30.0).returns.mean() - driven(200.0).returns.mean() | .0f }}.
+# {{ driven(30.0, ALOOF).returns.mean() - driven(200.0, ALOOF).returns.mean() | .0f }}, not {{
+# driven(30.0).returns.mean() - driven(200.0).returns.mean() | .0f }}.
 # <!-- claim: overtaken(recorded(ROAD, 30.0, ALOOF)) == overtaken(recorded(ROAD, 30.0)) -->
 # <!-- claim: (recorded(ROAD, 30.0).states[34:, EGO, SPEED] > 14.9).all() -->
 # <!-- claim: makes_way(recorded(ROAD, 30.0), 4) < 60 and makes_way(recorded(ROAD, 30.0, ALOOF), 4) > 1e9 -->

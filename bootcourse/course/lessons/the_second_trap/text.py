@@ -36,8 +36,8 @@ progress("the_second_trap")
 #
 # Here is another learner: PPO, *proximal policy optimisation*. Ten agents, trained without a rule or
 # demonstrations, earn {{ ppo('alone')['returns'].mean() | .0f }} on {{ len(ppo_kinds.ROADS) }} new roads.
-# Keeping straight behind the traps earns {{ idle().rewards.sum() | .0f }}; the rule, which gets out, earns
-# {{ drivers()['the rule'][0] | .0f }}.
+# Keeping straight behind the traps earns {{ idle().rewards.sum() | .0f }}; the rule, which gets out, earns {{
+# drivers()['the rule'][0] | .0f }}.
 # <!-- claim: ppo_agents() == 10 and drivers()['the rule'][1] == 1 and
 #   drivers()['keeping straight'][1] == 0 -->
 #

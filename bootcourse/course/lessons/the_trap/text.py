@@ -423,9 +423,9 @@ bc.show(figures.bearable_risks(gammas, np.array(risks)))
 
 # %% [markdown]
 # **Explain.** At γ = 0.8 the rule's way out bears no risk: even without a crash it is worth less than
-# staying. The blind plan bears {{ 100 * bearable_by_plan() | .0f }} %, if the others go as on road
-# {{ ROAD }}. On the {{ roads() | , }} roads {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % crash,
-# early or late, and on average it is worth {{ worth_of_plan() | .2f }} there, less than staying
+# staying. The blind plan bears {{ 100 * bearable_by_plan() | .0f }} %, if the others go as on road {{ ROAD }}.
+# On the {{ roads() | , }} roads {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % crash, early or late,
+# and on average it is worth {{ worth_of_plan() | .2f }} there, less than staying
 # ({{ discounted(idle(), 0.8) | .2f }}).
 # <!-- claim: discounted(idle(), 0.8) > worth_of_plan() -->
 #

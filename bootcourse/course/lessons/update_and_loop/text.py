@@ -245,8 +245,7 @@ explorable.trained_poles(agent, unmarked)
 # let the pole fall after {{ after_a_block('unmarked').max() | .0f }} pushes on average, as when untrained
 # ({{ agents('unmarked').notes['tests'][:, 0].min() | .0f }} to
 # {{ agents('unmarked').notes['tests'][:, 0].max() | .0f }}). Without the bug, after the same {{ BLOCK | , }}
-# pushes of training, ours balance it for {{ after_a_block().min() | .0f }} to
-# {{ after_a_block().max() | .0f }}.
+# pushes of training, ours balance it for {{ after_a_block().min() | .0f }} to {{ after_a_block().max() | .0f }}.
 #
 # Without the bug {{ solved() }} of {{ len(tests()) }} (seeds 0 to 4; the settings were chosen on others)
 # solve the pole, after {{ min(pushes()) | , }} to {{ max(pushes()) | , }} pushes, and then balance it for

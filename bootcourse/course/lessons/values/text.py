@@ -86,8 +86,8 @@ better = [g for g in gammas if worth([0.0] * 5 + [1.0] * 495, g) > worth([0.16] 
 print(f"γ = {min(better):.2f}")
 
 # %% [markdown]
-# **Explain.** With one state more $\gamma^5 > 0.16$ decides: from {{ 0.16**0.2 | .2f }} on, not
-# {{ 0.16**0.25 | .2f }}.
+# **Explain.** With one state more $\gamma^5 > 0.16$ decides: from {{ 0.16**0.2 | .2f }} on, not {{ 0.16**0.25 |
+# .2f }}.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what γ means in seconds: at 0.8 a reward in ten decisions counts {{ 0.8**10 | .2f }}. Nothing in the
@@ -306,12 +306,13 @@ bc.show(diagrams.who_leaves(found))
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** In the states 1 to 3 turning back to the trap is worth γ · {{ 0.16 / 0.2 | .2f }} =
-# {{ 0.8 * 0.16 / 0.2 | .2f }}. While that is the best there, leaving is worth γ ·
-# {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}, less than staying. So going on must win in
-# state 3, then in 2, then in 1 (dashed), and each win takes more walks to the free road. The
-# {{ len(needed_walks()) }} of C that leave needed {{ min(needed_walks()) }} to {{ max(needed_walks()) }}. The
-# left learner had two, and still turns back in state 3.
+# **Explain.** In the states 1 to 3 turning back to the trap is worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 /
+# 0.2 | .2f }}.
+# While that is the best there, leaving is worth γ · {{ 0.8 * 0.16 / 0.2 | .2f }} =
+# {{ 0.8**2 * 0.16 / 0.2 | .2f }}, less than staying. So going on must win in state 3, then in 2, then in 1
+# (dashed), and each win takes more walks to the free road. The {{ len(needed_walks()) }} of C that leave
+# needed {{ min(needed_walks()) }} to {{ max(needed_walks()) }}. The left learner had two, and still turns
+# back in state 3.
 # <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
@@ -343,8 +344,8 @@ compare_predictions(
 #    more random decisions help, and so does a replayed demonstration.
 #
 # **Three questions to think about**
-# - After 40 sweeps Q(0, 0) is {{ sweeps(40, 0.8)[0, 0] | .2f }}. Staying for ever is worth
-#   {{ 0.16 / 0.2 | .2f }}. Why is Q(0, 0) more?
+# - After 40 sweeps Q(0, 0) is {{ sweeps(40, 0.8)[0, 0] | .2f }}. Staying for ever is worth {{ 0.16 / 0.2 | .2f }}.
+#   Why is Q(0, 0) more?
 # - Of two equal actions your learner takes 0. If it takes 1, {{ with_ties("1") }} of A's thirty leave; if it
 #   draws one, hardly any. Why?
 # - Your car sees 26 numbers. What replaces the chain's table of ten values, and what can then go wrong with a

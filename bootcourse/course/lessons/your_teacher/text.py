@@ -215,8 +215,7 @@ bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 # {{ 100 * students('racer')['accident'].mean() | .0f }} % of drives, the racer itself in
 # {{ 100 * (teacher_exam('racer').accident > 0).mean() | .0f }} %. After {{ taught_agents.LONG | , }} updates
 # only {{ student_escapes(taught_agents.RACER_LONG) }} of its ten students escape, no longer
-# {{ student_escapes('racer') }}, but the ten earn
-# {{ students(taught_agents.RACER_LONG)['returns'].mean() | .0f }}.
+# {{ student_escapes('racer') }}, but the ten earn {{ students(taught_agents.RACER_LONG)['returns'].mean() | .0f }}.
 #
 # `timid` helps by return: its students stay behind trap 1, without an accident.
 #
@@ -391,8 +390,8 @@ print(f"{min(at):.0f} to {max(at):.0f} m from you, {min(speed):.1f} to {max(spee
 # %% [markdown]
 # **Exercise (25 min, ●●●).** Write a rule that gets out on such roads, too, without an accident. The check
 # drives it on {{ len(registry()['watchful_rule'].all_arguments) }}. The rule of two speeds collides on
-# {{ dense('without_a_look')[COLLIDES] }}, and `careful`, which does not look behind, on
-# {{ dense('careful')[COLLIDES] }}.
+# {{ dense('without_a_look')[COLLIDES] }}, and `careful`, which does not look behind, on {{
+# dense('careful')[COLLIDES] }}.
 # <!-- claim: [*dense('watchful')] == [OUT] -->
 
 
