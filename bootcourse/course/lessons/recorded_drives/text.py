@@ -261,8 +261,9 @@ bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, tru
 figures.chosen(study, guesses, truth)
 
 # %% [markdown]
-# **See.** *Two things go wrong.* Sets 3 and 5 (on our processor): the estimate errs. Set 1: the estimate is right, but worth at
-# γ = 0.8 looks about five seconds ahead, and prefers an agent that stays in the trap to one that gets out.
+# **See.** *Two things go wrong.* Sets 3 and 5 (on our processor): the estimate errs. Set 1: the estimate is
+# right, but worth at γ = 0.8 looks about five seconds ahead, and prefers an agent that stays in the trap to
+# one that gets out.
 # <!-- claim: estimated().argmax(1).min() > 1 and (of_taken(truth()) == truth().max(1)).sum() == 3 ==
 #   (of_taken(successes()) == 0).sum() -->
 # <!-- claim: ((of_taken(truth()) == truth().max(1)) & (of_taken(successes()) == 0)).sum() == 1 and
