@@ -15,7 +15,8 @@
 #
 # **What you will be able to do**
 # - tell six silent bugs apart by curves and probes, beside a healthy agent;
-# - write a probe: ask one part of a learner something whose right answer you know;
+# - write a probe: ask one part of a learner a question, and compare with the right answer or a healthy
+#   agent's;
 # - test a learner's labels and its target without training.
 #
 # **Time** 46 minutes; running it takes under one minute. **It builds on** the losses of lesson
@@ -241,7 +242,7 @@ check.diagnose(diagnose)
 # | B | `sampled` | rarest action likelier; return low, promise falls |
 # | C | `shifted_labels` | what is left (and its return rises late) |
 # | D | `no_end` | Q at accidents far below the grey lines |
-# | E | `bonus_for_all` | promise between 10 and 15 |
+# | E | `bonus_for_all` | promise ends at 12, above grey, below 15 |
 # | F | `no_stop` | promise beyond 15, one seed to the end |
 #
 # - **B**: the KL alone teaches the actor, towards the stochastic rule, which crashes in {{ ended().sum() }}

@@ -159,9 +159,8 @@ bc.show(figures.off_the_road(alone, driven["the rule"]))
 # path, where the rule's drives have no row, and nearly every decision is an error: these are **compounding
 # errors** (Ross and Bagnell 2010).
 #
-# Suppose that in each second a share ε of the drives errs in the teacher's states, at worst always others,
-# and that every decision after a first error is one, too. **Drag** ε from 0.5 % up to our clones' 20 %: how
-# many errors can a whole drive have?
+# The worst case: each second another ε of all drives make their first error, and from then on every decision
+# is one. **Drag** ε from 0.5 % up to our clones' 20 %: how many errors can a whole drive have?
 
 # %%
 explorable.compounding()
@@ -170,7 +169,7 @@ explorable.compounding()
 # At 20 % up to {{ np.minimum(1, 0.2 * np.arange(1, 151)).sum() | .0f }} of 150 decisions on average; if
 # errors stay alone (dashed), {{ 0.2 * 150 | .0f }}. Our clones lie between: in their own states, which Round
 # 3 shows, they agree less than in their data. Of $T$ decisions on average at most $\epsilon \, T (T + 1) / 2$
-# are errors; where this is far below $T$, a drive twice as long has up to four times as many.
+# are errors; while $\epsilon T$ stays below 1, a drive twice as long has up to four times as many.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Draw both bounds, T and T²: the first error comes at decision t with a probability of at most ε, and T − t +
@@ -206,8 +205,8 @@ bc.show(figures.added({name: measured[name] for name in KINDS}, fed_crash))
 # %% [markdown]
 # **See.** *The rows from the edge prevent most accidents; as many others do not.* The states that a data set
 # holds are its **coverage**. The stochastic rule's drives hold these rows: probably that is why its clones
-# crash less than the rule's, although they err more in their own states. Rows between 1 m left and the edge
-# rows helped as much when we tried: the rule comes there, too, but with another heading.
+# crash less than the rule's, although they err more in their own states. (Rows a little nearer helped as much
+# when we tried, so it is not the place alone.)
 #
 # All this is after {{ UPDATES | , }} updates. Long training turns the order round: the study's ten clones of
 # the rule ({{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates) crash in

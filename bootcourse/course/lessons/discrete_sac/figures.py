@@ -28,7 +28,7 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
 
     knows: π(leave | trap) of an agent that knows the whole chain; walked: the learners at each temperature.
     """
-    title = "A small α does not find the road, a large one does not take it"
+    title = "A small α rarely finds the road, a large one takes it by chance"
     named = {
         "takes: leaves, knowing the map": np.array(knows),
         "tries: finds the free road": walked.found.mean(axis=1),

@@ -265,7 +265,8 @@ figures.descents({"your loss": own_parts.descended(loss), "Q not detached": bare
 # (*soft Q-learning*). Each draws from softmax(Q / α), and moves Q(s, a) by 0.3 of the way to its soft target.
 #
 # A learner must *find* the free road, and then *take* the way. Without pay, leaving is worth
-# {{ 0.8**4 / 0.2 | .2f }}, staying once more {{ 0.16 + 0.8 * 0.8**4 / 0.2 | .2f }} : the way is worth taking.
+# {{ 0.8**4 / 0.2 | .2f }}, staying once more {{ 0.16 + 0.8 * 0.8**4 / 0.2 | .2f }}. So the way is worth
+# taking.
 # <!-- claim: abs(soft_q(1e-3)[0, 0] - 1.80) < 0.005 > abs(soft_q(1e-3)[0, 1] - 2.05) -->
 #
 # > **Predict.** At the best constant α from 0.01 to 10, how probably do the thirty leave the trap in the
@@ -293,11 +294,11 @@ bc.show(figures.two_jobs(alphas, knows, walked))
 # <!-- claim: found(0.1) == 10 and constant().leaves[np.abs(ALPHAS / 0.1 - 1).argmin()].max() < 0.1 -->
 # <!-- claim: 0.5 < leave(1) < 0.55 and max(abs(leave(a) - 0.5) for a in (2, 3, 5, 7, 10)) < 0.01 -->
 #
-# So begin high, to find, and let α fall, to take: by equal factors from 10 to 0.01,
-# {{ falling().found.sum() }} of thirty find the road, and {{ sure(falling().leaves) }} end sure of leaving
-# (above {{ SURE }}; with no constant α more than {{ max(map(sure, constant().leaves)) }}). But
-# {{ sure(1 - falling().leaves) }} end sure of staying: {{ (~falling().found).sum() }} of these never found
-# the road.
+# So begin high, to find, and let α fall, to take: by equal factors from 10 to 0.01 the thirty leave with
+# {{ falling().leaves.mean() | .2f }} on average. They split: {{ sure(falling().leaves) }} end sure of leaving
+# (above {{ SURE }}; with no constant α more than {{ max(map(sure, constant().leaves)) }}), and
+# {{ sure(1 - falling().leaves) }} sure of staying, {{ (~falling().found).sum() }} of which never found the
+# road.
 # <!-- claim: ((1 - falling().leaves > SURE) | falling().found).all() and not (falling().leaves >
 #   SURE)[~falling().found].any() -->
 

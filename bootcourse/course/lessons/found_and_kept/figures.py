@@ -18,7 +18,7 @@ from bootcourse.statistics import IN_A_ROW, rolling_means
 # Titles that answer a prediction stand here, so that the student's cell does not give it away.
 IN_THE_STUDY = "With demonstrations alone half of the agents find the way out, and none keeps it"
 OF_THREE_SETTINGS = "With demonstrations alone 2, 6 and 10 of ten keep it; with the soft constraint 6, 6 and 5"
-OF_EIGHT = "With one road and π̃, a quarter to a half of the draws have the paper's four rates"
+OF_EIGHT = "With one road, 11 to 58 % of the draws have the paper's four rates"
 
 
 def one_agent(results: Results, which: int, title: str) -> Figure:

@@ -110,6 +110,11 @@ def alone_and_ending() -> Counted:
     return Counted(sum(one.found for one in each), sum(one.kept for one in each))
 
 
+def finders_where_it_stays() -> Counted:
+    """Of the study's ten with demonstrations alone whose β stays."""
+    return way(shipped_experiment("ablations")["β for ever"], "demos")
+
+
 def losers(beta: str) -> int:
     """How many of the study's ten with demonstrations alone ever lose the way out, where β "ends" or "stays"."""
     agents = of_all() if beta == "ends" else shipped_experiment("ablations")["β for ever"]
@@ -121,17 +126,19 @@ def chances_table() -> str:
     cells = study_clocks.choices(shipped_experiment("clocks"))
     quarter, *more = (study_clocks.pattern(cells[updates, "π̃"]) for updates in ("1/4", "1", "2", "4"))
     low, high = (100 * end for end in (min(each.low for each in more), max(each.high for each in more)))
-    ours = 100 * study_clocks.pattern(of_all()).value
+    by_rule, *others_by_rule = (study_clocks.pattern(cells[updates, "μ"]) for updates in ("1/4", "1", "2", "4"))
+    ours = [by_rule.value, study_clocks.pattern(of_all()).value, others_pattern()]
+    both = [f"{100 * one.value:.0f} ({100 * two.value:.0f})" for one, two in zip(more, others_by_rule, strict=True)]
     rows = [
-        ["as our study's (the ten others)", f"{ours:.0f} % ({100 * others_pattern():.0f} %)"],
-        ["with π̃", f"{100 * quarter.value:.0f} %"],
         [
-            "with π̃, one road, and 1, 2 or 4 updates",
-            f"{', '.join(f'{100 * each.value:.0f}' for each in more)} % (intervals: {low:.0f} to {high:.0f} %)",
+            "as our study's: 1,200 episodes; 2,000; the ten others",
+            f"{'; '.join(f'{100 * each:.0f}' for each in ours)} %",
         ],
+        ["the same with π̃, 1,200 episodes", f"{100 * quarter.value:.0f} %"],
+        ["one road, and 1, 2 or 4 updates: with π̃ (with μ)", f"{', '.join(both)} %; with π̃ {low:.0f} to {high:.0f} %"],
         ["in other traffic", "not tested"],
     ]
-    return markdown(["trained", "of the draws"], rows)
+    return markdown(["trained", "of the draws (95 % intervals)"], rows)
 
 
 def alone_and_staying() -> tuple[int, int, int]:

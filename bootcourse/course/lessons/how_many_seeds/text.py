@@ -80,7 +80,8 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
 # > **Predict.** The lower the true rate, the rarer are eight or more of ten. At 50 % they come in
-# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all studies, as eight heads of ten fair coins do. At which rate do
+# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all studies, as eight heads of ten fair coins do. At which rate
+# > do
 # > they
 # > come
 # > in 2.5 %? (Below it our eight would be luck too rare to believe.)
@@ -112,7 +113,7 @@ explorable.certainty()
 #
 # For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes, and of ten
 # others (lesson [[learning_from_demonstrations]]) {{ escapers(others('demos'), 'demos') }}. The paper says
-# neither how many agents drove nor how often; a spread in another row fits {{ EPISODES }} drives.
+# neither how many agents drove nor how often.
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
 # <!-- claim: fitting(*PRINTED['gail']['collision']) == [(1, EPISODES)] -->
 #
@@ -265,7 +266,7 @@ check.bootstrap_interval(bootstrap_interval)
 # `xi_multiplier` (200). Who learns the way out early? The score is an agent's success on 200 roads after 150
 # episodes.
 #
-# Five against five are few: Fisher's test (Round 2) would tell 80 from 30 % in only
+# Five against five are few: even a yes or no, 80 against 30 %, would show by Fisher's test in only
 # {{ 100 * power(0.8, 0.3, 5) | .0f }} of 100 studies.
 #
 # The score of a group is its **interquartile mean** (IQM): sort, leave out a quarter, rounded down, at each
@@ -322,9 +323,8 @@ bc.show(figures.nothing_changed(study))
 #
 # Even at 5 % each, at least one of twenty independent comparisons leaves out 0 in
 # {{ 100 * (1 - 0.95**20) | .0f }} % of cases: **multiplicity**. Say beforehand which comparison counts. Or
-# correct each p (Fisher's, Round 2) by *Holm*: of n, the smallest times n, the next times n − 1, and so on;
-# where one comes out below the one before it, it takes that one's value. The three comparisons of our first
-# picture:
+# correct each p (Fisher's, Round 2) by *Holm*: of n, the smallest times n, the next times n − 1, and so on
+# (never below the one before it, nor above 1). The three comparisons of our first picture:
 
 # %%
 # NBVAL_CHECK_OUTPUT

@@ -8,7 +8,7 @@ from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.research.results import Results
 from bootcourse.statistics import rolling_means
-from tools.course.known import SETTINGS, by_rule, idle, of, shipped_experiment, shipped_results
+from tools.course.known import SETTINGS, by_rule, idle, shipped_experiment, shipped_results
 
 
 @cache
@@ -52,16 +52,13 @@ def staying(place: int) -> str:
 
 
 def last_success(name: str, others: bool) -> str:
-    """In how many % of the training episodes 1,900 to 2,000 these agents, or the ten others, succeed."""
-    return f"{100 * training(name, 'success', 1900, 2000, others).mean():.0f}"
+    """In how many % of the last 100 training episodes these agents, or the ten others, succeed."""
+    return f"{100 * training(name, 'success', -100, None, others).mean():.0f}"
 
 
-def above_the_rule() -> int:
-    """How many of twenty whose β and bonus of 2 stay earn more than the rule in the test."""
-    study, others = (shipped_experiment(name) for name in ("ablations", "stress"))
-    returns = [study["β for ever"].of("bootstrapped"), others["bootstrapped, β for ever"]]
-    rule = of("rule").scores("returns").max()
-    return int(sum((each.scores("returns") > rule).sum() for each in returns))
+def for_ever(bonus: str) -> Results:
+    """The study's ten with both aids whose β stays; bonus: "" or ", c = 0"."""
+    return shipped_experiment("ablations")[f"β for ever{bonus}"].of("bootstrapped")
 
 
 def found(name: str) -> np.ndarray:
@@ -80,7 +77,7 @@ def passes(earned: float) -> int:
     return int(at[np.argmax(each.mean(axis=0) > earned)])
 
 
-def training(name: str, curve: str, first: int, last: int, others: bool = False) -> np.ndarray:
+def training(name: str, curve: str, first: int, last: int | None, others: bool = False) -> np.ndarray:
     """The mean of the study's ten agents in some training episodes, (agents,), or of the ten others."""
     return _with(name)[0][int(others)].curves[curve][:, first:last].mean(axis=1)
 

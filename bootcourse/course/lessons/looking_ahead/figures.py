@@ -29,7 +29,7 @@ from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
 MEANINGS = {  # of the wrong models that the lesson shows, for readers
     "others keep speed and lane": "nobody accelerates, brakes or changes lane",
-    "twice the time gap": "the others keep twice the distance",
+    "twice the time gap": "the others follow at twice the seconds",
     "only the four visible cars": "those that the agent does not see are missing",
     "places off by 1 m, speeds by 0.5 m/s": "noise on the others, drawn anew each second",
     "the others a second late": "the others where they were a second ago, moved on at their speed",

@@ -50,7 +50,7 @@ def returns(study: Results) -> Figure:
         "bc": (50.6, 8, "right"),
         "cql": (59, 6, "center"),
         "cql_sac": (22, -0.5, "right"),
-        "gail": (16, 72, "left"),
+        "gail": (36, 34, "left"),
     }
     for method, (x, y, side) in places.items():
         mine, look = study.of(method), style(method)

@@ -111,9 +111,10 @@ bc.show(figures.returns(study))
 # %% [markdown]
 # ## Round 2: Q-learning without driving
 #
-# Two agents now learn by Q-learning from the recorded drives alone, then drive with the highest Q. Each
-# target is r + γ times the smaller Q of two slower copies, for the next action whose Q is *highest* (*double*
-# Q-learning). A recorded second shows what *one* of the nine led to. No recorded drive ends in an accident.
+# Two agents now learn by Q-learning from the recorded drives alone, then drive with the highest Q. The critic
+# chooses the next action, the one whose Q is *highest*; the target is r + γ times what the slower target
+# critic says of it (*double* Q-learning). A recorded second shows what *one* of nine actions led to, and no
+# recorded drive ends in an accident.
 # <!-- claim: float(choosing.recorded().terminated.sum()) == 0 -->
 #
 # > **Predict.** What will the two do?
@@ -140,8 +141,8 @@ bc.show(figures.would_do({"Q-learning": without}))
 
 # %% [markdown]
 # **See.** *Both would accelerate in every recorded second, and crash on every road.* The rule accelerated in
-# {{ 100 * did()[0] | .0f }} % of the seconds. In the others Q of accelerating is a guess, and the highest of
-# nine guesses tends to be too high: Q promises over 2.5 on average. (The rule earned
+# {{ 100 * did()[0] | .0f }} % of the seconds. In the others Q of accelerating is a guess, and no data correct
+# it when it is too high, in double Q-learning neither: Q promises over 2.5 on average. (The rule earned
 # {{ choosing.earned(choosing.recorded()) | .1f }} from there; these two crash.) Why they accelerate in every
 # second is open.
 # <!-- claim: min(short(0.0)[0]) == 1 and short(0.0)[1] == [100, 100] and min(short(0.0)[2]) > 2.5 -->
@@ -173,9 +174,9 @@ check.conservative_loss(conservative_loss)
 # <!-- claim: bool(torch.isclose(conservative_loss(torch.eye(9)[2:3], torch.tensor([4])),
 #   torch.nn.functional.cross_entropy(torch.eye(9)[2:3], torch.tensor([4])))) -->
 #
-# **Exercise (20 min, ●●●).** Write the whole loss of CQL's critic. The target y is Round 2's: the critic
-# chooses the next action, the target critic says what that is worth. Which part must have no gradient? What
-# comes after an accident (other data may hold some)?
+# **Exercise (20 min, ●●●).** Write the whole loss of CQL's critic. The target y is Round 2's; `next_target`
+# is already the smaller of two target critics. Which part must have no gradient? What comes after an accident
+# (other data may hold some)?
 
 
 # %%
@@ -200,11 +201,11 @@ bc.show(figures.would_do({"with CQL's term": with_term}))
 # %% [markdown]
 # **See.** *With the term they crash on few roads, not on all*, though nobody showed them a crash. (Round 1's
 # agents, after far more updates, crash on about one in 100.) The term pulls up Q of the actions that the data
-# show. That is the cloning. The Q-learning shows, too: in these seconds five CQL agents of Round 1 would
-# accelerate in {{ 100 * would_do('cql')[:, 0].min() | .0f }} to {{ 100 * would_do('cql')[:, 0].max() | .0f }} %,
-# five clones in {{ 100 * would_do('bc')[:, 0].min() | .0f }} to {{ 100 * would_do('bc')[:, 0].max() | .0f }} %,
-# the rule did in {{ 100 * did()[0] | .0f }} %. That may be why CQL earns more than its teacher. In the
-# picture, Q now promises less than the rule earned.
+# show. That is the cloning. The Q-learning shows, too. In these seconds the rule accelerated in
+# {{ 100 * did()[0] | .0f }} %; five clones would in {{ 100 * would_do('bc')[:, 0].min() | .0f }} to
+# {{ 100 * would_do('bc')[:, 0].max() | .0f }} %, five CQL agents of Round 1 in
+# {{ 100 * would_do('cql')[:, 0].min() | .0f }} to {{ 100 * would_do('cql')[:, 0].max() | .0f }} %. That may
+# be why CQL earns more than its teacher. In the picture, Q now promises less than the rule earned.
 # <!-- claim: 0.5 < 100 * accidents('cql') < 1.5 and of('cql').curves['success'].shape[1] == 2000 -->
 # <!-- claim: max(short(1.0)[1]) < 30 and max(short(1.0)[0]) < 0.5 and
 #   max(short(1.0)[2]) < choosing.earned(choosing.recorded()) -->
@@ -261,9 +262,9 @@ bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, tru
 figures.chosen(study, guesses, truth)
 
 # %% [markdown]
-# **See.** *Two things go wrong.* Sets 3 and 5 (on our processor): the estimate errs. Set 1: the estimate is
-# right, but worth at γ = 0.8 looks about five seconds ahead, and prefers an agent that stays in the trap to
-# one that gets out.
+# **See.** *Two things go wrong.* Sets 3 and 5 (on our processor): the estimates mislead. Set 1: the choice is
+# right (not its estimate), but worth at γ = 0.8 looks about five seconds ahead, and prefers an agent that
+# stays in the trap to one that gets out.
 # <!-- claim: estimated().argmax(1).min() > 1 and (of_taken(truth()) == truth().max(1)).sum() == 3 ==
 #   (of_taken(successes()) == 0).sum() -->
 # <!-- claim: ((of_taken(truth()) == truth().max(1)) & (of_taken(successes()) == 0)).sum() == 1 and

@@ -157,10 +157,10 @@ predicted("soft_constraint.2")
 explorable.pull()
 
 # %% [markdown]
-# **See.** *The head start stays, and the temperature fades.* Where all Q are equal, only entropy and KL
-# matter, and with ξ = 200 α both count with the factor α: the head start is
-# {{ 200 / 201 * math.log(72) | .2f }} nats for every α. The smaller α and ξ become, the more the other
-# action's lead of 1 in Q counts, until that action wins. With a ξ that stays at 2 (grey) it does not.
+# **See.** *The head start stays, and Q's lead grows.* Where all Q are equal, only entropy and KL matter, and
+# with ξ = 200 α both count with the factor α: the head start is {{ 200 / 201 * math.log(72) | .2f }} nats for
+# every α. The smaller α and ξ become, the more the other action's lead of 1 in Q counts, until that action
+# wins. With a ξ that stays at 2 (grey) it does not.
 # <!-- claim: math.isclose(200 / 201 * math.log(8 * RULE_P / (1 - RULE_P)), 4.26, abs_tol=0.005) -->
 # <!-- claim: 1 < 2 * math.log(8 * RULE_P / (1 - RULE_P)) -->
 
@@ -436,7 +436,7 @@ compare_predictions(
 # 3. With ξ = {{ SETTINGS.xi_multiplier }} α the rule's head start, {{ 200 / 201 * math.log(72) | .2f }} nats,
 #    stays, but the temperature fades, so Q decides in the end.
 # 4. The KL in the actor's loss alone is policy regularisation, in the critics' target, too, a value penalty:
-#    it lowers the value of leaving the rule most, and delayed the way out in the study.
+#    it lowers most the value of leaving the rule, and delayed the way out in the study.
 # 5. With one update for four decisions, a ξ that stays at 2 holds agents near the rule's return; with 0.1
 #    throughout, not all find the way out; with a ξ that falls to 0.1, all twenty find and keep it.
 # <!-- claim: twenty(found) == twenty(kept) == 20 > in_all(found, 0.1) -->

@@ -36,7 +36,7 @@ def when_to_change(drive: Rollout) -> Figure:
         ),
         (
             "printed: closing speed × time > distance (m)",
-            (printed, "closing speed\n× time", ALARM),
+            (printed, "closing\nspeed\n× time", ALARM),
             (ahead, "distance"),
         ),
     )

@@ -302,10 +302,10 @@ print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {t
 # %% [markdown]
 # **Explain.** Only rows were added, and Q is possible. Without them, we think, Q fed itself: the network
 # guessed too much for the fallen pole, the target passed that on to the last push, and as one network gives
-# both, the guess rose with it. The added rows say what a mark says: from here on every reward is 0. (What the
-# line keeps at the fall can be entropy, worth up to what the dotted line has above 100. Q is possible in our
-# 5 of 5, too; they balance {{ after_a_block('paid-0').min() | .0f }} to
-# {{ after_a_block('paid-0').max() | .0f }} pushes.)
+# both, the guess rose with it. The added rows say almost what a mark says: from here on every reward is 0. (A
+# mark drops the entropy, too; what the line keeps at the fall can be entropy, worth up to what the dotted
+# line has above 100. Q is possible in our 5 of 5, too; they balance {{ after_a_block('paid-0').min() | .0f }}
+# to {{ after_a_block('paid-0').max() | .0f }} pushes.)
 # <!-- claim: possible('paid-0') == 5 == len(agents('paid-0')) and after_a_block('paid-0').argmax() == 1 -->
 #
 # The score shows that something is wrong. An impossible Q says where to look: at the critics and their rows.

@@ -209,8 +209,9 @@ for _ in range(5):
 bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 
 # %% [markdown]
-# **Explain.** On the first walk the other four decisions are learned before the free road pays, so only Q(4,
-# 1) rises. In the last row they are learned in reverse: from Q(3, 1) on, each next state already has a value.
+# **Explain.** On the first walk the other four decisions are learned before the free road pays: only state
+# 4's value rises. In the last row they are learned in reverse: from Q(3, 1) on, each next state already has a
+# value.
 # <!-- claim: walked(1) == [False] * 4 + [True] and all(walked(1, backwards=True)) -->
 # <!-- claim: not walked(4)[0] and walked(5)[0] -->
 
@@ -300,7 +301,7 @@ bc.show(diagrams.who_leaves(found))
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
 #
 # In C {{ free_road_seen(0.5, 0.8) }} reach the free road, but only {{ leaving(0.5, 0.8) }} learn to leave.
-# Here are two of them:
+# Here are two of the {{ free_road_seen(0.5, 0.8) }}:
 
 # %%
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
@@ -311,9 +312,9 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # While that is the best there, leaving is worth γ · {{ 0.8 * 0.16 / 0.2 | .2f }} =
 # {{ 0.8**2 * 0.16 / 0.2 | .2f }}, less than staying. So going on must win in state 3, then in 2, then in 1
 # (dashed), and each win takes more walks to the free road. The {{ len(needed_walks()) }} of C that leave
-# needed {{ min(needed_walks()) }} to {{ max(needed_walks()) }}. The left learner had two, and still turns
-# back in state 3.
-# <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] -->
+# needed {{ min(needed_walks()) }} to {{ max(needed_walks()) }}. One that had {{ len(arrivals(29)) }} still
+# stays. The left learner had two, and still turns back in state 3.
+# <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] and not chain.leaves(walks(29)[-1]) -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
 #   chain.over_walks(0.5, 0.8, seed)[12:36]) -->

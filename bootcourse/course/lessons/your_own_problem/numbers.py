@@ -59,7 +59,6 @@ def loops_table() -> str:
         ("random teacher, both aids", "yes", "random", "both, c = 0", "both"),
         ("the same, only its drives that reach the goal", "no", "random", None, elsewhere.WITHOUT_LOOPS),
         ("good teacher, both aids", "no", "good", "both, c = 0", "both"),
-        ("good teacher, demonstrations alone", "no", "good", "demonstrations, c = 0", "demonstrations"),
     ]
     rows = [
         [

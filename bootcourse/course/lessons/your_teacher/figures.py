@@ -82,7 +82,7 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], verdicts: Mapping[s
 
 def of_six_teachers(computed: Cells) -> Figure:
     """The students' success in the experiment `teachers`; beside each row what its teacher's drives show."""
-    title = "No student escapes whose teacher's drives do not reach the free lane"
+    title = "No student of timid or mirrored escapes: their drives do not reach the free lane"
     groups = {words: scores(computed[name, "bootstrapped"]) for name, words in SIX.items()}
     shown = {words: free_lane.shown(name) for name, words in SIX.items()}
     cells = {words: (f"{seconds:.0f}", f"{100 * crash:.3g}") for words, (seconds, crash) in shown.items()}

@@ -353,10 +353,10 @@ bc.show(figures.all_parts(shipped_experiment("crashes")))
 # %% [markdown]
 # **Explain.** With the free lane, crash or not, {{ sum(map(crash_escapes, ('all', 'as-many', 'lane'))) }} of
 # 30 escape; without it {{ sum(map(crash_escapes, ('cut', 'accident'))) }} of 20, barely faster than the traps
-# (they earn at most {{ crash_returns('cut').max() | .0f }}). *So half random must show the free lane; it may
-# crash there.* The number of decisions is not the reason: "no free lane" and the control both have
-# {{ before() | .0f }} % of them, and the control earns more (rank test, after Holm). Nor is showing enough:
-# without the bonus {{ crash_escapes('no-bonus') }} of ten escape from all the drives.
+# (they earn at most {{ crash_returns('cut').max() | .0f }}). *So most escape if half random shows the free
+# lane, few if not; it may crash there.* The number of decisions is not the reason: "no free lane" and the
+# control both have {{ before() | .0f }} % of them, and the control earns more (rank test, after Holm). Nor is
+# showing enough: without the bonus {{ crash_escapes('no-bonus') }} of ten escape from all the drives.
 # <!-- claim: in_free_lane('rule') > 0 and free_lane.shown('rule')[1] == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=1
