@@ -14,6 +14,8 @@ from bootcourse.course.live_curves import LiveCurves
 from bootcourse.learn.training import Training
 from bootcourse.methods import style
 from bootcourse.plots.figure import SMALL, axes_at, finish, label_ends, new_figure, one_axes, plain_axes
+from bootcourse.research.report import rule_results
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import IN_A_ROW, found_after, lost, rolling_means
 
 PENALTY = "with the value penalty", "without it"
@@ -144,4 +146,9 @@ def twenty(kinds: Sequence[str]) -> Figure:
         beside(ax, place, counts)
         alt.append(f"{kind}: {counts}, mean return {returns.mean():.0f}, {returns.min():.0f} to {returns.max():.0f}")
     name_rows(ax, kinds, "return of an agent on 1,000 roads; filled: it escapes; bar: mean of twenty")
-    return finish(figure, title, f"A dot for each agent. {'; '.join(alt)}.".replace("\n", " "))
+    rule, green = rule_results(DEFAULT, changed[kinds[0]].sizes[0]).scores("returns").mean(), style("rule").colour
+    for times, words in ((1, "the rule"), (2, "twice: fast")):
+        ax.axvline(times * rule, color=green, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
+        ax.text(times * rule, -0.55, words, color=green, fontsize=SMALL, ha="center", va="bottom")
+    words = f"A dot for each agent. {'; '.join(alt)}. The rule: {rule:.0f}."
+    return finish(figure, title, words.replace("\n", " "))
