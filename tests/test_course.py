@@ -37,8 +37,8 @@ def test_the_code_that_a_page_of_the_book_names_exists(page):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_no_line_of_a_page_begins_like_a_comment_which_the_book_would_leave_out(page):
-    assert re.findall("^%.*", page.read_text(encoding="utf-8"), re.M) == []
+def test_no_line_of_a_page_begins_like_a_comment_or_a_list_for_markdown(page):
+    assert problems_module.MISREAD.findall(page.read_text(encoding="utf-8")) == []
 
 
 # Numbers --------------------------------------------------------------------------------------------
@@ -196,6 +196,8 @@ SPOILT = {
     "a shown source is dead": ('", "safety', '", "unsafety', "`bootcourse.rule.unsafety_distance`"),
     "a prediction is not answered": ("check.safety_distance(", 'predict("the_rule.1")\ncheck.safety_distance(',
                                      "No compare_predictions answers the_rule.1"),
+    "a line begins like a comment": ("You drive 12 m/s", "You drive 12\n# % of", "a line that begins with `%`"),
+    "a line begins like a list": ("You drive 12 m/s", "You drive Q(4,\n# 1) rises", "a line that begins with `1) `"),
     "a claim is false": ("You drive 12 m/s", "<!-- claim: 1 == 2 -->", "`1 == 2` is False"),
     "a table is shown to nobody": ("check.safety_distance(", "table([], [])\ncheck.safety_distance(",
                                    "loses what table("),

@@ -16,6 +16,7 @@ from tools.course.instructor import together
 from tools.course.products import is_out_of_date, student_file
 from tools.course.source import Cell, arguments_of, body, function_in, lesson_of
 
+MISREAD = re.compile(r"^(?:%|\d+\) )", re.M)
 SHOWN_AS_LAST = ("table", "predict", "compare_predictions", "progress", "source")  # they return what is shown
 
 
@@ -30,11 +31,7 @@ def problems(path: Path) -> list[str]:
         *of_predictions(cells, lesson_of(path)),
         *of_references(cells),
         *of_lost(cells),
-        *(
-            f"{begins(cell.student)} has a line that begins with %: the book takes it for a comment."
-            for cell in cells
-            if not cell.is_code and re.search(r"^%", cell.student, re.M)
-        ),
+        *of_lines(cells),
         *of_minutes(cells),
     ]
     if wrong:
@@ -116,6 +113,13 @@ def of_predictions(cells: list[Cell], lesson: str) -> list[str]:
     problems += [f"There are two predictions {name}." for name in sorted(set(asked)) if asked.count(name) > 1]
     return problems + [f"No compare_predictions answers {name}." for name in asked
                        if not re.search(rf"\b{name.partition('.')[2]}: ", compared)]  # fmt: skip
+
+
+def of_lines(cells: list[Cell]) -> list[str]:
+    """Markdown takes a line that begins with % for a comment, which it leaves out, and one with `1)` for a list."""
+    said = [(cell, line[0]) for cell in cells if not cell.is_code for line in MISREAD.finditer(cell.student)]
+    return [f"{begins(cell.student)} has a line that begins with `{mark}`: Markdown reads it otherwise."
+            for cell, mark in said]  # fmt: skip
 
 
 def of_lost(cells: list[Cell]) -> list[str]:

@@ -159,8 +159,8 @@ bc.show(figures.off_the_road(alone, driven["the rule"]))
 # path, where the rule's drives have no row, and nearly every decision is an error: these are **compounding
 # errors** (Ross and Bagnell 2010).
 #
-# The worst case: each second another ε of all drives make their first error, and from then on every decision
-# is one. **Drag** ε from 0.5 % up to our clones' 20 %: how many errors can a whole drive have?
+# The worst case: each second a further share ε of all drives makes its first error, and from then on every
+# decision is one. **Drag** ε from 0.5 % up to our clones' 20 %: how many errors can a whole drive have?
 
 # %%
 explorable.compounding()

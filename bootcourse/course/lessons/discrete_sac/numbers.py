@@ -64,13 +64,13 @@ def found(alpha: float) -> int:
 @cache
 def falling() -> Walked:
     """Thirty learners whose α falls from 10 to 0.01 by equal factors: each array (30,)."""
-    both = walked(sac.soft_value, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, 1000))[:, None])
-    return Walked(*(each[0] for each in both))
+    alphas = torch.tensor(np.geomspace(10, 0.01, 1000))[:, None]
+    return Walked(*(each[0] for each in walked(sac.soft_value, sac.critic_target, alphas)))
 
 
-def sure(leaves: np.ndarray) -> int:
-    """How many end sure of leaving."""
-    return int((leaves > SURE).sum())
+def sure(probabilities: np.ndarray) -> int:
+    """How many learners are sure of what they do with these probabilities, leaving or staying."""
+    return int((probabilities > SURE).sum())
 
 
 def reachable() -> np.ndarray:

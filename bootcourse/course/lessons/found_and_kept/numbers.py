@@ -13,7 +13,7 @@ from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
 from bootcourse.research.tables import markdown
 from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost, rolling_means
-from tools.course.known import in_training, others, shipped_experiment, shipped_results
+from tools.course.known import clocks, in_training, others, pattern, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
 SHORTER = study_clocks.TRAINED  # training episodes of the agents of round 3
@@ -89,13 +89,12 @@ def earns_less(both: Group, *others: Group) -> bool:
 
 def with_teacher(updates: str) -> float:
     """The chance of round 3 with these updates per decision, where the stochastic rule demonstrates."""
-    return study_clocks.pattern(study_clocks.choices(shipped_experiment("clocks"))[updates, "π̃"]).value
+    return pattern(clocks()[updates, "π̃"]).value
 
 
 def row_reads(method: str) -> float:
     """The chance that one row of the right panel of round 3 reads as the paper's."""
-    agents = study_clocks.choices(shipped_experiment("clocks"))["2", "π̃"].of(method)
-    return float(study_clocks.as_printed(agents.scores("success"), method).mean())
+    return float(study_clocks.as_printed(clocks()["2", "π̃"].of(method).scores("success"), method).mean())
 
 
 def others_pattern() -> float:
@@ -123,11 +122,10 @@ def losers(beta: str) -> int:
 
 def chances_table() -> str:
     """How often single agents read as the paper's four rows, by training, as Markdown."""
-    cells = study_clocks.choices(shipped_experiment("clocks"))
-    quarter, *more = (study_clocks.pattern(cells[updates, "π̃"]) for updates in ("1/4", "1", "2", "4"))
+    quarter, *more = (pattern(clocks()[updates, "π̃"]) for updates in study_clocks.UPDATES)
     low, high = (100 * end for end in (min(each.low for each in more), max(each.high for each in more)))
-    by_rule, *others_by_rule = (study_clocks.pattern(cells[updates, "μ"]) for updates in ("1/4", "1", "2", "4"))
-    ours = [by_rule.value, study_clocks.pattern(of_all()).value, others_pattern()]
+    by_rule, *others_by_rule = (pattern(clocks()[updates, "μ"]) for updates in study_clocks.UPDATES)
+    ours = [by_rule.value, pattern(of_all()).value, others_pattern()]
     both = [f"{100 * one.value:.0f} ({100 * two.value:.0f})" for one, two in zip(more, others_by_rule, strict=True)]
     rows = [
         [

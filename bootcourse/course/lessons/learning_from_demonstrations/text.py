@@ -288,7 +288,7 @@ explorable.nine_values(yours[0], by_rule, seconds=20)
 # $$ J_E(Q) = \max_a \big[ Q(s,a) + l(a_E, a) \big] - Q(s,a_E), \qquad
 # l = 0 \text{ for } a_E, \text{ else } 1 $$
 #
-# It pushes the coloured bar up and the *best other* down, until the lead is the margin. (Your agent's Q has
+# It pushes the coloured bar up and the *best other* down, until it leads by the margin. (Your agent's Q has
 # been taught with the bonus.)
 # <!-- claim: bool(bootstrap.large_margin_loss(torch.tensor([[3.0, 2.0, 0.0]]), torch.tensor([0]))
 #   == 0) -->

@@ -207,7 +207,7 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
     ax.axvline(alone, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
     for place, (name, (decisions, crashes)) in enumerate(groups.items()):
         mean, thousand = f"{crashes.mean():,.0f}", f"{decisions.mean() / 1000:.0f}"
-        dots(ax, crashes, place, colour if place == len(groups) - 1 else INK, np.ones(len(crashes)), crashes.mean())
+        dots(ax, crashes, place, colour if place == len(groups) - 1 else INK, bar=crashes.mean())
         beside(ax, place, mean, thousand)
         alt_parts.append(f"{name}, {thousand} thousand decisions: {mean}")
     beside(ax, -0.75, "mean", "decisions, thousand", colour=QUIET)

@@ -123,7 +123,8 @@ def in_the_test(computed: Mapping[str, Results], rule: float) -> Figure:
 
     computed: see `equal_decisions.by_method`; rule: what the rule earns, the green line.
     """
-    title = "After 100,000 decisions each agent with a teacher earns more than the rule, none without"
+    budget = equal_decisions.BUDGETS[0]
+    title = f"After {budget:,} decisions each agent with a teacher earns more than the rule, none without"
     row, names, alt_parts, green = 0.42, [], [], style("rule").colour
     figure = new_figure(1.3 + row * len(computed))
     ax = axes_at(figure, 1.75, 0.75, 3.3, row * len(computed))

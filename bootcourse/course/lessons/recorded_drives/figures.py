@@ -62,14 +62,8 @@ def returns(study: Results) -> Figure:
         ax.text(x, y, shown, fontsize=TEXT, color=look.colour, ha=side)
         if method == "cql_sac":
             lost = int((hurt > 99).sum())
-            ax.text(
-                4,
-                100,
-                f"CQL with an actor:\n{lost} crash on every drive",
-                fontsize=TEXT,
-                color=look.colour,
-                va="center",
-            )
+            said = f"{display_name(method)}:\n{lost} crash on every drive"
+            ax.text(4, 100, said, fontsize=TEXT, color=look.colour, va="center")
         alt.append(f"{words}, mean return {earns.mean():.1f}, {hurt.mean():.1f} % of drives end in an accident")
         if method == "gail":
             worst = np.argmax(np.where(ahead >= ESCAPES, hurt, -1))

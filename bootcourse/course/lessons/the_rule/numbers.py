@@ -83,11 +83,11 @@ def speeds_up_behind() -> np.ndarray:
 
 
 @cache
-def change(sight: float = 30.0) -> tuple[float, float, int]:
-    """How far ahead trap 1 is (m) when the first lane change begins, at least and at most over the lesson's roads, and
-    after how many seconds the slowest change ends in the next lane.
+def change() -> tuple[float, float, int]:
+    """With a sight of 30 m: how far ahead trap 1 is (m) when the first lane change begins, at least and at most over
+    the lesson's roads, and after how many seconds the slowest change ends in the next lane.
     """
-    reasons, _, cars, _ = decided(sight)
+    reasons, _, cars, _ = decided(30.0)
     roads, lanes = np.arange(len(ROADS)), cars[:, :, EGO, LANE]
     began = (reasons == Reason.CHANGE).argmax(0)
     ahead = (cars[:, :, TRAP_1, X] - cars[:, :, EGO, X])[began, roads]

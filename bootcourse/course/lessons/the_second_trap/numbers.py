@@ -86,9 +86,13 @@ def wherever_cut() -> np.ndarray:
 @cache
 def worth(driver: str, gamma: float) -> float:
     """The discounted return of a drive on road 10."""
-    drives = {"keeping straight": idle, "the rule": by_rule, "sprinting": ppo_drive}
-    careful = teacher_policy(example_teachers.careful)
-    return discounted(drives[driver]() if driver in drives else record(careful, [ROAD])[0], gamma)
+    drives = {
+        "keeping straight": idle,
+        "the rule": by_rule,
+        "sprinting": ppo_drive,
+        "careful": lambda: record(teacher_policy(example_teachers.careful), [ROAD])[0],
+    }
+    return discounted(drives[driver](), gamma)
 
 
 def worth_table() -> str:

@@ -66,6 +66,11 @@ def has_been_free(q: np.ndarray) -> bool:
     return bool(q[4].max() > 0)
 
 
+def arrivals(q: np.ndarray) -> np.ndarray:
+    """The walks that reach the free road, from a learner's Q before the first and after each: q (walks + 1, 5, 2)."""
+    return 1 + np.flatnonzero((q[1:, 4] != q[:-1, 4]).any(axis=1))
+
+
 def leaving(explore: float, gamma: float, taught: Sequence[tuple[int, int]] = (), walks: int = 30) -> int:
     """How many learners end with leaving above staying in the trap."""
     return sum(map(leaves, learned(explore, gamma, taught, walks)))

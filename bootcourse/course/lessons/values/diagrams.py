@@ -148,7 +148,7 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
     figure, listed = new_figure(3.1), []
     for side, all_q in enumerate(both):
         q, decisions = np.array(all_q), chain.EPISODE * np.arange(len(all_q))
-        arrived = 1 + np.flatnonzero((q[1:, 4] != q[:-1, 4]).any(axis=1))
+        arrived = chain.arrivals(q)
         ax = axes_at(figure, 0.4 + 3.35 * side, 0.95, 2.35, 1.6)
         plain_axes(ax, f"{len(arrived)} of {len(q) - 1} walks reach the free road")
         for action, look in enumerate((OTHER, ON)):
