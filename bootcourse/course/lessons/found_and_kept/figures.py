@@ -9,16 +9,11 @@ from matplotlib.figure import Figure
 
 from bootcourse.course.charts import lines
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, TEXT, WIDTH, axes_at, finish, new_figure, plain_axes
+from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.cells import VARIED
 from bootcourse.research.experiments import clocks
 from bootcourse.research.results import Results
 from bootcourse.statistics import IN_A_ROW, rolling_means
-
-# Titles that answer a prediction stand here, so that the student's cell does not give it away.
-IN_THE_STUDY = "With demonstrations alone half of the agents find the way out, and none keeps it"
-OF_THREE_SETTINGS = "With demonstrations alone 2, 6 and 10 of ten keep it; with the soft constraint 6, 6 and 5"
-OF_EIGHT = "With one road, 11 to 58 % of the draws have the paper's four rates"
 
 
 def one_agent(results: Results, which: int, title: str) -> Figure:
@@ -45,39 +40,34 @@ def one_agent(results: Results, which: int, title: str) -> Figure:
     return figure
 
 
-def found_and_kept(panels: Mapping[str, Results], title: str) -> Figure:
-    """A square for each agent, a row for each method: {words: the four methods' ten agents each}, side by side.
+def found_and_kept(results: Results) -> Figure:
+    """A square for each agent, a row for each method, which has ten.
 
     Filled: it found the way out and kept it; empty: found and did not keep it; a dot: never found it.
     """
-    left, tall, alt_parts = 1.95, 0.34, []
-    top = 0.95 if any(panels) else 0.75  # room for the panels' words
-    figure, wide = new_figure(top + tall * len(VARIED) + 0.5), (WIDTH - left - 0.1) / len(panels)
-    size = 8.5 if len(panels) < 3 else 6.5
-    for column, (panel, results) in enumerate(panels.items()):
-        ax = axes_at(figure, left + column * wide, top, min(wide - 0.15, 4.0), tall * len(VARIED))
-        for y, method in enumerate(VARIED):
-            found, kept = (int(each.sum()) for each in results.found_and_kept(method))
-            n, colour = len(results.of(method)), style(method).colour
-            for first, after, fill in ((0, kept, colour), (kept, found, "white")):
-                at = range(first, after)
-                ax.plot(at, [y] * len(at), "s", ms=size, color=fill, mec=colour, mew=1.6)
-            ax.plot(range(found, n), [y] * (n - found), "o", ms=2.5, color=QUIET)
-            counted = f"{found} of {n} found it, {kept} kept it"
-            alt_parts.append(": ".join(part for part in ("" if y else panel, display_name(method), counted) if part))
-        ax.set(xlim=(-0.6, 9.6), ylim=(len(VARIED) - 0.5, -0.5), xticks=(), yticks=())
-        for side in ax.spines.values():
-            side.set_visible(False)
-        ax.set_title(panel, loc="left", fontsize=TEXT, color=INK, pad=5)
-        if not column:
-            ax.set_yticks(range(len(VARIED)), map(display_name, VARIED), fontsize=TEXT, color=INK)
-            ax.tick_params(axis="y", length=0)
+    left, top, tall, counted = 1.95, 0.75, 0.34, {}
+    figure = new_figure(top + tall * len(VARIED) + 0.5)
+    ax = axes_at(figure, left, top, 4.0, tall * len(VARIED))
+    for y, method in enumerate(VARIED):
+        found, kept = (int(each.sum()) for each in results.found_and_kept(method))
+        n, colour = len(results.of(method)), style(method).colour
+        for first, after, fill in ((0, kept, colour), (kept, found, "white")):
+            at = range(first, after)
+            ax.plot(at, [y] * len(at), "s", ms=8.5, color=fill, mec=colour, mew=1.6)
+        ax.plot(range(found, n), [y] * (n - found), "o", ms=2.5, color=QUIET)
+        counted[method] = f"{found} of {n} find the way out, {kept or 'none'} keep{'' if kept else 's'} it"
+    ax.set(xlim=(-0.6, 9.6), ylim=(len(VARIED) - 0.5, -0.5), xticks=())
+    ax.set_yticks(range(len(VARIED)), map(display_name, VARIED), fontsize=TEXT, color=INK)
+    ax.tick_params(axis="y", length=0)
+    for side in ax.spines.values():
+        side.set_visible(False)
     key = "■ found and kept   □ found, not kept   · not found.   Each mark is an agent."
     figure.text(0.012, 0.14 / figure.get_figheight(), key, fontsize=TEXT, color=INK)
-    return finish(figure, title, f"Agents that found and kept the way out. {'; '.join(alt_parts)}.")
+    alt = "; ".join(f"{display_name(method)}: {words}" for method, words in counted.items())
+    return finish(figure, f"With demonstrations alone {counted['demos']}", f"{alt}.")
 
 
-def chances(cells: Mapping[tuple[str, str], Results], counted: Mapping[tuple[str, str], float], title: str) -> Figure:
+def chances(cells: Mapping[tuple[str, str], Results], counted: Mapping[tuple[str, str], float]) -> Figure:
     """How often single agents read as the paper's four rows, in %, a row for each of the settings `cells`.
 
     counted: each setting's chance, drawn as a dot; the bar is the interval over seeds, see `clocks.pattern`.
@@ -102,4 +92,6 @@ def chances(cells: Mapping[tuple[str, str], Results], counted: Mapping[tuple[str
         alt_parts.append(f"{setting}, {driver}: {value:.0f} % [{bar[0]:.0f}, {bar[1]:.0f}], of {agents}")
     ax.set(xlim=(0, 100), ylim=(len(cells) - 0.5, -0.5), yticks=())
     ax.set_xlabel("% of the draws with all four rates as the paper's; bar: 95 % over seeds", fontsize=TEXT, color=INK)
+    one_road = [100 * counted[cell] for cell, results in cells.items() if results.agents[0]["envs_per_agent"] == 1]
+    title = f"With one road, {min(one_road):.0f} to {max(one_road):.0f} % of the draws have the paper's four rates"
     return finish(figure, title, f"Updates, roads, driver: chance [95 %], agents a row. {'; '.join(alt_parts)}.")

@@ -4,6 +4,7 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from scipy import stats
 
 from bootcourse.course.lessons.found_and_kept.explorable import groups
 from bootcourse.course.shipped import shipped_agents
@@ -11,7 +12,6 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
-from bootcourse.research.tables import markdown
 from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost, rolling_means
 from tools.course.known import clocks, in_training, others, pattern, shipped_experiment, shipped_results
 
@@ -87,11 +87,6 @@ def earns_less(both: Group, *others: Group) -> bool:
     return all(bool(both.earned.max() < each.earned[each.keep].min()) for each in others)
 
 
-def with_teacher(updates: str) -> float:
-    """The chance of round 3 with these updates per decision, where the stochastic rule demonstrates."""
-    return pattern(clocks()[updates, "π̃"]).value
-
-
 def row_reads(method: str) -> float:
     """The chance that one row of the right panel of round 3 reads as the paper's."""
     return float(study_clocks.as_printed(clocks()["2", "π̃"].of(method).scores("success"), method).mean())
@@ -103,49 +98,24 @@ def others_pattern() -> float:
     return float(np.prod([study_clocks.as_printed(others(m).of(m).scores("success"), m).mean() for m in methods]))
 
 
-def alone_and_ending() -> Counted:
-    """Of twenty agents with demonstrations alone and a β that ends: how many find the way out, and keep it."""
-    each = [way(agents, "demos") for agents in (shipped_results(), shipped_experiment("stress")["demos"])]
+def alone(beta: str) -> Counted:
+    """Of twenty agents with demonstrations alone, whose β "ends" or "stays": how many find the way out, and keep it."""
+    of_ours, of_others = ("β for ever", "demos, β for ever") if beta == "stays" else ("", "demos")
+    ours = shipped_experiment("ablations")[of_ours] if of_ours else shipped_results()
+    each = [way(agents, "demos") for agents in (ours, shipped_experiment("stress")[of_others])]
     return Counted(sum(one.found for one in each), sum(one.kept for one in each))
 
 
-def finders_where_it_stays() -> Counted:
-    """Of the study's ten with demonstrations alone whose β stays."""
-    return way(shipped_experiment("ablations")["β for ever"], "demos")
+def kept_more_if_it_stays() -> float:
+    """Fisher's p: do the finders of these two groups keep the way out equally often?"""
+    ending, staying = alone("ends"), alone("stays")
+    return stats.fisher_exact([[each.kept, each.found - each.kept] for each in (ending, staying)]).pvalue
 
 
-def losers(beta: str) -> int:
-    """How many of the study's ten with demonstrations alone ever lose the way out, where β "ends" or "stays"."""
-    agents = of_all() if beta == "ends" else shipped_experiment("ablations")["β for ever"]
-    return int(lost(agents.of("demos").curves["success"]).sum())
-
-
-def chances_table() -> str:
-    """How often single agents read as the paper's four rows, by training, as Markdown."""
-    quarter, *more = (pattern(clocks()[updates, "π̃"]) for updates in study_clocks.UPDATES)
-    low, high = (100 * end for end in (min(each.low for each in more), max(each.high for each in more)))
-    by_rule, *others_by_rule = (pattern(clocks()[updates, "μ"]) for updates in study_clocks.UPDATES)
-    ours = [by_rule.value, pattern(of_all()).value, others_pattern()]
-    both = [f"{100 * one.value:.0f} ({100 * two.value:.0f})" for one, two in zip(more, others_by_rule, strict=True)]
-    rows = [
-        [
-            "as our study's: 1,200 episodes; 2,000; the ten others",
-            f"{'; '.join(f'{100 * each:.0f}' for each in ours)} %",
-        ],
-        ["the same with π̃, 1,200 episodes", f"{100 * quarter.value:.0f} %"],
-        ["one road, and 1, 2 or 4 updates: with π̃ (with μ)", f"{', '.join(both)} %; with π̃ {low:.0f} to {high:.0f} %"],
-        ["in other traffic", "not tested"],
-    ]
-    return markdown(["trained", "of the draws (95 % intervals)"], rows)
-
-
-def alone_and_staying() -> tuple[int, int, int]:
-    """Of twenty agents with demonstrations alone and a β that never ends: how many lose the way out, find, keep it."""
-    ours = shipped_experiment("ablations")["β for ever"].of("demos")
-    each = ours, shipped_experiment("stress")["demos, β for ever"]
-    losers = sum(int(lost(agents.curves["success"]).sum()) for agents in each)
-    ways = [way(agents, "demos") for agents in each]
-    return losers, sum(each.found for each in ways), sum(each.kept for each in ways)
+def likeliest() -> tuple[float, float]:
+    """The lowest and the highest chance of round 3's settings with one road."""
+    found = [pattern(agents).value for (updates, _), agents in clocks().items() if updates != "1/4"]
+    return min(found), max(found)
 
 
 def of_the_agent_shown() -> Rollout:

@@ -13,7 +13,6 @@ from matplotlib.ticker import NullLocator
 
 from bootcourse.colours import ALARM
 from bootcourse.course.dots import beside, dots, name_rows
-from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import Rollout
 from bootcourse.errors import BootcourseError
@@ -21,9 +20,8 @@ from bootcourse.learn.agent import Agent
 from bootcourse.learn.road_model import ImaginedAhead, RoadModel
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
-from bootcourse.policies import Policy
 from bootcourse.research.experiments import learned_model
-from bootcourse.research.experiments.lookahead import AIMS, CLOSELY, Cell
+from bootcourse.research.experiments.lookahead import CLOSELY, Cell
 from bootcourse.research.results import Results
 from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
@@ -37,7 +35,6 @@ MEANINGS = {  # of the wrong models that the lesson shows, for readers
 }
 ERRORS = [f"{name}: {meaning}" for name, meaning in MEANINGS.items()]  # to choose from
 LEARNED_FORM = "mean of five"  # of the look-ahead in a learned model, as the lesson shows it
-LED = 0.1  # the look-ahead leads an agent out that gets out in more than this share of its drives
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
 NAMES = {"rollouts": "look-ahead", "shield": "shield"}  # as the lesson calls the forms
 
@@ -96,29 +93,6 @@ def each_agent(cells: dict[str, Results], base: str) -> Figure:
     return finish(figure, title, f"A line for each agent, from alone to with the look-ahead. {'; '.join(alt_parts)}.")
 
 
-def of_nine(study: Mapping[str, Results], gamma: float, with_worth: bool, measure: str = "success") -> np.ndarray:
-    """What the nine that stay behind alone reach, by what the look-ahead counts: (9,), as a rule how often out."""
-    alone, ahead = Cell("sac", "alone"), Cell("sac", gamma=gamma, with_worth=with_worth)
-    return study[ahead.name].measured[measure][study[alone.name].measured["success"] < 0.01]
-
-
-def out_of_trap(
-    drivers: Mapping[str, Policy], roads: Sequence[int], study: Mapping[str, Results]
-) -> tuple[list[str], list[list]]:
-    """A table of who ends ahead of trap 1, by what the look-ahead counts: its headings and rows.
-
-    drivers: of the first agent that is stuck alone, in the order of the study's `AIMS`; beside them the study's nine.
-    """
-    rows = []
-    for (name, driver), (gamma, with_worth) in zip(drivers.items(), AIMS, strict=True):
-        here = int(drive_episodes(driver, roads).success.sum())
-        out, hurt, driven = (of_nine(study, gamma, with_worth, of) for of in ("success", "accidents", "roads"))
-        led, crashes = int((out > LED).sum()), 1000 * hurt.sum() / driven.sum()
-        rows.append([name, here, led, f"{100 * out.mean():.0f}", f"{crashes:.0f}"])
-    headings = ["what counts", f"this agent's drives out, of {len(roads)}", "of all nine, led out", "drives out, %"]
-    return [*headings, "accidents in 1,000"], rows
-
-
 def _judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """At each decision of a drive: Q̂ in a model, Q̂ on the true road, and whether the true drive ends in an accident.
 
@@ -145,22 +119,14 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout, drives: Sequence[Ro
     """The nine Q̂ in a learned model and on the true road, at one decision of a drive that the agent itself drove.
 
     It is the first at which the best of nine in the model ends in an accident and another action would not; without
-    one, the drive's first. The title says which it is. Below: `shares_that_crash` of some drives.
+    one, the drive's first. The title has `shares_that_crash` of some drives.
     """
     values, true, hurt = _judged(agent, model, drive)
     taken = values.argmax(1)
     misled = hurt[np.arange(len(taken)), taken] & ~hurt.all(1)
     now, best_of, drawn, own = int(misled.argmax()), *shares_that_crash(agent, model, drives)
-    of = (
-        f"Actions whose true drive ends in an accident, over {len(drives)} drives: "
-        f"the model's best {100 * best_of:.0f} %, drawn at random {100 * drawn:.0f} %, "
-        f"the agent's own {100 * own:.0f} %."
-    )
-    title = (
-        f"The model's best of nine ends in an accident; {(~hurt[now]).sum()} of the other eight do not"
-        if misled.any()
-        else "The model's best of nine ends well"
-    )
+    title = f"Accidents: the model's best of nine {100 * best_of:.0f} %, drawn at random {100 * drawn:.0f} %, "
+    title += f"the agent's own {100 * own:.0f} %"
     figure, ends, best, alt_parts = new_figure(4.55), hurt[now], taken[now], []
     ax, at = axes_at(figure, 1.35, 0.8, 4.0, 2.95), np.arange(N_ACTIONS)
     colours = [ALARM if end else style("bootstrapped").colour for end in ends]
@@ -176,9 +142,9 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout, drives: Sequence[Ro
     ax.set_yticks(at, ACTION_NAMES, fontsize=TEXT, color=INK)
     ax.axvline(0, color=QUIET, linewidth=0.8)
     ax.set_xlabel(f"Q̂ at decision {now + 1}", fontsize=TEXT, color=INK)
-    words = f"white: in the model; filled: on the true road, red with an accident.\n{of}"
+    words = "One decision of Round 1's drive. White: in the model; filled: on the true road, red with an accident."
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
-    alt = f"Decision {now + 1}, Q̂ in the model and on the true road. {'; '.join(alt_parts)}. {of}"
+    alt = f"Decision {now + 1}, Q̂ in the model and on the true road. {'; '.join(alt_parts)}."
     return finish(figure, title, alt)
 
 

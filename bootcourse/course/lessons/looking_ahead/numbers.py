@@ -74,30 +74,9 @@ def worths() -> np.ndarray:
     return imagined_road.worth(np.linspace(0, DEFAULT.ego.max_speed, 401))
 
 
-def aim(gamma: float, with_worth: bool, measure: str = "success") -> np.ndarray:
-    """What the nine that stay behind alone reach, by what the look-ahead counts: (9,), as a rule how often out."""
-    return figures.of_nine(shipped(), gamma, with_worth, measure)
-
-
-def with_aim(gamma: float, with_worth: bool) -> np.ndarray:
-    """How much more often than with neither W nor γ = 1 each of the nine gets out, (9,) shares of its drives."""
-    return aim(gamma, with_worth) - aim(0.8, False)
-
-
-def led_out(gamma: float, with_worth: bool) -> int:
-    """How many of them get out in more than a tenth of their drives."""
-    return int((aim(gamma, with_worth) > figures.LED).sum())
-
-
-def more_with(model: str) -> int:
-    """How many of Round 1's agents crash more with the look-ahead in a wrong model than alone."""
-    cells = (Cell("bootstrapped", model=model), Cell("bootstrapped", "alone"))
-    return int(np.greater(*(figures.per_thousand(shipped(), cell) for cell in cells)).sum())
-
-
-def wrong_but_late(base: str = "bootstrapped") -> list[float]:
-    """Accidents in 1,000 drives of Round 1's agents, or others, with the look-ahead, in each wrong model but late."""
-    return [per_thousand(base, model=model) for model in WRONG if model != LATE]
+def led_out() -> int:
+    """How many of the nine that stay behind alone get out in more than a tenth of their drives with the look-ahead."""
+    return int((outs("sac")[outs("sac", "alone") < 0.01] > 0.1).sum())
 
 
 @cache

@@ -21,7 +21,7 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str
     figure, listed, ends = new_figure(4.75), [], {}
     for row, (price, kinds) in enumerate(shown.items()):
         for column, (road, kind) in enumerate(kinds.items()):
-            ax = axes_at(figure, 0.95 + 2.02 * column, 0.95 + 1.68 * row, 1.85, 1.45)
+            ax = axes_at(figure, 0.95 + 3.0 * column, 0.95 + 1.68 * row, 2.8, 1.45)
             ends[kind] = counts = _dots(ax, trained[kind], easier.staying(kind))
             listed.append(f"{price}: " * (not column) + f"{road} {', '.join(map(str, counts))}")
             ax.set(xticklabels=ax.get_xticks() if row else [], yticklabels=[] if column else ax.get_yticks())
@@ -30,10 +30,10 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str
                 ax.set_title(road, fontsize=TEXT, color=INK)
             if not column:
                 left = {"rotation": 90, "ha": "center", "va": "center", "color": INK}
-                ax.text(-40, 48, f"return if\n{price}", fontsize=TEXT, linespacing=1.4, **left)
+                ax.text(-26, 48, f"return if\n{price}", fontsize=TEXT, linespacing=1.4, **left)
             if not row + column:
                 ax.text(45, 27, "staying", fontsize=SMALL, color=style("idle").colour)
-            if row and column == 1:
+            if row:
                 ax.set_xlabel("ends ahead, % of the test roads", fontsize=TEXT, color=INK)
     escaping, earning, _ = ends[easier.BOTH]
     title = f"Cheap accidents with a start mid-lane free {escaping} of {len(trained[easier.BOTH])} agents; "

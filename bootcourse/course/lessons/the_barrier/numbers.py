@@ -46,33 +46,15 @@ def easy(kind: str) -> Results:
     return shipped_experiment("easier")[kind]
 
 
-def farther_one() -> Results:
-    """The ten of Round 1's twenty agents that have γ = 0.95."""
+def farther_sighted() -> np.ndarray:
+    """Which of the ten of Round 1's twenty agents escape that have γ = 0.95."""
     agents = easy("as it is")
-    return agents.pick([i for i, agent in enumerate(agents.agents) if agent["gamma"] == 0.95])
+    escaping = agents.scores("success") >= ESCAPES
+    return escaping[[agent["gamma"] == 0.95 for agent in agents.agents]]
 
 
 MIDDLE, CHEAP, KEPT, BOTH = easier.MIDDLE, easier.CHEAP, easier.KEPT, easier.BOTH
 stressed = easier.stressed
-
-
-def _freed(kind: str) -> tuple[np.ndarray, np.ndarray]:
-    """Of the agents of a kind that escape: what each earns, and whether it is faster than 20 m/s."""
-    out = easy(kind).scores("success") >= ESCAPES
-    return easy(kind).scores("returns")[out], easy(kind).scores("speed")[out] > 20
-
-
-def too_fast(kind: str) -> int:
-    """How many of those are faster than 20 m/s; each of these earns less than a car that stays."""
-    returns, fast = _freed(kind)
-    assert (returns[fast] < easier.staying(kind)).all()
-    return int(fast.sum())
-
-
-def freed_and_slower() -> np.ndarray:
-    """What the others earn that escape with both changes."""
-    returns, fast = _freed(BOTH)
-    return returns[~fast]
 
 
 def crash_on_most(kind: str) -> int:
@@ -98,16 +80,9 @@ def escape_and_crash(kind: str) -> int:
     return int(((agents.scores("accident") > 0.5) & (agents.scores("success") >= ESCAPES)).sum())
 
 
-def earn_more(kind: str, longer: bool = False) -> int:
-    """How many agents of a kind end ahead and earn more than by staying; longer: of others, with twice the updates."""
-    agents = easy(stressed(kind)) if longer else easy(kind)
-    return int(figures.earning(agents, easier.staying(kind)).sum())
-
-
-@cache
-def wished() -> attempts.Outcome:
-    """What comes of the text's wishes with a lane keeper, slower 1, left 5, faster 5, on 100 roads."""
-    return attempts.drive(PlanPolicy([3, *[1] * 5, *[5] * 5]), held_out_seeds(7, 100), easier.LaneKeeper)
+def earn_more(kind: str) -> int:
+    """How many agents of a kind end ahead and earn more than by staying."""
+    return int(figures.earning(easy(kind), easier.staying(kind)).sum())
 
 
 @cache

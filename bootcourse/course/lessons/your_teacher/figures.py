@@ -27,7 +27,7 @@ SIX = {  # teacher of the experiment `teachers`: the name of its row
     "timid": "timid",
     "mirrored": "mirrored",
 }
-APART = {"lane": "lane, no accident", "accident": "accident, no lane"}  # kind of the experiment `crashes`: its name
+PARTS = {"all": "all", "lane": "no accident", "cut": "no free lane", "as-many": "as many"}  # as the lesson lists them
 
 
 def exam_of_all() -> Markdown:
@@ -96,7 +96,7 @@ def all_parts(computed: Mapping[str, Results]) -> Figure:
     computed: {kind of the experiment `crashes`: agents}, as it ships.
     """
     title = "Students get out where their drives show the free lane, crash or not"
-    return of_kinds(title, computed, {"all": "all", "cut": "no free lane", "as-many": "the control"} | APART)
+    return of_kinds(title, computed, PARTS)
 
 
 def of_kinds(title: str, computed: Mapping[str, Results], kinds: Mapping[str, str]) -> Figure:
@@ -105,14 +105,12 @@ def of_kinds(title: str, computed: Mapping[str, Results], kinds: Mapping[str, st
     return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in kinds], "returns", left=1.5)
 
 
-def parted(kept: Callable[[np.ndarray], np.ndarray]) -> Markdown:
-    """A table of two agents each: from the crashing drives' decisions that `kept` marks, and from its counterpart."""
-    rows = []
-    for name, part in zip(APART.values(), (kept, crashes.without_the_lane), strict=True):
-        tested = crashes.short_training(part)
-        shares = (100 * tested["success"].mean(), 100 * tested["accident"].mean())
-        rows.append([name, *(f"{share:.0f}" for share in shares), f"{tested['returns'].mean():.0f}"])
-    return table(["two agents each learn from", "get out, %", "accidents, %", "return"], rows)
+def chosen(kept: Callable[[np.ndarray], np.ndarray]) -> Markdown:
+    """A table of two agents that learn from the crashing drives' decisions that `kept` marks."""
+    tested = crashes.short_training(kept)
+    shares = (f"{100 * tested[name].mean():.0f}" for name in ("success", "accident"))
+    rows = [[PARTS["lane"], *shares, f"{tested['returns'].mean():.0f}"]]
+    return table(["two agents learn from", "get out, %", "accidents, %", "return"], rows)
 
 
 def scores(agents: Results) -> dict[str, np.ndarray]:

@@ -90,11 +90,6 @@ def before() -> float:
     return 100 * sum(map(crashes.before_free_lane, drives)) / sum(len(drive.actions) for drive in drives)
 
 
-def beyond() -> float:
-    """How many come from there on, %."""
-    return 100 - before()
-
-
 def crash_returns(kind: str) -> np.ndarray:
     """What the ten agents of one kind of the experiment `crashes` earn."""
     return shipped_experiment("crashes")[kind].scores("returns")
@@ -108,9 +103,9 @@ def crash_escapes(kind: str) -> int:
 def crash_shown(kind: str) -> bool:
     """Does a rank test, after Holm for all five, tell their returns from those of the agents that learn from all?
 
-    Of the control: from those of the cut; of the free lane without its accidents: from those of the reverse.
+    Of the control, and of the free lane without its accidents: from those of the cut.
     """
-    bases = {"as-many": "cut", "lane": "accident"}
+    bases = {"as-many": "cut", "lane": "cut"}
     others = {other: bases.get(other, "all") for other in crashes.KINDS if other not in ("all", "accident")}
     p = holm([taught_agents.p_value(crash_returns(other), crash_returns(base)) for other, base in others.items()])
     return bool(p[[*others].index(kind)] < 0.05)
