@@ -23,6 +23,7 @@
 
 # %%
 import bootcourse as bc
+import numpy as np
 from bootcourse.course import (
     check,
     compare_predictions,
