@@ -23,6 +23,7 @@ STRANGERS = (  # names that are neither a method nor a driver, in the order in w
 TRAP = "#7A1F1F"  # the two slow cars
 TRAFFIC = "#B8BEC6"  # all other cars
 ALARM = "#E8112D"  # an accident
+PALE = "#A9CFE6"  # a light tint of plain SAC's blue
 
 INK, QUIET, GRID = "#1F2933", "#5F6B77", "#E3E7EB"  # text and axes; secondary text; grid lines
 ASPHALT, PAINT, EDGE = "#F1F3F5", "#B6BEC7", "#7C8792"  # the road from above: surface, lane lines, edges

@@ -110,7 +110,7 @@ def test_the_soft_target_is_the_plain_one_at_alpha_0_and_the_best_action_and_abo
 
 def test_alpha_falls_for_ever_only_if_the_target_entropy_is_below_zero_and_rises_if_it_is_above_the_even_policy_s():
     panel = shown("discrete_sac", "thermostat")
-    for target, course in ((-1, "falls at each update"), (0.7, "falls and rises"), (2.5, "rises at each update")):
+    for target, course in ((-1, "falls at each update"), (0.7, "comes to rest"), (2.5, "rises at each update")):
         from_page(panel.numbers["target"].field, value=target)
         assert course in panel.svg.alt
 

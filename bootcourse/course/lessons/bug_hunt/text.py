@@ -270,9 +270,9 @@ check.diagnose(diagnose)
 #   all((hunt().probe(n, 'end')[:, -1] > DEFAULT.reward.accident).all() for n in 'ABCEF') -->
 
 # %% [markdown] tags=["instructor"] minutes=2
-# The order that works: F (promise leaves the axes), E (promise too high, the *best* return), D
-# (accidents), B and A (rarest action; B has the low return), C (what is left). Let each group defend its
-# verdict with a single picture, and then think of a test for C before they go on.
+# The order that works: F (promise leaves the axes), E (promise too high, the *best* return), D (accidents), B
+# and A (rarest action; B has the low return), C (what is left). Let each group defend its verdict with a
+# single picture, and then think of a test for C before they go on.
 
 # %% [markdown]
 # ## Two tests, no training, no healthy twin

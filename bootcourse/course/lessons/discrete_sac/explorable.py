@@ -123,7 +123,7 @@ def thermostat() -> Explorable:
             falls.append(slope.item() > 0)
             log_alpha -= TURN * slope.sign()
         alpha = float(f"{log_alpha.exp().item():.2g}")
-        course = "falls at each update" if all(falls) else "falls and rises" if any(falls) else "rises at each update"
+        course = "falls at each update" if all(falls) else "comes to rest" if any(falls) else "rises at each update"
         named = {
             "entropy of the policy": Curve(entropies, style("sac").colour),
             "target entropy η": Curve(np.full(UPDATES + 1, target), OTHER.colour, "--"),

@@ -5,11 +5,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import INK, OTHER, Style
-from bootcourse.course import charts, table
+from bootcourse.colours import INK, PALE
+from bootcourse.course import table
+from bootcourse.course.dots import beside, name_rows
 from bootcourse.course.lessons.discrete_sac.explorable import ACTIONS, ALPHA, START
-from bootcourse.course.lessons.discrete_sac.own_parts import STEPS, Descent, Walked
+from bootcourse.course.lessons.discrete_sac.own_parts import STEPS, SURE, Descent, Walked
 from bootcourse.methods import style
+from bootcourse.plots.figure import QUIET, SMALL, axes_at, finish, new_figure
 
 
 def descents(ends: Mapping[str, Descent]):
@@ -24,17 +26,32 @@ def descents(ends: Mapping[str, Descent]):
 
 
 def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) -> Figure:
-    """What α does in the chain's trap: how many learners find the way out, and how probably they take it.
+    """What α does in the chain's trap: how many learners find the way out, and how many then surely take it.
 
-    knows: π(leave | trap) of an agent that knows the whole chain; walked: the learners at each temperature.
+    knows: π(leave | trap) of an agent that knows the whole chain; walked: the learners at each temperature, and last
+    those whose temperature falls.
     """
-    title = "A small α rarely finds the road, a large one takes it by chance"
-    named = {
-        "takes: leaves, knowing the map": np.array(knows),
-        "tries: finds the free road": walked.found.mean(axis=1),
-        "the thirty leave, on average": walked.leaves.mean(axis=1),
+    names = [*(f"α = {alpha:g}" for alpha in alphas), f"α falls, {max(alphas):g} to {min(alphas):g}"]
+    parts = {
+        "sure of leaving": (walked.leaves > SURE, style("sac").colour),
+        "found the free road": (walked.found & (walked.leaves <= SURE), PALE),
+        "never found it": (~walked.found, "white"),
     }
-    looks = [Style(INK, "--"), Style(OTHER.colour, "--"), style("sac")]
-    ends = (f"{name}: {line[0]:.2f} at {alphas[0]:g}, {line[-1]:.2f} at {alphas[-1]:g}" for name, line in named.items())
-    axes = "temperature α", "probability, or share of 30", "x", {"a coin": 0.5}, (-0.02, 1.05), looks
-    return charts.lines(alphas, named, title, *axes, f"{'; '.join(ends)}.")
+    row, before, alt_parts = 0.36, np.zeros(len(names)), []
+    figure = new_figure(1.15 + row * len(names) + 0.8)
+    ax = axes_at(figure, 1.35, 1.15, 3.6, row * len(names))
+    for words, (of, colour) in parts.items():
+        ax.barh(names, of.sum(axis=1), 0.72, left=before, color=colour, edgecolor=INK, linewidth=0.7, label=words)
+        before += of.sum(axis=1)
+        alt_parts.append(f"{words}: {', '.join(map(str, of.sum(axis=1)))}")
+    beside(ax, -0.75, "leaves with", "with the map", colour=QUIET)
+    means = walked.leaves.mean(axis=1)
+    for place, (mean, known) in enumerate(zip(means, [*(f"{each:.2f}" for each in knows), ""], strict=True)):
+        beside(ax, place, f"{mean:.2f}", known)
+    name_rows(ax, names, f"of {walked.leaves.shape[1]} learners")
+    ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=3, fontsize=SMALL, frameon=False, columnspacing=1.2)
+    words = "Leaves with: the mean of the learners' probabilities. With the map: of an agent that knows the chain."
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=QUIET)
+    alt = f"{'; '.join(alt_parts)}. They leave with {', '.join(f'{each:.2f}' for each in means)} on average."
+    title = "A small α rarely finds the road, a large one takes it by chance; a falling α does both"
+    return finish(figure, title, f"Learners with {', '.join(names)}. {alt}")

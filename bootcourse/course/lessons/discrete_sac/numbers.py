@@ -9,8 +9,8 @@ import numpy as np
 import torch
 
 from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START, highest_estimates
-from bootcourse.course.lessons.discrete_sac.own_parts import SURE as SURE
-from bootcourse.course.lessons.discrete_sac.own_parts import Walked, descended, soft_sweeps, walked
+from bootcourse.course.lessons.discrete_sac.own_parts import LEARNERS as LEARNERS
+from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, soft_sweeps, walked
 from bootcourse.learn import sac
 from bootcourse.research.computed import experiment
 from bootcourse.statistics import ESCAPES
@@ -20,7 +20,7 @@ pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
 BY_Q = pi @ q
 WORTH = BY_Q - ALPHA * pi @ np.log(pi)
 SOFTMAX = math.exp(3) / (math.e + math.exp(3))  # of Q = 1 and 3 with α = 1, the second action
-ALPHAS = np.geomspace(0.01, 10, 13)  # the temperatures of Round 4's figure
+ALPHAS = (0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.5, 1, 3, 10)  # constant temperatures: Round 4's and more
 
 
 def highest(actions: int) -> tuple[float, float]:
@@ -51,26 +51,20 @@ def leave(alpha: float) -> float:
 
 
 @cache
-def constant() -> Walked:
+def constant(decisions: int = 1000) -> Walked:
     """The chain's learners at each of the ALPHAS, which stay."""
-    return walked(sac.soft_value, sac.critic_target, torch.tensor(ALPHAS).expand(1000, -1))
-
-
-def found(alpha: float) -> int:
-    """How many of the thirty with this α were on the free road."""
-    return int(constant().found[np.abs(ALPHAS / alpha - 1).argmin()].sum())
+    return walked(sac.soft_value, sac.critic_target, torch.tensor(ALPHAS, dtype=torch.float64).expand(decisions, -1))
 
 
 @cache
-def falling() -> Walked:
-    """Thirty learners whose α falls from 10 to 0.01 by equal factors: each array (30,)."""
-    alphas = torch.tensor(np.geomspace(10, 0.01, 1000))[:, None]
-    return Walked(*(each[0] for each in walked(sac.soft_value, sac.critic_target, alphas)))
+def falling(decisions: int = 1000) -> Walked:
+    """Learners whose α falls from 10 to 0.01 by equal factors."""
+    return walked(sac.soft_value, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, decisions))[:, None])
 
 
-def sure(probabilities: np.ndarray) -> int:
-    """How many learners are sure of what they do with these probabilities, leaving or staying."""
-    return int((probabilities > SURE).sum())
+def sure(of: Walked) -> np.ndarray:
+    """How many learners are sure of leaving in the end, (kinds,)."""
+    return (of.leaves > SURE).sum(axis=1)
 
 
 def reachable() -> np.ndarray:

@@ -13,7 +13,7 @@ from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START
 from bootcourse.course.lessons.values import chain
 
 STEPS = 100  # down the actor's loss, each of size 1
-LEARNERS, STEP, GAMMA = 30, 0.3, 0.8  # on the chain, as in lesson [[values]]
+LEARNERS, STEP, GAMMA = 300, 0.3, 0.8  # on the chain; step and discount as in lesson [[values]]
 SWEEPS = 40
 
 
@@ -57,7 +57,7 @@ def would_leave(value: Callable, target: Callable, alphas: Tensor) -> list[float
     return [(soft_sweeps(value, target, alpha)[0] / alpha).softmax(-1)[1].item() for alpha in alphas]
 
 
-SURE = 0.9  # a learner that leaves, or stays, with a higher probability is sure of it
+SURE = 0.9  # a learner that leaves with a higher probability is sure of it
 
 
 class Walked(NamedTuple):

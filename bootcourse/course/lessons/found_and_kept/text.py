@@ -212,8 +212,8 @@ bc.show(figures.found_and_kept(cells["2", "π̃"]))  # 2 updates, one road, driv
 
 # %% [markdown]
 # **See.** *Here, as in the paper, more agents keep it with demonstrations alone than with the soft constraint
-# alone*: {{ way(clocks()['2', 'π̃'], 'demos').kept }} against {{ way(clocks()['2', 'π̃'], 'soft').kept }}. (We
-# chose this setting after we had seen the counts of all {{ len(clocks()) }}.) One row differs from the
+# alone*: {{ way(clocks()['2', 'π̃'], 'demos').kept }} against {{ way(clocks()['2', 'π̃'], 'soft').kept }}.
+# (We chose this setting after we had seen the counts of all {{ len(clocks()) }}.) One row differs from the
 # paper's: it prints 0 % for the soft constraint.
 # <!-- claim: [way(clocks()['2', 'π̃'], m).kept for m in ('sac', 'soft', 'demos', 'bootstrapped')]
 #   == [0, 5, 10, 10] -->

@@ -273,8 +273,8 @@ learned = learned_from(own_drives, updates=500)
 bc.show(figures.promised(agent, learned, drive, alone[:10]))
 
 # %% [markdown]
-# **See.** The model does not expect the accidents in red. The title counts all decisions of ten drives that had
-# a safe action: the model's best is little better than chance, and far worse than the agent's own.
+# **See.** The model does not expect the accidents in red. The title counts all decisions of ten drives that
+# had a safe action: the model's best is little better than chance, and far worse than the agent's own.
 # <!-- claim: 2 * misled()[2] < misled()[0] and 0.7 * misled()[1] < misled()[0] < misled()[1] -->
 #
 # When ten agents look ahead, each in its own model, all {{ learned_drives() | , }} drives end in an accident;

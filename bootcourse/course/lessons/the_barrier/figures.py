@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import TRAP
+from bootcourse.colours import PALE, TRAP
 from bootcourse.course import table
 from bootcourse.course.lessons.the_barrier import easier
 from bootcourse.methods import style
@@ -13,7 +13,7 @@ from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, ne
 from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
 
-DARK, LIGHT = style("sac").colour, "#A9CFE6"
+DARK = style("sac").colour
 
 
 def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str]]) -> Figure:
@@ -38,8 +38,8 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str
     escaping, earning, _ = ends[easier.BOTH]
     title = f"Cheap accidents with a start mid-lane free {escaping} of {len(trained[easier.BOTH])} agents; "
     title += f"{earning} earn more than by staying"
-    words = f"Cross: an accident on most roads. Blue, from {100 * ESCAPES:.0f} % on: escapes. "
-    words += "Earn more: than by staying, ahead on some road."
+    words = f"Cross: an accident on most roads. Shaded, from {100 * ESCAPES:.0f} % on: escapes. "
+    words += "Earn more: agents ahead on some road that earn more than by staying."
     figure.text(0.012, 0.015, words, fontsize=SMALL, color=QUIET)
     what = "Escape, earn more than by staying, crash on most roads:"
     return finish(figure, title, f"{words}\n{what} {'; '.join(listed)}.")
@@ -51,7 +51,7 @@ def _dots(ax, agents: Results, staying: float) -> tuple[int, int, int]:
     out, crashing = success >= ESCAPES, accident > 0.5
     plain_axes(ax, "", grid="")
     ax.set(xlim=(-6, 106), ylim=(-16, 112), xticks=[0, 50, 100], yticks=[0, 50, 100])
-    ax.axvspan(100 * ESCAPES, 106, color=LIGHT, alpha=0.45, linewidth=0)
+    ax.axvspan(100 * ESCAPES, 106, color=PALE, alpha=0.45, linewidth=0)
     ax.axhline(staying, color=style("idle").colour, linestyle="--", linewidth=1.0)
     look = {"markersize": 5.5, "alpha": 0.75, "clip_on": False, "linestyle": ""}
     across = 100 * success + 1.8 * (earned.argsort().argsort() % 5 - 2)
@@ -99,7 +99,7 @@ def while_they_learned(results: Results, chance: float) -> Figure:
     listed = []
     for row, k in enumerate(np.argsort(-times, kind="stable")):
         drives = results.curves["success"][k]
-        ax.plot([0, np.isfinite(drives).sum()], [row, row], color=LIGHT, linewidth=1.0)
+        ax.plot([0, np.isfinite(drives).sum()], [row, row], color=PALE, linewidth=1.0)
         ax.plot(1 + np.flatnonzero(drives > 0), np.full(times[k], row), "|", color=DARK, markersize=9)
         listed.append(f"{times[k]}")
         if ahead[k] >= 0.1:

@@ -10,6 +10,7 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.policies import PlanPolicy, random_policy
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, discounted, idle, shipped_experiment
 
@@ -57,6 +58,12 @@ MIDDLE, CHEAP, KEPT, BOTH = easier.MIDDLE, easier.CHEAP, easier.KEPT, easier.BOT
 stressed = easier.stressed
 
 
+def too_fast(kind: str) -> np.ndarray:
+    """What those agents of a kind earn that escape, and are faster than 20 m/s on average."""
+    agents = easy(kind)
+    return agents.scores("returns")[(agents.scores("success") >= ESCAPES) & (agents.scores("speed") > 20)]
+
+
 def crash_on_most(kind: str) -> int:
     """How many agents of a kind have an accident on most roads."""
     return int((easy(kind).scores("accident") > 0.5).sum())
@@ -89,6 +96,13 @@ def earn_more(kind: str) -> int:
 def step_to_the_left() -> attempts.Outcome:
     """What comes of steering left where the plan ends, on 100 roads."""
     return attempts.drive(PlanPolicy([3]), held_out_seeds(7, 100), easier.LaterStart)
+
+
+@cache
+def accelerating() -> float:
+    """What a car earns that accelerates for ever from mid-lane, mean of 100 roads."""
+    ever = PlanPolicy([attempts.ACCELERATE] * DEFAULT.clock.decisions)
+    return float(attempts.drive(ever, held_out_seeds(7, 100), easier.MidLaneStart).values(1.0).mean())
 
 
 @cache

@@ -57,11 +57,11 @@ def by_the_formula(sight: float) -> Changes:
     return Changes(speeds[at], faster[at], int((episodes.accident[at[1]] > 0).sum()))
 
 
-def lost_in_change(floor: float, sight: float = 20.0) -> int:
-    """On how many of the lesson's roads trap 1 is out of sight a second after the rule first begins to change lane."""
+def lost_in_change(floor: float, sight: float = 20.0) -> np.ndarray:
+    """On which of the lesson's roads trap 1 is out of sight a second after the rule first begins to change lane."""
     reasons, _, cars, _ = decided(sight, floor=floor)
     changes, sees = reasons == Reason.CHANGE, cars[:, :, TRAP_1, X] - cars[:, :, EGO, X] <= sight
-    return int((~sees[changes.argmax(0) + 1, np.arange(len(ROADS))] & changes.any(0)).sum())
+    return ~sees[changes.argmax(0) + 1, np.arange(len(ROADS))] & changes.any(0)
 
 
 def called_off(sight: float = 20.0) -> np.ndarray:

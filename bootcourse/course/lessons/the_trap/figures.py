@@ -137,7 +137,7 @@ def what_they_learned(study: Results, plan: Episodes) -> Figure:
     words = (
         (14, 124, "with the rule's help: 7 agents escape", "bootstrapped"), (8, 20, "plain SAC: 8 agents stay", "sac"),
         (42, 75, "plain SAC: 1 escapes", "sac"), (97, -10, "plain SAC: 1 always crashes", "sac"),
-        (97, 2, "with help: 3 crash on most roads", "bootstrapped"),
+        (97, 2, "with help: 2 always crash", "bootstrapped"), (64, 52, "with help: 1 often crashes", "bootstrapped"),
     )  # fmt: skip
     for x, y, text, method in words:
         ax.text(x, y, text, fontsize=TEXT, color=style(method).colour, ha="right" if x > 90 else "left")

@@ -103,7 +103,7 @@ decoded = own_code.yours_or_ours("decode", doing="Steering")(np.arange(9))
 bc.show(figures.nine_actions(decoded, seconds=2))
 
 # %% [markdown]
-# **See.** After two seconds of steering the car points across the road: a lane change needs a turn back.
+# **See.** After two seconds of steering the car still points to the side: a lane change needs a turn back.
 #
 # A drive of at most {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s is an **episode**. An
 # **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive that ends ahead of
@@ -157,8 +157,8 @@ for road in (7, ROAD, 1):  # all plans, on three roads
 # **Explain.** There are ways out without braking, but few of these plans find one, and on road 1 none does.
 # <!-- claim: 70 < getting_out(7) < 150 and 0 < getting_out(ROAD) < 10 and getting_out(1) == 0 -->
 #
-# The best of road {{ ROAD }}'s {{ getting_out(ROAD) }} plans, the **blind plan**, now drives
-# {{ roads() | , }} other roads, looking at nothing:
+# One of road {{ ROAD }}'s {{ getting_out(ROAD) }} plans, the **blind plan**, now drives {{ roads() | , }}
+# other roads, looking at nothing. (There it is the best of the {{ getting_out(ROAD) }}.)
 # <!-- claim: on_road(ROAD)(np.array([[5, 3, 3, 3, 3, 5, 5, 5]])).all() and ROAD not in
 #   held_out_seeds(1, roads()) -->
 
@@ -269,7 +269,7 @@ print(f"the rule's way out, 150 s: {driving.paid(pay, by_rule).sum():.4f}")
 
 # %% [markdown]
 # **Explain.** Staying behind trap 1 returns about {{ idle().rewards.sum() | .0f }}, and the rule's way out
-# about twice as much. An accident costs about what a minute behind the traps earns, and ends the drive: a
+# about twice as much. An accident costs 10, about what a minute behind the traps earns, and ends the drive: a
 # crash after 3 s returns {{ idle().rewards.sum() - DEFAULT.reward.accident - 3 * idle().rewards[0] | .0f }}
 # less than staying.
 # <!-- claim: 1.8 < by_rule().rewards.sum() / idle().rewards.sum() < 2.2 -->
@@ -317,8 +317,7 @@ learned = training.run(progress=False, callback=live, updates=1500)
 live.show(training)
 
 # %% [markdown]
-# **See.** A crash in the first seconds returns about −9.5. In the run saved here both returns rise from
-# there, but success rises only with help.
+# **See.** A crash in the first seconds returns about −9.5: both curves start there.
 #
 # Two agents and 1,500 updates say little. In our study {{ len(of('sac')) }} agents of each kind learned for
 # {{ of('sac').curves['success'].shape[1] | , }} drives each. Those of a kind differ only in their **seed**,
@@ -425,10 +424,10 @@ bc.show(figures.bearable_risks(gammas, np.array(risks)))
 
 # %% [markdown]
 # **Explain.** At γ = 0.8 the rule's way out bears no risk: even without a crash it is worth less than
-# staying. The blind plan bears {{ 100 * bearable_by_plan() | .0f }} %, if the others go as on road {{ ROAD }}.
-# On the {{ roads() | , }} roads {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % crash, early or late,
-# and on average it is worth {{ worth_of_plan() | .2f }} there, less than staying
-# ({{ discounted(idle(), 0.8) | .2f }}).
+# staying. By the blind plan {{ 100 * bearable_by_plan() | .0f }} % of the drives may crash early, if the rest
+# go as on road {{ ROAD }}. On the {{ roads() | , }} roads
+# {{ 100 * np.mean(blind_plan().accident > 0) | .0f }} % crash, early or late, and on average it is worth
+# {{ worth_of_plan() | .2f }} there, less than staying ({{ discounted(idle(), 0.8) | .2f }}).
 # <!-- claim: discounted(idle(), 0.8) > worth_of_plan() -->
 #
 # That is not the whole answer to why so many stay: of nine agents of plain SAC with γ = 0.9, 0.95 or 0.99

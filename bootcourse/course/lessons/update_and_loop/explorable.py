@@ -1,5 +1,5 @@
-"""To drag in this lesson: poles, push by push; and γ, for where a target stops to change before a fall, if it knows
-the end and if not.
+"""To drag in this lesson: poles, push by push; and γ, for what the last pushes are worth before a fall and before the
+end of the time.
 """
 
 from collections.abc import Callable, Sequence
@@ -16,14 +16,11 @@ from bootcourse.plots.svg import Drawing, drawing, line, rect, text
 from bootcourse.research.experiments import checks
 
 LAST = 40  # pushes before the fall that are shown
-AXES = Axes("pushes from the fall (−1: the last push)", "what a push is worth, once learned", (0.0, 55.0))
+AXES = Axes("pushes from the end (−1: the last push)", "what a push is worth, once learned", (0.0, 55.0))
 
 
 def the_end() -> Explorable:
-    """The critic's values of the last pushes before a fall, each of which pays 1, while γ moves.
-
-    They are where its targets stop to change; without (1 − terminated) the fallen state counts as any other.
-    """
+    """What the last pushes before a fall, or before the end of the time, are worth: each pays 1, while γ moves."""
 
     def draw(gamma: float) -> Drawing:
         knows, following = np.empty(LAST), 0.0
@@ -32,10 +29,10 @@ def the_end() -> Explorable:
         forgets = np.full(LAST, 1 / (1 - gamma))
         knows = knows[::-1]  # in the order of time
         named = {
-            "the fall is marked": Curve(knows, OTHER.colour),
-            "it is not, and fallen counts as standing": Curve(forgets, STRANGERS[1].colour, "--"),
+            "the pole falls": Curve(knows, OTHER.colour),
+            "only the time is up: the pole stands on": Curve(forgets, STRANGERS[1].colour, "--"),
         }
-        says = f"γ = {gamma:g}: before the last push the two are {knows[-1]:.3g} and {forgets[-1]:.3g}."
+        says = f"γ = {gamma:g}: the last push is worth {knows[-1]:.3g} and {forgets[-1]:.3g}."
         return curves(says, AXES, np.arange(-LAST, 0), named, mark=-1)
 
     gamma = Number("γ", 0.97, 0.5, 0.98, 0.01, "What a reward one push later is worth, as a share of one now.")

@@ -31,8 +31,7 @@ def tests_in_training(tests: Sequence[float], block: int, lost: float) -> Figure
     lost: the test after one block of an agent that learns with the bug and begins as this one.
     """
     pushes, with_bug = np.arange(len(tests)) * block, np.array([tests[0], lost, *[np.nan] * (len(tests) - 2)])
-    ended = "Solved after" if min(tests[-2:]) >= 475 else "Not solved in"
-    title = f"{ended} {pushes[-1]:,} pushes; with the bug it falls after {lost:.0f}"
+    title = f"After {block:,} pushes of training yours balances {tests[1]:.0f}, with the bug {lost:.0f}"
     named = {"your agent": np.array(tests), "with the bug": with_bug}
     looks = [OTHER._replace(marker="o"), STRANGERS[1]._replace(marker="o")]
     says = f"Your agent: {', '.join(f'{test:.3g}' for test in tests)}; with the bug: {lost:.3g}."

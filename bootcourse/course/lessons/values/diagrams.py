@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from bootcourse.colours import OTHER
+from bootcourse.colours import OTHER, PALE
 from bootcourse.course import charts
 from bootcourse.course.lessons.values import chain
 from bootcourse.methods import style
@@ -28,7 +28,7 @@ from bootcourse.plots.figure import (
 WIDE, HIGH = 106, 46  # pixels of a state's box
 ON = charts.Style("#56B4E9")  # going on to the free road; what stays in the trap has OTHER's look
 CELL = (0.95, 0.31)  # inches of a number's cell
-DARK, LIGHT, EMPTY = style("sac").colour, "#A9CFE6", "white"
+DARK, LIGHT, EMPTY = style("sac").colour, PALE, "white"
 SHADES = {  # of a learner's square: how that looks, and how far the learner got
     DARK: ("Dark", "learned to leave"),
     LIGHT: ("Light", "was on the free road, and did not learn to leave"),
@@ -161,7 +161,7 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
             for state in (3, 2, 1):
                 beaten = decisions[goes_on_from(q, state)]
                 ax.plot([beaten] * 2, [-0.05, 1.85], color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
-                ax.text(beaten, 1.87, f"in {state}", **words)
+                ax.text(beaten, 1.87, f"goes on in {state}" if state == 3 else f"in {state}", **words)
         ends = [(q[-1, 0, 0], "Q(0, 0), stay", OTHER.colour), (q[-1, 0, 1], "Q(0, 1), leave", ON.colour)]
         label_ends(ax, ends)
         listed.append(
@@ -170,7 +170,7 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
             if len(arrived)
             else "no walk reaches the free road"
         )
-    key = "A tick: a walk that reaches the free road. Dashed: from here on going on wins in state 3, 2, 1."
+    key = "A tick: a walk that reaches the free road. Dashed: from here on going on wins in that state."
     figure.text(0.012, 0.02, key, fontsize=SMALL, color=QUIET)
     title = "Two of C: two walks to the free road are not enough, and going on wins from the back"
     return finish(figure, title, f"The trap's two values over 1,000 decisions. {'; '.join(listed)}. {key}")

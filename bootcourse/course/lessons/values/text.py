@@ -96,7 +96,7 @@ print(f"γ = {min(better):.2f}")
 # %% [markdown]
 # ## Round 2: a value from the next value
 #
-# A **state** says all that matters of the present: what may come next depends on it and the action alone.
+# A **state** holds all of the present that matters: what may come next depends on it and the action alone.
 # Such a world is a *Markov decision process* (MDP). On the road our learners treat the 26 numbers that they
 # see as the state, although these leave out all but the four nearest cars.
 # <!-- claim: DEFAULT.observation_size == 26 and DEFAULT.sight.neighbours == 4 -->
@@ -143,7 +143,7 @@ bc.show(diagrams.sweeps(found))
 
 # %% [markdown]
 # **Explain.** A sweep looks one decision ahead, so each one carries the free road's value one state back.
-# (White numbers above 0 come from the trap's pay.) Sweep 40 gives the blue bars of *Look first* at γ = 0.8.
+# (White numbers above 0 come from the trap's pay.)
 # <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
 # <!-- claim: (np.abs(sweeps(40, 0.8)[:, 1] - 5 * 0.8 ** np.arange(4, -1, -1)) < 0.005).all() -->
 
@@ -209,7 +209,7 @@ for _ in range(5):
 bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 
 # %% [markdown]
-# **Explain.** On the first walk the other four decisions are learned before the free road pays: only state
+# **Explain.** On the first walk the states 0 to 3 are learned before the free road has paid, so only state
 # 4's value rises. In the last row they are learned in reverse: from Q(3, 1) on, each next state already has a
 # value.
 # <!-- claim: walked(1) == [False] * 4 + [True] and all(walked(1, backwards=True)) -->
@@ -227,7 +227,7 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 #
 # **Exercise (20 min, ●●●).** Write this learner.
 #
-# - `chances` holds the random decisions, drawn beforehand.
+# - `chances` says for each decision whether to be greedy (−1), or which action to try.
 # - After each of its own decisions it learns from that one, then from every pair (s, a) in `taught`, a
 #   demonstration. A demonstration changes Q, but does not move the learner.
 # - After every 20 decisions the walk starts again in state 0. Learn from the twentieth, too, as if the walk
@@ -307,13 +307,12 @@ bc.show(diagrams.who_leaves(found))
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** In the states 1 to 3 turning back to the trap is worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 /
-# 0.2 | .2f }}.
-# While that is the best there, leaving is worth γ · {{ 0.8 * 0.16 / 0.2 | .2f }} =
-# {{ 0.8**2 * 0.16 / 0.2 | .2f }}, less than staying. So going on must win in state 3, then in 2, then in 1
-# (dashed), and each win takes more walks to the free road. The {{ len(needed_walks()) }} of C that leave
-# needed {{ min(needed_walks()) }} to {{ max(needed_walks()) }}. One that had {{ len(arrivals(29)) }} still
-# stays. The left learner had two, and still turns back in state 3.
+# **Explain.** A step out of the trap pays only if the learner then goes on. At first it turns back: that is
+# worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }} in the states 1 to 3, so leaving is worth γ
+# · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}, less than staying. Walks to the free road
+# raise the value of going on, first in state 3, then in 2, then in 1 (dashed), and only then leaving wins.
+# Two walks (left) are too few; the {{ len(needed_walks()) }} of C that leave needed {{ min(needed_walks()) }}
+# to {{ max(needed_walks()) }}.
 # <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] and not chain.leaves(walks(29)[-1]) -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in

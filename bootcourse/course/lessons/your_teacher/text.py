@@ -313,8 +313,8 @@ choices = ["both", "those of no accident", "those of no free lane", "neither"]
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
-# **Exercise (5 min, ●○○).** Choose the decisions of *no accident*: leave out the last of a drive, if the drive
-# was ever in lane 0. Keep all others.
+# **Exercise (5 min, ●○○).** Choose the decisions of *no accident*: leave out the last of a drive, if the
+# drive was ever in lane 0. Keep all others.
 
 
 # %%
