@@ -98,8 +98,8 @@ def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title:
 STEPS_LEFT = np.array([-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0])  # m, the bars of `off_the_road`
 
 
-def off_the_road(own: Sequence[Rollout], of_rule: Sequence[Rollout], seconds: int = 8) -> Figure:
-    """How clones leave the road: their last seconds, where they decide unlike the rule, and where the rule has been."""
+def off_the_road(own: Sequence[Rollout], of_rule: Sequence[Rollout], seconds: int = 15) -> Figure:
+    """How clones leave the road: their last seconds, where the rule has been, and how often they decide unlike it."""
     furthest = max(cloning.metres_left(drive).max() for drive in of_rule)
     left = np.concatenate([cloning.metres_left(drive) for drive in own])
     wrong = np.concatenate([drive.actions != drive.rule_actions for drive in own])
@@ -115,17 +115,17 @@ def off_the_road(own: Sequence[Rollout], of_rule: Sequence[Rollout], seconds: in
     gone = [drive for drive in own if cloning.off_on_the_left(drive)]
     nearest = STEPS_LEFT[np.argmax(rows > 0)]  # the lowest bar with a decision of the rule
     paths.axhspan(nearest, furthest, color=style("rule").colour, alpha=0.13, linewidth=0)
-    last = [(cloning.metres_left(each)[-seconds:], (each.actions != each.rule_actions)[-seconds:]) for each in gone]
-    once = {tuple(np.round(way, 2)): (way, errs) for way, errs in last}  # or equal paths look like a thick one
-    for way, errs in once.values():
+    last = [cloning.metres_left(each)[-seconds:] for each in gone]
+    once = {tuple(np.round(way, 2)): way for way in last}  # or equal paths look like a thick one
+    for way in once.values():
         when = np.arange(-len(way), 0)
-        paths.plot(when, way, color=style("bc").colour, linewidth=0.7, alpha=0.35)
-        paths.plot(when[errs], way[errs], ".", color=INK, markersize=4, alpha=0.5)
+        paths.plot(when, way, color=style("bc").colour, linewidth=0.7, alpha=0.5)
+        paths.plot(when, np.where(way > furthest, way, np.nan), color=INK, linewidth=1.2)
     where = {"color": style("rule").colour, "fontsize": TEXT, "va": "bottom", "backgroundcolor": "#DEF2EA"}
     paths.text(-seconds + 0.1, nearest + 0.05, "where the rule's drives are", **where)
     paths.set(xlim=(-seconds - 0.2, -0.6), ylim=(-2, 2.05))
     paths.set_xlabel("seconds before the accident", fontsize=TEXT, color=INK)
-    plain_axes(paths, "left of the lane's middle (m); a dot is an error")
+    plain_axes(paths, "left of the lane's middle (m); black: beyond the rule's drives")
     bars.barh((STEPS_LEFT[:-1] + STEPS_LEFT[1:]) / 2, shares, height=0.42, color=style("bc").colour, alpha=0.8)
     for middle, share, count in zip((STEPS_LEFT[:-1] + STEPS_LEFT[1:]) / 2, shares, rows, strict=True):
         bars.text(share - 2, middle, f"{share:.0f}", fontsize=TEXT, color="white", ha="right", va="center")

@@ -91,8 +91,9 @@ check.cloning_loss(cloning_loss)
 # %% [markdown]
 # Train five clones on each of three data sets: your drives, {{ SETTINGS.demonstration_episodes }} drives of
 # the rule, as many of the stochastic rule. Each clone then drives 100 new roads and takes its most probable
-# action. Its **agreement** is the share of its data in which this is the demonstrator's action (on new drives
-# of the stochastic rule {{ 100 * SETTINGS.rule_p | .0f }} % at best).
+# action. Its **agreement**: in which share of its data is this the demonstrator's action? (At most
+# {{ 100 * SETTINGS.rule_p | .0f }} % on new drives of the stochastic rule: its random decisions cannot be
+# guessed.)
 #
 # > **Predict.** Clones of which 200 drives have more accidents?
 
@@ -116,8 +117,7 @@ bc.show(figures.clones(measured))
 # **See.** *Agreement with its data does not say who drives well.* Our clones of one drive know it almost by
 # heart, and mostly crash. Nearly all drives of the stochastic rule crash, yet its clones crash less than the
 # rule's. They take their most probable action, so they do not copy its one random decision in ten; why they
-# crash less than the rule's clones, Round 3 asks. (Not because the drives are shorter: clones of the rule's
-# drives, cut to the same lengths, crashed as often as those of the whole.)
+# crash less than the rule's clones, Round 3 asks.
 # <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
 # <!-- claim: of('bc').scores('returns').mean() < of('rule').scores('returns').mean() -->
 # <!-- claim: UPDATES == 1500 -->
@@ -159,17 +159,18 @@ bc.show(figures.off_the_road(alone, driven["the rule"]))
 # path, where the rule's drives have no row, and nearly every decision is an error: these are **compounding
 # errors** (Ross and Bagnell 2010).
 #
-# The worst case: each second a further share ε of all drives makes its first error, and from then on every
-# decision is one. **Drag** ε from 0.5 % up to our clones' 20 %: how many errors can a whole drive have?
+# The worst case: in each second a share ε of all drives errs for the first time, and a drive that has erred
+# once errs in every second after it. **Drag** ε from 0.5 % up to our clones' 20 %: how many errors can a
+# whole drive have?
 
 # %%
 explorable.compounding()
 
 # %% [markdown]
 # At 20 % up to {{ np.minimum(1, 0.2 * np.arange(1, 151)).sum() | .0f }} of 150 decisions on average; if
-# errors stay alone (dashed), {{ 0.2 * 150 | .0f }}. Our clones lie between: in their own states, which Round
-# 3 shows, they agree less than in their data. Of $T$ decisions on average at most $\epsilon \, T (T + 1) / 2$
-# are errors; while $\epsilon T$ stays below 1, a drive twice as long has up to four times as many.
+# errors stay alone (dashed), {{ 0.2 * 150 | .0f }}. Our clones lie between: in their own states (Round 3)
+# they err more often than in their data. Of $T$ decisions on average at most $\epsilon \, T (T + 1) / 2$ are
+# errors; while $\epsilon T$ stays below 1, a drive twice as long has up to four times as many.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Draw both bounds, T and T²: the first error comes at decision t with a probability of at most ε, and T − t +
@@ -205,14 +206,12 @@ bc.show(figures.added({name: measured[name] for name in KINDS}, fed_crash))
 # %% [markdown]
 # **See.** *The rows from the edge prevent most accidents; as many others do not.* The states that a data set
 # holds are its **coverage**. The stochastic rule's drives hold these rows: probably that is why its clones
-# crash less than the rule's, although they err more in their own states. (Rows a little nearer helped as much
-# when we tried, so it is not the place alone.)
+# crash less than the rule's, although they err more in their own states. (Rows a little nearer helped as
+# much: the rule's drives have such places, but with other headings. A state is more than a place.)
 #
-# All this is after {{ UPDATES | , }} updates. Long training turns the order round: the study's ten clones of
-# the rule ({{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates) crash in
-# {{ 100 * accidents('bc') | .1f }} % of their drives, those of the stochastic rule
-# ({{ updates_of(clones_of_the_stochastic_rule()) / UPDATES | .0f }} times) in
-# {{ 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .1f }} %, nearly always once ahead.
+# All this is after {{ UPDATES | , }} updates. With {{ updates_of(of('bc')) / UPDATES | .0f }} times as many
+# the study's ten clones of the rule crash in {{ 100 * accidents('bc') | .1f }} % of their drives, far less
+# than such clones of the stochastic rule.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The rows from the edge suffice. Must it be these? A group can add the rows from 1 m left of the middle up to
@@ -265,7 +264,7 @@ bc.show(figures.taught(trainings, measured[KINDS[0]]))
 # %% [markdown]
 # **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.*
 # DAgger adds the states that earlier clones came to, with what the rule does there. So on average the next
-# clone errs less in its *own* states. (Which errors are left matters, too: Round 3.)
+# clone errs less in its *own* states.
 #
 # A clone's loss does not ask what an action leads to. The learner of lesson [[learning_from_demonstrations]]
 # does.
@@ -298,8 +297,8 @@ compare_predictions(
 #    drives.
 # 2. It is trained on the teacher's states and drives in its own, where errors lead to errors: in most of our
 #    accidents they lead where the rule's drives have no row.
-# 3. A few rows from there prevent most of their accidents. Longer training can, too: the study's clones of
-#    the rule all escape.
+# 3. A few rows from there prevent most of their accidents. After longer training the study's clones of the
+#    rule escape without them.
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 and accidents('bc') < 0.01 -->
 # 4. DAgger finds such rows: the clone drives, the teacher labels.
 #

@@ -48,12 +48,6 @@ def paid_until(study: Results, changed: Computed) -> dict[str, Results]:
     }
 
 
-def others_of(groups: dict[str, Results], others: Computed) -> dict[str, Results]:
-    """The ten others of those groups of `paid_until` that have some."""
-    first, _, last = groups
-    return {first: others["bootstrapped"], last: others["bootstrapped, c = 0"]}
-
-
 FOUND = ["", "find the way out after (median of 20)", "escape (study, others)", "escape without the soft constraint"]
 
 

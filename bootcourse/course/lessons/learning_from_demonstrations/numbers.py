@@ -43,22 +43,9 @@ def alone(name: str) -> str:
     return measures.escape(_with(name)[1])
 
 
-def staying(place: int) -> str:
-    """How many escape where c = 2 and β stays, and the rule drives the demonstrations: with the soft constraint (0), or
-    without it (1)."""
-    study, others = (shipped_experiment(name) for name in ("ablations", "stress"))
-    method = ("bootstrapped", "demos")[place]
-    return measures.escape([study["β for ever"].of(method), others[f"{method}, β for ever"]])
-
-
 def last_success(name: str, others: bool) -> str:
     """In how many % of the last 100 training episodes these agents, or the ten others, succeed."""
     return f"{100 * training(name, 'success', -100, None, others).mean():.0f}"
-
-
-def for_ever(bonus: str) -> Results:
-    """The study's ten with both aids whose β stays; bonus: "" or ", c = 0"."""
-    return shipped_experiment("ablations")[f"β for ever{bonus}"].of("bootstrapped")
 
 
 def found(name: str) -> np.ndarray:

@@ -89,39 +89,41 @@ FLOOR = "ξ falls to 0.1"
 
 
 def courses(kinds: Sequence[str]) -> Figure:
-    """Above ξ, below the return in training: the study's ten agents of each of three kinds, thin, and their mean.
+    """Above ξ, below the success in training: ten agents of each of three kinds, of the last two each agent, too.
 
     kinds: as in `twenty`. An agent of `FADING` is that of `FLOOR` until ξ reaches 0.1; from there on its ξ is not kept.
     """
     changed = shipped.shipped_experiment("ablations") | {FADING: shipped.shipped_results().of("soft")}
-    title = "Where ξ falls, the mean return is soon the highest, but some agents drop again"
+    title = "Where ξ falls, agents find the way out first, but most drop again"
     figure, looks = new_figure(4.4), (QUIET, INK, style("soft").colour)
     above, below = axes_at(figure, 0.6, 0.75, 4.9, 0.9), axes_at(figure, 0.6, 2.0, 4.9, 1.85)
     plain_axes(above, "mean ξ of ten agents")
-    plain_axes(below, f"return in training, with drawn actions: mean of {IN_A_ROW} episodes; thick: mean of ten agents")
+    plain_axes(below, f"of the last {IN_A_ROW} training episodes, ended ahead; thick: mean of ten, thin: an agent (of two kinds)")
     ends, alt = [], []
     for kind, colour in zip(kinds, looks, strict=True):
         xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
         until = np.argmax(xi <= 0.101) if kind == FADING else len(xi)
         above.plot(np.arange(until), xi[:until], color=colour, linewidth=2)
-        returns = changed[kind].of("soft").curves["return"]
-        episodes, window = rolling_means(returns, IN_A_ROW, returns.shape[1])
-        if kind == FADING:
+        success = changed[kind].of("soft").curves["success"]
+        episodes, share = rolling_means(success, IN_A_ROW, success.shape[1])
+        window = IN_A_ROW * share
+        if kind != kinds[0]:
             below.plot(episodes, window.T, color=colour, linewidth=0.5, alpha=0.45)
         below.plot(episodes, window.mean(0), color=colour, linewidth=2.2)
         ends.append((window[:, -1].mean(), kind, colour))
         alt.append(f"{kind}: {window[:, 1000 - IN_A_ROW].mean():.0f}, at last {ends[-1][0]:.0f}")
-    above.set(yscale="log", xlim=(0, returns.shape[1]), ylim=(0.02, 3))
+    above.set(yscale="log", xlim=(0, success.shape[1]), ylim=(0.02, 3))
     above.set_yticks((0.1, 1, 2), ("0.1", "1", "2"))
     arrow = {"arrowstyle": "->", "color": looks[-1], "linewidth": 2, "shrinkB": 0}
     above.annotate("", (until + 90, 0.03), (until, 0.1), arrowprops=arrow)
     above.text(until + 100, 0.03, "towards 0", va="center", fontsize=SMALL, color=looks[-1])
     above.minorticks_off()
     above.set_xticklabels([])
-    below.set(xlim=(0, returns.shape[1]))
+    below.axhline(IN_A_ROW / 2, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+    below.set(xlim=(0, success.shape[1]), ylim=(0, IN_A_ROW + 1))
     below.set_xlabel("training episode", fontsize=SMALL, color=INK)
     label_ends(below, ends)
-    return finish(figure, title, f"Mean returns after 1,000 episodes: {'; '.join(alt)}.")
+    return finish(figure, title, f"Ended ahead, of {IN_A_ROW} in a row, after 1,000 episodes: {'; '.join(alt)}.")
 
 
 def twenty(kinds: Sequence[str]) -> Figure:
