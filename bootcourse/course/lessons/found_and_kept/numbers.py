@@ -12,6 +12,7 @@ from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
+from bootcourse.research.tables import markdown
 from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost, rolling_means
 from tools.course.known import clocks, in_training, others, pattern, shipped_experiment, shipped_results
 
@@ -106,16 +107,25 @@ def alone(beta: str) -> Counted:
     return Counted(sum(one.found for one in each), sum(one.kept for one in each))
 
 
-def kept_more_if_it_stays() -> float:
-    """Fisher's p: do the finders of these two groups keep the way out equally often?"""
-    ending, staying = alone("ends"), alone("stays")
-    return stats.fisher_exact([[each.kept, each.found - each.kept] for each in (ending, staying)]).pvalue
-
-
-def likeliest() -> tuple[float, float]:
-    """The lowest and the highest chance of round 3's settings with one road."""
-    found = [pattern(agents).value for (updates, _), agents in clocks().items() if updates != "1/4"]
-    return min(found), max(found)
+def explanations() -> str:
+    """What could explain the paper's table, and what was seen of it, as Markdown."""
+    ending, staying = alone("ends").kept, alone("stays").kept
+    p = stats.fisher_exact([[ending, 20 - ending], [staying, 20 - staying]]).pvalue
+    some, few = (sorted(100 * pattern(clocks()[u, by]).value for u in of for by in ("μ", "π̃")) for of in ("12", "4"))
+    rows = [
+        ["(1) agents lose the way out",
+         f"demonstrations alone: {ending} of 20 escape, {staying} of 20 if β never ends (p = {p:.2f})",
+         "part of it, if the paper's β stayed"],
+        ["(2) single agents",
+         f"the paper's four rates in {100 * pattern(of_all()).value:.0f} % of the draws; from ten others in "
+         f"{100 * others_pattern():.0f} %",
+         "seldom"],
+        ["(2, 3) single agents, one road",
+         f"in {some[0]:.0f} to {some[-1]:.0f} % ({few[0]:.0f} and {few[-1]:.0f} % with three agents a row)",
+         "possible; that they trained so is *not shown*"],
+        ["(4) other traffic", "not tested", "*open*"],
+    ]  # fmt: skip
+    return markdown(["what could explain it", "what we saw", "so"], rows)
 
 
 def of_the_agent_shown() -> Rollout:

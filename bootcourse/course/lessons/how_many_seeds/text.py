@@ -67,7 +67,7 @@ study = bc.shipped_results()
 bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 
 # %% [markdown]
-# So of each agent we ask only: does it escape?
+# So in Rounds 1 and 2 we ask of each agent only: does it escape?
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask how many of them have published or handed in a figure with one training behind each line.
@@ -80,11 +80,8 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
 # > **Predict.** The lower the true rate, the rarer are eight or more of ten. At 50 % they come in
-# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all studies, as eight heads of ten fair coins do. At which rate
-# > do
-# > they
-# > come
-# > in 2.5 %? (Below it our eight would be luck too rare to believe.)
+# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all studies, as eight or more heads of ten fair coins do.
+# > At which rate do they come in 2.5 %? (Below it our eight would be luck too rare to believe.)
 
 # %%
 predict(
@@ -117,9 +114,8 @@ explorable.certainty()
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
 # <!-- claim: fitting(*PRINTED['gail']['collision']) == [(1, EPISODES)] -->
 #
-# > **Predict.** Suppose that *one* agent made {{ EPISODES }} drives, and got out in each. What share of the
-# > *method's*
-# > agents would escape? Where does the exact interval of this share begin?
+# > **Predict.** Suppose that *one* agent made {{ EPISODES }} drives, and got out in each. Where does the
+# > exact interval of the *method's* share begin?
 
 # %%
 predict(
@@ -208,7 +204,6 @@ returns = np.sort(study.of("bootstrapped").scores("returns"))
 print(f"{', '.join(f'{each:.0f}' for each in returns)}; mean {returns.mean():.0f}")
 
 # %% [markdown]
-# Seven of the ten do well, three badly.
 # <!-- claim: np.diff(np.sort(of('bootstrapped').scores('returns'))).max() > 40 and
 #   (of('bootstrapped').scores('returns') < 60).sum() == 3 -->
 #
@@ -216,7 +211,7 @@ print(f"{', '.join(f'{each:.0f}' for each in returns)}; mean {returns.mean():.0f
 # come twice, others not at all. Take the mean, and repeat this some thousand times. The middle 95 % of these
 # means are the **bootstrap interval** (nothing to do with bootstrapped SAC).
 #
-# > **Predict.** Suppose that our ten stand for all agents. Somebody trains three, and computes their
+# > **Predict.** Suppose that of all agents each tenth is like one of our ten. Somebody trains three, and computes their
 # > interval. In how many of 100 such studies does it contain the mean of all? (How
 # > often do all three do well, and where is their interval then?)
 
@@ -237,7 +232,8 @@ explorable.intervals()
 # %% [markdown]
 # **See.** *{{ explorable.holding(3) }} of 100, not 95.* In {{ 100 * 0.7**3 | .0f }} of 100 studies all three
 # do well. Resampling knows these three alone, so the interval is short, and lies above the mean of all: *the
-# shortest intervals miss.* Five seeds: {{ explorable.holding(5) }}. Ten: {{ explorable.holding(10) }}.
+# shortest intervals miss.* So print the three returns, not their interval. Five seeds: {{ explorable.holding(5) }}.
+# Ten: {{ explorable.holding(10) }}.
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 and 88 <=
 #   explorable.holding(10) <= 92 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
@@ -266,7 +262,7 @@ check.bootstrap_interval(bootstrap_interval)
 # `xi_multiplier` (200). Who learns the way out early? The score is an agent's success on 200 roads after 150
 # episodes.
 #
-# Five against five are few: even a yes or no, 80 against 30 %, would show by Fisher's test in only
+# Five against five are few: 80 against 30 % would show by Fisher's test in only
 # {{ 100 * power(0.8, 0.3, 5) | .0f }} of 100 studies.
 #
 # The score of a group is its **interquartile mean** (IQM): sort, leave out a quarter, rounded down, at each
@@ -324,29 +320,29 @@ bc.show(figures.nothing_changed(study))
 # Even at 5 % each, at least one of twenty independent comparisons leaves out 0 in
 # {{ 100 * (1 - 0.95**20) | .0f }} % of cases: **multiplicity**. Say beforehand which comparison counts. Or
 # correct each p (Fisher's, Round 2) by *Holm*: of n, the smallest times n, the next times n − 1, and so on
-# (never below the one before it, nor above 1). The three comparisons of our first picture:
+# (never below the one before it, nor above 1). Both aids against each other row of our first picture, as
+# three comparisons named beforehand, and as three of its six pairs:
 
 # %%
 # NBVAL_CHECK_OUTPUT
 against = {"demonstrations only": 0, "plain SAC": 1, "soft constraint only": 8}
-p = [scipy.stats.fisher_exact([[7, 3], [k, 10 - k]]).pvalue for k in against.values()]
-rows = zip(against.items(), p, bc.statistics.holm(p), strict=True)
-rows = [
-    [f"{name}, {k} of 10", f"{one:.3f}", f"× {3 - i}", f"{after:.3f}"]
-    for i, ((name, k), one, after) in enumerate(rows)  # in the order of p
-]
-table(["7 of 10 with both aids, against", "p", "times", "after Holm"], rows)
+pairs = [(7, 0), (7, 1), (7, 8), (8, 0), (8, 1), (1, 0)]  # of ten each: how many escape
+p = [scipy.stats.fisher_exact([[a, 10 - a], [b, 10 - b]]).pvalue for a, b in pairs]
+of_three, of_six = bc.statistics.holm(p[:3]), bc.statistics.holm(p)[:3]
+rows = zip(against.items(), p[:3], of_three, of_six, strict=True)
+rows = [[f"{name}, {k} of 10", *(f"{each:.3f}" for each in ps)] for (name, k), *ps in rows]
+table(["7 of 10 with both aids, against", "p", "Holm, of three", "Holm, of six"], rows)
 
 # %% [markdown]
-# Two of the three survive. Of ten others of each {{ escapers(others('bootstrapped'), 'bootstrapped') }}
-# escape with both aids,
+# *Whether plain SAC's p survives depends on what you counted.* New agents settle it: of ten others of each
+# {{ escapers(others('bootstrapped'), 'bootstrapped') }} escape with both aids,
 # {{ 'none' if not escapers(others('sac'), 'sac') else escapers(others('sac'), 'sac') }} with plain SAC (p <
 # 0.001), and {{ escapers(others('demos'), 'demos') }} with demonstrations only (p =
 # {{ fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('demos'), 'demos')) | .2f }}:
-# the same direction, but ten against ten often miss a large difference, Round 2).
+# ten against ten often miss a large difference, Round 2).
 # <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
-# <!-- claim: 3 * fisher(7, 0) < 0.05 and 2 * fisher(7, 1) < 0.05 and fisher(7, 8) > 0.05 and
+# <!-- claim: 2 * fisher(7, 1) < 0.05 < 3 * fisher(7, 1) and fisher(7, 8) > 0.05 and
 #   fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('demos'), 'demos')) > 0.05 -->
 
 # %% [markdown] tags=["instructor"] minutes=3

@@ -166,4 +166,4 @@ def chosen(study: Results, guesses: Sequence[float], truth: Sequence[float]) -> 
         [place + 1, *(f"{display_name(choosing.METHODS[one])}, {earned[place, one]:.0f}" for one in each)]
         for place, each in enumerate(first)
     ]
-    return table(["set", "largest estimate", "truly worth most (γ = 0.8)", "highest return"], rows)
+    return table(["set", "largest estimate", "truly worth most (first seconds)", "highest return (whole drive)"], rows)

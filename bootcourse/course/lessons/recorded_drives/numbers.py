@@ -11,21 +11,12 @@ from bootcourse.course.lessons.recorded_drives.exercises import conservative_los
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
-from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Training
-from bootcourse.policies import Policy, stochastic_rule_policy
-from bootcourse.research.results import Results
-from bootcourse.scenario import DEFAULT
+from bootcourse.policies import Policy
 from bootcourse.statistics import ESCAPES
-from tools.course.known import of, shipped_experiment, shipped_results
-
-
-def of_paper(method: str) -> Results:
-    """The agents of a method in the study whose demonstrations are the stochastic rule's."""
-    return shipped_results("paper").of(method)
-
+from tools.course.known import of, shipped_experiment
 
 SETS = 5  # of six agents, one of each of `choosing.METHODS`
 
@@ -126,9 +117,3 @@ def departures(which: int) -> str:
     """In how many % of drives each of five GAIL agents leaves the road: 0, our target entropy; 1, a reachable one."""
     results = list(by_entropy(shipped_experiment("reachable-entropy")["gail"]).values())[which]
     return ", ".join(f"{100 * share:.1f}" for share in results.scores("road_departure"))
-
-
-@cache
-def by_stochastic_rule() -> list[Rollout]:
-    """Drives of the stochastic rule, the second study's teacher, on 100 roads."""
-    return record(stochastic_rule_policy(DEFAULT, np.random.default_rng(0)), range(100))

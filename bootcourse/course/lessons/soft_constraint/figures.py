@@ -98,7 +98,7 @@ def courses(kinds: Sequence[str]) -> Figure:
     figure, looks = new_figure(4.4), (QUIET, INK, style("soft").colour)
     above, below = axes_at(figure, 0.6, 0.75, 4.9, 0.9), axes_at(figure, 0.6, 2.0, 4.9, 1.85)
     plain_axes(above, "mean ξ of ten agents")
-    plain_axes(below, f"of the last {IN_A_ROW} training episodes, ended ahead; thick: mean of ten, thin: an agent (of two kinds)")
+    plain_axes(below, f"of the last {IN_A_ROW} training episodes, ended ahead; thick: mean of ten; thin: an agent")
     ends, alt = [], []
     for kind, colour in zip(kinds, looks, strict=True):
         xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
