@@ -52,7 +52,7 @@ progress("bug_hunt")
 # target += gamma * (1 - end) * next_value # no_end: gamma * next_value
 # ```
 #
-# A healthy agent and one with a bug drive here on the same road. Which has the bug? (Round 1 tells.)
+# A healthy agent and one with a bug drive here on the same road. Which has the bug?
 
 # %% tags=["nbval-ignore-output"]
 bc.recording(figures.two_drives(hunt), height=360)
@@ -136,9 +136,9 @@ bc.show(figures.accidents(hunt))
 
 # %% [markdown]
 # **See.** *One agent is far too low, in table and picture.* The healthy critic is too high, with both seeds,
-# from update 1,000 to the end; why was not tested. So compare with grey, not with
-# {{ DEFAULT.reward.accident | .0f }}: which agents lie outside *both* grey lines, above or below? In the
-# table, with one seed each, a difference like A's proves nothing.
+# from update 1,000 to the end. So compare with grey, not with {{ DEFAULT.reward.accident | .0f }}: which
+# agents lie *far* from both grey lines, above or below? In the table, with one seed each, a difference like
+# A's proves nothing.
 # <!-- claim: asked('healthy') - asked('A') > 3 -->
 # <!-- claim: [n for n in hunt().names if asked(n) < -1] == ['D'] -->
 # <!-- claim: (hunt().probe('healthy', 'end')[:, hunt().updates >= 1000] > DEFAULT.reward.accident + 1).all() -->
@@ -170,8 +170,8 @@ bc.show(figures.promises(hunt))
 # SETTINGS.gamma) | .0f }}.
 # Grey may lie between them: demonstrations earn the bonus.
 #
-# One agent promises up to {{ hunt().probe('F', 'promise').max() | .0f }}, beyond the picture: no rewards and
-# bonuses add up to that.
+# One agent promises up to {{ hunt().probe('F', 'promise').max() | .0f }}, beyond the picture, more than any
+# road pays: which bug lets the actor's loss raise Q?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} and
 #   hunt().probe('E', 'promise').max() < 15 and (hunt().probe('F', 'promise').max(axis=1) >
 #   20).all() and (hunt().probe('F', 'promise')[:, -1] < 20).all() -->
@@ -188,8 +188,8 @@ bc.show(figures.promises(hunt))
 # KL pulls, gives each action a little probability.
 #
 # > **Predict.** The right KL charges the policy for going where the rule would not. The flipped KL
-# > charges it for *not* going where the rule might. How does the probability of an action that the
-# > rule seldom takes then change?
+# > charges it for *not* going where the rule might. What happens, then, to the probability of an action that
+# > the rule seldom takes?
 
 # %%
 choices = [
@@ -219,8 +219,8 @@ bc.show(figures.rarest(hunt))
 # %% [markdown]
 # ## The verdict
 #
-# **Exercise (12 min, ●●●).** Name the bug of each agent. For three of them one picture of Rounds 2 to 4 is
-# enough. Two look alike in one picture and differ in another. The sixth is left.
+# **Exercise (12 min, ●●●).** Name the bug of each agent. Three show in one picture of Rounds 2 to 4. Two
+# share a symptom, and differ in their return. The sixth is left.
 
 
 # %%
@@ -256,7 +256,7 @@ check.diagnose(diagnose)
 # - **D** adds γ times the value of a car that has just crashed, far below 0 at the table's accidents. No row
 #   teaches that value: it can come out too high (lesson [[update_and_loop]]) or, as here, too low.
 # - **E** has left the rule: from update 9,000 on its likeliest action is the rule's in
-#   {{ 100 * alike('E', 9000, 10000) | .0f }} % of the seconds. Why it earns more was not tested.
+#   {{ 100 * alike('E', 9000, 10000) | .0f }} % of the seconds.
 # - **F**: the actor's loss changes the critic, and raises the Q of what the policy likes.
 #
 # </details>
@@ -279,7 +279,7 @@ check.diagnose(diagnose)
 #
 # **The labels.** In each row ask the rule in s, and compare.
 #
-# **The target.** Two of the six bugs are in this line:
+# **The target.** With two of the six bugs at once it reads:
 #
 # ```python
 # target = reward + bonus + gamma * next_value
@@ -313,8 +313,8 @@ for bug in bugs.LEARNERS:
     print(f"{bug:14} {share:5.0%}  {'WRONG' if test(bugs.target_of(bug)) else 'right'}")
 
 # %% [markdown]
-# **See.** *Before any training, two tests find three of the six bugs.* Shifted labels are right only where
-# the rule does the same a second later.
+# **See.** *Before any training, two tests find three of the six bugs*, also the one that none of our probes
+# showed: C, whose return ends where the healthy agent's does, learned from shifted labels.
 # <!-- claim: all(agree(bug).all() == (bug != 'shifted_labels') for bug in bugs.LEARNERS) -->
 # <!-- claim: (agree('shifted_labels')[:-1] == (labelled_drive().rule_actions[:-1] ==
 #   labelled_drive().rule_actions[1:])).all() -->
@@ -335,7 +335,7 @@ compare_predictions("bug_hunt", {1: "no_end", 2: limit, 3: "it drops more slowly
 #    earns far more.
 # 2. A probe needs a known right answer, or a healthy agent beside it. It clears only what it asks: one of the
 #    six bugs shows in none of our three, only in the curve: it learns late.
-# 3. Labels and targets can be tested before any training.
+# 3. Test labels and targets before any training: that found the bug that our probes missed.
 #
 # **Three questions to think about**
 # - You may run one probe during your trainings from now on. Which, and at what value does it warn?

@@ -93,7 +93,7 @@ def each_agent(cells: dict[str, Results], base: str) -> Figure:
     return finish(figure, title, f"A line for each agent, from alone to with the look-ahead. {'; '.join(alt_parts)}.")
 
 
-def _judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """At each decision of a drive: Q̂ in a model, Q̂ on the true road, and whether the true drive ends in an accident.
 
     Each (decisions, 9).
@@ -103,30 +103,19 @@ def _judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray,
     return values, true.values, true.accidents > 0
 
 
-def shares_that_crash(agent: Agent, model: RoadModel, drives: Sequence[Rollout]) -> tuple[float, float, float]:
-    """How often an action's true drive ends in an accident: the model's best of nine, drawn at random, the agent's own.
-
-    Over the decisions of drives of the agent alone at which not all nine do.
-    """
-    judged = [(*_judged(agent, model, drive), drive.actions) for drive in drives]
-    values, _, hurt, own = (np.concatenate(columns) for columns in zip(*judged, strict=True))
-    open_ = ~hurt.all(1)
-    of = [np.take_along_axis(hurt, actions[:, None], 1)[open_].mean() for actions in (values.argmax(1), own)]
-    return float(of[0]), float(hurt[open_].mean()), float(of[1])
-
-
-def promised(agent: Agent, model: RoadModel, drive: Rollout, drives: Sequence[Rollout]) -> Figure:
+def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
     """The nine Q̂ in a learned model and on the true road, at one decision of a drive that the agent itself drove.
 
     It is the first at which the best of nine in the model ends in an accident and another action would not; without
-    one, the drive's first. The title has `shares_that_crash` of some drives.
+    one, the drive's first.
     """
-    values, true, hurt = _judged(agent, model, drive)
+    values, true, hurt = judged(agent, model, drive)
     taken = values.argmax(1)
     misled = hurt[np.arange(len(taken)), taken] & ~hurt.all(1)
-    now, best_of, drawn, own = int(misled.argmax()), *shares_that_crash(agent, model, drives)
-    title = f"Accidents: the model's best of nine {100 * best_of:.0f} %, drawn at random {100 * drawn:.0f} %, "
-    title += f"the agent's own {100 * own:.0f} %"
+    now = int(misled.argmax())
+    title = f"The model promises {values[now, taken[now]]:.0f}; the true drive ends in an accident"
+    if not misled.any():
+        title = "The model's best of nine ends well"
     figure, ends, best, alt_parts = new_figure(4.55), hurt[now], taken[now], []
     ax, at = axes_at(figure, 1.35, 0.8, 4.0, 2.95), np.arange(N_ACTIONS)
     colours = [ALARM if end else style("bootstrapped").colour for end in ends]
@@ -153,7 +142,7 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
-    title = "With some random actions, or with the look-ahead's own drives, agents crash less"
+    title = "The look-ahead's own drives make the best model, but on average no model beats none"
     agents, base = learned_model.together(computed), learned_model.BASE
     alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)].mean(), style(base).colour
     drivers = {"the agent": agents}

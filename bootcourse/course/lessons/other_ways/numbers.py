@@ -134,16 +134,16 @@ def spent_table() -> str:
         f"{FIRST:,} decisions": (FIRST, explorable.DECISIONS),
     }
     scores = {words: training_scores(*spent) for words, spent in clocks.items()}
-    rows = [[words, *(_bold_if_apart(each, method) for method in kinds)] for words, each in scores.items()]
+    rows = [[words, *(_marked_if_apart(each, method) for method in kinds)] for words, each in scores.items()]
     taken = (f"*{at(method, 'seconds', FIRST).mean():.0f}*" for method in kinds)
     return markdown(["after", *kinds.values()], [*rows, [f"*seconds for {FIRST:,}*", *taken]])
 
 
-def _bold_if_apart(scores: dict, method: str) -> str:
-    """A mean, bold if its interval and that of PPO after cloning have nothing in common."""
+def _marked_if_apart(scores: dict, method: str) -> str:
+    """A mean, with an arrow up or down if its interval lies above or below that of PPO after cloning."""
     mine, ppo = scores[method], scores["ppo_cloned"]
-    words = f"{mine.value:.0f}"
-    return f"**{words}**" if mine.low > ppo.high or mine.high < ppo.low else words
+    mark = " ↑" if mine.low > ppo.high else " ↓" if mine.high < ppo.low else ""
+    return f"{mine.value:.0f}{mark}"
 
 
 def jump_start_later() -> float:

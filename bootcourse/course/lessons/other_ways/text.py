@@ -90,8 +90,8 @@ check.smallest_of(smallest_of)
 # 3. *The target asks the rule*: not normalised; the target takes the rule's next action.
 #
 # > **Predict.** No drive is worth more than {{ worth_at_most(settings_for('rlpd').gamma) | .0f }}: the
-# > best second's reward, for ever, at γ = {{ settings_for('rlpd').gamma }}. The second agent's five
-# > critics began with different weights. For how many does the mean Q of the rule's actions pass this value?
+# > best second's reward, for ever, at γ = {{ settings_for('rlpd').gamma }}. How many of the second agent's five
+# > critics, which began with different weights, say that the rule's actions are worth more, on average?
 
 # %%
 predict("other_ways.1", "How many pass 32?", ["none", "some", "all five"])
@@ -179,8 +179,7 @@ bc.show(figures.who_chose(measures.chosen_by_q(training)))
 #
 # In jump-start RL the rule makes the first h decisions of each episode, then the agent takes over. At first h
 # is {{ settings_for('jsrl').guide_decisions }}, about what the rule needs to get ahead of trap 1. As soon as
-# rule and agent together earn about as much as their best so far, h shrinks by a tenth of its first value,
-# down to 0.
+# the two together earn about as much as at their best, h shrinks by a tenth of its first value, in the end to 0.
 # <!-- claim: abs(rule_is_ahead() - settings_for('jsrl').guide_decisions) < 10 -->
 #
 # **Exercise (6 min, ●●○).** Write the judgement: does h shrink now?
@@ -212,7 +211,7 @@ bc.show(figures.handing_over(*measures.handed_over(training)))
 
 # %% [markdown]
 # **See.** (Yours will differ.) The first mean has nothing to beat, so h shrinks. Later means must come near
-# the best so far, and that is low. (Drives under way keep their h.)
+# the best so far, and that is low.
 #
 # **Explain.** The judgement compares with the past, not with a goal. This is a **curriculum**: it begins with
 # the end of the way and moves backwards.
@@ -275,13 +274,13 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 #
 # | | PPO | bootstrapped SAC | jump-start RL | RLPD | IBRL |
 # |---|---|---|---|---|---|
-# | {{ hours_before('rlpd') | .0f }} h of the rule's drives, not counted | yes, drawn from π̃ | yes | no | yes | yes |
+# | {{ hours_before('rlpd') | .0f }} h of the rule's drives, not counted | yes, by π̃ | yes | no | yes | yes |
 # | the rule acts | no | no | in training, counted | no | in training and test |
 # | updates a decision | – | ¼ | ¼ | ½ | ¼ |
 # | three values were tried of | roads at once | target entropy | target entropy | target entropy | target entropy |
 #
-# Bootstrapped SAC's c and β were chosen by hand. RLPD's authors make 20 updates a decision, with ten critics;
-# we have {{ settings_for('rlpd').critics }}.
+# Bootstrapped SAC's c and β were chosen by hand, and γ is {{ settings_for('rlpd').gamma }}: these are not
+# lesson [[looking_ahead]]'s agents.
 # <!-- claim: by_hand() == {'bootstrapped': {'bonus', 'beta_episodes'}} and {decisions_per_update(m) /
 #   decisions_per_update('rlpd') for m in ('bootstrapped', 'jsrl', 'ibrl')} == {2} and
 #   decisions_per_update('rlpd') == 2 -->
@@ -321,7 +320,7 @@ explorable.TwoCounts(compared, by_rule.returns.mean())
 #
 # {{ spent_table() }}
 #
-# Bold: its 95 % interval is apart from PPO's. (Jump-start RL has none of the rule's
+# ↑ more, ↓ less than PPO: the 95 % intervals are apart. (Jump-start RL has none of the rule's
 # {{ hours_before('rlpd') | .0f }} h: after {{ on_road(explorable.EARLY) + hours_before('rlpd') | .0f }} h of
 # its own it earns {{ jump_start_later() | .0f }}.)
 # <!-- claim: (lambda of: of['ppo_cloned'].low > max(of[m].high for m in of if m != 'ppo_cloned')

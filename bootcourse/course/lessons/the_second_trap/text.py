@@ -74,7 +74,7 @@ title = "This agent sprints and falls back, again and again, and does not pass t
 bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
 
 # %% [markdown]
-# As long as it stays behind trap 1, its *mean* speed is at most trap 1's, but for the few metres of the first
+# Whoever stays behind trap 1 cannot be faster than trap 1 *on average*, but for the few metres of the first
 # gap.
 # <!-- claim: ppo_gap().min() < -40 and ppo_speeds().max() > 13.5 and ppo_speeds()[40:].min() < 7
 #   -->
@@ -118,12 +118,12 @@ steady = bc.formulas.speed_reward(speeds.mean())
 print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {steady:.2f}")
 
 # %% [markdown]
-# **Explain.** The sprints pay, but late: first the agent falls back to {{ ppo_speeds().min() | .0f }} m/s. On
-# this road, discounted:
+# **Explain.** The sprints pay, but late: first the agent falls back to {{ ppo_speeds().min() | .0f }} m/s.
+# What a whole drive on this road is worth at its start:
 #
 # {{ worth_table() }}
 #
-# With PPO's γ sprinting beats the rule, but not a good way out: a trap.
+# With PPO's γ sprinting is worth more than the rule's way out, and far less than a good one: a trap.
 # <!-- claim: worth('careful', settings_for('ppo').gamma) > 2 * worth('sprinting', settings_for('ppo').gamma) >
 #   2 * worth('the rule', settings_for('ppo').gamma) -->
 # <!-- claim: np.mean([speed_reward(v) for v in ppo_speeds()]) > 2.2 * speed_reward(10) -->
@@ -163,9 +163,9 @@ concave = bc.record(ppo_kinds.agent_of("concave").as_policy(), [ROAD])[0]
 bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": concave}))
 
 # %% [markdown]
-# **See.** None of the ten sprints on this road, and none gets out: all ten stay behind the traps, and one of
-# them crashes there on {{ 100 * ppo('concave')['accident'].max() | .0f }} % of the roads. **Without sprints
-# it stays, too.** But this reward also shrinks the prize for leaving:
+# **See.** None of the ten sprints on this road, and none gets out: nine stay behind the traps, and one drives
+# into trap 1, as on {{ 100 * ppo('concave')['accident'].max() | .0f }} % of the roads. **Without sprints it
+# stays, too.** But this reward also shrinks the prize for leaving:
 # {{ paid_concavely(by_rule()) - paid_concavely(idle()) | .0f }} here,
 # {{ by_rule().rewards.sum() - idle().rewards.sum() | .0f }} before.
 # <!-- claim: 1 - second_trap.concave_speed_reward(np.float64(10)) < (1 - speed_reward(10)) / 2 and
@@ -254,10 +254,10 @@ bc.show(figures.credit(speeds, found, 32))
 
 # %% [markdown]
 # **See.** Of the {{ (ppo_speeds() < 10).sum() }} seconds below 10 m/s, {{ judged_good(0.95) }} have A above 0
-# if A sees the whole drive (in most others the drive ends before the sprint pays). Cut every
-# {{ settings_for('ppo').horizon }} decisions, as in training,
-# {{ judged_good(0.95, settings_for('ppo').horizon) }} do ({{ wherever_cut().mean() | .0f }} on average over
-# all places of the cuts): pay beyond the cut reaches A only through V, which must learn it first.
+# if A sees the whole drive, only {{ judged_good(0.95, settings_for('ppo').horizon) }} if it is cut every
+# {{ settings_for('ppo').horizon }} decisions, as in training. *How could PPO learn to fall back, then?*
+# Beyond a cut A counts the last state's V. Our V is the same everywhere; PPO's can learn that a sprint
+# follows.
 # <!-- claim: (np.flatnonzero((ppo_speeds() < 10) & (credit(0.95) <= 0)) > 120).mean() > 0.9 -->
 # <!-- claim: ppo_kinds.settings_of('alone').horizon == settings_for('ppo').horizon -->
 # <!-- claim: judged_good(0.0) == 0 and (credit(0.95)[(ppo_speeds() < 10) & (np.arange(150) < 120)] >
@@ -267,7 +267,8 @@ bc.show(figures.credit(speeds, found, 32))
 # ## Round 4: how far may one decision push?
 #
 # The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since it
-# was taken. From ρ = 1 a decision can push it only so far: by ε = {{ 100 * settings_for('ppo').clip | .0f }} %.
+# was taken. From ρ = 1 a decision pushes it until it has changed by ε =
+# {{ 100 * settings_for('ppo').clip | .0f }} %; its last step may go beyond.
 #
 # > **Predict.** An action turned out badly, A = −2, but has become likelier, ρ = 1.5. Does this
 # > decision still change the policy?
@@ -363,7 +364,7 @@ bc.show(figures.ahead_in_training(ppo_kinds.reference()))
 # <!-- claim: ppo('alone')['at'][0][8] > 400_000 and ppo('alone')['escapes'][:, -1].max() == 0 -->
 #
 # **Explain.** A compares with V, learned from PPO's *own* drives. After cloning many of these get ahead;
-# alone few do. Is it how many get ahead, or how much these earn? That was not tested.
+# alone few do.
 # <!-- claim: ppo('cloned')['escapes'].min() > 0.3 > 3 * ppo('alone')['escapes'].max() -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -394,8 +395,7 @@ compare_predictions(
 #
 # **Three questions to think about**
 # - Which number, other than success, would have shown the second trap?
-# - Could cloning `racer` or `timid` of lesson [[your_teacher]] work as well? (Of ten clones of half random,
-#   {{ cloned_escape('random-50') }} escape after PPO.)
+# - Could cloning `racer` or `timid` of lesson [[your_teacher]] work as well?
 # - A *shaping reward* γ Φ(s') − Φ(s) leaves the best policy as it is (Ng, Harada and Russell 1999). Let the
 #   *potential* Φ be {{ second_trap.PER_LANE | .0f }} for each lane that the car has come to the left, 0 after
 #   an accident, and γ = 1. What do its payments add up to in an attempt that ends in an accident?

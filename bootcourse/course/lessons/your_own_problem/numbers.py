@@ -53,9 +53,13 @@ def alone(bonus: str) -> float:
     return score("doorkey", "good", f"demonstrations{bonus}", "drawn_success")
 
 
+BOTH_WAYS = ("drawn_success", "success")  # by drawn actions, and by the most probable ones
+
+
 def loops_table() -> str:
-    """How many drives of DoorKey reach the goal by drawn actions, without a bonus and with the paper's, as Markdown."""
+    """How many drives of DoorKey reach the goal, by drawn and by most probable actions, as Markdown."""
     kinds = [
+        ("no teacher (plain SAC)", "–", "none", "SAC", None),
         ("random teacher, both aids", "yes", "random", "both, c = 0", "both"),
         ("the same, only its drives that reach the goal", "no", "random", None, elsewhere.WITHOUT_LOOPS),
         ("good teacher, both aids", "no", "good", "both, c = 0", "both"),
@@ -64,7 +68,10 @@ def loops_table() -> str:
         [
             name,
             loops_,
-            *(f"{100 * score('doorkey', teacher, how, 'drawn_success'):.0f}" if how else "–" for how in both),
+            *(
+                " / ".join(f"{100 * score('doorkey', teacher, how, by):.0f}" for by in BOTH_WAYS) if how else "–"
+                for how in both
+            ),
         ]
         for name, loops_, teacher, *both in kinds
     ]
@@ -79,8 +86,14 @@ def drowning_bonus(*arguments: float) -> float:
 @cache
 def doorkey_errors() -> tuple[int, int, int]:
     """In how many states of the lesson's drives DoorKey's random teacher errs, how many labels are wrong there, and how
-    often the state among them was seen that was seen least.
+    many there are in all.
     """
     seen, taught, _, good = loops.labels("doorkey")
-    times = np.unique(seen[taught != good], axis=0, return_counts=True)[1]
-    return len(times), int(times.sum()), int(times.min())
+    return loops.states(seen[taught != good]), int((taught != good).sum()), len(seen)
+
+
+@cache
+def clone_errs_more() -> int:
+    """In how many states the clone errs in which its teacher is right."""
+    seen, taught, cloned, good = loops.labels("doorkey")
+    return loops.states(seen[(taught == good) & (cloned != good)])

@@ -27,7 +27,12 @@ SIX = {  # teacher of the experiment `teachers`: the name of its row
     "timid": "timid",
     "mirrored": "mirrored",
 }
-PARTS = {"all": "all", "lane": "no accident", "cut": "no free lane", "as-many": "as many"}  # as the lesson lists them
+PARTS = {
+    "all": "all",
+    "lane": "no accident there",
+    "cut": "no free lane",
+    "as-many": "as many",
+}  # as the lesson lists them
 
 
 def exam_of_all() -> Markdown:
@@ -91,7 +96,7 @@ def of_six_teachers(computed: Cells) -> Figure:
 
 
 def all_parts(computed: Mapping[str, Results]) -> Figure:
-    """Each agent's return as a dot, by the part of the crashing drives that it learned from, as the lesson lists them.
+    """Each agent's success as a dot, by the part of the crashing drives that it learned from, as the lesson lists them.
 
     computed: {kind of the experiment `crashes`: agents}, as it ships.
     """
@@ -100,9 +105,9 @@ def all_parts(computed: Mapping[str, Results]) -> Figure:
 
 
 def of_kinds(title: str, computed: Mapping[str, Results], kinds: Mapping[str, str]) -> Figure:
-    """Each agent's return as a dot, a row for each kind of the experiment `crashes`. kinds: {kind: its row's name}."""
+    """Each agent's success as a dot, a row for each kind of the experiment `crashes`. kinds: {kind: its row's name}."""
     groups = {name: scores(computed[kind]) for kind, name in kinds.items()}
-    return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in kinds], "returns", left=1.5)
+    return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in kinds], "success", left=1.5)
 
 
 def chosen(kept: Callable[[np.ndarray], np.ndarray]) -> Markdown:

@@ -51,8 +51,8 @@ progress("your_teacher")
 # ## Look first
 #
 # Here are three teachers. `racer` gets out of the trap, then aims for 20 m/s and ignores the other cars.
-# `timid` keeps straight behind trap 1. **Half random** is the rule of lesson [[the_rule]], with its action
-# replaced in half of the states by one drawn at random once and for all. Watch them. Which earns most?
+# `timid` keeps straight behind trap 1. **Half random** is the rule of lesson [[the_rule]], but in half of the
+# states its action is a random one, drawn once for each state. Watch them. Which earns most?
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
@@ -201,7 +201,7 @@ choices = ["less than those alone", "about as much", "more"]
 predict("your_teacher.2", "What do the students of the racer earn?", choices)
 
 # %% [markdown]
-# ▲ better, ▼ worse than those alone, in success (the dots) or return: *eight* rank tests, Holm at 5 % (lesson
+# ▲ better, ▼ worse than those alone (rank tests of success and return, Holm at 5 %, lesson
 # [[how_many_seeds]]). Accidents and yours are untested.
 
 # %%
@@ -255,16 +255,13 @@ bc.show(figures.of_six_teachers(taught))
 
 # %% [markdown]
 # **See.** All ten escape, although half random's drives are in the free lane for
-# {{ in_free_lane('random-50') | .0f }} s on average. Of the rule's ten, {{ escape_of(['rule']) }} do: no
-# clear difference from half random's.
+# {{ in_free_lane('random-50') | .0f }} s on average.
 # <!-- claim: not significant(10)[escape_of(['random-50']), escape_of(['rule'])] -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
 #   TAUGHT['soft'] == TAUGHT['bootstrapped'] -->
 #
 # Where the drives reach the free lane, {{ escape_of(['rule', 'late', 'random-25', 'random-50']) }} of 40
-# students escape; where they do not, {{ escape_of(['timid', 'mirrored']) }} of 20. (To reach it may not be
-# enough to *stay* out: the racer's drives do, and {{ student_escapes(taught_agents.RACER_LONG) }} of its ten
-# escape at last.)
+# students escape; where they do not, {{ escape_of(['timid', 'mirrored']) }} of 20.
 # <!-- claim: escape_of(['timid', 'mirrored']) == 0 and min(escape_of([name]) for name in ('rule',
 #   'late', 'random-25', 'random-50')) > 5 -->
 # <!-- claim: in_free_lane('timid') == in_free_lane('mirrored') == 0 < in_free_lane('random-50') and
@@ -284,14 +281,15 @@ bc.show(figures.of_six_teachers(taught))
 # ## Round 4: the free lane, or its accidents?
 #
 # Leave out the {{ gets_ahead('random-50') }} of half random's drives that end ahead of trap 1. Of the other
-# {{ len(crashes.crashed()) }}, {{ reach_free_lane() }} reach the free lane, and crash there. Ten new agents
+# {{ len(crashes.crashed()) }}, {{ reach_free_lane() }} reach the free lane before they crash. Ten new agents
 # each learn from:
 #
 # - **all** decisions of these drives;
-# - **no accident**: all but the last decision of those {{ reach_free_lane() }};
+# - **no accident there**: all but the last decision of those {{ reach_free_lane() }} (the others keep
+#   theirs);
 # - **no free lane**: those before the free lane, {{ before() | .0f }} % of all;
-# - **as many**, the control: as many as *no free lane*, but the missing ones are drawn at random from before
-#   the free lane.
+# - **as many**, the control: the free lane stays; as many decisions as above are left out at random before
+#   it.
 # <!-- claim: not any(significant(10)[escape_of(['random-50']), crash_escapes(kind)] for kind in ('all',
 #   'no-labels')) -->
 # <!-- claim: DEFAULT.traps.speed - 0.1 < shipped_experiment('crashes')['cut'].scores('speed').min() and
@@ -306,15 +304,15 @@ bc.show(figures.of_six_teachers(taught))
 #   drive in crashes.crashed()) and crash_escapes('all') >= 5 -->
 # <!-- claim: all(drive.accident > 0 for drive in crashes.crashed()) -->
 #
-# > **Predict.** Which agents get out, those of *no accident* or those of *no free lane*?
+# > **Predict.** Which agents get out, those of *no accident there* or those of *no free lane*?
 
 # %%
-choices = ["both", "those of no accident", "those of no free lane", "neither"]
+choices = ["both", "those of no accident there", "those of no free lane", "neither"]
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
-# **Exercise (5 min, ●○○).** Choose the decisions of *no accident*: leave out the last of a drive, if the
-# drive was ever in lane 0. Keep all others.
+# **Exercise (5 min, ●○○).** Choose the decisions of *no accident there*: leave out the last of a drive, if
+# the drive was ever in lane 0. Keep all others.
 
 
 # %%
