@@ -18,8 +18,8 @@
 # - say how many agents a comparison needs, before you train them;
 # - run an ablation of your own, and say what five seeds show.
 #
-# **Time** 50 minutes; running it takes about one minute. **It builds on** the soft constraint (lesson
-# [[soft_constraint]]) and learning from demonstrations ([[learning_from_demonstrations]]).
+# **Time** 50 minutes; running it takes about one minute. **It builds on** lessons [[soft_constraint]] and
+# [[learning_from_demonstrations]].
 
 # %%
 import bootcourse as bc
