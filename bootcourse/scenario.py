@@ -222,6 +222,10 @@ class Scenario:
             f"({car.length} m).",
         )
 
+    def __deepcopy__(self, memo: dict) -> "Scenario":
+        """Itself: nothing in it changes."""
+        return self
+
     @property
     def seconds(self) -> float:
         """The time of an episode."""

@@ -173,6 +173,9 @@ def same_shape(answer: Plain, right: Plain) -> bool:
 def close(answer: Plain, right: Plain, tolerance: float, nan_too: bool = False) -> np.ndarray:
     """Which numbers agree. tolerance: relative; its absolute one is larger for a tensor, whose sums are float32."""
     absolute = tolerance / (10 if right.kind == "tensor" else 100)
+    if answer.shape == right.shape == () and np.isfinite(right.array):  # most are: a tenth of NumPy's time
+        one, other = float(answer.array), float(right.array)
+        return np.array(abs(one - other) <= absolute + tolerance * abs(other))
     return np.isclose(answer.array, right.array, rtol=tolerance, atol=absolute, equal_nan=nan_too)
 
 

@@ -10,6 +10,7 @@ import ast
 import inspect
 import re
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import jupytext
@@ -71,18 +72,25 @@ def lesson_of(path: Path) -> str:
 def read(path: Path) -> list[Cell]:
     """All cells of a source, numbered. Raises ValueError where the marks of a solution do not come in pairs."""
     cells, exercises = [], 0
-    for cell in jupytext.read(path).cells:
-        if cell.cell_type == "code":
-            text, same = re.subn(rf"^{SAME}\n", "", cell.source, flags=re.M)
+    for kind, source, metadata in parsed(path.read_text(encoding="utf-8")):
+        metadata = dict(metadata)
+        if kind == "code":
+            text, same = re.subn(rf"^{SAME}\n", "", source, flags=re.M)
             if same:
-                cell.metadata["tags"] = [*cell.metadata.get("tags", []), "nbval-check-output"]
+                metadata["tags"] = [*metadata.get("tags", []), "nbval-check-output"]
             text = with_solutions(text)
             both = without_solution(text), without_marks(text)
         else:
-            text, exercises = numbered(cell.source, lesson_of(path), exercises)
+            text, exercises = numbered(source, lesson_of(path), exercises)
             both = text, text
-        cells.append(Cell(cell.cell_type, *both, dict(cell.metadata)))
+        cells.append(Cell(kind, *both, metadata))
     return cells
+
+
+@cache
+def parsed(text: str) -> list[tuple[str, str, dict]]:
+    """Each cell of a source in jupytext's percent format: its kind, its text, its metadata."""
+    return [(cell.cell_type, cell.source, cell.metadata) for cell in jupytext.reads(text, fmt="py:percent").cells]
 
 
 def numbered(text: str, lesson: str, exercises: int) -> tuple[str, int]:

@@ -20,7 +20,7 @@ pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
 BY_Q = pi @ q
 WORTH = BY_Q - ALPHA * pi @ np.log(pi)
 SOFTMAX = math.exp(3) / (math.e + math.exp(3))  # of Q = 1 and 3 with α = 1, the second action
-ALPHAS = (0.01, 0.03, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.5, 1, 3, 10)  # constant temperatures: Round 4's and more
+ALPHAS = (0.01, 0.1, 0.15, 0.2, 0.25, 1, 10)  # constant temperatures: Round 4's and more
 
 
 def highest(actions: int) -> tuple[float, float]:

@@ -83,17 +83,18 @@ def drowning_bonus(*arguments: float) -> float:
     return registry()["drowning_bonus"](*arguments)
 
 
-@cache
+labels = cache(loops.labels)
+
+
 def doorkey_errors() -> tuple[int, int, int]:
     """In how many states of the lesson's drives DoorKey's random teacher errs, how many labels are wrong there, and how
     many there are in all.
     """
-    seen, taught, _, good = loops.labels("doorkey")
+    seen, taught, _, good = labels("doorkey")
     return loops.states(seen[taught != good]), int((taught != good).sum()), len(seen)
 
 
-@cache
 def clone_errs_more() -> int:
     """In how many states the clone errs in which its teacher is right."""
-    seen, taught, cloned, good = loops.labels("doorkey")
+    seen, taught, cloned, good = labels("doorkey")
     return loops.states(seen[(taught == good) & (cloned != good)])

@@ -237,7 +237,7 @@ for name in ("mountain-car", "doorkey"):
 # <!-- claim: clone_errs_more() > 10 -->
 # <!-- claim: [((cloned == good)[taught != good].mean() > 0.9, (cloned == good)[taught != good].any(),
 #   len(seen) > 50 * loops.states(seen)) for seen, taught, cloned, good in
-#   map(loops.labels, ('mountain-car', 'doorkey'))] == [(True, True, False), (False, False, True)] -->
+#   map(labels, ('mountain-car', 'doorkey'))] == [(True, True, False), (False, False, True)] -->
 
 # %% tags=["nbval-ignore-output"]
 # On yours: do the states of your rule come back?
