@@ -26,6 +26,7 @@ LAST = 10  # decisions whose mean reward goes on for ever after a drive that ran
 WIDTH, HEIGHT = 1052, 416
 WORTH, NEEDED = (44, 92, 990, 150), (44, 300, 990, 76)  # left, top, width and height of a chart, pixels
 STEPS = (0.25, 0.5, 1.0, 2.5, 5.0)  # the axes have room for one of these bonuses, so they stay where they are in a drag
+SHOWN = 40  # s of the drive that the charts show: it gets out in them
 ROAD = 10  # its seed, the road of the lessons' examples
 
 
@@ -102,19 +103,22 @@ class BonusPanel(Panel):
     def _charts(self, own: str, other: str) -> tuple[SvgAxes, SvgAxes]:
         """The targets of both drives over time, and the bonus that each moment needs."""
         seen, rate = self.seen, self.demonstration.scenario.clock.decision_rate
-        times, room = np.arange(len(seen.plain)) / rate, next((step for step in STEPS if step >= self.c.value), 0.0)
-        highest = seen.plain + max(room, self.c.value) * seen.weight
-        worth = SvgAxes(*WORTH, (0, times[-1]), span([*seen.plain, *seen.trapped, *highest, 0.0], 0.1))
+        parts = (seen.plain, seen.augmented, seen.trapped, seen.crossing, seen.weight)
+        plain, augmented, trapped, crossing, weight = (each[: SHOWN * rate] for each in parts)
+        times, room = np.arange(len(plain)) / rate, next((step for step in STEPS if step >= self.c.value), 0.0)
+        highest = plain + max(room, self.c.value) * weight
+        worth = SvgAxes(*WORTH, (0, times[-1]), span([*plain, *trapped, *highest, 0.0], 0.1))
         worth.frame("discounted sum of the rewards from here on")
-        worth.line(times, seen.plain, own, 1.1, "--")
-        worth.line(times, seen.trapped, other, 1.4)
-        worth.line(times, seen.augmented, own, 2)
+        worth.line(times, plain, own, 1.1, "--")
+        worth.line(times, trapped, other, 1.4)
+        worth.line(times, augmented, own, 2)
 
-        needed = SvgAxes(*NEEDED, worth.x, span([*seen.crossing, 0.05], 0.1))
-        needed.frame("smallest c with which the rule's drive is worth more (negative: none needed)", "time (s)", 3)
+        crossing = np.maximum(crossing, -0.05)  # below 0 none is needed, whatever the number
+        needed = SvgAxes(*NEEDED, worth.x, span([*crossing, 0.05], 0.1))
+        needed.frame("smallest c with which the rule's drive is worth more (below 0: none needed)", "time (s)", 3)
         base = max(needed.y[0], 0.0)
-        needed.fill([*times, times[-1], times[0]], [*np.maximum(seen.crossing, base), base, base], other, 0.15)
-        needed.line(times, seen.crossing, INK, 1.2)
+        needed.fill([*times, times[-1], times[0]], [*np.maximum(crossing, base), base, base], other, 0.15)
+        needed.line(times, crossing, INK, 1.2)
         needed.line([0, times[-1]], [0, 0], QUIET, 0.8)
         return worth, needed
 

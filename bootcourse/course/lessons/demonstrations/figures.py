@@ -57,20 +57,19 @@ def clones(measured: dict[str, np.ndarray]) -> Figure:
     return _two_panels(measured, {0: "agree with their data (%)", 2: "have an accident (%)"}, title)
 
 
-def added(whole: dict[str, np.ndarray], fed: dict[str, np.ndarray]) -> Figure:
+def added(name: str, alone: np.ndarray, fed: dict[str, np.ndarray]) -> Figure:
     """What rows added to the rule's change: as `clones`, with the agreement with the rule in the clones' own states.
 
-    whole: of the rule's drives and of the stochastic rule's; fed: of the rule's with other rows, and with those of the
-    edge.
+    alone: of the rule's drives, which are called so; fed: of these with other rows, and with those of the edge; and of
+    the stochastic rule's drives without them.
     """
-    (rule, unsure), (others, edge) = whole.items(), fed.items()
+    others, edge, without = fed.items()
     title = "Accidents, with rows added to the rule's"
-    if edge[1][:, 2].mean() < min(rule[1][:, 2].mean(), others[1][:, 2].mean()) / 2:
+    if edge[1][:, 2].mean() < min(alone[:, 2].mean(), others[1][:, 2].mean()) / 2:
         title = "Rows from the edge prevent most of the accidents"
-    return _two_panels(
-        dict((rule, *((f"{rule[0]}, {name}", values) for name, values in (others, edge)), unsure)),
-        {1: "agree in their own states (%)", 2: "have an accident (%)"}, title,
-    )  # fmt: skip
+    rows = {name: alone} | {f"{name}, {more}": values for more, values in (others, edge)}
+    columns = {1: "agree in their own states (%)", 2: "have an accident (%)"}
+    return _two_panels(rows | {without[0]: without[1]}, columns, title)
 
 
 def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str) -> Figure:
@@ -132,12 +131,13 @@ def off_the_road(own: Sequence[Rollout], of_rule: Sequence[Rollout], seconds: in
         bars.text(104, middle, f"{count:,}", fontsize=TEXT, color=style("rule").colour, ha="left", va="center")
     bars.text(104, 2.1, "rule's\ndecisions", fontsize=TEXT, color=style("rule").colour, ha="left", va="bottom")
     bars.set(xlim=(0, 100), ylim=(-2, 2.05), yticks=[])
-    plain_axes(bars, "errors there (%)", grid="x")
+    plain_axes(bars, "errors there, all drives (%)", grid="x")
     bars.set_yticks([])
     said, counted = ", ".join(f"{share:.0f}" for share in shares), ", ".join(map(str, rows))
     return finish(
         figure, title,
-        f"{len(gone)} drives, their last {seconds} s. From {-STEPS_LEFT[0]:g} m right of the left lane's middle to "
+        f"Left: {len(gone)} drives, their last {seconds} s. Right, all {len(own)} drives: from "
+        f"{-STEPS_LEFT[0]:g} m right of the left lane's middle to "
         f"{STEPS_LEFT[-1]:g} m left, by half metres, the clones err in {said} %; the rule's decisions: {counted}.",
     )  # fmt: skip
 

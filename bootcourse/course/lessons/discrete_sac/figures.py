@@ -44,14 +44,13 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
         ax.barh(names, of.sum(axis=1), 0.72, left=before, color=colour, edgecolor=INK, linewidth=0.7, label=words)
         before += of.sum(axis=1)
         alt_parts.append(f"{words}: {', '.join(map(str, of.sum(axis=1)))}")
-    beside(ax, -0.75, "leaves with", "with the map", colour=QUIET)
-    means = walked.leaves.mean(axis=1)
-    for place, (mean, known) in enumerate(zip(means, [*(f"{each:.2f}" for each in knows), ""], strict=True)):
-        beside(ax, place, f"{mean:.2f}", known)
+    beside(ax, -0.75, "takes it, with the map", colour=QUIET)
+    for place, known in enumerate([*knows, knows[0]]):  # a falling α ends at the first
+        beside(ax, place, f"{known:.2f}")
     name_rows(ax, names, f"of {walked.leaves.shape[1]} learners")
     ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=3, fontsize=SMALL, frameon=False, columnspacing=1.2)
-    words = "Leaves with: the mean of the learners' probabilities. With the map: of an agent that knows the chain."
+    words = "With the map: how probably an agent that knows the chain leaves (falling: in the end)."
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=QUIET)
-    alt = f"{'; '.join(alt_parts)}. They leave with {', '.join(f'{each:.2f}' for each in means)} on average."
-    title = "A small α rarely finds the road, a large one takes it by chance; a falling α does both"
+    alt = f"{'; '.join(alt_parts)}. With the map: {', '.join(f'{each:.2f}' for each in knows)}."
+    title = "A small α rarely finds the road, a large one takes it by chance; falling does both"
     return finish(figure, title, f"Learners with {', '.join(names)}. {alt}")

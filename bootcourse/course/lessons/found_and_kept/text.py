@@ -162,8 +162,8 @@ explorable.losing()
 
 # %% [markdown]
 # **See.** *Only where β never ends and the bonus is paid*: none of these ten loses it (of ten others trained
-# so, {{ group('others: never').lost.sum() }} do), in each other group at least eight: with a bonus about when
-# β ends or later, without one from episode {{ group('β never ends, no bonus').first.min() | .0f }} on.
+# so, {{ group('others: never').lost.sum() }} do), in each other group at least eight do: with the bonus from
+# about the end of β on, without it from episode {{ group('β never ends, no bonus').first.min() | .0f }} on.
 # <!-- claim: [each.lost.sum() for each in map(group, groups())] == [10, 0, 8, 10] and
 #   lost_least_if_both(5, 35) and demonstration_share(900, 0.6, 1000) < 0.07 -->
 # <!-- claim: (group('β ends, no bonus').first <= 550).sum() == 6 and
@@ -173,7 +173,10 @@ explorable.losing()
 #
 # *It has a price*: these ten earn {{ group('β never ends, bonus').earned.min() | .0f }} to
 # {{ group('β never ends, bonus').earned.max() | .0f }}; those that keep the way out in the other groups earn
-# {{ kept_elsewhere().min() | .0f }} or more. (In ten others of each of three groups the ranges overlap.)
+# {{ kept_elsewhere().min() | .0f }} or more. (Of others: ten earn
+# {{ group('others: never').earned.min() | .0f }} to {{ group('others: never').earned.max() | .0f }} so;
+# elsewhere one keeper earns {{ others_elsewhere()[0] | .0f }}, the {{ len(others_elsewhere()) - 1 }} others
+# {{ others_elsewhere()[1] | .0f }} or more.)
 # <!-- claim: group('others: never').earned.max() > min(kept_earned('others: ends').min(),
 #   kept_earned('others: no bonus').min()) -->
 # <!-- claim: group('β never ends, bonus').keep.all() and earns_less(*map(group, ('β never ends, bonus',
@@ -192,13 +195,14 @@ explorable.losing()
 # %% [markdown]
 # ## Round 3: how likely is the paper's table?
 #
-# The paper's agents may have been trained differently:
+# The soft constraint fades with the *updates*, the demonstrations with the *episodes*. So with more updates
+# for a decision the soft constraint is gone earlier, the demonstrations are not. How did the paper's agents
+# train?
 #
 # | | the paper | the study |
 # |---|---|---|
 # | updates for a decision | not said | ¼: one when four roads have decided |
 # | roads at a time | not said | four |
-# | training episodes | not said | {{ of('demos').curves['success'].shape[1] | , }} |
 # | driver of the demonstrations | π̃, the stochastic rule | μ, the rule |
 #
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 -->
@@ -232,8 +236,8 @@ predict("found_and_kept.3", "How often do the four rates read as the paper's?", 
 
 # %% [markdown]
 # **Exercise (10 min, ●●○).** Compute it. For each row you get the success rates of its agents, one of which
-# is drawn. A row prints 100 % (1) if all `episodes` drives of this agent succeed, 0 % (0) if none does. The
-# rows are independent.
+# is drawn. A row prints 100 % (`printed` 1) if the agent gets out on all `episodes` drives, 0 % (`printed` 0)
+# if on none. The rows are independent.
 
 
 # %%
@@ -258,7 +262,9 @@ bc.show(figures.chances(cells, chance))
 # {{ 100 * row_reads('soft') | .0f }} % of the draws, each of the other three as printed in
 # {{ 100 * min(map(row_reads, ('sac', 'demos', 'bootstrapped'))) | .0f }} % or more.
 #
-# Updates and roads change together: which of them matters is *open*.
+# Updates and roads change together: which matters is *open*. The driver changes alone: at ¼, 1 and 2 updates
+# {{ by_driver('π̃')[0] }} of {{ by_driver('π̃')[1] }} agents with demonstrations alone escape with π̃,
+# {{ by_driver('μ')[0] }} of {{ by_driver('μ')[1] }} with μ.
 # <!-- claim: all(pattern(clocks()[u, 'π̃']).high - pattern(clocks()[u, 'π̃']).low > 0.35 for u in '124') -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -269,9 +275,6 @@ bc.show(figures.chances(cells, chance))
 # ## So why is our table not the paper's?
 #
 # {{ explanations() }}
-#
-# The returns cannot tell: even the untrained rule earns {{ of('rule').scores('returns').mean() | .0f }} here,
-# and {{ PRINTED['rule']['returns'].mean | .0f }} in the paper.
 # <!-- claim: of('demos').scores('success').max() == 0 == pattern(of_all()).value -->
 # <!-- claim: (settings_for('demos', 'paper').updates, settings_for('demos', 'paper').envs_per_agent,
 #   settings_for('demos', 'paper').stochastic_demonstrations) == (2, 1, True) -->
@@ -299,8 +302,8 @@ compare_predictions(
 # 1. To find the way out and to keep it are two things, and one rate at the end mixes them.
 # 2. With both aids and ¼ update none of ten loses the way out if β never ends and the bonus is paid; in the
 #    other groups at least eight do.
-# 3. How likely a table of single agents is can be computed: here the paper's comes in none to a third of the
-#    draws, by training (about half, with three agents a row).
+# 3. How likely a table of single agents is can be computed: here the paper's table comes in none to a third
+#    of the draws, depending on the training (with three agents a row: about half).
 # 4. Print each agent, the updates, the roads at a time, and who demonstrated.
 #
 # **Three questions to think about**

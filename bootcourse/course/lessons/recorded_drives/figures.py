@@ -49,7 +49,6 @@ def returns(study: Results) -> Figure:
     places = {
         "bc": (50.6, 8, "right"),
         "cql": (59, 6, "center"),
-        "cql_sac": (22, -0.5, "right"),
         "gail": (36, 34, "left"),
     }
     for method, (x, y, side) in places.items():
@@ -60,10 +59,6 @@ def returns(study: Results) -> Figure:
         words = f"{display_name(method)}: {escaped(study, method)} escape"
         shown = words.replace(": ", ":\n") if method in ("cql", "bc") else words  # in two lines, for want of room
         ax.text(x, y, shown, fontsize=TEXT, color=look.colour, ha=side)
-        if method == "cql_sac":
-            lost = int((hurt > 99).sum())
-            said = f"{display_name(method)}:\n{lost} crash on every drive"
-            ax.text(4, 100, said, fontsize=TEXT, color=look.colour, va="center")
         alt.append(f"{words}, mean return {earns.mean():.1f}, {hurt.mean():.1f} % of drives end in an accident")
         if method == "gail":
             worst = np.argmax(np.where(ahead >= ESCAPES, hurt, -1))

@@ -13,7 +13,7 @@ from bootcourse.course.lessons.soft_constraint.examples import ROADS
 from bootcourse.course.live_curves import LiveCurves
 from bootcourse.learn.training import Training
 from bootcourse.methods import style
-from bootcourse.plots.figure import SMALL, axes_at, finish, label_ends, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import SMALL, TEXT, axes_at, finish, label_ends, new_figure, one_axes, plain_axes
 from bootcourse.research.report import rule_results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import IN_A_ROW, found_after, lost, rolling_means
@@ -88,42 +88,41 @@ FADING = "ξ falls towards 0"  # the study's own agents with the soft constraint
 FLOOR = "ξ falls to 0.1"
 
 
-def courses(kinds: Sequence[str]) -> Figure:
-    """Above ξ, below the success in training: ten agents of each of three kinds, of the last two each agent, too.
+FAULTS = "late", "two never", "found and lost again"  # of the kinds of `courses`
 
-    kinds: as in `twenty`. An agent of `FADING` is that of `FLOOR` until ξ reaches 0.1; from there on its ξ is not kept.
+
+def courses(kinds: Sequence[str]) -> Figure:
+    """Above ξ, below the success in training of ten agents of each of three kinds. kinds: as in `twenty`.
+
+    An agent of `FADING` is that of `FLOOR` until ξ reaches 0.1; from there on its ξ is not kept.
     """
     changed = shipped.shipped_experiment("ablations") | {FADING: shipped.shipped_results().of("soft")}
-    title = "Where ξ falls, agents find the way out first, but most drop again"
-    figure, looks = new_figure(4.4), (QUIET, INK, style("soft").colour)
-    above, below = axes_at(figure, 0.6, 0.75, 4.9, 0.9), axes_at(figure, 0.6, 2.0, 4.9, 1.85)
+    figure, looks, alt = new_figure(4.3), (QUIET, INK, style("soft").colour), []
+    above = axes_at(figure, 0.5, 0.75, 2.0, 0.9)
     plain_axes(above, "mean ξ of ten agents")
-    plain_axes(below, f"of the last {IN_A_ROW} training episodes, ended ahead; thick: mean of ten; thin: an agent")
-    ends, alt = [], []
-    for kind, colour in zip(kinds, looks, strict=True):
+    for column, (kind, fault, colour) in enumerate(zip(kinds, FAULTS, looks, strict=True)):
         xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
         until = np.argmax(xi <= 0.101) if kind == FADING else len(xi)
         above.plot(np.arange(until), xi[:until], color=colour, linewidth=2)
         success = changed[kind].of("soft").curves["success"]
         episodes, share = rolling_means(success, IN_A_ROW, success.shape[1])
-        window = IN_A_ROW * share
-        if kind != kinds[0]:
-            below.plot(episodes, window.T, color=colour, linewidth=0.5, alpha=0.45)
-        below.plot(episodes, window.mean(0), color=colour, linewidth=2.2)
-        ends.append((window[:, -1].mean(), kind, colour))
-        alt.append(f"{kind}: {window[:, 1000 - IN_A_ROW].mean():.0f}, at last {ends[-1][0]:.0f}")
-    above.set(yscale="log", xlim=(0, success.shape[1]), ylim=(0.02, 3))
+        below = axes_at(figure, 0.5 + 2.2 * column, 2.1, 2.0, 1.6)
+        plain_axes(below, "" if column else f"of the last {IN_A_ROW} training episodes, ended ahead: each agent")
+        below.plot(episodes, IN_A_ROW * share.T, color=colour, linewidth=0.8, alpha=0.7)
+        below.axhline(IN_A_ROW / 2, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+        below.set(xlim=(0, success.shape[1]), ylim=(0, IN_A_ROW + 1), xticks=(0, 1000, 2000))
+        below.tick_params(labelleft=not column)
+        below.set_xlabel("training episode", fontsize=SMALL, color=INK)
+        below.text(1960, 3, f"{kind}:\n{fault}", ha="right", fontsize=TEXT, color=colour, fontweight="bold")
+        alt.append(f"{kind}: {fault}, at last {IN_A_ROW * share[:, -1].mean():.0f} on average")
+    above.set(yscale="log", xlim=(0, success.shape[1]), ylim=(0.02, 3), xticks=(0, 1000, 2000))
     above.set_yticks((0.1, 1, 2), ("0.1", "1", "2"))
     arrow = {"arrowstyle": "->", "color": looks[-1], "linewidth": 2, "shrinkB": 0}
-    above.annotate("", (until + 90, 0.03), (until, 0.1), arrowprops=arrow)
-    above.text(until + 100, 0.03, "towards 0", va="center", fontsize=SMALL, color=looks[-1])
+    above.annotate("", (until + 190, 0.03), (until, 0.1), arrowprops=arrow)
+    above.text(until + 240, 0.03, "towards 0", va="center", fontsize=SMALL, color=looks[-1])
     above.minorticks_off()
-    above.set_xticklabels([])
-    below.axhline(IN_A_ROW / 2, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
-    below.set(xlim=(0, success.shape[1]), ylim=(0, IN_A_ROW + 1))
-    below.set_xlabel("training episode", fontsize=SMALL, color=INK)
-    label_ends(below, ends)
-    return finish(figure, title, f"Ended ahead, of {IN_A_ROW} in a row, after 1,000 episodes: {'; '.join(alt)}.")
+    title = f"Each kind has a fault: {', '.join(FAULTS[:-1])}, or {FAULTS[-1]}"
+    return finish(figure, title, f"Of {IN_A_ROW} training episodes in a row, ended ahead. {'; '.join(alt)}.")
 
 
 def twenty(kinds: Sequence[str]) -> Figure:

@@ -18,10 +18,10 @@ from bootcourse.panels.compromise import CHOSEN, Way, Ways
 from bootcourse.policies import rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
+from bootcourse.statistics import ESCAPES, found_after, lost
 from bootcourse.statistics import HAD as HAD
 from bootcourse.statistics import IN_A_ROW as IN_A_ROW
 from bootcourse.statistics import LOST as LOST
-from bootcourse.statistics import found_after, lost
 from tools.course.known import RULE_P, of, others, shipped_experiment
 
 
@@ -44,6 +44,17 @@ def sooner_without() -> bool:
 def found(agents: Results) -> int:
     """How many agents have found the way out in training."""
     return int(agents.found_and_kept("soft")[0].sum())
+
+
+def always_crash(groups: list[Results]) -> int:
+    """How many agents have an accident in more than nine drives of ten."""
+    return sum(int((agents.scores("accident") > 0.9).sum()) for agents in groups)
+
+
+def crash_of_keepers(groups: list[Results]) -> float:
+    """The share of drives that end in an accident of those that escape, on average."""
+    hurt = [agents.scores("accident")[agents.scores("success") >= ESCAPES] for agents in groups]
+    return float(np.concatenate(hurt).mean())
 
 
 def finding(agents: Results) -> np.ndarray:

@@ -103,8 +103,8 @@ KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the set
 }
 
 SHOWN = {  # the kinds whose agents the lesson shows, in its words: {price: {road: kind}}
-    "accidents cost 10": {"the usual start": "as it is", "a start mid-lane": MIDDLE},
-    "accidents cost 1": {"the usual start": CHEAP, "a start mid-lane": BOTH},
+    "accidents cost 10": {"the usual start": "as it is", "a start in the free lane": MIDDLE},
+    "accidents cost 1": {"the usual start": CHEAP, "a start in the free lane": BOTH},
 }
 
 

@@ -18,7 +18,7 @@ DARK = style("sac").colour
 
 def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str]]) -> Figure:
     """Each agent's return over how often it ends ahead, a panel for each kind. shown: {row: {column: the kind}}."""
-    figure, listed, ends = new_figure(4.75), [], {}
+    figure, listed, ends = new_figure(4.95), [], {}
     for row, (price, kinds) in enumerate(shown.items()):
         for column, (road, kind) in enumerate(kinds.items()):
             ax = axes_at(figure, 0.95 + 3.0 * column, 0.95 + 1.68 * row, 2.8, 1.45)
@@ -36,10 +36,10 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str
             if row:
                 ax.set_xlabel("ends ahead, % of the test roads", fontsize=TEXT, color=INK)
     escaping, earning, _ = ends[easier.BOTH]
-    title = f"Cheap accidents with a start mid-lane free {escaping} of {len(trained[easier.BOTH])} agents; "
+    title = f"Cheap accidents and the free lane together: {escaping} of {len(trained[easier.BOTH])} escape, "
     title += f"{earning} earn more than by staying"
-    words = f"Cross: an accident on most roads. Shaded, from {100 * ESCAPES:.0f} % on: escapes. "
-    words += "Earn more: agents ahead on some road that earn more than by staying."
+    words = f"Cross: an accident on most roads. Shaded, from {100 * ESCAPES:.0f} % on: escapes.\n"
+    words += "Equal ones stand side by side. Earn more: ahead on some road, and more than by staying."
     figure.text(0.012, 0.015, words, fontsize=SMALL, color=QUIET)
     what = "Escape, earn more than by staying, crash on most roads:"
     return finish(figure, title, f"{words}\n{what} {'; '.join(listed)}.")
@@ -54,7 +54,7 @@ def _dots(ax, agents: Results, staying: float) -> tuple[int, int, int]:
     ax.axvspan(100 * ESCAPES, 106, color=PALE, alpha=0.45, linewidth=0)
     ax.axhline(staying, color=style("idle").colour, linestyle="--", linewidth=1.0)
     look = {"markersize": 5.5, "alpha": 0.75, "clip_on": False, "linestyle": ""}
-    across = 100 * success + 1.8 * (earned.argsort().argsort() % 5 - 2)
+    across = 100 * success + 1.2 * (earned.argsort().argsort() % 5 - 2)
     ax.plot(across[~crashing], earned[~crashing], "o", color=DARK, markeredgecolor="white", **look)
     ax.plot(across[crashing], earned[crashing], "x", color=TRAP, markeredgewidth=1.4, **look)
     return int(out.sum()), int(earning(agents, staying).sum()), int(crashing.sum())

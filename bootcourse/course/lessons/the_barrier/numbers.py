@@ -5,14 +5,12 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
-from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.policies import PlanPolicy, random_policy
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.results import Results
-from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD, discounted, idle, shipped_experiment
+from tools.course.known import ROAD, shipped_experiment
 
 
 @cache
@@ -99,28 +97,9 @@ def step_to_the_left() -> attempts.Outcome:
 
 
 @cache
-def accelerating() -> float:
-    """What a car earns that accelerates for ever from mid-lane, mean of 100 roads."""
-    ever = PlanPolicy([attempts.ACCELERATE] * DEFAULT.clock.decisions)
-    return float(attempts.drive(ever, held_out_seeds(7, 100), easier.MidLaneStart).values(1.0).mean())
-
-
-@cache
 def one_acceleration() -> attempts.Outcome:
     """What comes of one acceleration mid-lane, on 100 roads."""
     return attempts.drive(PlanPolicy([attempts.ACCELERATE]), held_out_seeds(7, 100), easier.MidLaneStart)
-
-
-@cache
-def helped() -> np.ndarray:
-    """What the drives of each shipped agent that the rule helped are worth at γ = 0.8, on 100 roads."""
-    agents = [agent for method in ("soft", "bootstrapped") for agent in shipped_agents(method)]
-    return np.array([attempts.drive(agent.as_policy(), held_out_seeds(7, 100)).values(0.8).mean() for agent in agents])
-
-
-def helped_better() -> np.ndarray:
-    """Those of them that are worth more than staying."""
-    return helped()[helped() > discounted(idle(), 0.8)]
 
 
 def farther() -> np.ndarray:

@@ -121,11 +121,9 @@ below = f"Means of four roads. {100 * found.leaves.value:.0f} % of the best driv
 table(["drive", "worth at γ = 0.8"], rows, below=below)
 
 # %% [markdown]
-# **Explain.** *Staying is not best, even at γ = 0.8.* Nor must one know the future, as the planner does:
-# {{ len(helped_better()) }} of the ten shipped agents that learned with the rule (lessons [[soft_constraint]]
-# and [[learning_from_demonstrations]]) earn a larger discounted sum than doing nothing.
+# **Explain.** *Staying is not best, even at γ = 0.8.*
 # <!-- claim: searched().best.value > 2 * searched().keep_lane.value -->
-# <!-- claim: searched().leaves.value == 1 and len(helped()) == 10 -->
+# <!-- claim: searched().leaves.value == 1 -->
 #
 # A larger γ alone is not enough: {{ 'none' if not farther().any() else farther().sum() }} of
 # {{ len(farther()) }} agents of plain SAC with γ from 0.9 to 0.99 escapes.
@@ -218,24 +216,24 @@ bc.show(figures.while_they_learned(trained["as it is"], by_chance))
 explorable.barrier()
 
 # %% [markdown]
-# **See.** *This plan leads through a dip*, a **barrier**. In lesson [[values]] a barrier costs pay; here it
-# costs crashes, as the plan is driven blind. At the price of 10 and γ = 0.8 the plan is worth, at its start,
-# {{ hill(10, 0.8)[0] | .1f }} times as much as staying. After 4 s the rest is worth less than nothing: in the
-# next second {{ crash_by(5).sum() / 10 | .0f }} % of the drives crash. Past the traps it is worth
-# {{ hill(10, 0.8)[-1] | .0f }} times staying.
+# **See.** *This plan leads through a dip*, a **barrier**. In lesson [[values]] the way out costs pay; here it
+# costs crashes, since the plan does not look where it goes. At the price of 10 and γ = 0.8 the plan is worth,
+# at its start, {{ hill(10, 0.8)[0] | .1f }} times as much as staying. After 4 s the rest is worth less than
+# nothing: in the next second {{ crash_by(5).sum() / 10 | .0f }} % of the drives crash. Past the traps it is
+# worth {{ hill(10, 0.8)[-1] | .0f }} times staying.
 # <!-- claim: hill(10, 0.8).argmin() == 4 and hill(10, 0.8)[4] < 0 and not crash_by(4).any() and
 #   len(crash_by(5)) == 1000 -->
 #
 # With a price of 1, or with γ = 0.95, the dip is gone: the plan pays from its start. Yet none of Round 1's
-# ten agents with γ = 0.95 escapes. The curve is for a driver who finishes the plan; a learner does not know
-# how to. So let us make the road easier, in two ways:
+# ten agents with γ = 0.95 escapes. The curve is for a driver who goes through with the plan; a learner does
+# not have it. So let us make the road easier, in two ways:
 # <!-- claim: min(hill(1, 0.8)) > 1 and min(hill(10, 0.95)) > 1 and len(farther_sighted()) == 10 and
 #   not farther_sighted().any() -->
 #
 # - *Accidents cost 1* in place of 10.
-# - *A start mid-lane*: the car begins in the middle of the free lane, behind the traps and as fast as they
-#   are. The waiting, the steering and the dip are done. One acceleration ended ahead on each of 100 roads,
-#   without an accident.
+# - *A start in the free lane*: the car begins on the left, behind the traps and as fast as they are, with the
+#   waiting, the steering and the dip done. One acceleration ended ahead on each of 100 roads, without an
+#   accident.
 # <!-- claim: one_acceleration().ahead.all() and not one_acceleration().accident.any() -->
 #
 # > **Predict.** Twenty agents learn with neither change, with each, and with both, for as long as in Round 1.
@@ -244,7 +242,7 @@ explorable.barrier()
 # %%
 choices = [
     "cheap accidents, alone",
-    "a start mid-lane, alone",
+    "a start in the free lane, alone",
     "both together, neither alone",
     "not even both together",
 ]
@@ -264,11 +262,10 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 #   though one acceleration would do.
 #
 # So the dip alone does not keep agents in. And to escape is not yet to drive well:
-# {{ len(too_fast(MIDDLE)) }} of the {{ easy(MIDDLE).escapers('sac') }} that escape by the start alone earn
-# {{ too_fast(MIDDLE).mean() | .0f }}, about what accelerating for ever earns there
-# ({{ accelerating() | .0f }}): above 20 m/s a second pays almost nothing.
+# {{ len(too_fast(MIDDLE)) }} of the {{ easy(MIDDLE).escapers('sac') }} that escape by the start alone race
+# on, and earn {{ too_fast(MIDDLE).mean() | .0f }}: above 20 m/s a second pays almost nothing.
 # <!-- claim: second_pays(20) < 0.05 and np.ptp(too_fast(MIDDLE)) < 1 and
-#   abs(too_fast(MIDDLE).mean() - accelerating()) < 1 -->
+#   second_pays(15) > 0.9 -->
 # <!-- claim: all(len(easy(kind)) == 20 for kind in (BOTH, CHEAP, MIDDLE, 'a later start')) and
 #   DEFAULT.reward.accident == -10 -->
 # <!-- claim: all(stats.fisher_exact([[easy(kind).escapers('sac'), 20 - easy(kind).escapers('sac')]
@@ -283,7 +280,7 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 # the agents of Round 1. Ask why *free* accidents would be a poor control: then a crash at once may pay more
 # than to stay. `bootcourse study easier` has this road and more, nine kinds in all: with a lane keeper that
 # steers {{ 'none' if not easy(KEPT).escapers('sac') else easy(KEPT).escapers('sac') }} of twenty escapes, at
-# either price. Why mid-lane? The plan's steering ends at the road's edge, where a step to the left ends the
+# either price. Why its middle? The plan's steering ends at the road's edge, where a step to the left ends the
 # drive.
 # <!-- claim: 0 == easy(KEPT).escapers('sac') == easy('a lane keeper').escapers('sac') -->
 # <!-- claim: step_to_the_left().accident.all() and step_to_the_left().lasted.max() == 1 -->
@@ -310,12 +307,13 @@ compare_predictions(
 # 3. Most agents end ahead while they learn, and do not escape.
 # 4. At γ = 0.8 and a price of 10 lesson [[the_trap]]'s plan leads through a dip. The dip alone does not keep
 #    agents in: most stay or crash without it, too.
-# 5. Neither cheap accidents nor a start mid-lane frees half of twenty agents. Together they free
+# 5. Neither cheap accidents nor a start in the free lane frees half of twenty agents. Together they free
 #    {{ easy(BOTH).escapers('sac') }}, and {{ earn_more(BOTH) }} of these earn more than by staying.
 #
 # **Three questions to think about**
-# - Cheap accidents mid-lane free most agents. Which of the two could a demonstration replace?
-# - Which part of the start mid-lane matters? How would you find out?
+# - Cheap accidents and the free lane together free most agents. Which of the two could a demonstration
+#   replace?
+# - Which part of that start matters? How would you find out?
 # - Where would you let each drive begin, so that an agent learns what a free road is worth?
 #
 # **Read on**: [the rule](the_rule.ipynb). Ecoffet et al., *First return, then explore* (arXiv 2004.12919).

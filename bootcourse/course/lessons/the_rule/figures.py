@@ -105,13 +105,17 @@ def gap(drive: Rollout, second: int) -> float:
 
 
 def reasons(drive: Rollout) -> Markdown:
-    """A table of the rule's reasons in a drive, as they change: from when, its speed, how far ahead the traps are."""
+    """A table of the rule's reasons in a drive, as they change, with what it compares: its sight and the gaps."""
     steps, given, rows = drive.scenario.clock.steps, drive.rule_reasons, []
     for second in [0, *(1 + np.flatnonzero(np.diff(given)))]:
         ego, trap = drive.states[second * steps, [EGO, TRAP_1]]
-        ahead, free = f"{trap[X] - ego[X]:.0f} m", f"{gap(drive, second):.1f} m"
-        rows.append([f"{second} s", SENTENCES[Reason(given[second])], f"{ego[SPEED]:.0f} m/s", ahead, free])
-    return table(["from", "the rule's reason", "its speed", "to trap 1, centres", "to trap 2, bumpers"], rows)
+        ahead, reason = trap[X] - ego[X], Reason(given[second])
+        seen = f"{ahead:.0f} m" + ", out of sight" * bool(ahead > drive.scenario.sight.distance)
+        asked = f"{drive.rule_distances[second]:.1f} m" if reason in (Reason.FALL_BACK, Reason.CHANGE) else "–"
+        rows.append(
+            [f"{second} s", SENTENCES[reason], f"{ego[SPEED]:.0f} m/s", seen, f"{gap(drive, second):.1f} m", asked]
+        )
+    return table(["from", "the rule's reason", "its speed", "trap 1 ahead", "gap to trap 2", "gap asked for"], rows)
 
 
 def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure:

@@ -1,11 +1,11 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
 from highway_env.envs.common.abstract import AbstractEnv
 
+from bootcourse.course.lessons.the_barrier.explorable import by_plan
 from bootcourse.course.lessons.the_trap.driving import all_plans, on_road
 from bootcourse.course.lessons.the_trap.exercises import bearable_risk
 from bootcourse.course.lessons.the_trap.figures import RIGHT_FIRST
@@ -67,10 +67,9 @@ def pays_from() -> float:
 
 
 @cache
-def worth_of_plan(gamma: float = 0.8, seconds: int = 60) -> float:
-    """What the plan is worth at its start, the mean of those roads. After 60 s nothing counts that one could print."""
-    shorter = replace(DEFAULT, clock=replace(DEFAULT.clock, decisions=seconds))
-    return float(np.mean([discounted(drive, gamma) for drive in record(BLIND, held_out_seeds(1, 1000), shorter)]))
+def worth_of_plan(gamma: float = 0.8) -> float:
+    """What the plan is worth at its start, the mean of those roads."""
+    return float(by_plan().values(gamma).mean())
 
 
 @cache

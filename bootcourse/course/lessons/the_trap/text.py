@@ -106,8 +106,8 @@ bc.show(figures.nine_actions(decoded, seconds=2))
 # **See.** After two seconds of steering the car still points to the side: a lane change needs a turn back.
 #
 # A drive of at most {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s is an **episode**. An
-# **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive that ends ahead of
-# trap 1 *gets out*: it is a **success**, even if it ends in a crash. *Unhurt*: without an accident.
+# **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive *gets out* if it
+# ends ahead of trap 1, even in a crash: then it is a **success**. It is *unhurt* if it has no accident.
 # <!-- claim: len(KINDS) == 3 -->
 #
 # A **plan** is a list of actions; after the last the car goes straight on. Take the {{ 3 ** 8 | , }} plans
@@ -158,7 +158,7 @@ for road in (7, ROAD, 1):  # all plans, on three roads
 # <!-- claim: 70 < getting_out(7) < 150 and 0 < getting_out(ROAD) < 10 and getting_out(1) == 0 -->
 #
 # One of road {{ ROAD }}'s {{ getting_out(ROAD) }} plans, the **blind plan**, now drives {{ roads() | , }}
-# other roads, looking at nothing. (There it is the best of the {{ getting_out(ROAD) }}.)
+# other roads, looking at nothing.
 # <!-- claim: on_road(ROAD)(np.array([[5, 3, 3, 3, 3, 5, 5, 5]])).all() and ROAD not in
 #   held_out_seeds(1, roads()) -->
 
@@ -173,31 +173,7 @@ print(f"The blind plan gets out unhurt on {unhurt:.0%}, crashes on {np.mean(hurt
 # **See.** It is quick, but crashes on about every fourth road.
 # <!-- claim: 0.2 < np.mean(blind_plan().accident > 0) < 0.3 -->
 #
-# The simulation moves the cars in *time steps* of {{ DEFAULT.clock.dt }} s. Is that fine enough? **Halve the
-# step**:
-
-# %%
-finer = time_step.unhurt(blind_plan, time_step.OURS, step=0.25)
-print(f"In steps of 0.25 s it gets out unhurt on {finer:.0%}")
-
-# %% [markdown]
-# Half the step changes little.
-# <!-- claim: abs(in_steps(time_step.OURS, 0.5) - in_steps(time_step.OURS, 0.25)) < 0.03 -->
-#
-# <details><summary>When the time step matters</summary>
-#
-# highway-env is the simulator under our road. With its own traffic, 0.5 s is too long: the blind plan gets
-# out unhurt on {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.5) | .0f }} % of the roads; in steps of 0.25 s, on
-# {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.25) | .0f }} %. That traffic corrects its heading with a *time
-# constant* of {{ time_step.HIGHWAY_ENVS }} s. A step of {{ DEFAULT.clock.dt }} s multiplies the error by 1 −
-# 0.5 / 0.2 = {{ 1 - 0.5 / 0.2 | .1f }}: cars swing more and more. highway-env takes steps of
-# 1/{{ highway_env_rate() }} s; we take {{ time_step.OURS }} s as the time constant.
-#
-# </details>
-# <!-- claim: time_step.HIGHWAY_ENVS == 0.2 and DEFAULT.clock.dt == 0.5 -->
-# <!-- claim: in_steps(time_step.HIGHWAY_ENVS, 0.25) > 2 * in_steps(time_step.HIGHWAY_ENVS, 0.5) -->
-#
-# The rule is slow, and the blind plan crashes. Can a program learn to do better?
+# The rule is safe, but slow. Can a program learn to do better?
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Collect the guesses for all plans before anybody runs the planner. At the table ask where else a step meets
@@ -319,7 +295,7 @@ live.show(training)
 # %% [markdown]
 # **See.** A crash in the first seconds returns about −9.5: both curves start there.
 #
-# Two agents and 1,500 updates say little. In our study {{ len(of('sac')) }} agents of each kind learned for
+# That was a short training. In our study {{ len(of('sac')) }} agents of each kind learned for
 # {{ of('sac').curves['success'].shape[1] | , }} drives each. Those of a kind differ only in their **seed**,
 # from which all chance in training is drawn. Then each drove {{ roads() | , }} **held-out** roads, not used
 # in training. An agent **escapes** if it gets out on at least {{ 100 * ESCAPES | .0f }} % of these.
@@ -337,9 +313,10 @@ study = bc.shipped_results()
 bc.show(figures.what_they_learned(study, blind))
 
 # %% [markdown]
-# **See.** Eight of plain SAC's ten get out on none of the roads, and hardly ever crash: they stay. One
-# escapes, but crashes on {{ 100 * of('sac').scores('accident')[of('sac').scores('success').argmax()] | .0f }} %
-# of the roads, nearly always afterwards. With help {{ escaped('bootstrapped') }} of ten escape;
+# **See.** Eight of plain SAC's ten get out on none of the roads, and hardly ever crash: they stay. One always
+# crashes; one escapes, but crashes on
+# {{ 100 * of('sac').scores('accident')[of('sac').scores('success').argmax()] | .0f }} % of the roads, nearly
+# always afterwards. With help {{ escaped('bootstrapped') }} of ten escape;
 # {{ (of('bootstrapped').scores('accident') > 0.99).sum() }} always crash, and one gets out on
 # {{ 100 * nearly().scores('success')[0] | .0f }} % but crashes on
 # {{ 100 * nearly().scores('accident')[0] | .0f }} %. The {{ escaped('bootstrapped') }} earn more than the
@@ -430,10 +407,12 @@ bc.show(figures.bearable_risks(gammas, np.array(risks)))
 # {{ worth_of_plan() | .2f }} there, less than staying ({{ discounted(idle(), 0.8) | .2f }}).
 # <!-- claim: discounted(idle(), 0.8) > worth_of_plan() -->
 #
-# That is not the whole answer to why so many stay: of nine agents of plain SAC with γ = 0.9, 0.95 or 0.99
+# That is not the whole answer to why so many stay: at γ = 0.9, 0.95 and 0.99 the blind plan is worth more
+# than staying, crashes included, and still of nine agents of plain SAC
 # {{ 'none' if not farther_escape() else farther_escape() }} escapes. Lesson [[the_barrier]] looks for the
 # rest.
-# <!-- claim: sum(len(varied()[f'γ = {gamma}'].of('sac')) for gamma in FARTHER) == 9 -->
+# <!-- claim: sum(len(varied()[f'γ = {gamma}'].of('sac')) for gamma in FARTHER) == 9 and
+#   all(worth_of_plan(gamma) > discounted(idle(), gamma) for gamma in (0.9, 0.95, 0.99)) -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let them argue about the exercise before the picture is shown: "the agent is stupid" is a common first
@@ -445,6 +424,27 @@ compare_predictions(
     "the_trap",
     {1: "about 100", 2: idle.rewards[0], 3: study.escapers("bootstrapped"), 4: "less than staying"},
 )
+
+# %% [markdown]
+# ## Further: is a time step of 0.5 s fine enough?
+#
+# The simulation moves the cars in *time steps* of {{ DEFAULT.clock.dt }} s. **Halve the step**, and drive the
+# blind plan again:
+
+# %%
+finer = time_step.unhurt(blind_plan, time_step.OURS, step=0.25)
+print(f"In steps of 0.25 s it gets out unhurt on {finer:.0%}, in steps of 0.5 s on {unhurt:.0%}")
+
+# %% [markdown]
+# It changes little. It does not on the simulator under our road, *highway-env*, with its own traffic: there
+# the blind plan gets out unhurt on {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.5) | .0f }} % of the roads, in
+# steps of 0.25 s on {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.25) | .0f }} %. That traffic corrects its
+# heading with a *time constant* of {{ time_step.HIGHWAY_ENVS }} s. A step of {{ DEFAULT.clock.dt }} s
+# multiplies the error by 1 − 0.5 / 0.2 = {{ 1 - 0.5 / 0.2 | .1f }}: cars swing more and more. highway-env
+# takes steps of 1/{{ highway_env_rate() }} s; we take {{ time_step.OURS }} s as the time constant.
+# <!-- claim: abs(in_steps(time_step.OURS, 0.5) - in_steps(time_step.OURS, 0.25)) < 0.03 -->
+# <!-- claim: time_step.HIGHWAY_ENVS == 0.2 and DEFAULT.clock.dt == 0.5 -->
+# <!-- claim: in_steps(time_step.HIGHWAY_ENVS, 0.25) > 2 * in_steps(time_step.HIGHWAY_ENVS, 0.5) -->
 
 # %% [markdown]
 # ## What you now know

@@ -161,7 +161,7 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
             for state in (3, 2, 1):
                 beaten = decisions[goes_on_from(q, state)]
                 ax.plot([beaten] * 2, [-0.05, 1.85], color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
-                ax.text(beaten, 1.87, f"goes on in {state}" if state == 3 else f"in {state}", **words)
+                ax.text(beaten, 1.87, f"in {state}", **words)
         ends = [(q[-1, 0, 0], "Q(0, 0), stay", OTHER.colour), (q[-1, 0, 1], "Q(0, 1), leave", ON.colour)]
         label_ends(ax, ends)
         listed.append(
@@ -170,7 +170,7 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
             if len(arrived)
             else "no walk reaches the free road"
         )
-    key = "A tick: a walk that reaches the free road. Dashed: from here on going on wins in that state."
+    key = "A tick: a walk that reaches the free road. Dashed: from here on going on beats turning back in that state."
     figure.text(0.012, 0.02, key, fontsize=SMALL, color=QUIET)
-    title = "Two of C: two walks to the free road are not enough, and going on wins from the back"
+    title = "Going on must win in state 3, then 2, then 1, before leaving wins: two walks do not do it"
     return finish(figure, title, f"The trap's two values over 1,000 decisions. {'; '.join(listed)}. {key}")

@@ -307,12 +307,12 @@ bc.show(diagrams.who_leaves(found))
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** A step out of the trap pays only if the learner then goes on. At first it turns back: that is
-# worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }} in the states 1 to 3, so leaving is worth γ
-# · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}, less than staying. Walks to the free road
-# raise the value of going on, first in state 3, then in 2, then in 1 (dashed), and only then leaving wins.
-# Two walks (left) are too few; the {{ len(needed_walks()) }} of C that leave needed {{ min(needed_walks()) }}
-# to {{ max(needed_walks()) }}.
+# **Explain.** As in Round 3, each walk carries the free road's value one state back. But here it must beat a
+# rival: turning back is worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }} in the states 1 to 3,
+# so at first leaving is worth γ · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}, less than
+# staying. Going on wins in state 3, then in 2, then in 1 (dashed), and only then in the trap. Two walks
+# (left) are too few; the {{ len(needed_walks()) }} of C that leave needed {{ min(needed_walks()) }} to {{
+# max(needed_walks()) }}.
 # <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] and not chain.leaves(walks(29)[-1]) -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
