@@ -40,17 +40,16 @@ progress("bug_hunt")
 # prints nothing. A letter names both seeds.
 # <!-- claim: len(bugs.LEARNERS) == 7 and bugs.SEEDS == 2 -->
 #
-# Each right line, and beside it what the bug puts there:
+# The six bugs:
 #
-# ```python
-# soft = q - alpha * log_pi
-# label = rule(s)                          # shifted_labels: rule(next_s)
-# kl = (pi * (log_pi - log_rule)).sum(-1)  # flipped_kl: rule * (log_rule - log_pi)
-# value = (pi * soft).sum(-1) - xi * kl    # sampled: soft[a] - xi * kl; a ~ pi, no gradient
-# actor_loss = -value  # with q.detach()   # no_stop: with q
-# target = r + c * demo                    # bonus_for_all: r + c
-# target += gamma * (1 - end) * next_value # no_end: gamma * next_value
-# ```
+# | bug | right | with the bug |
+# |---|---|---|
+# | `no_end` | target: γ · next value only if no accident ended it | always |
+# | `bonus_for_all` | target: a bonus c for each demonstration | for each row |
+# | `no_stop` | the actor's loss takes Q detached | its gradient reaches the critic |
+# | `sampled` | value: the mean of Q − α log π over π | of one drawn action, without a gradient |
+# | `flipped_kl` | KL: the sum of π (log π − log rule) | of rule (log rule − log π) |
+# | `shifted_labels` | label of s: rule(s) | rule(s') |
 #
 # A healthy agent and one with a bug drive here on the same road. Which has the bug?
 
@@ -63,8 +62,8 @@ bc.recording(figures.two_drives(hunt), height=360)
 # %% [markdown]
 # ## Round 1: which agents would you suspect?
 #
-# The curves show the return in training, without a bonus. An agent that crashes early drives more episodes in
-# as many updates, so the axis is logarithmic.
+# The curves show the return in training, without a bonus. The axis is logarithmic: who crashes early drives
+# more episodes.
 
 # %%
 bc.show(figures.returns(hunt))
@@ -137,8 +136,7 @@ bc.show(figures.accidents(hunt))
 # %% [markdown]
 # **See.** *One agent is far too low, in table and picture.* The healthy critic is too high, with both seeds,
 # from update 1,000 to the end. So compare with grey, not with {{ DEFAULT.reward.accident | .0f }}: which
-# agents lie *far* from both grey lines, above or below? In the table, with one seed each, a difference like
-# A's proves nothing.
+# agents lie *far* from both grey lines, above or below?
 # <!-- claim: asked('healthy') - asked('A') > 3 -->
 # <!-- claim: [n for n in hunt().names if asked(n) < -1] == ['D'] -->
 # <!-- claim: (hunt().probe('healthy', 'end')[:, hunt().updates >= 1000] > DEFAULT.reward.accident + 1).all() -->
@@ -207,8 +205,8 @@ bc.show(figures.rarest(hunt))
 # **Explain.** With the right KL it costs little to drop such an action. The flipped KL grows without bound as
 # its probability goes to zero, so the policy drops it more slowly.
 #
-# *Two* agents drop theirs far more slowly. With `sampled` the actor learns nothing from Q: what would its
-# return be?
+# *Two* agents' rarest action stays far likelier to the end. With `sampled` only the KL teaches the actor, not
+# Q: what would its return be?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'rarest')[:, -1].min() > -20} == {'A', 'B'}
 #   and (hunt().probe('healthy', 'rarest')[:, -1] < -30).all() -->
 
@@ -219,8 +217,8 @@ bc.show(figures.rarest(hunt))
 # %% [markdown]
 # ## The verdict
 #
-# **Exercise (12 min, ●●●).** Name the bug of each agent. Three show in one picture of Rounds 2 to 4. Two
-# share a symptom, and differ in their return. The sixth is left.
+# **Exercise (12 min, ●●●).** Name the bug of each agent. Rounds 2 and 3 name three: one is too low, two are
+# too high. Two share a symptom in Round 4, and differ in their return. The sixth is left.
 
 
 # %%
@@ -232,7 +230,7 @@ def diagnose(agent):
 check.diagnose(diagnose)
 
 # %% [markdown]
-# What would show the bug of the agent that was left?
+# Which probe would have shown the bug of the agent that is left?
 #
 # <details><summary>After your verdict: what decides</summary>
 #
@@ -255,8 +253,7 @@ check.diagnose(diagnose)
 #   and {{ 100 * alike('healthy', 9000, 10000) | .0f }} %.
 # - **D** adds γ times the value of a car that has just crashed, far below 0 at the table's accidents. No row
 #   teaches that value: it can come out too high (lesson [[update_and_loop]]) or, as here, too low.
-# - **E** has left the rule: from update 9,000 on its likeliest action is the rule's in
-#   {{ 100 * alike('E', 9000, 10000) | .0f }} % of the seconds.
+# - **E** has left the rule.
 # - **F**: the actor's loss changes the critic, and raises the Q of what the policy likes.
 #
 # </details>

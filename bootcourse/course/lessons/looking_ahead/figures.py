@@ -142,7 +142,7 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
-    title = "The look-ahead's own drives make the best model, but on average no model beats none"
+    title = "In a learned model the look-ahead crashes more than alone, the shield less"
     agents, base = learned_model.together(computed), learned_model.BASE
     alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)].mean(), style(base).colour
     drivers = {"the agent": agents}
@@ -151,25 +151,26 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
         for share in learned_model.RANDOM
     }
     groups = {
-        name: (of.measured["rows"], learned_model.per_thousand(of, LEARNED_FORM, control=True)[:, 0])
+        name: [learned_model.per_thousand(of, form, control=True)[:, 0] for form in (LEARNED_FORM, "shield")]
         for name, of in drivers.items()
     }
-    last = agents.notes["rows"][:, -1], learned_model.per_thousand(agents, LEARNED_FORM)[:, -1]
+    last = [learned_model.per_thousand(agents, form)[:, -1] for form in (LEARNED_FORM, "shield")]
     groups["the agent, then the look-ahead"] = last
     row, alt_parts = 0.42, []
     figure = new_figure(1.35 + row * len(groups))
     ax = axes_at(figure, 2.25, 0.8, 2.8, row * len(groups))
     ax.axvline(alone, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
-    for place, (name, (decisions, crashes)) in enumerate(groups.items()):
-        mean, thousand = f"{crashes.mean():,.0f}", f"{decisions.mean() / 1000:.0f}"
-        dots(ax, crashes, place, colour if place == len(groups) - 1 else INK, bar=crashes.mean())
-        beside(ax, place, mean, thousand)
-        alt_parts.append(f"{name}, {thousand} thousand decisions: {mean}")
-    beside(ax, -0.75, "mean", "decisions, thousand", colour=QUIET)
-    name_rows(ax, groups, "accidents in 1,000 drives; a dot for each agent, a bar for their mean")
+    for place, (name, (ahead, shield)) in enumerate(groups.items()):
+        means, shade = (f"{ahead.mean():,.0f}", f"{shield.mean():,.0f}"), colour if place == len(groups) - 1 else INK
+        dots(ax, ahead, place, shade, bar=ahead.mean())
+        ax.plot(shield.mean(), place, "s", ms=7, color="white", mec=shade, mew=1.6, zorder=4)
+        beside(ax, place, *means)
+        alt_parts.append(f"{name}: {means[0]}, {means[1]}")
+    beside(ax, -0.75, "look-ahead", "shield", colour=QUIET)
+    name_rows(ax, groups, "accidents in 1,000 drives: ● an agent's look-ahead, | their mean, □ the shield's mean")
     ax.text(alone - 15, -0.75, f"without a model: {alone:.0f}", ha="right", va="center", fontsize=SMALL, color=QUIET)
     ax.set_xlim(0, 1010)
-    alt = f"Mean accidents in 1,000 drives by who drives for the model. {'; '.join(alt_parts)}. "
+    alt = f"Mean accidents in 1,000 drives with the look-ahead and the shield, by who drove. {'; '.join(alt_parts)}. "
     return finish(figure, title, f"{alt}The agents without a model: {alone:.0f}.")
 
 

@@ -72,7 +72,7 @@ def who_chose(driven: Episodes) -> Figure:
     figure, episodes, alone = new_figure(3.4), len(driven.decisions), DEFAULT.clock.decisions
     ax, accidents = axes_at(figure, 0.6, 0.72, 5.0, 2.1), driven.accident.sum()
     title = f"Beside the rule, {accidents} of {episodes} episodes end in an accident"
-    _columns(ax, driven, style("ibrl"))
+    _columns(ax, driven, style("ibrl"), ", sorted by whose action it was")
     ax.axhline(alone, color=style("rule").colour, linewidth=2)
     ax.set_ylim(0, alone * 1.05)
     ax.set_xlabel("training episode", fontsize=TEXT, color=INK)
@@ -108,13 +108,13 @@ def handing_over(driven: Episodes, h: np.ndarray, judged: Sequence[Judged]) -> F
     return finish(figure, title, f"Columns. h: {steps}. Below, {words}.")
 
 
-def _columns(ax, driven: Episodes, own: Style) -> None:
+def _columns(ax, driven: Episodes, own: Style, order: str = "") -> None:
     """A column for each episode: the rule's seconds, the agent's above them, and a dot for an accident."""
     episodes, green = np.arange(1, len(driven.decisions) + 1), style("rule").colour
     ax.bar(episodes, driven.by_rule, width=0.9, color=green)
     ax.bar(episodes, driven.decisions - driven.by_rule, bottom=driven.by_rule, width=0.9, color=own.colour, alpha=0.6)
     ax.scatter(episodes[driven.accident], driven.decisions[driven.accident], s=9, color=ALARM, zorder=3)
-    plain_axes(ax, "seconds of the episode")
+    plain_axes(ax, f"seconds of the episode{order}")
     ax.set_xlim(0.5, len(episodes) + 0.5)
 
 

@@ -123,15 +123,11 @@ def training_scores(spent: float, count: str) -> dict[str, Estimate]:
 
 
 def spent_table() -> str:
-    """What each method with a teacher earns in training by three clocks, and what decisions cost it, as Markdown."""
+    """What each method with a teacher earns in training by two clocks, and what decisions cost it, as Markdown."""
     kinds = {"ppo_cloned": "PPO", "bootstrapped": "bootstrapped", "jsrl": "jump-start", "rlpd": "RLPD", "ibrl": "IBRL"}
     clocks = {
         f"{equal_decisions.SECONDS} s of computing": (equal_decisions.SECONDS, explorable.SECONDS),
-        f"{on_road(explorable.EARLY):.0f} h on a road, and {hours_before('rlpd'):.0f} h of the rule's": (
-            explorable.EARLY,
-            explorable.DECISIONS,
-        ),
-        f"{FIRST:,} decisions": (FIRST, explorable.DECISIONS),
+        f"{on_road(FIRST):.0f} h on a road ({FIRST:,} decisions)": (FIRST, explorable.DECISIONS),
     }
     scores = {words: training_scores(*spent) for words, spent in clocks.items()}
     rows = [[words, *(_marked_if_apart(each, method) for method in kinds)] for words, each in scores.items()]
@@ -144,12 +140,6 @@ def _marked_if_apart(scores: dict, method: str) -> str:
     mine, ppo = scores[method], scores["ppo_cloned"]
     mark = " ↑" if mine.low > ppo.high else " ↓" if mine.high < ppo.low else ""
     return f"{mine.value:.0f}{mark}"
-
-
-def jump_start_later() -> float:
-    """What jump-start RL earns in training after as many hours of its own as the others have with the rule's."""
-    decisions = round(explorable.EARLY * (1 + hours_before("rlpd") / on_road(explorable.EARLY)))
-    return training_scores(decisions, explorable.DECISIONS)["jsrl"].value
 
 
 def below_all_others(method: str, spent: float, count: str) -> bool:

@@ -13,7 +13,7 @@ from bootcourse.course.lessons.soft_constraint.examples import ROADS
 from bootcourse.course.live_curves import LiveCurves
 from bootcourse.learn.training import Training
 from bootcourse.methods import style
-from bootcourse.plots.figure import SMALL, TEXT, axes_at, finish, label_ends, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import SMALL, axes_at, finish, label_ends, new_figure, one_axes, plain_axes
 from bootcourse.research.report import rule_results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import IN_A_ROW, found_after, lost, rolling_means
@@ -98,7 +98,7 @@ def courses(kinds: Sequence[str]) -> Figure:
     """
     changed = shipped.shipped_experiment("ablations") | {FADING: shipped.shipped_results().of("soft")}
     figure, looks, alt = new_figure(4.3), (QUIET, INK, style("soft").colour), []
-    above = axes_at(figure, 0.5, 0.75, 2.0, 0.9)
+    above = axes_at(figure, 0.5, 0.75, 1.9, 0.75)
     plain_axes(above, "mean ξ of ten agents")
     for column, (kind, fault, colour) in enumerate(zip(kinds, FAULTS, looks, strict=True)):
         xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
@@ -106,21 +106,22 @@ def courses(kinds: Sequence[str]) -> Figure:
         above.plot(np.arange(until), xi[:until], color=colour, linewidth=2)
         success = changed[kind].of("soft").curves["success"]
         episodes, share = rolling_means(success, IN_A_ROW, success.shape[1])
-        below = axes_at(figure, 0.5 + 2.2 * column, 2.1, 2.0, 1.6)
-        plain_axes(below, "" if column else f"of the last {IN_A_ROW} training episodes, ended ahead: each agent")
+        below = axes_at(figure, 0.5 + 2.1 * column, 2.15, 1.9, 1.5)
+        plain_axes(below, f"{kind}:\n{fault}")
         below.plot(episodes, IN_A_ROW * share.T, color=colour, linewidth=0.8, alpha=0.7)
         below.axhline(IN_A_ROW / 2, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
-        below.set(xlim=(0, success.shape[1]), ylim=(0, IN_A_ROW + 1), xticks=(0, 1000, 2000))
+        below.set(xlim=(0, success.shape[1]), ylim=(0, IN_A_ROW + 1), xticks=(500, 1000, 1500))
         below.tick_params(labelleft=not column)
         below.set_xlabel("training episode", fontsize=SMALL, color=INK)
-        below.text(1960, 3, f"{kind}:\n{fault}", ha="right", fontsize=TEXT, color=colour, fontweight="bold")
         alt.append(f"{kind}: {fault}, at last {IN_A_ROW * share[:, -1].mean():.0f} on average")
-    above.set(yscale="log", xlim=(0, success.shape[1]), ylim=(0.02, 3), xticks=(0, 1000, 2000))
+    above.set(yscale="log", xlim=(0, success.shape[1]), ylim=(0.02, 3), xticks=(500, 1000, 1500))
     above.set_yticks((0.1, 1, 2), ("0.1", "1", "2"))
     arrow = {"arrowstyle": "->", "color": looks[-1], "linewidth": 2, "shrinkB": 0}
     above.annotate("", (until + 190, 0.03), (until, 0.1), arrowprops=arrow)
     above.text(until + 240, 0.03, "towards 0", va="center", fontsize=SMALL, color=looks[-1])
     above.minorticks_off()
+    words = f"below: of the last {IN_A_ROW} training episodes, how many ended ahead; a line for each agent"
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     title = f"Each kind has a fault: {', '.join(FAULTS[:-1])}, or {FAULTS[-1]}"
     return finish(figure, title, f"Of {IN_A_ROW} training episodes in a row, ended ahead. {'; '.join(alt)}.")
 

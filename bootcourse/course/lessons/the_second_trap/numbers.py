@@ -1,6 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import torch
@@ -116,3 +116,10 @@ def paid_concavely(drive, gamma: float = 1.0) -> float:
     cars, rewards = drive.states[::2], np.asarray(drive.rewards)
     paid = second_trap.concave_pay(rewards, cars[:-1], cars[1:], np.zeros(len(rewards), dtype=bool))
     return float(gamma ** np.arange(len(paid)) @ paid)
+
+
+def prize(kind: str) -> float:
+    """How much more `careful` earns on the course's road than an agent, "alone" or "concave", by its reward."""
+    pay = paid_concavely if kind == "concave" else partial(discounted, gamma=1.0)
+    agent = ppo_kinds.agent_of(kind).as_policy()
+    return pay(record(teacher_policy(example_teachers.careful), [ROAD])[0]) - pay(record(agent, [ROAD])[0])

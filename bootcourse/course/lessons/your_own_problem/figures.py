@@ -111,9 +111,11 @@ def bonuses() -> Figure:
         named[f"{teacher} teacher"] = 100 * np.array(scores)
     looks = [style("rule"), style("bootstrapped"), Style(ALARM, "--")]
     marks = {"plain SAC": 100 * cells().mean("doorkey", "none", "SAC", "drawn_success")}
-    over = "bonus c for each decision of a demonstration"
+    over = "bonus c for each decision of a demonstration (not to scale)"
     of = "drives that reach the goal, %: agents with both aids, which draw their actions"
-    figure = charts.lines(at, named, title, over, of, marks=marks, limits=(0, 103), looks=looks)
+    ends = (f"{name}: {line[0]:.0f} at c = 0, {line[-1]:.0f} at {list(BONUSES)[-1]}" for name, line in named.items())
+    look = {"marks": marks, "limits": (0, 103), "looks": looks, "alt": f"{'; '.join(ends)}."}
+    figure = charts.lines(at, named, title, over, of, **look)
     figure.axes[0].set_xticks(at, [name.removeprefix("c = ") for name in BONUSES])
     return figure
 

@@ -13,8 +13,6 @@
 # %% [markdown]
 # # Your own problem
 #
-# Each round asks our problems a question; all but the third then ask yours.
-#
 # **What you will be able to do**
 # - give an agent a teacher in an environment of your choice, and compare methods fairly;
 # - tell which of a teacher's errors its clone outvotes;
@@ -132,9 +130,9 @@ predicted("your_own_problem.1")
 bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0)))
 
 # %% [markdown]
-# **Explain.** After 1,000 decisions they change their push near the dashes, and a rule that changes there
-# earns {{ speed_rule_earns() | .0f }}. After 3,000 they are better copies, and earn less: *one budget can
-# mislead.*
+# **See.** A flat edge goes by the pole's speed alone, an upright one by its angle alone. On the way to the
+# teacher's upright edge both count (dashes), and that rule earns {{ speed_rule_earns() | .0f }}. So better
+# copies earn less: *one budget can mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
 # Below, five agents learn with the reward as well. How much does it add to what the pull alone earns?
@@ -150,8 +148,8 @@ for pays, gamma in ((0, 0), (1, 0.99)):  # on yours
 # %% [markdown]
 # ## Round 3: which errors does a clone outvote?
 #
-# A **random** teacher errs in states strewn at random, in each of them always in the same way. A
-# **systematic** one errs everywhere in one region. The **good** one makes neither error.
+# A **random** teacher errs in some states, picked at random; when it comes back to one, it makes the same
+# error. A **systematic** one errs everywhere in one region. The **good** one makes neither error.
 #
 # > **Predict.** On MountainCar the good teacher earns {{ earned('good') | .0f }}, the random one, right in
 # > {{ 100 * elsewhere_claims.PROBLEMS['mountain-car'].right | .0f }} % of the states,
@@ -232,8 +230,8 @@ for name in ("mountain-car", "doorkey"):
 # %% [markdown]
 # **See.** In DoorKey the clone outvotes none. Its teacher errs in {{ doorkey_errors()[0] }} states, in its
 # loops {{ doorkey_errors()[1] | , }} times: of {{ doorkey_errors()[2] | , }} labels
-# {{ 100 * doorkey_errors()[1] / doorkey_errors()[2] | .0f }} % are wrong. So here the vote goes to the
-# errors: the clone errs in states, too, in which its teacher is right.
+# {{ 100 * doorkey_errors()[1] / doorkey_errors()[2] | .0f }} % are wrong. So here the errors win the vote, in
+# other states, too: the clone errs in some in which its teacher is right.
 # <!-- claim: clone_errs_more() > 10 -->
 # <!-- claim: [((cloned == good)[taught != good].mean() > 0.9, (cloned == good)[taught != good].any(),
 #   len(seen) > 50 * loops.states(seen)) for seen, taught, cloned, good in
@@ -304,8 +302,7 @@ check.drowning_bonus(drowning_bonus)
 #
 # {{ loops_table() }}
 #
-# Beside a soft constraint c = 2 ruins *everything* only where there are loops. Without them (and with far
-# fewer demonstrations) the most probable actions still reach the goal less often than plain SAC's. *Open*:
+# With the soft constraint, too, c = 2 takes every goal away only where the demonstrations hold loops. *Open*:
 # with demonstrations alone c = 2 ruins the good teacher's agents, too
 # ({{ 100 * score('doorkey', 'good', 'demonstrations, c = 0', 'drawn_success') | .0f }} to
 # {{ 100 * score('doorkey', 'good', 'demonstrations', 'drawn_success') | .0f }} %), without a loop.
@@ -341,7 +338,7 @@ compare_predictions(
 bc.show(figures.ranking())
 
 # %% [markdown]
-# **See.** All entries with a teacher share the first place (rank test, lesson [[your_teacher]]): *among them
+# **See.** All entries with a teacher share the first place (rank test, lesson [[other_ways]]): *among them
 # the page decides.*
 # <!-- claim: {m for m, place in places().items() if place == 1} == {m for m, place in
 #   places(5).items() if place == 1} == set(entries()) - {'ppo', 'sac'} -->

@@ -84,10 +84,9 @@ def reach_free_lane() -> int:
     return sum(crashes.before_free_lane(drive) < len(drive.actions) for drive in crashes.crashed())
 
 
-def before() -> float:
-    """How many of these drives' decisions come before the free lane, %."""
-    drives = crashes.crashed()
-    return 100 * sum(map(crashes.before_free_lane, drives)) / sum(len(drive.actions) for drive in drives)
+def kept_of(kind: str) -> float:
+    """How many of these drives' decisions a kind of agents learns from, %."""
+    return 100 * float(crashes.is_kept(kind).mean())
 
 
 def crash_returns(kind: str) -> np.ndarray:
