@@ -319,12 +319,15 @@ explorable.TwoCounts(compared, by_rule.returns.mean())
 # %% [markdown]
 # **See.** In training they earn
 #
-# {{ spent_table() }} ↑ more, ↓ less than PPO: the 95 % intervals are apart.
+# {{ spent_table() }}
+#
+# ↑ more, ↓ less than PPO: the 95 % intervals are apart.
 # <!-- claim: (lambda of: of['ppo_cloned'].low > max(of[m].high for m in of if m != 'ppo_cloned')
 #   and of['rlpd'].high < min(of[m].low for m in of if m != 'rlpd'))(training_scores(
 #   equal_decisions.SECONDS, explorable.SECONDS)) and equal_decisions.SECONDS == 5 -->
 # <!-- claim: (lambda of: of['ppo_cloned'].high < min(of[m].low for m in of if m != 'ppo_cloned'))(
 #   training_scores(FIRST, explorable.DECISIONS)) -->
+#
 # **Explain.** PPO's decisions are cheap (last line), but it needs more of them: where seconds are few, take
 # PPO; where hours on a road are few, one of the others. After {{ SECOND | , }} decisions for each
 # ({{ at('ppo_cloned', 'seconds', SECOND).mean() | .0f }} s to
