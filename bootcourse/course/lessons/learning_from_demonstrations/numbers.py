@@ -43,11 +43,6 @@ def alone(name: str) -> str:
     return measures.escape(_with(name)[1])
 
 
-def last_success(name: str, others: bool) -> str:
-    """In how many % of the last 100 training episodes these agents, or the ten others, succeed."""
-    return f"{100 * training(name, 'success', -100, None, others).mean():.0f}"
-
-
 def found(name: str) -> np.ndarray:
     """The training episodes after which the agents with the soft constraint have found the way out, (agents,)."""
     return measures.found(_with(name)[0])

@@ -169,12 +169,6 @@ def still_worse() -> int:
     return int((last_round() > figures.per_thousand(shipped(), Cell("bootstrapped", "alone"))).sum())
 
 
-def own_better(share: float) -> int:
-    """How many of the ten crash less after drives of the look-ahead than after those with a share of random actions."""
-    control = learned_model.per_thousand(learning(share), "mean of five", control=True)[:, 0]
-    return int((last_round() < control).sum())
-
-
 def learned_rows(share: float | None = None) -> np.ndarray:
     """The decisions that each model of the last round, or of a control with random actions, learned from, (agents,)."""
     return learning().notes["rows"][:, -1] if share is None else learning(share).measured["rows"]

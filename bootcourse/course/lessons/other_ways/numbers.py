@@ -18,7 +18,7 @@ from bootcourse.research.results import Results
 from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES, Estimate, holm, interval
+from bootcourse.statistics import Estimate, holm, interval
 from tools.course.known import shipped_experiment
 
 FIRST, SECOND, LONGEST = BUDGETS
@@ -39,11 +39,6 @@ def later(method: str) -> Results:
 def at(method: str, measure: str, budget: int = FIRST) -> np.ndarray:
     """Each agent's mean return, success or accidents after so many decisions, or its seconds until then: (agents,)."""
     return equal_decisions.at(later(method), measure, budget)
-
-
-def escaping(method: str, budget: int) -> int:
-    """How many of these agents escape."""
-    return int((at(method, "success", budget) >= ESCAPES).sum())
 
 
 @cache

@@ -15,7 +15,6 @@ from bootcourse.course.lessons.the_rule.rules import recorded as recorded
 from bootcourse.course.lessons.the_rule.rules import split as split
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.episodes.words import overtaken as overtaken
 from bootcourse.policies import PolicyOutput, stochastic_rule_policy
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SETTLED as SETTLED
