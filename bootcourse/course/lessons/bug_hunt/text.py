@@ -168,8 +168,8 @@ bc.show(figures.promises(hunt))
 # SETTINGS.gamma) | .0f }}.
 # Grey may lie between them: demonstrations earn the bonus.
 #
-# One agent promises up to {{ hunt().probe('F', 'promise').max() | .0f }}, beyond the picture, more than any
-# road pays: which bug lets the actor's loss raise Q?
+# One agent promises up to {{ hunt().probe('F', 'promise').max() | .0f }}, beyond the picture and far beyond
+# both limits: which bug lets the actor's loss raise Q?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} and
 #   hunt().probe('E', 'promise').max() < 15 and (hunt().probe('F', 'promise').max(axis=1) >
 #   20).all() and (hunt().probe('F', 'promise')[:, -1] < 20).all() -->
@@ -332,7 +332,7 @@ compare_predictions("bug_hunt", {1: "no_end", 2: limit, 3: "it drops more slowly
 #    earns far more.
 # 2. A probe needs a known right answer, or a healthy agent beside it. It clears only what it asks: one of the
 #    six bugs shows in none of our three, only in the curve: it learns late.
-# 3. Test labels and targets before any training: that found the bug that our probes missed.
+# 3. Test labels and targets before any training: that finds three of the six, and needs no healthy twin.
 #
 # **Three questions to think about**
 # - You may run one probe during your trainings from now on. Which, and at what value does it warn?

@@ -204,12 +204,11 @@ bc.show(figures.added(KINDS[0], measured[KINDS[0]], fed_crash))
 
 # %% [markdown]
 # **See.** *The rows from the edge prevent most accidents; as many others do not.* The states that a data set
-# holds are its **coverage**. They are not why the stochastic rule's clones crash less than the rule's:
-# trained without these rows, they crash about as seldom (last row). Why is *open*.
+# holds are its **coverage**. The 147 rows are not why the stochastic rule's clones crash less than the
+# rule's: without them they crash about as seldom (last row). Why is *open*.
 #
-# *All this is after
-# {{ UPDATES | , }} updates; long training turns Round 1 round.* The study's clones of the rule
-# ({{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates) crash in
+# *All this is after {{ UPDATES | , }} updates; long training turns Round 1 round.* The study's clones of the
+# rule ({{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates) crash in
 # {{ 100 * accidents('bc') | .1f }} % of their drives, those of the stochastic rule
 # ({{ updates_of(clones_of_the_stochastic_rule()) / UPDATES | .0f }} times) in
 # {{ 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .0f }} %.
@@ -301,7 +300,7 @@ compare_predictions(
 # 3. A few rows from there prevent most of their accidents; so does longer training on the rule's drives
 #    alone.
 # <!-- claim: escaped('bc') == len(of('bc')) == 10 and accidents('bc') < 0.01 -->
-# 4. DAgger finds such rows: the clone drives, the teacher labels.
+# 4. DAgger adds rows from the clone's own states: the clone drives, the teacher labels.
 #
 # **Three questions to think about**
 # - Right of the lane's middle the clones err often, too. Why do they not crash there?

@@ -52,5 +52,5 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
     words = "With the map: how probably an agent that knows the chain leaves (falling: in the end)."
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=QUIET)
     alt = f"{'; '.join(alt_parts)}. With the map: {', '.join(f'{each:.2f}' for each in knows)}."
-    title = "A small α rarely finds the road, a large one takes it by chance; falling does both"
+    title = "A small α rarely finds the road, a large one takes it by chance; falling often does both"
     return finish(figure, title, f"Learners with {', '.join(names)}. {alt}")

@@ -4,7 +4,6 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy import stats
 
 from bootcourse.course.lessons.found_and_kept.explorable import groups
 from bootcourse.course.shipped import shipped_agents
@@ -99,24 +98,21 @@ def others_pattern() -> float:
     return float(np.prod([study_clocks.as_printed(others(m).of(m).scores("success"), m).mean() for m in methods]))
 
 
-def alone(beta: str) -> Counted:
-    """Of twenty agents with demonstrations alone, whose β "ends" or "stays": how many find the way out, and keep it."""
+def alone(beta: str) -> str:
+    """How many finders with demonstrations alone keep the way out, of our ten and ten others; β "ends" or "stays"."""
     of_ours, of_others = ("β for ever", "demos, β for ever") if beta == "stays" else ("", "demos")
     ours = shipped_experiment("ablations")[of_ours] if of_ours else shipped_results()
     each = [way(agents, "demos") for agents in (ours, shipped_experiment("stress")[of_others])]
-    return Counted(sum(one.found for one in each), sum(one.kept for one in each))
+    return " and ".join(f"{one.kept} of {one.found}" for one in each)
 
 
 def explanations() -> str:
     """What could explain the paper's table, and what was seen of it, as Markdown."""
-    ending, staying = alone("ends"), alone("stays")
-    p = stats.fisher_exact([[each.kept, each.found - each.kept] for each in (ending, staying)]).pvalue
     one, two, four = (100 * pattern(clocks()[updates, "π̃"]).value for updates in "124")
     rows = [
         ["(1) agents lose the way out",
-         f"demonstrations alone: of those that find it {ending.kept} of {ending.found} keep it, {staying.kept} of "
-         f"{staying.found} if β never ends (p = {p:.3f})",
-         "part of it, if the paper's β stayed"],
+         f"demonstrations alone: of those that find it {alone('ends')} keep it, {alone('stays')} if β never ends",
+         "perhaps part of it, if the paper's β stayed"],
         ["(2) single agents",
          f"the paper's four rates in {100 * pattern(of_all()).value:.0f} % of the draws; from ten others in "
          f"{100 * others_pattern():.0f} %",
@@ -129,10 +125,11 @@ def explanations() -> str:
     return markdown(["what could explain it", "what we saw", "so"], rows)
 
 
-def by_driver(driver: str) -> tuple[int, int]:
-    """How many agents with demonstrations alone escape at ¼, 1 and 2 updates, of how many, by who demonstrated."""
+def by_driver(driver: str) -> str:
+    """How many agents with demonstrations alone escape at ¼, 1 and 2 updates, by who demonstrated."""
     cells = [clocks()[updates, driver].of("demos") for updates in ("1/4", "1", "2")]
-    return sum(cell.escapers("demos") for cell in cells), sum(map(len, cells))
+    one, two, three = (f"{cell.escapers('demos')} of {len(cell)}" for cell in cells)
+    return f"{one}, {two} and {three}"
 
 
 def others_elsewhere() -> np.ndarray:

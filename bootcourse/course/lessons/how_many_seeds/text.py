@@ -105,7 +105,8 @@ explorable.certainty()
 #   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
 # This is the **exact 95 % interval** of k out of n: at its low end, k *or more* have a chance of 2.5 %; at
-# its high end, k *or fewer* have. In the long run at least 95 % of such intervals contain the true rate.
+# its high end, k *or fewer* have (unless it ends at 0 or 100 %). At least 95 % of such intervals contain the
+# true rate.
 # <!-- claim: rarest_cover(10) >= 0.95 -->
 #
 # For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes, and of ten
@@ -309,8 +310,9 @@ bc.show(figures.nothing_changed(study))
 
 # %% [markdown]
 # **See.** Read as ablations, the first says that your change costs {{ -halves()[0].value | .0f }} points of
-# return. It is luck: all three bad agents came into one half. Of all possible splits of the ten, the interval
-# leaves out 0 in {{ 100 * left_out() | .0f }} %, not in 5 %: here five agents give too short an interval.
+# return. It is luck: the three lowest returns came into one half. Of all possible splits of the ten, the
+# interval leaves out 0 in {{ 100 * left_out() | .0f }} %, not in 5 %: here five agents give too short an
+# interval.
 # <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
 # <!-- claim: all(bad in (0, 3) for bad, effect in splits() if counts.leaves_out_0(effect)) -->
 #

@@ -57,7 +57,7 @@ bc.panels.bonus_panel(c=0)
 # staying behind; a bonus of {{ bonus_needed().max() | .3f }} is enough to change that.* The paper pays
 # {{ SETTINGS.bonus | g }}, and only for demonstrated seconds. Paid each second, this adds c / (1 − γ) =
 # {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} (γ = {{ SETTINGS.gamma }}): what an accident costs, and
-# more than twice what any drive earns. What does so large a bonus do to the learner?
+# more than twice what any drive is worth, discounted. What does so large a bonus do to the learner?
 # <!-- claim: max(by_rule().rewards.max(), idle().rewards.max()) < 1 -->
 # <!-- claim: discounted(by_rule(), SETTINGS.gamma) < discounted(idle(), SETTINGS.gamma) -->
 # <!-- claim: SETTINGS.bonus > 30 * bonus_needed().max() and (bonus_needed()[:10] > 0).all() and
@@ -260,9 +260,9 @@ bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)
 # %% [markdown]
 # ## Round 4: where can a margin teach?
 #
-# An action **comes first** if its Q is the largest; without the soft constraint the policy prefers it. A
-# demonstration shows *one* action. As long as no row has tried the other eight in such a state, their Q is a
-# guess; its error is an **extrapolation error**.
+# An action **comes first** if its Q is the largest; without the soft constraint the *best* policy prefers it.
+# A demonstration shows *one* action. As long as no row has tried the other eight in such a state, their Q is
+# a guess; its error is an **extrapolation error**.
 #
 # **Drag** through the rule's drive. In which seconds does your agent's critic put another action first?
 

@@ -221,7 +221,7 @@ table(*figures.compared(drives_of))
 # %% [markdown]
 # **See.** The look-ahead earns more: it also improves decisions that are safe.
 #
-# Now the imagined road has one of six errors. The drivers are ten good agents, PPO after cloning ; alone they
+# Now the imagined road has one of six errors. The drivers are ten good agents, PPO after cloning; alone they
 # crash in {{ per_thousand('ppo_cloned', 'alone') | .0f }} of 1,000 drives.
 #
 # > **Predict.** With one error every drive with the look-ahead ends in an accident. Which one?
@@ -304,7 +304,7 @@ bc.show(figures.learned(shipped_experiment("learned-model"), study))
 
 # %% [markdown]
 # **See.** With more of the agent's own drives still every drive crashes; random actions help. The
-# look-ahead's drives helped these ten agents most on average : too few to be sure.
+# look-ahead's drives helped these ten agents most on average: too few to be sure.
 # <!-- claim: learned_without('mean of five') == 1000 and learned('mean of five')[-1] < 0.6 *
 #   learned_without('mean of five', share=0.1) and learned('mean of five')[-1] < 0.6 *
 #   learned_without('mean of five', share=0.3) and all(learned_without('mean of five', share=share) <
@@ -316,8 +316,8 @@ bc.show(figures.learned(shipped_experiment("learned-model"), study))
 # <!-- claim: all((learned_rows() > learned_rows(share)).all() for share in learned_model.RANDOM) and
 #   learning().measured['rows'].mean() > learned_rows().mean() -->
 #
-# Even with the look-ahead's drives {{ still_worse() }} of the ten crash more than alone. The shield asks the
-# model about fewer of its guesses: on average it crashes less than alone in each row.
+# Even with the look-ahead's drives {{ still_worse() }} of the ten crash more than alone. The shield mostly
+# keeps the agent's own action, which the model knows: on average it crashes less than alone in each row.
 # <!-- claim: max(*(learned_without('shield', share) for share in (None, *learned_model.RANDOM)),
 #   learned('shield')[-1]) < 0.8 * per_thousand('bootstrapped', 'alone') -->
 
@@ -344,8 +344,8 @@ compare_predictions(
 #    seconds; a chain of such decisions led some out.
 # 3. With a wrong model the look-ahead can be worse than none: four of the six errors make PPO's agents crash
 #    more. A road that is late in everything harms because the car's own last action is missing.
-# 4. In a learned model the look-ahead seeks out what the model does not know: random actions in its drives
-#    help, its own drives perhaps more. The shield already helps with the first model.
+# 4. In a learned model the look-ahead leaves the one action that the model knows: random actions in its
+#    drives help, its own drives perhaps more. The shield already helps with the first model.
 # <!-- claim: worse_than_alone('ppo_cloned', 'rollouts') == 4 and len(WRONG) == 6 -->
 #
 # **Three questions to think about**

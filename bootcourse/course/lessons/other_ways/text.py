@@ -263,9 +263,8 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 #   max(at(m, 'returns').max() for m in compared() if m not in TAUGHT) -->
 #
 # **Explain.** Which of the five earns the most stays *open*. **Rank tests** (does one group's ten rank above
-# the other's?) of all ten pairs, corrected for their number (lesson [[how_many_seeds]]),, corrected for their
-# number ([[how_many_seeds]]), show only that bootstrapped SAC and IBRL earn more than PPO after cloning;
-# after {{ SECOND | , }} decisions not even that.
+# the other's?) of all ten pairs, corrected for their number (lesson [[how_many_seeds]]), show only that
+# bootstrapped SAC and IBRL earn more than PPO after cloning; after {{ SECOND | , }} decisions not even that.
 # <!-- claim: {pair for pair, p in pairs(FIRST).items() if p < 0.05} == {('bootstrapped',
 #   'ppo_cloned'), ('ibrl', 'ppo_cloned')} and min(pairs(SECOND).values()) > 0.05 and
 #   len(pairs(FIRST)) == 10 and all(middle(m) > middle('ppo_cloned') for m in ('bootstrapped',
@@ -328,9 +327,9 @@ explorable.TwoCounts(compared, by_rule.returns.mean())
 # <!-- claim: (lambda of: of['ppo_cloned'].high < min(of[m].low for m in of if m != 'ppo_cloned'))(
 #   training_scores(FIRST, explorable.DECISIONS)) -->
 #
-# **Explain.** PPO's decisions are cheap (last line), but it needs more of them: where seconds are few, take
-# PPO; where hours on a road are few, one of the others. After {{ SECOND | , }} decisions for each
-# ({{ at('ppo_cloned', 'seconds', SECOND).mean() | .0f }} s to
+# **Explain.** PPO's decisions are cheap (last line), but it needs more of them: where decisions are as cheap
+# as on this simulator, take PPO; where each costs a second, one of the others. After {{ SECOND | , }}
+# decisions for each ({{ at('ppo_cloned', 'seconds', SECOND).mean() | .0f }} s to
 # {{ at('rlpd', 'seconds', SECOND).mean() / 60 | .0f }} minutes) our tests show no difference.
 
 # %% [markdown] tags=["instructor"] minutes=4

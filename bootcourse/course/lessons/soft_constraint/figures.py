@@ -88,7 +88,7 @@ FADING = "ξ falls towards 0"  # the study's own agents with the soft constraint
 FLOOR = "ξ falls to 0.1"
 
 
-FAULTS = "late", "two never", "found and lost again"  # of the kinds of `courses`
+FAULTS = "never reliable", "two never", "found and lost again"  # of the kinds of `courses`
 
 
 def courses(kinds: Sequence[str]) -> Figure:

@@ -102,9 +102,11 @@ KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the set
     BOTH: (costing(1.0, MidLaneStart), {}),
 }
 
-SHOWN = {  # the kinds whose agents the lesson shows, in its words: {price: {road: kind}}
-    "accidents cost 10": {"the usual start": "as it is", "a start in the free lane": MIDDLE},
-    "accidents cost 1": {"the usual start": CHEAP, "a start in the free lane": BOTH},
+SHOWN = {  # the kinds whose agents the lesson shows, in its words
+    "neither": "as it is",
+    "accidents cost 1": CHEAP,
+    "a start in the free lane": MIDDLE,
+    "both": BOTH,
 }
 
 

@@ -16,53 +16,47 @@ from bootcourse.statistics import ESCAPES
 DARK = style("sac").colour
 
 
-def escapes(trained: Mapping[str, Results], shown: Mapping[str, Mapping[str, str]]) -> Figure:
-    """Each agent's return over how often it ends ahead, a panel for each kind. shown: {row: {column: the kind}}."""
-    figure, listed, ends = new_figure(4.95), [], {}
-    for row, (price, kinds) in enumerate(shown.items()):
-        for column, (road, kind) in enumerate(kinds.items()):
-            ax = axes_at(figure, 0.95 + 3.0 * column, 0.95 + 1.68 * row, 2.8, 1.45)
-            ends[kind] = counts = _dots(ax, trained[kind], easier.staying(kind))
-            listed.append(f"{price}: " * (not column) + f"{road} {', '.join(map(str, counts))}")
-            ax.set(xticklabels=ax.get_xticks() if row else [], yticklabels=[] if column else ax.get_yticks())
-            ax.text(3, 97, f"escape: {counts[0]}, earn more: {counts[1]}", fontsize=SMALL, color=INK, fontweight="bold")
-            if not row:
-                ax.set_title(road, fontsize=TEXT, color=INK)
-            if not column:
-                left = {"rotation": 90, "ha": "center", "va": "center", "color": INK}
-                ax.text(-26, 48, f"return if\n{price}", fontsize=TEXT, linespacing=1.4, **left)
-            if not row + column:
-                ax.text(45, 27, "staying", fontsize=SMALL, color=style("idle").colour)
-            if row:
-                ax.set_xlabel("ends ahead, % of the test roads", fontsize=TEXT, color=INK)
-    escaping, earning, _ = ends[easier.BOTH]
-    title = f"Cheap accidents and the free lane together: {escaping} of {len(trained[easier.BOTH])} escape, "
-    title += f"{earning} earn more than by staying"
-    words = f"Cross: an accident on most roads. Shaded, from {100 * ESCAPES:.0f} % on: escapes.\n"
-    words += "Equal ones stand side by side. Earn more: ahead on some road, and more than by staying."
-    figure.text(0.012, 0.015, words, fontsize=SMALL, color=QUIET)
-    what = "Escape, earn more than by staying, crash on most roads:"
-    return finish(figure, title, f"{words}\n{what} {'; '.join(listed)}.")
+ENDS = {  # how an agent of an easier road ends, in the order of `how_they_end`: its colour
+    "escapes, earns more than by staying": DARK,
+    "escapes, earns no more": PALE,
+    "crashes on most roads": TRAP,
+    "stays behind": "white",
+}
 
 
-def _dots(ax, agents: Results, staying: float) -> tuple[int, int, int]:
-    """Draw a kind's agents; how many escape, how many earn more than `staying` and are ahead somewhere, crash."""
-    success, earned, accident = (agents.scores(name) for name in ("success", "returns", "accident"))
-    out, crashing = success >= ESCAPES, accident > 0.5
-    plain_axes(ax, "", grid="")
-    ax.set(xlim=(-6, 106), ylim=(-16, 112), xticks=[0, 50, 100], yticks=[0, 50, 100])
-    ax.axvspan(100 * ESCAPES, 106, color=PALE, alpha=0.45, linewidth=0)
-    ax.axhline(staying, color=style("idle").colour, linestyle="--", linewidth=1.0)
-    look = {"markersize": 5.5, "alpha": 0.75, "clip_on": False, "linestyle": ""}
-    across = 100 * success + 1.2 * (earned.argsort().argsort() % 5 - 2)
-    ax.plot(across[~crashing], earned[~crashing], "o", color=DARK, markeredgecolor="white", **look)
-    ax.plot(across[crashing], earned[crashing], "x", color=TRAP, markeredgewidth=1.4, **look)
-    return int(out.sum()), int(earning(agents, staying).sum()), int(crashing.sum())
+def how_they_end(agents: Results, staying: float) -> tuple[int, ...]:
+    """How many agents of a kind end in each of the `ENDS`."""
+    out, crashing = agents.scores("success") >= ESCAPES, agents.scores("accident") > 0.5
+    more = agents.scores("returns") > staying
+    return tuple(int(each.sum()) for each in (out & more, out & ~more, ~out & crashing, ~out & ~crashing))
 
 
-def earning(agents: Results, staying: float) -> np.ndarray:
-    """Which agents end ahead on some roads, and earn more than by staying."""
-    return (agents.scores("success") > 0.01) & (agents.scores("returns") > staying)
+def escapes(trained: Mapping[str, Results], shown: Mapping[str, str]) -> Figure:
+    """A square for each agent, coloured by how it ends, a row for each kind. shown: {the row's words: the kind}."""
+    ends = {words: how_they_end(trained[kind], easier.staying(kind)) for words, kind in shown.items()}
+    tall, many = 0.36, max(map(sum, ends.values()))
+    figure = new_figure(0.8 + tall * len(ends) + 0.95)
+    ax = axes_at(figure, 1.75, 0.8, 0.2 * many, tall * len(ends))
+    ax.set(xlim=(-0.5, many - 0.5), ylim=(len(ends) - 0.5, -0.5))
+    ax.axis("off")
+    look = {"marker": "s", "edgecolors": INK, "linewidths": 0.8}
+    for row, (words, counts) in enumerate(ends.items()):
+        colours = [colour for colour, count in zip(ENDS.values(), counts, strict=True) for _ in range(count)]
+        ax.scatter(
+            range(len(colours)), [row] * len(colours), s=95, marker="s", c=colours, edgecolors=INK, linewidths=0.8
+        )
+        ax.text(-1, row, words, ha="right", va="center", fontsize=TEXT, color=INK)
+        escaping = f"{sum(counts[:2])} escape{'s' * (sum(counts[:2]) == 1)}"
+        ax.text(many, row, escaping, va="center", fontsize=TEXT, color=INK, fontweight="bold")
+    for place, (words, colour) in enumerate(ENDS.items()):
+        at = 0.5 + 11 * (place % 2), len(ends) + 0.1 + 0.65 * (place // 2)
+        ax.scatter(*at, s=60, c=[colour], clip_on=False, **look)
+        ax.text(at[0] + 0.8, at[1], words, va="center", fontsize=SMALL, color=INK)
+    both = ends[[*ends][-1]]
+    title = f"Cheap accidents and the free lane together: {sum(both[:2])} of {sum(both)} escape, "
+    title += f"{both[0]} earn more than by staying"
+    listed = "; ".join(f"{words}: {', '.join(map(str, counts))}" for words, counts in ends.items())
+    return finish(figure, title, f"A square for each agent. {', '.join(ENDS)}: {listed}.")
 
 
 def how_they_drive(agents: Sequence, tests: Sequence):

@@ -85,9 +85,9 @@ def escape_and_crash(kind: str) -> int:
     return int(((agents.scores("accident") > 0.5) & (agents.scores("success") >= ESCAPES)).sum())
 
 
-def earn_more(kind: str) -> int:
-    """How many agents of a kind end ahead and earn more than by staying."""
-    return int(figures.earning(easy(kind), easier.staying(kind)).sum())
+def ends(kind: str) -> tuple[int, ...]:
+    """How many agents of a kind end in each way, see `figures.how_they_end`."""
+    return figures.how_they_end(easy(kind), easier.staying(kind))
 
 
 @cache

@@ -121,7 +121,7 @@ below = f"Means of four roads. {100 * found.leaves.value:.0f} % of the best driv
 table(["drive", "worth at γ = 0.8"], rows, below=below)
 
 # %% [markdown]
-# **Explain.** *Staying is not best, even at γ = 0.8.*
+# **Explain.** *To one who knows the future staying is not best, even at γ = 0.8.*
 # <!-- claim: searched().best.value > 2 * searched().keep_lane.value -->
 # <!-- claim: searched().leaves.value == 1 -->
 #
@@ -231,9 +231,9 @@ explorable.barrier()
 #   not farther_sighted().any() -->
 #
 # - *Accidents cost 1* in place of 10.
-# - *A start in the free lane*: the car begins on the left, behind the traps and as fast as they are, with the
-#   waiting, the steering and the dip done. One acceleration ended ahead on each of 100 roads, without an
-#   accident.
+# - *A start in the free lane*: the car begins in the lane on the left, behind the traps and as fast as they
+#   are. The waiting, the steering and the dip are over. One acceleration ended ahead on each of 100 roads,
+#   without an accident.
 # <!-- claim: one_acceleration().ahead.all() and not one_acceleration().accident.any() -->
 #
 # > **Predict.** Twenty agents learn with neither change, with each, and with both, for as long as in Round 1.
@@ -256,12 +256,12 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 # **Explain.** *Neither alone is enough; together they free {{ easy(BOTH).escapers('sac') }} of twenty
 # agents.*
 #
-# - **Price**: with cheap accidents alone the plan pays from its start, yet {{ crash_on_most(CHEAP) }} of
-#   twenty crash on most roads.
+# - **Price**: with cheap accidents alone the plan pays from its start, yet {{ ends(CHEAP)[2] }} of twenty
+#   crash on most roads and do not escape.
 # - **The way**: with the start alone the dip is behind them, yet {{ stay(MIDDLE) }} stay behind the traps,
 #   though one acceleration would do.
 #
-# So the dip alone does not keep agents in. And to escape is not yet to drive well:
+# So the dip is not all that keeps agents in. And to escape is not yet to drive well:
 # {{ len(too_fast(MIDDLE)) }} of the {{ easy(MIDDLE).escapers('sac') }} that escape by the start alone race
 # on, and earn {{ too_fast(MIDDLE).mean() | .0f }}: above 20 m/s a second pays almost nothing.
 # <!-- claim: second_pays(20) < 0.05 and np.ptp(too_fast(MIDDLE)) < 1 and
@@ -303,12 +303,12 @@ compare_predictions(
 #    With the rule's help {{ escaped('soft') }} of {{ len(of('soft')) }} do in lesson [[soft_constraint]],
 #    {{ escaped('bootstrapped') }} in [[learning_from_demonstrations]].
 # <!-- claim: escaped('bootstrapped') > len(of('bootstrapped')) / 2 > escaped('sac') == 1 -->
-# 2. Staying is not best, even at γ = 0.8. A larger γ alone is not enough.
+# 2. To a planner that knows the future staying is not best, even at γ = 0.8. A larger γ alone is not enough.
 # 3. Most agents end ahead while they learn, and do not escape.
-# 4. At γ = 0.8 and a price of 10 lesson [[the_trap]]'s plan leads through a dip. The dip alone does not keep
+# 4. At γ = 0.8 and a price of 10 lesson [[the_trap]]'s plan leads through a dip. It is not all that keeps
 #    agents in: most stay or crash without it, too.
 # 5. Neither cheap accidents nor a start in the free lane frees half of twenty agents. Together they free
-#    {{ easy(BOTH).escapers('sac') }}, and {{ earn_more(BOTH) }} of these earn more than by staying.
+#    {{ easy(BOTH).escapers('sac') }}, and {{ ends(BOTH)[0] }} of these earn more than by staying.
 #
 # **Three questions to think about**
 # - Cheap accidents and the free lane together free most agents. Which of the two could a demonstration

@@ -374,8 +374,8 @@ rules.ranked({"the rule": {}, "30 m": {"sight": 30}, "yours": mine})
 #
 # **What if the rule errs?** The **stochastic rule**, $\tilde\pi$ ("pi tilde"), takes the rule's action with
 # probability $p$, else one of the other eight, all equally likely. With p = 0.9,
-# {{ 100 * erring(0.9) | .0f }} % of 1,000 drives end in an accident. But nobody lets $\tilde\pi$ drive:
-# lesson [[soft_constraint]] only asks how probable each action is under it.
+# {{ 100 * erring(0.9) | .0f }} % of 1,000 drives end in an accident. But lesson [[soft_constraint]] does not
+# let $\tilde\pi$ drive: it only asks how probable each action is under it.
 # <!-- claim: N_ACTIONS - 1 == 8 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -407,9 +407,9 @@ compare_predictions(
 #    ({{ driven(30.0, ALOOF).returns.mean() / driven(200.0, ALOOF).returns.mean() | .1f }} times where no
 #    driver makes way).
 # 4. With 20 m most drives ({{ lost_in_change(3.0).sum() }} of 200) lose trap 1 from sight in a lane change:
-#    in all {{ (driven(20.0).accident > 0).sum() }} crash, and
-#    {{ (~driven(20.0).success & (driven(20.0).accident == 0)).sum() }} stay behind. A long sight for the
-#    choice of lane repairs that.
+#    of these {{ (lost_in_change(3.0) & (driven(20.0).accident > 0)).sum() }} crash, and
+#    {{ (lost_in_change(3.0) & ~driven(20.0).success & (driven(20.0).accident == 0)).sum() }} stay behind. A
+#    long sight for the choice of lane repairs that.
 # <!-- claim: 0.45 < 1 - driven(20.0, t_safe=2.0).success.mean() < 0.55 and
 #   not driven(20.0, t_safe=2.0).accident.any() -->
 # 5. The stochastic rule gives each action a probability above 0.

@@ -254,9 +254,9 @@ bc.show(figures.credit(speeds, found, 32))
 # %% [markdown]
 # **See.** Of the {{ (ppo_speeds() < 10).sum() }} seconds below 10 m/s, {{ judged_good(0.95) }} have A above 0
 # if A sees the whole drive, only {{ judged_good(0.95, settings_for('ppo').horizon) }} if it is cut every
-# {{ settings_for('ppo').horizon }} decisions ({{ wherever_cut().min() }} to {{ wherever_cut().max() }},
-# depending on where the first cut falls). *How could PPO learn to fall back, then?* Beyond a cut A counts the
-# last state's V. Our V is the same everywhere; PPO's can learn that a sprint follows.
+# {{ settings_for('ppo').horizon }} decisions ({{ wherever_cut().min() }} to {{ wherever_cut().max() }}, by
+# the place of the first cut). *How could PPO learn to fall back, then?* Beyond a cut A counts the last
+# state's V. Our V is the same everywhere; PPO's can learn that a sprint follows.
 # <!-- claim: (np.flatnonzero((ppo_speeds() < 10) & (credit(0.95) <= 0)) > 120).mean() > 0.9 -->
 # <!-- claim: ppo_kinds.settings_of('alone').horizon == settings_for('ppo').horizon -->
 # <!-- claim: judged_good(0.0) == 0 and (credit(0.95)[(ppo_speeds() < 10) & (np.arange(150) < 120)] >
@@ -359,9 +359,8 @@ bc.show(figures.ahead_in_training(ppo_kinds.reference()))
 # {{ 100 * ppo('alone')['escapes'][:, 8:].max() | .0f }} %.
 # <!-- claim: ppo('alone')['at'][0][8] > 400_000 and ppo('alone')['escapes'][:, -1].max() == 0 -->
 #
-# **A guess.** PPO can only make likelier what its own drives do (ρ is of actions *taken*). After cloning, the
-# way out is in these drives from the start. Alone it is rare there, and each sprint that V learns to expect
-# raises what getting out must beat for A to be above 0. To test it, change one of the two and keep the other.
+# **A guess.** PPO learns only from what its own drives do (ρ is of actions *taken*). After cloning, the way
+# out is in these drives from the start. Alone it is rare there, and soon gone: before the sprints pay.
 # <!-- claim: ppo('cloned')['escapes'].min() > 0.3 > 3 * ppo('alone')['escapes'].max() -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -393,9 +392,10 @@ compare_predictions(
 # **Three questions to think about**
 # - Which number, other than success, would have shown the second trap?
 # - Could cloning `racer` or `timid` of lesson [[your_teacher]] work as well?
-# - A *shaping reward* γ Φ(s') − Φ(s) leaves the best policy as it is (Ng, Harada and Russell 1999). Let the
-#   *potential* Φ be {{ second_trap.PER_LANE | .0f }} for each lane that the car has come to the left, 0 after
-#   an accident, and γ = 1. What do its payments add up to in an attempt that ends in an accident?
+# - A *shaping reward* γ Φ(s') − Φ(s) leaves the best policy as it is if γ is the learner's (Ng, Harada and
+#   Russell 1999). Let the *potential* Φ be {{ second_trap.PER_LANE | .0f }} for each lane that the car has
+#   come to the left, 0 after an accident, and γ = 1. What do its payments add up to in an attempt that ends
+#   in an accident?
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Answers to the three questions. (1) The largest speed beside the mean speed: it shows the sprints. Or one

@@ -62,8 +62,8 @@ title = "The rule falls back, then changes lane behind trap 2"
 bc.show(bc.top_view_over_time(by_rule, times=[0, 3, 6, 9, 20, bc.overtaken(by_rule)], title=title))
 
 # %% [markdown]
-# **See.** The rule brakes, falls farther behind both traps and changes left twice. Then it waits until second
-# 33 to speed up: it is safe, but slow.
+# **See.** The rule brakes, falls farther behind both traps and changes left twice. Then it follows at 10 m/s
+# until second 33: it is safe, but slow.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let them drive road 7 for three minutes, and count who got out without braking. Ask those who drove in
@@ -408,9 +408,8 @@ bc.show(figures.bearable_risks(gammas, np.array(risks)))
 # <!-- claim: discounted(idle(), 0.8) > worth_of_plan() -->
 #
 # That is not the whole answer to why so many stay: at γ = 0.9, 0.95 and 0.99 the blind plan is worth more
-# than staying, crashes included, and still of nine agents of plain SAC
-# {{ 'none' if not farther_escape() else farther_escape() }} escapes. Lesson [[the_barrier]] looks for the
-# rest.
+# than staying, crashes included, and still {{ 'none' if not farther_escape() else farther_escape() }} of nine
+# agents of plain SAC trained with these γ escapes. Lesson [[the_barrier]] looks for the rest.
 # <!-- claim: sum(len(varied()[f'γ = {gamma}'].of('sac')) for gamma in FARTHER) == 9 and
 #   all(worth_of_plan(gamma) > discounted(idle(), gamma) for gamma in (0.9, 0.95, 0.99)) -->
 
@@ -436,12 +435,13 @@ finer = time_step.unhurt(blind_plan, time_step.OURS, step=0.25)
 print(f"In steps of 0.25 s it gets out unhurt on {finer:.0%}, in steps of 0.5 s on {unhurt:.0%}")
 
 # %% [markdown]
-# It changes little. It does not on the simulator under our road, *highway-env*, with its own traffic: there
-# the blind plan gets out unhurt on {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.5) | .0f }} % of the roads, in
-# steps of 0.25 s on {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.25) | .0f }} %. That traffic corrects its
-# heading with a *time constant* of {{ time_step.HIGHWAY_ENVS }} s. A step of {{ DEFAULT.clock.dt }} s
-# multiplies the error by 1 − 0.5 / 0.2 = {{ 1 - 0.5 / 0.2 | .1f }}: cars swing more and more. highway-env
-# takes steps of 1/{{ highway_env_rate() }} s; we take {{ time_step.OURS }} s as the time constant.
+# That changes little here, but much on *highway-env*, the simulator under our road, with its own traffic:
+# there the blind plan gets out unhurt on {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.5) | .0f }} % of the
+# roads, in steps of 0.25 s on {{ 100 * in_steps(time_step.HIGHWAY_ENVS, 0.25) | .0f }} %. That traffic
+# corrects its heading with a *time constant* of {{ time_step.HIGHWAY_ENVS }} s. A step of
+# {{ DEFAULT.clock.dt }} s multiplies the error by 1 − 0.5 / 0.2 = {{ 1 - 0.5 / 0.2 | .1f }}: cars swing more
+# and more. highway-env takes steps of 1/{{ highway_env_rate() }} s; we take {{ time_step.OURS }} s as the
+# time constant.
 # <!-- claim: abs(in_steps(time_step.OURS, 0.5) - in_steps(time_step.OURS, 0.25)) < 0.03 -->
 # <!-- claim: time_step.HIGHWAY_ENVS == 0.2 and DEFAULT.clock.dt == 0.5 -->
 # <!-- claim: in_steps(time_step.HIGHWAY_ENVS, 0.25) > 2 * in_steps(time_step.HIGHWAY_ENVS, 0.5) -->

@@ -27,12 +27,12 @@ SIX = {  # teacher of the experiment `teachers`: the name of its row
     "timid": "timid",
     "mirrored": "mirrored",
 }
-PARTS = {
-    "all": "all",
+PARTS = {  # as the lesson lists them
+    "as-many": "both",
     "lane": "no accident there",
-    "cut": "no free lane",
-    "as-many": "as many",
-}  # as the lesson lists them
+    "accident": "only the accident",
+    "cut": "neither",
+}
 
 
 def exam_of_all() -> Markdown:

@@ -253,7 +253,8 @@ bc.show(figures.of_six_teachers(taught))
 
 # %% [markdown]
 # **See.** All ten escape, although half random's drives are in the free lane for
-# {{ in_free_lane('random-50') | .0f }} s on average.
+# {{ in_free_lane('random-50') | .0f }} s on average. (The rule's {{ escape_of(['rule']) }} and these ten do
+# not differ in a test; in Round 2, with the help still on, all ten of the rule's did.)
 # <!-- claim: not significant(10)[escape_of(['random-50']), escape_of(['rule'])] -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
 #   TAUGHT['soft'] == TAUGHT['bootstrapped'] -->
@@ -284,12 +285,12 @@ bc.show(figures.of_six_teachers(taught))
 #
 # | | free lane | the accident there | decisions, % |
 # |---|---|---|---|
-# | **all** | yes | yes | 100 |
+# | **both** | yes | yes | {{ kept_of('as-many') | .0f }} |
 # | **no accident there** | yes | – | {{ kept_of('lane') | .0f }} |
-# | **no free lane** | – | – | {{ kept_of('cut') | .0f }} |
-# | **as many**, the control | yes | yes | {{ kept_of('as-many') | .0f }} |
+# | **only the accident** | – | yes | {{ kept_of('accident') | .0f }} |
+# | **neither** | – | – | {{ kept_of('cut') | .0f }} |
 #
-# The control leaves out decisions *before* the free lane, drawn at random.
+# *Both* has no more decisions than *neither*: others are left out before the free lane, drawn at random.
 # <!-- claim: not any(significant(10)[escape_of(['random-50']), crash_escapes(kind)] for kind in ('all',
 #   'no-labels')) -->
 # <!-- claim: DEFAULT.traps.speed - 0.1 < shipped_experiment('crashes')['cut'].scores('speed').min() and
@@ -304,10 +305,10 @@ bc.show(figures.of_six_teachers(taught))
 #   drive in crashes.crashed()) and crash_escapes('all') >= 5 -->
 # <!-- claim: all(drive.accident > 0 for drive in crashes.crashed()) -->
 #
-# > **Predict.** Which agents get out, those of *no accident there* or those of *no free lane*?
+# > **Predict.** Which agents get out, those of *no accident there* or those of *only the accident*?
 
 # %%
-choices = ["both", "those of no accident there", "those of no free lane", "neither"]
+choices = ["both", "those of no accident there", "those of only the accident", "neither of the two"]
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
@@ -343,10 +344,10 @@ figures.chosen(without_the_accident) if passed else "First the exercise."
 bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
-# **Explain.** *Students of half random escape if its drives show the free lane, even if they crash there;
-# without it, few do*: {{ sum(map(crash_escapes, ('all', 'as-many', 'lane'))) }} of 30 with it,
-# {{ crash_escapes('cut') }} of ten without. The number of decisions is not the reason: the control has
-# {{ kept_of('as-many') | .0f }} %, too, and earns more (rank test, after Holm). Nor is showing enough:
+# **Explain.** *Students of half random escape if its drives show the free lane, whether they crash there or
+# not*: {{ sum(map(crash_escapes, ('as-many', 'lane'))) }} of 20 with it,
+# {{ sum(map(crash_escapes, ('accident', 'cut'))) }} of 20 without. The number of decisions is not the reason:
+# *both* and *neither* have as many, and *both* earns more (rank test, after Holm). Nor is showing enough:
 # without the bonus {{ crash_escapes('no-bonus') }} of ten escape from all the drives.
 # <!-- claim: in_free_lane('rule') > 0 and free_lane.shown('rule')[1] == 0 -->
 
@@ -410,7 +411,7 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 #
 # 1. A teacher is a function of the true state. It drives, and it labels.
 # 2. A rule that looks at no other car can pass a test. Test it where looking matters.
-# 3. Success and return can give opposite verdicts on a teacher: give both.
+# 3. In a short training success and return gave opposite verdicts on a teacher: give both.
 # 4. Half random was good at reaching the free lane: most students escaped if its drives showed it and the
 #    bonus was paid, crash or not.
 # <!-- claim: {kind for kind in crashes.KINDS if crash_escapes(kind) > 5} == {'all', 'no-labels', 'as-many', 'lane'}
@@ -422,7 +423,7 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 #   KL trusted it with that p, not {{ SETTINGS.rule_p }}?
 # <!-- claim: settings_for('soft').rule_p == settings_for('bootstrapped').rule_p == SETTINGS.rule_p
 #   and abs(like_the_rule('random-50') - 1 / 2 - 1 / 18) < 0.02 -->
-# - The racer's students crash as it does. What would you change in it first?
+# - The racer's students crash far more often than it does. What would you change in it first?
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Answers to the three questions. (1) Ask what is missing. Once it is out, the racer looks at no car, and
