@@ -191,7 +191,7 @@ def lost(success: np.ndarray, bar: int = LOST) -> np.ndarray:
     if success.shape[1] < IN_A_ROW:
         return np.zeros(len(success), dtype=bool)
     ahead = _successes(success, IN_A_ROW)
-    return (np.maximum.accumulate(ahead >= HAD, axis=1) & (ahead <= bar)).any(axis=1)
+    return np.any(np.maximum.accumulate(ahead >= HAD, axis=1) & (ahead <= bar), axis=1)
 
 
 def _successes(success: np.ndarray, window: int) -> np.ndarray:

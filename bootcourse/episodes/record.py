@@ -1,6 +1,7 @@
 """Recording a policy's episodes on the compiled road as `Rollout`s."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from gymnasium.vector import AutoresetMode
@@ -57,19 +58,24 @@ class EpisodeRecorder:
         each_rule = [np.split(values, of_road) for values in vars(by_rule).values()]
         kept = {name: np.stack(getattr(self, name)) for name in ("observations", "actions", "rewards", "terms")}
         kept |= {name: np.stack(getattr(self, name)) for name in ("policy", "q_values") if getattr(self, name)}
-        return [
-            Rollout(
-                scenario=scenario,
-                label=label,
-                seed=int(seed),
-                states=states[road],
-                accident=int(self.accidents[road]),
-                provenance=provenance(),
-                **{name: values[: n + (name == "observations"), road].copy() for name, values in kept.items()},
-                **{f"rule_{name}": values[road] for name, values in zip(vars(by_rule), each_rule, strict=True)},
+        drives = []
+        for road, (seed, n) in enumerate(zip(seeds, self.decisions, strict=True)):
+            arrays: dict[str, Any] = {
+                name: values[: n + (name == "observations"), road].copy() for name, values in kept.items()
+            }
+            arrays |= {f"rule_{name}": values[road] for name, values in zip(vars(by_rule), each_rule, strict=True)}
+            drives.append(
+                Rollout(
+                    scenario=scenario,
+                    label=label,
+                    seed=int(seed),
+                    states=states[road],
+                    accident=int(self.accidents[road]),
+                    provenance=provenance(),
+                    **arrays,
+                )
             )
-            for road, (seed, n) in enumerate(zip(seeds, self.decisions, strict=True))
-        ]
+        return drives
 
 
 def record(
