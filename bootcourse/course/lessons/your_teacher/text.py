@@ -308,7 +308,7 @@ bc.show(figures.of_six_teachers(taught))
 # > **Predict.** Which agents get out, those of *no accident there* or those of *only the accident*?
 
 # %%
-choices = ["both", "those of no accident there", "those of only the accident", "neither of the two"]
+choices = ["both of them", "those of no accident there", "those of only the accident", "none of them"]
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
