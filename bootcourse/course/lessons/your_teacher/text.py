@@ -305,10 +305,10 @@ bc.show(figures.of_six_teachers(taught))
 #   drive in crashes.crashed()) and crash_escapes('all') >= 5 -->
 # <!-- claim: all(drive.accident > 0 for drive in crashes.crashed()) -->
 #
-# > **Predict.** Which agents get out, those of *no accident there* or those of *only the accident*?
+# > **Predict.** Who gets out, agents of *no accident there* or of *only the accident*?
 
 # %%
-choices = ["both of them", "those of no accident there", "those of only the accident", "none of them"]
+choices = ["all of them", "those of no accident there", "those of only the accident", "none"]
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
