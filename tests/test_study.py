@@ -188,7 +188,7 @@ def test_a_killed_study_goes_on_where_it_was(tmp_path, unrendered):
 def test_a_study_on_a_dask_cluster_survives_the_death_of_a_worker(root):
     distributed = pytest.importorskip("distributed", reason="dask is an extra: pip install 'bootcourse[dask]'")
     jobs = [job(f"default/sac-{gamma}", episodes=60, gamma=gamma) for gamma in (0.6, 0.7, 0.8, 0.9)]
-    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
 
         def kill_a_busy_worker():
             while not list(root.glob("jobs/default/*/job.json")):

@@ -204,8 +204,8 @@ bc.show(figures.added(KINDS[0], measured[KINDS[0]], fed_crash))
 
 # %% [markdown]
 # **See.** *The rows from the edge prevent most accidents; as many others do not.* The states that a data set
-# holds are its **coverage**. The 147 rows are not why the stochastic rule's clones crash less than the
-# rule's: without them they crash about as seldom (last row). Why is *open*.
+# holds are its **coverage**. The rows from the edge are not why the stochastic rule's clones crash less than
+# the rule's: without them they crash about as seldom (last row). Why is *open*.
 #
 # *All this is after {{ UPDATES | , }} updates; long training turns Round 1 round.* The study's clones of the
 # rule ({{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates) crash in

@@ -67,16 +67,6 @@ def sure(of: Walked) -> np.ndarray:
     return (of.leaves > SURE).sum(axis=1)
 
 
-def stay_too_low(alpha: float) -> bool:
-    """Is staying worth less than its true value to each constant learner that is sure of leaving, by what it learned?
-
-    Its Q never exceeds the true one, which it starts below and moves towards; a lead in Q of more than the true one is
-    then an error of staying.
-    """
-    stays, leaves = soft_q(alpha)[0]
-    return bool(alpha * math.log(SURE / (1 - SURE)) > leaves - stays)
-
-
 def reachable() -> np.ndarray:
     """Which agents of plain SAC with a target entropy of 0.3 or 1 escape on the road."""
     of_two = (experiment("sensitivity")[f"target entropy {eta}"].of("sac") for eta in (0.3, 1))

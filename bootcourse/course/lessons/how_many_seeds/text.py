@@ -212,7 +212,7 @@ print(f"{', '.join(f'{each:.0f}' for each in returns)}; mean {returns.mean():.0f
 # come twice, others not at all. Take the mean, and repeat this some thousand times. The middle 95 % of these
 # means are the **bootstrap interval** (nothing to do with bootstrapped SAC).
 #
-# > **Predict.** Suppose that all agents there could be are copies of our ten, a tenth of each. Somebody trains
+# > **Predict.** Suppose that every agent is a copy of one of our ten, of each equally often. Somebody trains
 # > three, and computes their interval. In how many of 100 such studies does it contain the mean of all? (How
 # > often do all three do well, and where is their interval then?)
 

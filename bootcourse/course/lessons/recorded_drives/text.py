@@ -352,7 +352,7 @@ compare_predictions(
 # - Why does GAIL often leave the road? Is it its pay (*Further*)? How would you find out?
 # - Take `choosing.fits(agents, data, times=2)[1]` in Round 3, a fit from other first weights and batches.
 #   Which choices change? Which errors do not?
-# - Who should choose among the six: the estimate, its overlap with the data, or you? What would you look at?
+# - How would you choose among the six without driving? What would you look at?
 # <!-- claim: of('gail').scores('road_departure').mean() > 0.25 and of('gail').agents[0]['target_entropy'] < 0 -->
 
 # %% [markdown] tags=["instructor"]

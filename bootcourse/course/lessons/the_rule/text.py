@@ -315,7 +315,7 @@ figures.reasons(rules.crash())
 # %% [markdown]
 # **Explain.** Two causes, and the first leads to the second:
 #
-# - *First* (4 s): with "nobody ahead" the rule calls its lane change off, and speeds up.
+# - *First* (4 s): the rule sees nobody ahead, calls its lane change off, and speeds up.
 # - *Second* (9 s): it changes lane {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster than trap 2.
 #   The gap that it asks for is too short: to brake takes more than 5 m (Round 2's picture).
 #

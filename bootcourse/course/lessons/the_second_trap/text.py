@@ -74,7 +74,8 @@ title = "This agent sprints and falls back, again and again, and does not pass t
 bc.show(bc.traces(drive, title=title, what=("speed", "distance")))
 
 # %% [markdown]
-# Whoever stays behind trap 1 is, *on average*, no faster than trap 1 (but for the first gap's few metres).
+# An agent that stays behind trap 1 cannot be faster than trap 1 *on average*, apart from the few metres of
+# the first gap.
 # <!-- claim: ppo_gap().min() < -40 and ppo_speeds().max() > 13.5 and ppo_speeds()[40:].min() < 7
 #   -->
 # <!-- claim: ppo_drive().states[-1, EGO, X] < ppo_drive().states[-1, TRAP_1, X] and
@@ -163,10 +164,10 @@ bc.show(figures.two_speeds({"the road's reward": drive, "the concave one": conca
 
 # %% [markdown]
 # **See.** None of the ten sprints on this road, and none gets out: nine stay behind the traps, and one drives
-# into trap 1, as it does on {{ 100 * ppo('concave')['accident'].max() | .0f }} % of the {{ 200 }} test roads.
-# **Without sprints it stays, too.** But this reward also shrinks the prize for a good way out: `careful`
-# earns {{ prize('concave') | .0f }} more than this agent here, {{ prize('alone') | .0f }} more than the
-# sprinting one before.
+# into trap 1, as it does on {{ 100 * ppo('concave')['accident'].max() | .0f }} % of the test roads. **Without
+# sprints it stays, too.** But this reward also shrinks the prize for a good way out: `careful` earns
+# {{ prize('concave') | .0f }} more than this agent here, {{ prize('alone') | .0f }} more than the sprinting
+# one before.
 # <!-- claim: 1 - second_trap.concave_speed_reward(np.float64(10)) < (1 - speed_reward(10)) / 2 and
 #   paid_concavely(by_rule()) - paid_concavely(idle()) < by_rule().rewards.sum() - idle().rewards.sum() -->
 # <!-- claim: ppo('concave')['success'].max() == 0 and abs(ppo('concave')['returns'].mean() /
