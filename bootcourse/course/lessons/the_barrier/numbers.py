@@ -62,17 +62,6 @@ def too_fast(kind: str) -> np.ndarray:
     return agents.scores("returns")[(agents.scores("success") >= ESCAPES) & (agents.scores("speed") > 20)]
 
 
-def crash_on_most(kind: str) -> int:
-    """How many agents of a kind have an accident on most roads."""
-    return int((easy(kind).scores("accident") > 0.5).sum())
-
-
-def escaped_or_crash(kind: str) -> int:
-    """How many agents of a kind escape, or have an accident on most roads, or both."""
-    agents = easy(kind)
-    return int(((agents.scores("success") >= ESCAPES) | (agents.scores("accident") > 0.5)).sum())
-
-
 def stay(kind: str) -> int:
     """How many agents of a kind end ahead on hardly any road, and do not crash on most: they stay behind."""
     agents = easy(kind)

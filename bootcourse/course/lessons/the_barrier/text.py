@@ -88,9 +88,9 @@ figures.how_they_drive(alone.agents, tests)
 # %% [markdown]
 # **See.** An agent **escapes** if it ends ahead on {{ 100 * ESCAPES | .0f }} % of the roads or more, crashed
 # or not. Of twenty agents like these, ten with each γ, {{ easy('as it is').escapers('sac') }} escapes (γ =
-# 0.8), {{ crash_on_most('as it is') }} crash on most roads, and {{ stay('as it is') }} stay behind. None
-# earns more than a car that does nothing.
-# <!-- claim: escaped_or_crash('as it is') + stay('as it is') == 20 -->
+# 0.8), {{ ends('as it is')[2] }} crash on most roads, and {{ ends('as it is')[3] }} stay behind. None earns
+# more than a car that does nothing.
+# <!-- claim: sum(ends('as it is')) == 20 and all(ends(kind)[3] == stay(kind) for kind in ('as it is', MIDDLE)) -->
 # <!-- claim: easy('as it is').escapers('sac') == 1 and len(easy('as it is')) == 20 and not
 #   escape_and_crash('as it is') -->
 # <!-- claim: all(one['gamma'] == 0.8 for one, out in zip(easy('as it is').agents,
@@ -258,7 +258,7 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 #
 # - **Price**: with cheap accidents alone the plan pays from its start, yet {{ ends(CHEAP)[2] }} of twenty
 #   crash on most roads and do not escape.
-# - **The way**: with the start alone the dip is behind them, yet {{ stay(MIDDLE) }} stay behind the traps,
+# - **The way**: with the start alone the dip is behind them, yet {{ ends(MIDDLE)[3] }} stay behind the traps,
 #   though one acceleration would do.
 #
 # So the dip is not all that keeps agents in. And to escape is not yet to drive well:
