@@ -156,8 +156,9 @@ def training_chart(methods: Sequence[str], curves: dict[str, np.ndarray], episod
                 if len(names) == 1:
                     parts.append(text(left + WIDE, top - 8, f"{end:.3g}".replace("-", "−"), "end", INK, 12, bold=True))
         parts += [*axes.parts, *labels]
-    ends = f" After {done} episodes: {', '.join(ends)}." if ends else f" {called}: no episode has ended yet."
-    return drawing(*SIZE, parts, f"Training curves.{ends}")
+    nothing = f"{called}: no episode has ended yet."
+    says = f"At most {done} episodes; at each line's end: {', '.join(ends)}." if ends else nothing
+    return drawing(*SIZE, parts, f"Training curves. {says}")
 
 
 _shown: dict[str, tuple[int, list[Watch]]] = {}  # cell: how often it had run, and what it showed then

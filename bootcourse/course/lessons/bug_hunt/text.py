@@ -15,8 +15,7 @@
 #
 # **What you will be able to do**
 # - tell six silent bugs apart by curves and probes, beside a healthy agent;
-# - write a probe: ask one part of a learner a question, and compare with the right answer or a healthy
-#   agent's;
+# - write a probe, which asks one part of a learner a question;
 # - test a learner's labels and its target without training.
 #
 # **Time** 46 minutes; running it takes under one minute. **It builds on** the losses of lesson
@@ -35,9 +34,9 @@ progress("bug_hunt")
 # %% [markdown]
 # ## Look first
 #
-# Seven versions of the paper's method had a short training: {{ bugs.UPDATES | , }} updates, two seeds each.
-# One is healthy. Each of the others, A to F, has one **silent bug**: a line that is wrong, raises nothing and
-# prints nothing. A letter names both seeds.
+# Seven versions of the paper's method were trained for {{ bugs.UPDATES | , }} updates, with two seeds each.
+# One version is healthy. Each of the others, A to F, has one **silent bug**: a wrong line that raises nothing
+# and prints nothing.
 # <!-- claim: len(bugs.LEARNERS) == 7 and bugs.SEEDS == 2 -->
 #
 # The six bugs:
@@ -47,7 +46,7 @@ progress("bug_hunt")
 # | `no_end` | target: γ · next value only if no accident ended it | always |
 # | `bonus_for_all` | target: a bonus c for each demonstration | for each row |
 # | `no_stop` | the actor's loss takes Q detached | its gradient reaches the critic |
-# | `sampled` | value: the mean of Q − α log π over π | of one drawn action, without a gradient |
+# | `sampled` | value: the mean of Q − α log π over π | of one drawn action (no gradient through the draw) |
 # | `flipped_kl` | KL: the sum of π (log π − log rule) | of rule (log rule − log π) |
 # | `shifted_labels` | label of s: rule(s) | rule(s') |
 #
@@ -62,21 +61,18 @@ bc.recording(figures.two_drives(hunt), height=360)
 # %% [markdown]
 # ## Round 1: which agents would you suspect?
 #
-# The curves show the return in training, without a bonus. The axis is logarithmic: who crashes early drives
-# more episodes.
+# The curves show the return in training, without the bonus. An agent that crashes early drives more episodes,
+# so their axis is logarithmic.
 
 # %%
 bc.show(figures.returns(hunt))
 
 # %% [markdown]
 # **See.** *A curve can look right although the code is wrong.* A, C and D end about where the healthy agent
-# ends; B and F look ill; no curve names a bug.
-#
-# E, the second driver above, earns far *more*, but gets out in {{ late('E', 'success')[0] }} and
-# {{ late('E', 'success')[1] }} of the last 30 episodes, and has accidents in {{ late('E', 'accident')[0] }}
-# and {{ late('E', 'accident')[1] }} (a drive can do both); the healthy agent gets out in all, without an
-# accident.
-# <!-- claim: late('healthy', 'accident') == [0, 0] and late('healthy', 'success') == [30, 30] and
+# ends. B and F look ill, but their curves do not say why. E, the second driver above, earns far *more*, but
+# its two seeds have accidents in {{ late('E', 'accident')[0] }} and {{ late('E', 'accident')[1] }} of their
+# last 30 episodes. The healthy agent has none.
+# <!-- claim: late('healthy', 'accident') == [0, 0] and
 #   max(h for n in 'ABCDF' for h in
 #   hunt().at_the_end('return')[n]) < min(hunt().at_the_end('return')['E']) -->
 # <!-- claim: all(0.9 < ends(name) < 1.1 for name in 'ACD') and ends('E') > 1.5 -->
@@ -88,11 +84,12 @@ bc.show(figures.returns(hunt))
 # %% [markdown]
 # ## Round 2: what is an accident worth?
 #
-# A **probe** asks one part of a learner a question. Compare with the right answer, if you know it, or with a
-# healthy agent's. Where an accident ends the episode, the right Q is the reward, {{ DEFAULT.reward.accident }}.
+# A **probe** asks one part of a learner a question. You compare its answer with the right one, if you know
+# it, or with a healthy agent's. Where an accident ends the episode, you know it: the right Q is the reward, {{
+# DEFAULT.reward.accident }}.
 #
-# > **Predict.** Two of the six bugs change the target there. One of them can only raise it. Which one
-# > may pull Q *below* {{ DEFAULT.reward.accident }}?
+# > **Predict.** Two of the six bugs change the target there. One can only raise it, but the other may pull
+# > Q *below* {{ DEFAULT.reward.accident }}. Which bug is the other?
 
 # %%
 names = list(bugs.BUGS)
@@ -118,9 +115,7 @@ def end_error(q, actions, rewards, terminated):
 check.end_error(end_error)
 
 # %% [markdown]
-# The table: Q − r of each version's first seed, at {{ ended().sum() }} accidents of the stochastic rule. The
-# picture: Q of both seeds at their own accidents, every {{ bugs.EVERY }} updates:
-# <!-- claim: set(np.diff(hunt().updates)) == {bugs.EVERY} -->
+# The table shows Q − r of each version's first seed, at {{ ended().sum() }} accidents of the stochastic rule.
 
 # %%
 predicted("bug_hunt.1")
@@ -134,9 +129,9 @@ for name in hunt.names:
 bc.show(figures.accidents(hunt))
 
 # %% [markdown]
-# **See.** *One agent is far too low, in table and picture.* The healthy critic is too high, with both seeds,
-# from update 1,000 to the end. So compare with grey, not with {{ DEFAULT.reward.accident | .0f }}: which
-# agents lie *far* from both grey lines, above or below?
+# **See.** *One agent is far too low, in table and picture.* But even the healthy critic is too high. So
+# compare with grey, not with {{ DEFAULT.reward.accident | .0f }}: which agents lie *far* from both grey
+# lines, above or below?
 # <!-- claim: asked('healthy') - asked('A') > 3 -->
 # <!-- claim: [n for n in hunt().names if asked(n) < -1] == ['D'] -->
 # <!-- claim: (hunt().probe('healthy', 'end')[:, hunt().updates >= 1000] > DEFAULT.reward.accident + 1).all() -->
@@ -148,8 +143,8 @@ bc.show(figures.accidents(hunt))
 # %% [markdown]
 # ## Round 3: how much does the critic promise?
 #
-# In a state a critic *promises* Σ π Q. The picture shows the mean promise in the seconds of the *rule's*
-# drives.
+# In each state a critic *promises* a value, Σ π Q. The picture shows the mean promise in the states of some
+# drives by the *rule*.
 #
 # > **Predict.** The road pays at most about 1 a second, and γ = {{ SETTINGS.gamma }}. What is the
 # > most that a critic may promise if it adds the bonus c = {{ SETTINGS.bonus | .0f }} in *every*
@@ -166,10 +161,10 @@ bc.show(figures.promises(hunt))
 # **Explain.** With a bonus in every second the limit is (1 + c) / (1 − γ) =
 # {{ (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}; without any it is 1 / (1 − γ) = {{ 1 / (1 -
 # SETTINGS.gamma) | .0f }}.
-# Grey may lie between them: demonstrations earn the bonus.
+# Grey may lie between the two, because demonstrations earn the bonus.
 #
-# One agent promises up to {{ hunt().probe('F', 'promise').max() | .0f }}, beyond the picture and far beyond
-# both limits: which bug lets the actor's loss raise Q?
+# One agent leaves the picture: it promises up to {{ hunt().probe('F', 'promise').max() | .0f }}, far beyond
+# both limits. Which bug lets the actor's loss raise Q?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} and
 #   hunt().probe('E', 'promise').max() < 15 and (hunt().probe('F', 'promise').max(axis=1) >
 #   20).all() and (hunt().probe('F', 'promise')[:, -1] < 20).all() -->
@@ -182,8 +177,8 @@ bc.show(figures.promises(hunt))
 # %% [markdown]
 # ## Round 4: which actions does the policy drop?
 #
-# In the same seconds, how probable is the policy's **rarest** action? The stochastic rule, towards which the
-# KL pulls, gives each action a little probability.
+# In the same states, how probable is the policy's **rarest** action? The KL pulls the policy towards the
+# stochastic rule, which gives each action a little probability.
 #
 # > **Predict.** The right KL charges the policy for going where the rule would not. The flipped KL
 # > charges it for *not* going where the rule might. What happens, then, to the probability of an action that
@@ -205,8 +200,8 @@ bc.show(figures.rarest(hunt))
 # **Explain.** With the right KL it costs little to drop such an action. The flipped KL grows without bound as
 # its probability goes to zero, so the policy drops it more slowly.
 #
-# *Two* agents' rarest action stays far likelier to the end. With `sampled` only the KL teaches the actor, not
-# Q: what would its return be?
+# *Two* agents' rarest action stays far likelier to the end. With `sampled`, Q does not teach the actor, only
+# the KL does. What does such an actor earn?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'rarest')[:, -1].min() > -20} == {'A', 'B'}
 #   and (hunt().probe('healthy', 'rarest')[:, -1] < -30).all() -->
 
@@ -217,8 +212,18 @@ bc.show(figures.rarest(hunt))
 # %% [markdown]
 # ## The verdict
 #
-# **Exercise (12 min, ●●●).** Name the bug of each agent. Rounds 2 and 3 name three: one is too low, two are
-# too high. Two share a symptom in Round 4, and differ in their return. The sixth is left.
+# **Exercise (12 min, ●●●).** Name the bug of each agent. First copy the table and note in each cell whether
+# the agent's lines lie higher than grey (↑), lower (↓) or alike (=). Begin with the agents that stand out in
+# only one column.
+#
+# | agent | return (Round 1) | Q at own accidents (2) | promise (3) | rarest action (4) | bug |
+# |---|---|---|---|---|---|
+# |A| | | | | |
+# |B| | | | | |
+# |C| | | | | |
+# |D| | | | | |
+# |E| | | | | |
+# |F| | | | | |
 
 
 # %%
@@ -230,30 +235,26 @@ def diagnose(agent):
 check.diagnose(diagnose)
 
 # %% [markdown]
-# Which probe would have shown the bug of the agent that is left?
+# Which probe would have shown the bug of the agent that is alike in every column?
 #
 # <details><summary>After your verdict: what decides</summary>
 #
-# | agent | bug | what decides |
-# | --- | --- | --- |
-# | A | `flipped_kl` | rarest action likelier; return and promise healthy |
-# | B | `sampled` | rarest action likelier; return low, promise falls |
-# | C | `shifted_labels` | what is left (and its return rises late) |
-# | D | `no_end` | Q at accidents far below the grey lines |
-# | E | `bonus_for_all` | promise ends at 12, above grey, below 15 |
-# | F | `no_stop` | promise beyond 15, one seed to the end |
+# | agent | return | Q at own accidents | promise | rarest action | bug |
+# |---|---|---|---|---|---|
+# | A | = | = | = | ↑ | `flipped_kl` |
+# | B | ↓ | = | ↓ | ↑ | `sampled` |
+# | C | = (rises late) | = | = | = | `shifted_labels` |
+# | D | = | ↓ | = | = | `no_end` |
+# | E | ↑ | ↑ | ↑, below 15 | = at the end | `bonus_for_all` |
+# | F | ↓ | ↑ | ↑, beyond 15 | = at the end | `no_stop` |
 #
 # - **B**: the KL alone teaches the actor, towards the stochastic rule, which crashes in {{ ended().sum() }}
 #   of 50 drives.
-# - **C** learns late: {{ accidents('C')[0] | .0f }} and {{ accidents('C')[1] | .0f }} accidents in training,
-#   the healthy agent {{ accidents('healthy')[0] | .0f }} and {{ accidents('healthy')[1] | .0f }}. A fourth
-#   probe shows it, but only while it learns. At updates 1,000 to 5,000 its likeliest action is the rule's in
-#   {{ 100 * alike('C', 1000, 5000) | .0f }} % of the seconds, the healthy agent's in
-#   {{ 100 * alike('healthy', 1000, 5000) | .0f }} %. From 9,000 on: {{ 100 * alike('C', 9000, 10000) | .0f }} %
-#   and {{ 100 * alike('healthy', 9000, 10000) | .0f }} %.
-# - **D** adds γ times the value of a car that has just crashed, far below 0 at the table's accidents. No row
-#   teaches that value: it can come out too high (lesson [[update_and_loop]]) or, as here, too low.
-# - **E** has left the rule.
+# - **C** learns late. A fourth probe shows it, but only while it learns: at updates 1,000 to 5,000 its
+#   likeliest action is the rule's in {{ 100 * alike('C', 1000, 5000) | .0f }} % of the seconds, the healthy
+#   agent's in {{ 100 * alike('healthy', 1000, 5000) | .0f }} %.
+# - **D** adds γ times the value of a car that has just crashed. No row teaches that value, so it can come out
+#   too high (lesson [[update_and_loop]]) or, as here, too low.
 # - **F**: the actor's loss changes the critic, and raises the Q of what the policy likes.
 #
 # </details>
@@ -261,6 +262,9 @@ check.diagnose(diagnose)
 # <!-- claim: all(b[:, -1].max() < 1.5 and b.max(axis=1).min() > 4 and a[:, -1].min() > 5 for a, b in
 #   [[hunt().probe(n, 'promise') for n in 'AB']]) -->
 # <!-- claim: accidents('C').min() > max(accidents(n).max() for n in ('healthy', 'A', 'D', 'E')) -->
+# <!-- claim: (lambda end: min(end(n).min() for n in 'EF') > end('healthy').max() + 1.5 and all(
+#   end('healthy').min() - 1 < value < end('healthy').max() + 1 for n in 'ABC' for value in end(n)))(
+#   lambda n: hunt().probe(n, 'end')[:, -1]) -->
 # <!-- claim: (lambda c, h: (c.max(axis=0) < h.min(axis=0)).all())(*(hunt().probe(n, 'alike')[:,
 #   (hunt().updates >= 1000) & (hunt().updates <= 5000)] for n in ('C', 'healthy'))) -->
 # <!-- claim: (hunt().probe('D', 'end')[:, -1] < DEFAULT.reward.accident).all() and
@@ -274,7 +278,7 @@ check.diagnose(diagnose)
 # %% [markdown]
 # ## Two tests, no training, no healthy twin
 #
-# **The labels.** In each row ask the rule in s, and compare.
+# **The labels.** In each row, ask the rule in s and compare its answer with the label.
 #
 # **The target.** With two of the six bugs at once it reads:
 #
@@ -282,9 +286,8 @@ check.diagnose(diagnose)
 # target = reward + bonus + gamma * next_value
 # ```
 #
-# The bonus belongs to demonstrations alone, and after an accident there is no next value. Four transitions,
-# the agent's own or a demonstration, ended or not, are enough for a test. Take another bonus than 2, another
-# γ than 0.8: some of the check's functions have those built in.
+# The bonus belongs to demonstrations alone, and after an accident there is no next value. Four transitions
+# are enough for a test: the agent's own or a demonstration, ended or not.
 #
 # **Exercise (15 min, ●●●).** Write that test, of a function whose code you do not see. Bonus and gamma are
 # floats, the rest arrays of shape (batch,); demo and end hold 1 or 0.
@@ -310,8 +313,8 @@ for bug in bugs.LEARNERS:
     print(f"{bug:14} {share:5.0%}  {'WRONG' if test(bugs.target_of(bug)) else 'right'}")
 
 # %% [markdown]
-# **See.** *Before any training, two tests find three of the six bugs*, also the one that none of our probes
-# showed: C, whose return ends where the healthy agent's does, learned from shifted labels.
+# **See.** *Before any training, two tests find three of the six bugs.* One of them is C's, which none of our
+# probes showed.
 # <!-- claim: all(agree(bug).all() == (bug != 'shifted_labels') for bug in bugs.LEARNERS) -->
 # <!-- claim: (agree('shifted_labels')[:-1] == (labelled_drive().rule_actions[:-1] ==
 #   labelled_drive().rule_actions[1:])).all() -->
@@ -331,7 +334,7 @@ compare_predictions("bug_hunt", {1: "no_end", 2: limit, 3: "it drops more slowly
 # 1. A curve can look right: of six agents with a bug, three end about where the healthy one ends, and one
 #    earns far more.
 # 2. A probe needs a known right answer, or a healthy agent beside it. It clears only what it asks: one of the
-#    six bugs shows in none of our three, only in the curve: it learns late.
+#    six bugs shows in none of our three.
 # 3. Test labels and targets before any training: that finds three of the six, and needs no healthy twin.
 #
 # **Three questions to think about**

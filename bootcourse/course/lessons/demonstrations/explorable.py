@@ -29,5 +29,5 @@ def compounding() -> Explorable:
         return curves(says, AXES, times, named, mark=WHOLE // 2)
 
     help = "Of a hundred decisions in the teacher's states, so many are errors."
-    errors = Number("ε", 0.5, 0.1, 25, 0.05, help, unit="%", logarithmic=True)
+    errors = Number("ε", 0.5, 0.1, 2, 0.1, help, unit="%")
     return Explorable("A clone errs seldom in its teacher's states. What can that cost?", draw, errors=errors)

@@ -60,16 +60,14 @@ def clones(measured: dict[str, np.ndarray]) -> Figure:
 def added(name: str, alone: np.ndarray, fed: dict[str, np.ndarray]) -> Figure:
     """What rows added to the rule's change: as `clones`, with the agreement with the rule in the clones' own states.
 
-    alone: of the rule's drives, which are called so; fed: of these with other rows, and with those of the edge; and of
-    the stochastic rule's drives without them.
+    alone: of the rule's drives, which are called so; fed: of these with other rows, and with those of the edge.
     """
-    others, edge, without = fed.items()
+    others, edge = fed.items()
     title = "Accidents, with rows added to the rule's"
     if edge[1][:, 2].mean() < min(alone[:, 2].mean(), others[1][:, 2].mean()) / 2:
         title = "Rows from the edge prevent most of the accidents"
     rows = {name: alone} | {f"{name}, {more}": values for more, values in (others, edge)}
-    columns = {1: "agree in their own states (%)", 2: "have an accident (%)"}
-    return _two_panels(rows | {without[0]: without[1]}, columns, title)
+    return _two_panels(rows, {1: "agree in their own states (%)", 2: "have an accident (%)"}, title)
 
 
 def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str) -> Figure:

@@ -44,8 +44,8 @@ progress("found_and_kept")
 # %% [markdown]
 # ## Look first
 #
-# After their training our ten agents with demonstrations alone stay behind trap 1. In mid-training this one
-# was ahead:
+# After training, none of our ten agents with demonstrations alone gets out from behind trap 1. But look at
+# one of them *during* its training:
 # <!-- claim: not of_the_agent_shown().success -->
 
 # %%
@@ -56,17 +56,22 @@ title = "This agent learned the way out, and lost it"
 bc.show(figures.one_agent(study.of("demos"), best, title))
 
 # %% [markdown]
-# At the end it fails like an agent that never found it. The paper's table shows only the end:
+# At the end this agent fails like one that never found the way out. A table shows only the end. Here is the
+# paper's, beside ours:
 # <!-- claim: (in_training('sac', 0, 2000) == 0).any() -->
 
 # %%
 table(counts.BOTH_TABLES, counts.both_tables(study))
 
 # %% [markdown]
-# With one aid alone, the paper's agents get out with demonstrations, ours with the soft constraint. Four
-# things could explain it: (1) agents lose the way out (Rounds 1 and 2); (2) one agent may stand behind each
-# of the paper's rates (lesson [[how_many_seeds]]); (3) its training may differ (Round 3); (4) its traffic may
-# differ, too: the paper prints it only in part, and we did not test it.
+# With one aid alone, the paper's agents get out with demonstrations, ours with the soft constraint. *Why?* We
+# follow four possible explanations:
+#
+# 1. **Agents lose the way out** that they had found (Rounds 1 and 2).
+# 2. **Single agents**: one agent may stand behind each of the paper's rates (Round 3).
+# 3. **Another training**: the paper's agents may have trained in another way than ours (Round 3).
+# 4. **Other traffic**: the paper prints its traffic only in part (not tested).
+#
 # <!-- claim: escaped('demos') == 0 < escaped('soft') and PRINTED['demos']['success'].mean == 100
 #   and PRINTED['soft']['success'].mean == 0 -->
 
@@ -78,13 +83,12 @@ table(counts.BOTH_TABLES, counts.both_tables(study))
 # %% [markdown]
 # ## Round 1: found, and kept
 #
-# - **Found**: in at least one *window*, {{ WINDOW }} training episodes in a row, more than half ended ahead
+# - **Found**: in at least one *window* of {{ WINDOW }} training episodes in a row, more than half ended ahead
 #   of trap 1.
-# - **Kept**: it found the way out and escapes after training: it is ahead on at least
-#   {{ 100 * ESCAPES | .0f }} % of the held-out roads.
+# - **Kept**: the agent found the way out, and after training it escapes, as in lesson [[how_many_seeds]].
 #
-# > **Predict.** With demonstrations alone none of our ten agents escapes, and you saw one that had
-# > found the way out. How many of the ten find it?
+# > **Predict.** None of our ten agents with demonstrations alone escapes, but you saw one that had found the way
+# > out. How many of the ten find it?
 # <!-- claim: (escaped('demos'), len(of('demos'))) == (0, 10) -->
 
 # %%
@@ -96,10 +100,9 @@ predicted("found_and_kept.1")
 bc.show(figures.found_and_kept(study))
 
 # %% [markdown]
-# **See.** *A low count at the end can mean two things.* Nine agents of plain SAC never find the way out. With
-# demonstrations alone half of these ten find it, and none keeps it.
-#
-# Of *ten others* (lesson [[learning_from_demonstrations]]: other seeds, implementation and length)
+# **See.** *A low count at the end can mean two things.* Nine of ten agents of plain SAC never find the way
+# out. With demonstrations alone half of the ten find it, but none keeps it. Of *ten others* (lesson
+# [[learning_from_demonstrations]]: other seeds, implementation and length)
 # {{ way(others('demos'), 'demos').found }} find it and {{ way(others('demos'), 'demos').kept }} keep it.
 # <!-- claim: [way(of_all(), m).found for m in ('sac', 'soft', 'bootstrapped', 'demos')] == [1, 10,
 #   10, 5] and way(of_all(), 'demos').kept == 0 and min(way(of_all(), m).kept for m in ('soft',
@@ -113,14 +116,16 @@ bc.show(figures.found_and_kept(study))
 # %% [markdown]
 # ## Round 2: who loses it?
 #
-# - **Lost**: after a window with {{ HAD }} or more of {{ WINDOW }} ahead comes one with {{ LOST }} or fewer.
-#   An agent can lose the way out, find it again, and count as kept.
+# - **Lost**: after a window with {{ HAD }} or more of {{ WINDOW }} episodes ahead comes one with {{ LOST }}
+#   or fewer. An agent may lose the way out, find it again, and so count as kept.
 # <!-- claim: LOST == WINDOW / 2 -->
 #
-# The agent of the first curve lost the way out while its demonstrations ran out: their share β of each batch
-# falls to 0 by episode {{ SETTINGS.beta_episodes | , }}. Do agents keep it if β stays? Take forty agents with
-# both aids, ten in each group: β ends as in the study, or stays; the bonus c for each demonstrated second is
-# paid, or not (c = 0). All forty find the way out.
+# The agent of the first picture lost the way out while its demonstrations ran out: their share β of each
+# batch falls to 0 by episode {{ SETTINGS.beta_episodes | , }}. Do agents keep the way out if β never ends?
+# And does the bonus for each demonstrated second matter?
+#
+# We trained ten agents with both aids in each of four groups: β ends or never ends, and the bonus is paid or
+# not (c = 0). All forty find the way out.
 # <!-- claim: [(each.agents[0]['beta_episodes'], each.agents[0]['bonus']) for each in
 #   groups().values()] == [(1000, 2), (None, 2), (1000, 0), (None, 0)] and SETTINGS.beta_episodes ==
 #   1000 and {len(each) for each in groups().values()} == {10} and
@@ -142,8 +147,7 @@ def ever_lost(success, had, limit):
 check.ever_lost(ever_lost)
 
 # %% [markdown]
-# > **Predict.** If β stays, each batch holds demonstrations; the bonus raises their reward. In
-# > which group does none of the ten lose the way out?
+# > **Predict.** In which group does none of the ten lose the way out?
 
 # %%
 choices = [
@@ -154,38 +158,32 @@ choices = [
 predict("found_and_kept.2", "In which group does none of the ten lose it?", choices)
 
 # %% [markdown]
-# **Drag** the limit. Which group loses the way out least? When do the others lose it?
+# **Drag** the limit, at or below which the way out counts as lost. Which group loses it least? When do the
+# others lose it?
 
 # %%
 predicted("found_and_kept.2")
 explorable.losing()
 
 # %% [markdown]
-# **See.** *Only where β never ends and the bonus is paid*: none of these ten loses it (of ten others trained
-# so, {{ group('others: never').lost.sum() }} do), in each other group at least eight do: with the bonus from
-# about the end of β on, without it from episode {{ group('β never ends, no bonus').first.min() | .0f }} on.
+# **See.** *Only where β never ends and the bonus is paid* does none of the ten lose the way out. In each
+# other group at least eight do.
 # <!-- claim: [each.lost.sum() for each in map(group, groups())] == [10, 0, 8, 10] and
-#   lost_least_if_both(5, 35) and demonstration_share(900, 0.6, 1000) < 0.07 -->
-# <!-- claim: (group('β ends, no bonus').first <= 550).sum() == 6 and
-#   min(group('others: ends').first.min(), group('β ends, bonus').first.min()) > 900 >
-#   np.sort(group('others: no bonus').first)[2] and
-#   group('β never ends, no bonus').first.min() < group('β ends, no bonus').first.min() -->
+#   lost_least_if_both(5, 35) -->
 #
-# *It has a price*: these ten earn {{ group('β never ends, bonus').earned.min() | .0f }} to
-# {{ group('β never ends, bonus').earned.max() | .0f }}; those that keep the way out in the other groups earn
-# {{ kept_elsewhere().min() | .0f }} or more. (Of others: ten earn
-# {{ group('others: never').earned.min() | .0f }} to {{ group('others: never').earned.max() | .0f }} so;
-# elsewhere one keeper earns {{ others_elsewhere()[0] | .0f }}, the {{ len(others_elsewhere()) - 1 }} others
-# {{ others_elsewhere()[1] | .0f }} or more.)
-# <!-- claim: group('others: never').earned.max() > min(kept_earned('others: ends').min(),
-#   kept_earned('others: no bonus').min()) -->
-# <!-- claim: group('β never ends, bonus').keep.all() and earns_less(*map(group, ('β never ends, bonus',
-#   'β ends, bonus', 'β ends, no bonus', 'β never ends, no bonus'))) and earns_less(group('others: never'),
-#   group('others: ends')) -->
+# *It has a price*: the mean return of these ten is {{ group('β never ends, bonus').earned.mean() | .0f }},
+# but {{ group('β ends, no bonus').earned.mean() | .0f }} where β ends and no bonus is paid.
+# <!-- claim: group('β never ends, bonus').keep.all() and group('β ends, no bonus').keep.all() and
+#   earns_less(*map(group, ('β never ends, bonus', 'β ends, bonus', 'β ends, no bonus', 'β never ends, no bonus'))) -->
 #
-# *A loss need not last*: where β ends and no bonus is paid, eight lose the way out, and all ten have it at
-# the end (of ten others all lose it, and {{ group('others: no bonus').keep.sum() }} have it at the end).
-# <!-- claim: group('β ends, no bonus').keep.sum() == 10 == group('others: no bonus').lost.sum() -->
+# *A loss need not last*: where β ends and no bonus is paid, eight of ten lose the way out, but all ten have
+# it at the end.
+#
+# Ten *others* show this less clearly: where β never ends and the bonus is paid,
+# {{ group('others: never').lost.sum() }} do lose the way out, and where β ends and no bonus is paid,
+# {{ group('others: no bonus').keep.sum() }} have it at the end.
+# <!-- claim: 0 < group('others: never').lost.sum() < group('others: ends').lost.sum() and
+#   group('others: no bonus').lost.all() and 0 < group('others: no bonus').keep.sum() < 10 -->
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Return to the guesses from the start. Ask why the picture may not be quoted as "without demonstrations
@@ -195,8 +193,8 @@ explorable.losing()
 # %% [markdown]
 # ## Round 3: how likely is the paper's table?
 #
-# The soft constraint fades with the *updates*, the demonstrations with the *episodes*: so it matters how many
-# updates an agent makes for a decision. How did the paper's agents train?
+# The soft constraint fades with the *updates*, the demonstrations with the *episodes*. So which of the two
+# lasts longer depends on how many updates an agent makes for each decision. How did the paper's agents train?
 #
 # | | the paper | the study |
 # |---|---|---|
@@ -206,8 +204,8 @@ explorable.losing()
 #
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 -->
 #
-# So we trained for {{ SHORTER | , }} episodes in {{ len(clocks()) }} settings: ¼ update and four roads, or 1,
-# 2 or 4 updates and one road; each with both drivers. Here is one of them:
+# So we tried {{ len(clocks()) }} settings, of {{ SHORTER | , }} episodes each: ¼ update and four roads as in
+# the study, or 1, 2 or 4 updates and one road, and each of these with both drivers. Here is one of the eight:
 # <!-- claim: {(u, a['envs_per_agent'], a['updates']) for (u, _), r in clocks().items() for a in
 #   r.agents} == {('1/4', 4, 1), ('1', 1, 1), ('2', 1, 2), ('4', 1, 4)} -->
 # <!-- claim: {r.curves['success'].shape[1] for r in clocks().values()} == {SHORTER} -->
@@ -217,17 +215,15 @@ cells = clocks.choices(shipped.shipped_experiment("clocks"))
 bc.show(figures.found_and_kept(cells["2", "π̃"]))  # 2 updates, one road, driven by π̃
 
 # %% [markdown]
-# **See.** *Here demonstrations alone do better than the soft constraint alone, as in the paper*:
-# {{ way(clocks()['2', 'π̃'], 'demos').kept }} agents keep it against
-# {{ way(clocks()['2', 'π̃'], 'soft').kept }}; with ¼ update and μ it was
-# {{ way(clocks()['1/4', 'μ'], 'demos').kept }} against {{ way(clocks()['1/4', 'μ'], 'soft').kept }}. So
-# mainly the *demonstrations* gained. (We chose this setting after we had seen all {{ len(clocks()) }}.) The
-# soft constraint's row differs: the paper prints 0 %.
+# **See.** *Here demonstrations alone do better than the soft constraint alone, as in the paper.* With ¼
+# update and μ it was the other way round. The soft constraint's row still differs: the paper prints 0 %. (We
+# chose this setting after we had seen all {{ len(clocks()) }}.)
+# <!-- claim: way(clocks()['1/4', 'μ'], 'demos').kept < way(clocks()['1/4', 'μ'], 'soft').kept -->
 # <!-- claim: [way(clocks()['2', 'π̃'], m).kept for m in ('sac', 'soft', 'demos', 'bootstrapped')]
 #   == [0, 5, 10, 10] -->
 #
-# > **Predict.** Draw one agent from each row of the picture, and drive 20 held-out roads with it. How
-# > often do the four rates read as the paper's: 0, 0, 100 and 100 %?
+# > **Predict.** Draw a *single* agent from each row of the picture, and drive 20 held-out roads with it. How often do
+# > the four rates read as the paper's: 0, 0, 100 and 100 %?
 # <!-- claim: [PRINTED[m]['success'].mean for m in ('sac', 'soft', 'demos', 'bootstrapped')] == [0,
 #   0, 100, 100] -->
 
@@ -259,12 +255,13 @@ for setting, agents in cells.items():
 bc.show(figures.chances(cells, chance))
 
 # %% [markdown]
-# **See.** *In a third.* Mostly the soft constraint's row is in the way: it reads 0 % in only
-# {{ 100 * row_reads('soft') | .0f }} % of the draws, each of the other three as printed in
+# **See.** *In a third of the draws, for this setting.* The soft constraint's row decides it: it reads 0 % in
+# {{ 100 * row_reads('soft') | .0f }} % of the draws, while each other row reads as printed in
 # {{ 100 * min(map(row_reads, ('sac', 'demos', 'bootstrapped'))) | .0f }} % or more.
 #
-# Updates and roads change together: which matters is *open*. The driver changes alone: at ¼, 1 and 2 updates
-# {{ by_driver('π̃') }} agents with demonstrations alone escape with π̃, {{ by_driver('μ') }} with μ.
+# Updates and roads change together, so which of them matters is *open*. The driver changes alone: with ¼, 1
+# and 2 updates, a larger share of the agents with demonstrations alone escapes with π̃ than with μ.
+# <!-- claim: all(by_driver('π̃') > by_driver('μ')) -->
 # <!-- claim: all(pattern(clocks()[u, 'π̃']).high - pattern(clocks()[u, 'π̃']).low > 0.35 for u in '124') -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -275,14 +272,17 @@ bc.show(figures.chances(cells, chance))
 # ## So why is our table not the paper's?
 #
 # {{ explanations() }}
+#
+# *The case stays open.* Single agents and another training together can give the paper's four rates, but
+# whether its agents trained so, the paper does not say.
 # <!-- claim: of('demos').scores('success').max() == 0 == pattern(of_all()).value -->
 # <!-- claim: (settings_for('demos', 'paper').updates, settings_for('demos', 'paper').envs_per_agent,
 #   settings_for('demos', 'paper').stochastic_demonstrations) == (2, 1, True) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Write "shown" and "not shown" on the board before they read this section, and let the class fill them in.
-# What would the authors have to print so that nobody had to guess? (Updates for a decision, agents behind a
-# row, all seeds.)
+# Write the four explanations on the board before they read this section, and let the class fill in what was
+# seen of each, and "shown" or "not shown". What would the authors have to print so that nobody had to guess?
+# (Updates for a decision, agents behind a row, all seeds.)
 
 # %%
 finders = study.found_and_kept("demos")[0].sum()
@@ -302,8 +302,7 @@ compare_predictions(
 # 1. To find the way out and to keep it are two things, and one rate at the end mixes them.
 # 2. With both aids and ¼ update none of ten loses the way out if β never ends and the bonus is paid; in the
 #    other groups at least eight do.
-# 3. How likely a table of single agents is can be computed: here the paper's table comes in none to a third
-#    of the draws, depending on the training (with three agents a row: about half).
+# 3. How likely a table of single agents is can be computed: for the paper's table it depends on the training.
 # 4. Print each agent, the updates, the roads at a time, and who demonstrated.
 #
 # **Three questions to think about**

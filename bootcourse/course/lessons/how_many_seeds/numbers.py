@@ -13,16 +13,6 @@ from bootcourse.statistics import Estimate, interval, power, rate
 from tools.course.known import of
 
 
-def half_as_wide() -> int:
-    """The number of agents, 80 % of which escape, whose exact interval comes closest to half the width of ten's."""
-
-    def width(n: int) -> float:
-        _, low, high = rate(np.arange(n) < round(0.8 * n))
-        return high - low
-
-    return min(range(2, 61), key=lambda n: abs(width(n) - width(10) / 2))
-
-
 def rarest_cover(n: int) -> float:
     """How often the exact interval of n agents contains the true rate, at the rate where it does so least."""
     _, low, high = np.transpose([rate(np.arange(n) < k) for k in range(n + 1)])
@@ -68,8 +58,3 @@ def splits() -> list[tuple[int, Estimate]]:
     return [
         (sum(i < 3 for i in half), counts.exact_difference(returns[half], np.delete(returns, half))) for half in first
     ]
-
-
-def left_out() -> float:
-    """The share of all splits whose interval leaves out 0."""
-    return float(np.mean([counts.leaves_out_0(effect) for _, effect in splits()]))

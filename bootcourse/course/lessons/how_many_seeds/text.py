@@ -42,7 +42,7 @@ progress("how_many_seeds")
 # %% [markdown]
 # ## Look first
 #
-# Two agents of plain SAC on one road, which differ in the *seed* of their random numbers alone. Watch both.
+# Watch two agents of plain SAC on one road, trained alike except for the *seed* of their random numbers.
 # <!-- claim: len({tuple((k, str(v)) for k, v in agent.items() if k != 'seed') for agent in
 #   of('sac').agents}) == 1 -->
 
@@ -55,7 +55,8 @@ for seed in (0, 3):
 bc.recording(drives, height=360)
 
 # %% [markdown]
-# Had you trained the second one alone, you would write that plain SAC leaves the trap. Our other nine do not.
+# Had you trained the second one alone, you would write that plain SAC leaves the trap. Our other nine stay in
+# it.
 # <!-- claim: escaped('sac') == 1 -->
 #
 # Here are all ten, and ten more with the soft constraint, ten with demonstrations, ten with both. This is an
@@ -66,22 +67,20 @@ bc.recording(drives, height=360)
 study = bc.shipped_results()
 bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 
-# %% [markdown]
-# So in Rounds 1 and 2 we ask of each agent only: does it escape?
-
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask how many of them have published or handed in a figure with one training behind each line.
 
 # %% [markdown]
 # ## Round 1: what does eight of ten say?
 #
-# With the soft constraint alone, eight of ten agents escape. Had you trained thousands, the share that
-# escapes would be the *true rate*.
+# With the soft constraint alone, eight of ten agents escape. If you trained thousands, the share that escapes
+# would be the *true rate*.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
-# > **Predict.** The lower the true rate, the rarer are eight or more of ten. At 50 % they come in
-# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of all studies, as eight or more heads of ten fair coins do.
-# > At which rate do they come in 2.5 %? (Below it our eight would be luck too rare to believe.)
+# > **Predict.** Suppose that many studies train ten agents each. The lower the true rate, the fewer of these
+# > studies see eight or more escape. At 50 %, as with ten fair coins,
+# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of them do. At which true rate do 2.5 %? (At a lower rate, our
+# > eight would be luck too rare to believe.)
 
 # %%
 predict(
@@ -91,32 +90,30 @@ predict(
 )
 
 # %% [markdown]
-# **Drag** the true rate down until the blue part is 2.5 %, then up until it is so again. Then drag the
-# agents: how many make the interval half as wide?
+# **Drag** the true rate down until the blue part, *eight or more*, is 2.5 %. Then drag it up, past 80 %,
+# until the blue part, now *eight or fewer*, is 2.5 % again.
 
 # %%
 predicted("how_many_seeds.1")
 explorable.certainty()
 
 # %% [markdown]
-# **See.** Eight of ten may mean a true rate of 44 or of 97 %. Half the width takes {{ half_as_wide() }}
-# agents: four times as many.
-# <!-- claim: half_as_wide() == 40 and [round(100 * each) for each in
+# **See.** Eight of ten may mean a true rate of 44 or of 97 %.
+# <!-- claim: [round(100 * each) for each in
 #   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
-# This is the **exact 95 % interval** of k out of n: at its low end, k *or more* have a chance of 2.5 %; at
-# its high end, k *or fewer* have (unless it ends at 0 or 100 %). At least 95 % of such intervals contain the
-# true rate.
+# These are the ends of the **exact 95 % interval** of k out of n. At its low end, k *or more* escape in 2.5 %
+# of all studies; at its high end, k *or fewer* do (unless the interval ends at 0 or 100 %). At least 95 % of
+# such intervals contain the true rate.
 # <!-- claim: rarest_cover(10) >= 0.95 -->
 #
-# For demonstrations alone the paper prints a success of 100 %; of our ten agents none escapes, and of ten
-# others (lesson [[learning_from_demonstrations]]) {{ escapers(others('demos'), 'demos') }}. The paper says
-# neither how many agents drove nor how often.
+# For demonstrations alone the paper prints a success of 100 %, but of our ten agents none escapes. The paper
+# says neither how many agents drove nor how often.
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
 # <!-- claim: fitting(*PRINTED['gail']['collision']) == [(1, EPISODES)] -->
 #
-# > **Predict.** Suppose that *one* agent made {{ EPISODES }} drives, and got out in each. Where does the
-# > exact interval of the *method's* share begin?
+# > **Predict.** Suppose that *one* agent made {{ EPISODES }} drives, and got out in each. Where does the exact
+# > interval of the *method's* true rate begin?
 
 # %%
 predict(
@@ -144,10 +141,10 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # %% [markdown]
 # ## Round 2: how many agents does it take?
 #
-# With the soft constraint alone eight of ten agents escape, with both aids seven. If the methods were alike,
-# how often would luck split these fifteen escapes at least this unevenly? *Fisher's exact test* counts it:
-# the **p value**; below 0.05 we call it a difference. Here it is {{ fisher(8, 7) | .0f }}, as no split is
-# more even; eight against two would give {{ fisher(8, 2) | .2f }}.
+# With the soft constraint alone eight of ten agents escape, with both aids seven. Do the methods differ? The
+# **p value** says how often luck would split these fifteen escapes at least this unevenly if the methods were
+# alike. *Fisher's exact test* computes it, and below 0.05 we speak of a difference. Here p is
+# {{ fisher(8, 7) | .0f }}, because no split of fifteen is more even.
 # <!-- claim: escaped('soft') == 8 and escaped('bootstrapped') == 7 -->
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
@@ -161,25 +158,23 @@ predict(
 )
 
 # %% [markdown]
-# **Drag** the number of agents. From how many on do at least 80 of 100 studies find the difference? And how
-# far do thirty of each get with 80 against 60 %?
+# **Drag** the number of agents. From how many on do at least 80 of 100 studies find the difference?
 
 # %%
 predicted("how_many_seeds.3")
 explorable.studies()
 
 # %% [markdown]
-# **See.** Ten against ten miss even this large difference in more than half of the studies. Thirty against
-# thirty miss 80 against 60 % in more than half, too. So our eight against seven shows neither that one method
-# is better nor that the two are alike.
-# <!-- claim: power(0.8, 0.3, 10) < 0.5 and power(0.8, 0.6, 30) < 0.4 and fisher(8, 7) > 0.5 -->
+# **See.** With ten agents of each, more than half of the studies miss even this large difference. So our
+# eight against seven shows neither that one method is better nor that the two are alike.
+# <!-- claim: power(0.8, 0.3, 10) < 0.5 < fisher(8, 7) -->
 #
-# The share of studies that find it is the **power** of the comparison. Compute it before you train: say which
-# difference would matter to you, the **smallest effect of interest**, and take enough agents for a power of
-# 80 %; here {{ enough(0.8, 0.3) }} of each.
+# The share of studies that find a difference is the **power** of the comparison. Compute it before you train:
+# say which difference would matter to you, the **smallest effect of interest**, and take enough agents for a
+# power of 80 %. For 80 against 30 % that is {{ enough(0.8, 0.3) }} of each.
 #
-# **Exercise (12 min, ●●○).** Write it: add up the filled discs. In each group the number of agents that
-# escape is binomial. `shown[k, j]` says whether the test tells k of n from j of n.
+# **Exercise (12 min, ●●○).** Write the power: add up the chances of the filled discs. In each group the
+# number of agents that escape is binomial. `shown[k, j]` says whether the test tells k of n from j of n.
 
 
 # %%
@@ -212,9 +207,9 @@ print(f"{', '.join(f'{each:.0f}' for each in returns)}; mean {returns.mean():.0f
 # come twice, others not at all. Take the mean, and repeat this some thousand times. The middle 95 % of these
 # means are the **bootstrap interval** (nothing to do with bootstrapped SAC).
 #
-# > **Predict.** Suppose that every agent is a copy of one of our ten, of each equally often. Somebody trains
-# > three, and computes their interval. In how many of 100 such studies does it contain the mean of all? (How
-# > often do all three do well, and where is their interval then?)
+# > **Predict.** Suppose that every training gives a copy of one of our ten agents, of each equally often. A
+# > study trains three, and computes their bootstrap interval. In how many of 100 such studies does it contain
+# > the mean of all? (How often do all three do well, and where is their interval then?)
 
 # %%
 predict(
@@ -231,12 +226,11 @@ predicted("how_many_seeds.4")
 explorable.intervals()
 
 # %% [markdown]
-# **See.** *{{ explorable.holding(3) }} of 100, not 95.* In {{ 100 * 0.7**3 | .0f }} of 100 studies all three
-# do well. Resampling knows these three alone, so the interval is short, and lies above the mean of all: *the
-# shortest intervals miss.* So print the three returns, not their interval. Five seeds: {{ explorable.holding(5) }}.
-# Ten: {{ explorable.holding(10) }}.
-# <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 and 88 <=
-#   explorable.holding(10) <= 92 -->
+# **See.** *Of 100 intervals {{ explorable.holding(3) }} contain the mean, not 95.* In
+# {{ 100 * 0.7**3 | .0f }} of 100 studies all three agents do well. Resampling knows these three alone, so the
+# interval is short and lies above the mean of all: *the shortest intervals miss.* So print the three returns,
+# not their interval.
+# <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
 #   of('bootstrapped').scores('returns').mean()).sum() == round(100 * 0.7**3) == 34)(
 #   *explorable.drawn(3)) -->
@@ -258,17 +252,17 @@ check.bootstrap_interval(bootstrap_interval)
 # %% [markdown]
 # ## Round 4: what do your five seeds show?
 #
-# Change one number of the method, and train five agents with the change, five without. `bonus=0.0` pays no
-# bonus for demonstrated seconds. Or change `rule_p` (now 0.9), `beta_start` (0.6), `gamma` (0.8),
-# `xi_multiplier` (200). Who learns the way out early? The score is an agent's success on 200 roads after 150
-# episodes.
+# Change one number of the method, train five agents with the change and five without, and see which group
+# learns the way out early. `bonus=0.0` pays no bonus for demonstrated seconds. Or change `rule_p` (now 0.9),
+# `beta_start` (0.6), `gamma` (0.8) or `xi_multiplier` (200). The score is an agent's success on 200 roads
+# after 150 episodes.
 #
 # The score of a group is its **interquartile mean** (IQM): sort, leave out a quarter, rounded down, at each
-# end, and take the mean. Of five agents the middle three count. It shows the typical agent: if one of five
-# fails, or only one succeeds, you do not see it.
+# end, and take the mean. Of five agents the middle three count, so you do not see it if one of the five
+# fails, or only one succeeds.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each resample
-# draws both groups anew. The next cell uses it.
+# draws both groups anew.
 
 
 # %%
@@ -294,11 +288,10 @@ interval_of = own_code.yours_or_ours("difference_interval", doing="Comparing")
 table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
-# **Explain.** If the interval contains 0, five seeds do not say which group learns earlier (they do not say
-# "alike" either). If it leaves out 0, that may be luck, as below.
+# **Explain.** If the interval contains 0, five seeds do not say which group learns earlier, nor that both
+# learn alike. If it leaves out 0, that may be luck, as in the next picture.
 #
-# For an answer train a *new* set, large enough for your smallest effect of interest. If you add agents until
-# the interval leaves out 0, you take luck for an effect too often.
+# For an answer train a *new* set, large enough for your smallest effect of interest.
 
 # %% [markdown]
 # ### If you try many changes
@@ -309,21 +302,20 @@ table(counts.ABLATION, *counts.ablation(success, interval_of))
 bc.show(figures.nothing_changed(study))
 
 # %% [markdown]
-# **See.** Read as ablations, the first says that your change costs {{ -halves()[0].value | .0f }} points of
-# return. It is luck: the three lowest returns came into one half. Of all possible splits of the ten, the
-# interval leaves out 0 in {{ 100 * left_out() | .0f }} %, not in 5 %: here five agents give too short an
-# interval.
+# **See.** Read as an ablation, the first comparison says that a change costs {{ -halves()[0].value | .0f }}
+# points of return. It is luck: the three lowest returns came into one half.
 # <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
 # <!-- claim: all(bad in (0, 3) for bad, effect in splits() if counts.leaves_out_0(effect)) -->
 #
-# Even at 5 % each, at least one of twenty independent comparisons leaves out 0 in
-# {{ 100 * (1 - 0.95**20) | .0f }} % of cases: **multiplicity**. Say beforehand which comparison counts. Or
-# multiply each p by the number of comparisons (*Bonferroni*; `bc.statistics.holm` is less strict). With both
-# aids 7 of 10 escape, with plain SAC 1 of 10: Fisher's p is {{ fisher(7, 1) | .3f }}. As the one comparison
-# named beforehand it counts. As one of the six pairs of our first picture it is {{ 6 * fisher(7, 1) | .2f }},
-# and does not. *So p depends on what you counted.* Ten others of each (another implementation, twice the
-# episodes) say more: {{ escapers(others('bootstrapped'), 'bootstrapped') }} escape with both aids,
-# {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
+# If each of twenty independent comparisons leaves out 0 by luck in 5 % of cases, at least one does so in
+# {{ 100 * (1 - 0.95**20) | .0f }} %. This is **multiplicity**. So say beforehand which comparison counts, or
+# multiply each p by the number of comparisons (*Bonferroni*).
+#
+# With both aids 7 of 10 agents escape, with plain SAC 1 of 10, and Fisher's p is {{ fisher(7, 1) | .3f }}. If
+# you named this pair beforehand, the difference counts. If you picked it from the six pairs of our first
+# picture, p is {{ 6 * fisher(7, 1) | .2f }}, and it does not. A new set of agents decides: of ten others of
+# each (another implementation, twice the episodes), {{ escapers(others('bootstrapped'), 'bootstrapped') }}
+# escape with both aids and {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
 # <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 # <!-- claim: fisher(7, 1) < 0.05 < 6 * fisher(7, 1) -->
@@ -353,8 +345,8 @@ compare_predictions(
 #   for m in ('sac', 'soft', 'demos', 'bootstrapped')) -->
 # 3. Compute the power before you train, for the smallest effect of interest.
 # 4. A short interval from three seeds may be luck: resampling knows these three alone.
-# 5. Five against five may differ by luck, the best of many comparisons most of all: name the one that counts,
-#    or correct each p.
+# 5. Five against five may differ by luck, the best of many comparisons most of all. Name beforehand the one
+#    that counts, or correct each p.
 #
 # **Three questions to think about**
 # - Which difference between two *agents* can 20 drives of each show, and which between two *methods*?
@@ -373,8 +365,8 @@ compare_predictions(
 # - *40 more agents?* Ten more seeds for each method, if the question is whether the methods differ: eight
 #   against seven of ten does not say. Forty settings, if a better one is looked for: the best came out best
 #   partly by the luck of its seed, so report it with ten new ones.
-# - *The sixth change?* After Holm the smallest of six p values has to be below 0.05 / 6. Write that six
-#   changes were tried, which one looked best, and that new seeds have to confirm it.
+# - *The sixth change?* After Bonferroni a p value of six has to be below 0.05 / 6. Write that six changes
+#   were tried, which one looked best, and that new seeds have to confirm it.
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** Four rows of ten dots each, dark where the agent escapes; beside each row its exact

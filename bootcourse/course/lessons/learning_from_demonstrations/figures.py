@@ -42,17 +42,17 @@ def batches(settings: Settings, episodes: Sequence[int]) -> Figure:
 
 def returns(groups: dict[str, Results]) -> Figure:
     """The mean return of groups of ten agents in their first training episodes, and below how often they succeed."""
-    title = "With less bonus, or none, the return leaves the rule's sooner, and success falls sooner"
+    title = "Without the bonus the return leaves the rule's sooner, and success falls sooner"
     figure, rule, said, ends = new_figure(5.0), evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value, [], []
     above, below = (axes_at(figure, 0.5, top, 4.9, tall) for top, tall in ((0.95, 2.0), (3.3, 1.1)))
     plain_axes(above, f"return without the bonus: mean of ten agents and {WINDOW} episodes")
     plain_axes(below, "of these episodes, succeed (%)")
-    for (name, agents), line in zip(groups.items(), ("-", "--", "-"), strict=True):
+    for name, agents in groups.items():
         colour = style("bootstrapped").colour if agents.agents[0]["bonus"] else NO_BONUS
         at, earned = rolling_means(agents.curves["return"], WINDOW)
         _, succeed = rolling_means(agents.curves["success"], WINDOW)
-        above.plot(at, earned.mean(axis=0), line, color=colour, linewidth=2.2)
-        below.plot(at, 100 * succeed.mean(axis=0), line, color=colour, linewidth=2.2)
+        above.plot(at, earned.mean(axis=0), color=colour, linewidth=2.2)
+        below.plot(at, 100 * succeed.mean(axis=0), color=colour, linewidth=2.2)
         ends.append((earned.mean(axis=0)[at <= LAST][-1], name, colour))
         reached = np.interp((450, 900, 1050), at, earned.mean(axis=0))
         said.append(f"{name}: {', '.join(f'{each:.0f}' for each in reached)}")

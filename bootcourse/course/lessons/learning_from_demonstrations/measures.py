@@ -39,13 +39,9 @@ def found(agents: Sequence[Results]) -> np.ndarray:
     return np.concatenate([found_after(each.curves["success"]) for each in agents])
 
 
-def paid_until(study: Results, changed: Computed) -> dict[str, Results]:
-    """Ten agents with both aids each, by how long the bonus is paid."""
-    return {
-        "c = 2, β ends at 1,000": study.of("bootstrapped"),
-        "c = 2, β ends at 300": changed["β over 300 episodes"].of("bootstrapped"),
-        "c = 0, β ends at 1,000": changed["c = 0"].of("bootstrapped"),
-    }
+def paid_and_not(study: Results, changed: Computed) -> dict[str, Results]:
+    """Ten agents with both aids each, with the bonus and without it."""
+    return {"c = 2": study.of("bootstrapped"), "c = 0": changed["c = 0"].of("bootstrapped")}
 
 
 FOUND = ["", "find the way out after (median of 20)", "escape (study, others)", "escape without the soft constraint"]

@@ -9,7 +9,6 @@ from bootcourse.course.lessons.looking_ahead import explorable, figures, imagine
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import record
-from bootcourse.learn.road_model import learned_from, transitions_of
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research.computed import experiment
 from bootcourse.research.experiments import learned_model
@@ -58,14 +57,9 @@ def outs(base: str, form: str = "rollouts") -> np.ndarray:
     return each(base, form, "success")
 
 
-def worse_than_alone(base: str, form: str) -> int:
-    """With how many of the lesson's wrong models a base policy crashes more often than alone."""
-    return sum(per_thousand(base, form, model) > per_thousand(base, "alone") for model in WRONG)
-
-
-def earns(model: str, form: str = "rollouts") -> float:
-    """The mean return of PPO's agents with the look-ahead, or with the shield, in one of the study's models."""
-    return float(each("ppo_cloned", form, "returns", model).mean())
+def worse_than_alone(base: str) -> int:
+    """With how many of the lesson's wrong models a base policy crashes more often than alone when it looks ahead."""
+    return sum(per_thousand(base, model=model) > per_thousand(base, "alone") for model in WRONG)
 
 
 def worths() -> np.ndarray:
@@ -124,21 +118,6 @@ def moved_on(own: bool) -> np.ndarray:
 
 
 @cache
-def misled() -> tuple[float, float, float]:
-    """How often an action's true drive ends in an accident: the best of nine in the model that the lesson learns, drawn
-    at random, the agent's own. Over the decisions of ten drives at which not all nine do.
-    """
-    agent, roads = course.shipped_agents("bootstrapped")[0], held_out_seeds(15, 10)
-    model = learned_from(transitions_of(agent.as_policy(), held_out_seeds(41, 200)), updates=500)
-    drives = record(agent.as_policy(), roads)
-    judged = [(*figures.judged(agent, model, drive), drive.actions) for drive in drives]
-    values, _, hurt, own = (np.concatenate(columns) for columns in zip(*judged, strict=True))
-    safe = ~hurt.all(1)
-    best, taken = (np.take_along_axis(hurt, of[:, None], 1)[safe].mean() for of in (values.argmax(1), own))
-    return float(best), float(hurt[safe].mean()), float(taken)
-
-
-@cache
 def learning(share: float | None = None) -> Results:
     """The ten agents that learned a model of the road, from drives with a share of random actions if one is given."""
     return learned_model.together(experiment(learned_model.NAME), share)
@@ -157,16 +136,6 @@ def learned(form: str) -> np.ndarray:
 def learned_without(form: str, share: float | None = None) -> float:
     """The same of a control, whose model learned from drives without a look-ahead."""
     return float(learned_model.per_thousand(learning(share), form, control=True).mean())
-
-
-def last_round() -> np.ndarray:
-    """Accidents in 1,000 drives with the look-ahead in the model of the last round, (agents,)."""
-    return learned_model.per_thousand(learning(), "mean of five")[:, -1]
-
-
-def still_worse() -> int:
-    """How many of the ten then crash more often than alone."""
-    return int((last_round() > figures.per_thousand(shipped(), Cell("bootstrapped", "alone"))).sum())
 
 
 def learned_rows(share: float | None = None) -> np.ndarray:

@@ -24,7 +24,7 @@ TAKES = {  # learner: (what it takes, from, until, whether it fades)
     "bootstrapped": ("a KL, and demonstrations with a bonus", START, TRAINED, True),
     "jsrl": ("the first seconds of each episode", START, TRAINED - 60, True),
     "rlpd": ("half of each batch", START, TRAINED, False),
-    "ibrl": ("demonstrations at first, and a second action", START, END, False),
+    "ibrl": ("demonstrations at first, and the rule's action beside its own", START, END, False),
 }
 MEASURED = ("returns", "accident")  # of each agent in the test
 

@@ -118,16 +118,19 @@ def training_scores(spent: float, count: str) -> dict[str, Estimate]:
 
 
 def spent_table() -> str:
-    """What each method with a teacher earns in training by two clocks, and what decisions cost it, as Markdown."""
+    """How many decisions each method with a teacher makes in some seconds, and what it earns by two clocks, as
+    Markdown.
+    """
     kinds = {"ppo_cloned": "PPO", "bootstrapped": "bootstrapped", "jsrl": "jump-start", "rlpd": "RLPD", "ibrl": "IBRL"}
+    seconds = equal_decisions.SECONDS
     clocks = {
-        f"{equal_decisions.SECONDS} s of computing": (equal_decisions.SECONDS, explorable.SECONDS),
-        f"{on_road(FIRST):.0f} h on a road ({FIRST:,} decisions)": (FIRST, explorable.DECISIONS),
+        f"return after {seconds} s of computing": (seconds, explorable.SECONDS),
+        f"return after {FIRST:,} decisions ({on_road(FIRST):.0f} h on a road)": (FIRST, explorable.DECISIONS),
     }
     scores = {words: training_scores(*spent) for words, spent in clocks.items()}
     rows = [[words, *(_marked_if_apart(each, method) for method in kinds)] for words, each in scores.items()]
-    taken = (f"*{at(method, 'seconds', FIRST).mean():.0f}*" for method in kinds)
-    return markdown(["after", *kinds.values()], [*rows, [f"*seconds for {FIRST:,}*", *taken]])
+    made = (f"{seconds * FIRST / at(method, 'seconds', FIRST).mean() / 1000:.0f}" for method in kinds)
+    return markdown(["in training", *kinds.values()], [[f"thousand decisions in {seconds} s", *made], *rows])
 
 
 def _marked_if_apart(scores: dict, method: str) -> str:

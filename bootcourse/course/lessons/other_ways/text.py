@@ -42,13 +42,15 @@ progress("other_ways")
 # %% [markdown]
 # ## Look first
 #
-# Five ways to use a teacher: what each takes from the rule of lesson [[the_rule]], and until when.
+# The figure shows five ways to use a teacher: what each takes from the rule of lesson [[the_rule]], and until
+# when.
 
 # %%
 bc.show(figures.what_is_taken())
 
 # %% [markdown]
-# PPO (lesson [[the_second_trap]]) begins as a clone of the rule ([[demonstrations]]).
+# PPO after cloning is PPO (lesson [[the_second_trap]]) that begins as a clone of the rule
+# ([[demonstrations]]).
 #
 # **You have this rule. Does it matter which of the five you choose?**
 
@@ -59,13 +61,13 @@ bc.show(figures.what_is_taken())
 # %% [markdown]
 # ## Round 1: can five critics all be wrong?
 #
-# RLPD (*reinforcement learning with prior data*) is SAC with half of each batch demonstrations, without
-# bonus, margin and KL. Its danger is that of lesson [[recorded_drives]]: Q of an untried action may be
-# guessed too high, and the policy follows the highest guess.
+# RLPD (*reinforcement learning with prior data*) is SAC in which half of each batch comes from
+# demonstrations, without bonus, margin and KL. Its danger is that of lesson [[recorded_drives]]: Q of an
+# untried action may be guessed too high, and the policy follows the highest guess.
 # <!-- claim: (lambda s: s.bonus == s.margin == s.xi_multiplier == 0 and s.beta_start == 0.5 and
 #   s.beta_episodes is None)(settings_for('rlpd')) -->
 #
-# RLPD has an **ensemble**: {{ settings_for('rlpd').critics }} critics instead of two. Each update draws
+# RLPD has an **ensemble** of {{ settings_for('rlpd').critics }} critics instead of two. Each update draws
 # {{ settings_for('rlpd').target_critics }} of them, and the target takes the smaller of their values.
 #
 # **Exercise (4 min, ●○○).** Write the ensemble's part of the target: the smallest value of the chosen
@@ -84,14 +86,15 @@ check.smallest_of(smallest_of)
 # Now three agents learn with your ensemble from the rule's drives alone, where most actions are untried.
 # <!-- claim: 0.05 == 10 * settings_for('rlpd').tau -->
 #
-# 1. *Normalised*: RLPD's **layer normalisation** shifts and scales a hidden layer's outputs to mean 0 and
-#    variance 1. The last layer's weights then limit Q.
+# 1. *Normalised*, as in RLPD: **layer normalisation** shifts and scales a hidden layer's outputs to mean 0
+#    and variance 1. The last layer's weights then limit Q.
 # 2. *Not normalised.*
-# 3. *The target asks the rule*: not normalised; the target takes the rule's next action.
+# 3. *The target asks the rule*: not normalised; the target takes the rule's next action instead of the
+#    policy's.
 #
-# > **Predict.** No drive is worth more than {{ worth_at_most(settings_for('rlpd').gamma) | .0f }}: the
-# > best second's reward, for ever, at γ = {{ settings_for('rlpd').gamma }}. The second agent's five
-# > critics began with different weights. How many of them value the rule's actions above that, on average?
+# > **Predict.** No drive is worth more than {{ worth_at_most(settings_for('rlpd').gamma) | .0f }}, the best
+# > second's reward for ever at γ = {{ settings_for('rlpd').gamma }}. The second agent's five critics began with
+# > different weights. How many of them come to value the rule's actions above that, on average?
 
 # %%
 predict("other_ways.1", "How many pass 32?", ["none", "some", "all five"])
@@ -105,11 +108,11 @@ values = measures.from_drives_alone(own_code.training([settings] * 3), updates)
 bc.show(figures.believed(updates, values, measures.worth_at_most(settings.gamma)))
 
 # %% [markdown]
-# **See.** (Yours will differ.) The five rise together, so the smallest is as wrong as the largest. With
-# normalisation, or with actions that were tried, Q stays below
-# {{ worth_at_most(settings_for('rlpd').gamma) | .0f }} in these 500 updates.
+# **See.** (Yours will differ.) The second agent's critics rise together, so the smallest value is as wrong as
+# the largest. The other two agents' Q stays below {{ worth_at_most(settings_for('rlpd').gamma) | .0f }} in
+# these 500 updates.
 #
-# **Explain.** All five learn from one target, which contains the guess about untried actions.
+# **Explain.** All five critics learn from the same target, which contains the guess about untried actions.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask what a drive of one's own with the untried action would change, and why the third agent learns nothing
@@ -133,8 +136,9 @@ explorable.which_of_two()
 #
 # $$ a^* = \mathrm{argmax}_{a' \in \{\mu(s),\, a\}}\; Q(s, a') $$
 #
-# **Exercise (12 min, ●●●).** The target averages over a. So write the choice as a *distribution* over the
-# nine actions: an action with a higher Q than μ(s) keeps its probability; all the rest goes to μ(s).
+# **Exercise (12 min, ●●●).** The target averages over the drawn action a. So write the choice as a
+# *distribution* over the nine actions: an action with a higher Q than μ(s) keeps its probability, and all the
+# rest goes to μ(s).
 
 
 # %%
@@ -149,8 +153,8 @@ def better_of_two(pi, q, rule_actions):
 check.better_of_two(better_of_two)
 
 # %% [markdown]
-# > **Predict.** The rule alone has no accident on {{ roads() | , }} held-out roads. Now an agent learns
-# > with your choice. How many of its first 80 episodes end in an accident?
+# > **Predict.** The rule alone has no accident on {{ roads() | , }} held-out roads. Now an agent learns beside
+# > it, with your choice. How many of its first 80 episodes end in an accident?
 # <!-- claim: of('rule').scores('accident').max() == 0 -->
 
 # %%
@@ -162,11 +166,11 @@ training = own_code.training([bc.settings_for("ibrl", envs_per_agent=8)], 80)
 bc.show(figures.who_chose(measures.chosen_by_q(training)))
 
 # %% [markdown]
-# **See.** (Yours will differ.) Nearly all end in one, most within 20 s. Q refuses the rule's action in about
-# half of the decisions of the first 20 episodes, and more often later.
+# **See.** (Yours will differ.) Nearly all episodes end in an accident, most within 20 s. The agent's action
+# is taken in about half of the decisions of the first 20 episodes, and more often later.
 #
-# **Explain.** Q is the judge. At first it knows nothing. Its first batches are mostly the rule's drives, so
-# *perhaps* it guesses untried actions too high, as in Round 1.
+# **Explain.** Q decides, although at first it has learned nothing. Its first batches hold mostly the rule's
+# drives, so *perhaps* it guesses untried actions too high, as in Round 1.
 # <!-- claim: settings_for('ibrl').beta_start > 0.5 and drives_before('ibrl') == 200 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -178,8 +182,9 @@ bc.show(figures.who_chose(measures.chosen_by_q(training)))
 # ## Round 3: when does the teacher hand over?
 #
 # In jump-start RL the rule makes the first h decisions of each episode, then the agent takes over. At first h
-# is {{ settings_for('jsrl').guide_decisions }}, about what the rule needs to get ahead of trap 1. As soon as
-# the two together earn about as much as at their best, h shrinks by a tenth of its first value, in the end to 0.
+# is {{ settings_for('jsrl').guide_decisions }}, about what the rule needs to get ahead of trap 1. When the
+# two together earn about as much as their best so far, h shrinks by a tenth of its first value, in the end to 0.
+# This is a **curriculum**: the agent first drives only the end of each episode, then more and more of it.
 # <!-- claim: abs(rule_is_ahead() - settings_for('jsrl').guide_decisions) < 10 -->
 #
 # **Exercise (6 min, ●●○).** Write the judgement: does h shrink now?
@@ -187,10 +192,11 @@ bc.show(figures.who_chose(measures.chosen_by_q(training)))
 
 # %%
 def guide_shrinks(returns, best, window, tolerance):
-    """True if the mean of the last `window` returns is at least the best mean less a tolerance.
+    """True if the mean of the last `window` returns comes close enough to the best mean so far.
 
-    returns: a list, since h last shrank; with fewer than `window` of them h stays. best: a float,
-    which may be negative, and -inf at first. tolerance: a share of the size of best, 0.05 for 5 %.
+    returns: a list, of the episodes since h last shrank. With fewer than `window` of them h stays.
+    best: a float, which may be negative, and is -inf at first.
+    tolerance: by how much the mean may lie below best, as a share of best's size: 0.05 is 5 %.
     """
     # solution: the exercise's own
 
@@ -210,11 +216,10 @@ training = own_code.training([bc.settings_for("jsrl", envs_per_agent=8)], 80)
 bc.show(figures.handing_over(*measures.handed_over(training)))
 
 # %% [markdown]
-# **See.** (Yours will differ.) The first mean has nothing to beat, so h shrinks. Later means must come near
-# the best so far, and that is low.
+# **See.** (Yours will differ.) At first there is no best mean to reach, so h shrinks. Later means must come
+# near the best so far, and that is low.
 #
-# **Explain.** The judgement compares with the past, not with a goal. This is a **curriculum**: it begins with
-# the end of the way and moves backwards.
+# **Explain.** The judgement compares with what the two earned before, not with a goal.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what h does if the teacher is the planner of lesson [[the_barrier]], which is out after ten seconds, and
@@ -225,18 +230,15 @@ bc.show(figures.handing_over(*measures.handed_over(training)))
 # ## Round 4: which of the five is best?
 #
 # A comparison needs the same number of decisions, the same roads in the test and the same search for
-# settings: jump-start RL earns {{ min(search('jsrl').values()) | .0f }} with one of three target entropies,
-# {{ max(search('jsrl').values()) | .0f }} with another. Each method's best of three is trained again, with
-# ten new agents.
+# settings. Jump-start RL earns {{ min(search('jsrl').values()) | .0f }} with one of three target entropies
+# and {{ max(search('jsrl').values()) | .0f }} with another. So each method tries three settings, and its best
+# is trained again with ten new agents.
 # <!-- claim: {len(each) for each in equal_decisions.TRIES.values()} == {3} and
 #   {len(each) for each in compared().values()} == {10} and len({a['gamma'] for each in
-#   compared().values() for a in each.agents}) == 1 and all(set(one) == {'envs_per_agent' if
-#   'ppo' in m else 'target_entropy'} for m, t in equal_decisions.TRIES.items() for one in t) -->
+#   compared().values() for a in each.agents}) == 1 -->
 #
-# What else would have to be equal? Name two things; a list comes below.
-#
-# > **Predict.** After {{ FIRST | , }} decisions each agent drives on {{ roads() | , }} held-out
-# > roads. Which of the five earns the most, or can ten agents of each not tell?
+# > **Predict.** After {{ FIRST | , }} decisions each agent drives on {{ roads() | , }} held-out roads. Which of the
+# > five methods earns the most, or can ten agents of each not tell?
 
 # %%
 learners = [bc.display_name(method) for method in figures.TAKES]
@@ -249,38 +251,34 @@ by_rule = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 200
 bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 
 # %% [markdown]
-# **See.** On average each of the five earns more than twice what the rule earns; PPO and plain SAC without a
-# teacher earn less than the rule.
+# **See.** On average each of the five earns more than twice what the rule earns.
 #
-# Return is not safety: the five have accidents in {{ accident_shares().min() | .0f }} to
-# {{ accident_shares().max() | .0f }} % of their drives, the rule in none. RLPD's come mostly from two of ten
-# agents: one has them in {{ 100 * at('rlpd', 'accident').max() | .0f }} % and still earns {{ at('rlpd',
-# 'returns')[at('rlpd', 'accident').argmax()] | .0f }}.
+# But return is not safety: the five have accidents in {{ accident_shares().min() | .0f }} to
+# {{ accident_shares().max() | .0f }} % of their drives, the rule in none. One agent of RLPD has an accident
+# in {{ 100 * at('rlpd', 'accident').max() | .0f }} % of its drives and still earns more than the rule.
 # <!-- claim: of('rule').episodes('accident').sum() == 0 -->
-# <!-- claim: min(map(middle, TAUGHT)) > 2 * of('rule').scores('returns').mean() > 2 *
-#   max(score_at(m).high for m in compared() if m not in TAUGHT) -->
+# <!-- claim: min(map(middle, TAUGHT)) > 2 * of('rule').scores('returns').mean() -->
 # <!-- claim: min(at(m, 'returns').min() for m in TAUGHT) > of('rule').scores('returns').mean() >
 #   max(at(m, 'returns').max() for m in compared() if m not in TAUGHT) -->
 #
-# **Explain.** Which of the five earns the most stays *open*. **Rank tests** (does one group's ten rank above
-# the other's?) of all ten pairs, corrected for their number (lesson [[how_many_seeds]]), show only that
-# bootstrapped SAC and IBRL earn more than PPO after cloning; after {{ SECOND | , }} decisions not even that.
+# **Explain.** Which of the five earns the most stays *open*. A **rank test** asks whether one method's ten
+# agents rank above another's. For all ten pairs, corrected for their number (lesson [[how_many_seeds]]), the
+# tests show only that bootstrapped SAC and IBRL earn more than PPO after cloning. After {{ SECOND | , }}
+# decisions they do not show even that.
 # <!-- claim: {pair for pair, p in pairs(FIRST).items() if p < 0.05} == {('bootstrapped',
 #   'ppo_cloned'), ('ibrl', 'ppo_cloned')} and min(pairs(SECOND).values()) > 0.05 and
 #   len(pairs(FIRST)) == 10 and all(middle(m) > middle('ppo_cloned') for m in ('bootstrapped',
 #   'ibrl')) -->
 #
-# And not all was equal:
+# And not everything was equal:
 #
 # | | PPO | bootstrapped SAC | jump-start RL | RLPD | IBRL |
 # |---|---|---|---|---|---|
 # | {{ hours_before('rlpd') | .0f }} h of the rule's drives, not counted | yes | yes | no | yes | yes |
 # | the rule acts | no | no | in training, counted | no | in training and test |
 # | updates a decision | – | ¼ | ¼ | ½ | ¼ |
-# | three values were tried of | roads at once | target entropy | target entropy | target entropy | target entropy |
+# | chosen by hand before | – | c and β | – | – | – |
 #
-# Bootstrapped SAC's c and β were chosen by hand, and γ is {{ settings_for('rlpd').gamma }}: these are not
-# lesson [[looking_ahead]]'s agents.
 # <!-- claim: by_hand() == {'bootstrapped': {'bonus', 'beta_episodes'}} and {decisions_per_update(m) /
 #   decisions_per_update('rlpd') for m in ('bootstrapped', 'jsrl', 'ibrl')} == {2} and
 #   decisions_per_update('rlpd') == 2 -->
@@ -307,16 +305,15 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 predict("other_ways.5", "Where is PPO after cloning?", ["first", "in the middle", "last"])
 
 # %% [markdown]
-# **Switch** from seconds of computing to decisions: on a road each takes a second. (Jump-start RL's and
-# IBRL's returns contain the rule's actions. Not counted: PPO's cloning, and the rule's drives of the table
-# above.)
+# **Switch** from seconds of computing to decisions; on a road each decision takes a second. PPO's cloning and
+# the rule's drives of the table above are not counted.
 
 # %%
 predicted("other_ways.5")
 explorable.TwoCounts(compared, by_rule.returns.mean())
 
 # %% [markdown]
-# **See.** In training they earn
+# **See.** In training the two counts put PPO after cloning in different places:
 #
 # {{ spent_table() }}
 #
@@ -327,10 +324,8 @@ explorable.TwoCounts(compared, by_rule.returns.mean())
 # <!-- claim: (lambda of: of['ppo_cloned'].high < min(of[m].low for m in of if m != 'ppo_cloned'))(
 #   training_scores(FIRST, explorable.DECISIONS)) -->
 #
-# **Explain.** PPO's decisions are cheap (last line), but it needs more of them: where decisions are as cheap
-# as on this simulator, take PPO; where each costs a second, one of the others. After {{ SECOND | , }}
-# decisions for each ({{ at('ppo_cloned', 'seconds', SECOND).mean() | .0f }} s to
-# {{ at('rlpd', 'seconds', SECOND).mean() / 60 | .0f }} minutes) our tests show no difference.
+# **Explain.** PPO computes least for a decision (first line), but it needs more decisions. Where decisions
+# are as cheap as on this simulator, take PPO; where each costs a second, take one of the others.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask who in the room has which clock: a simulator and one night, or a car and one day. A faster computer
@@ -349,12 +344,11 @@ compare_predictions(
 # ## What you now know
 #
 # 1. A teacher can give data, a start, a second opinion, the first seconds or a pull.
-# 2. Critics with the same target can be wrong together; with layer normalisation Q stayed below the bound,
-#    for 500 updates.
-# 3. In IBRL Q judges the teacher, at first without knowing. Jump-start RL hands over when the return is near
-#    its own best, however low.
-# 4. After {{ FIRST | , }} decisions each of the five earns on average over twice what the rule earns. Which
-#    is best is open; all crash more than the rule.
+# 2. Five critics with the same target can be wrong together.
+# 3. In IBRL Q chooses between teacher and agent, at first without having learned. Jump-start RL hands over
+#    when the return is near its own best, however low.
+# 4. After {{ FIRST | , }} decisions each of the five earns on average more than twice what the rule earns.
+#    Which is best is open, and all crash more than the rule.
 # 5. Seconds of computing and hours on a road put the methods in different orders.
 #
 # **Three questions to think about**

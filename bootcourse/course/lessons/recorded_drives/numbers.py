@@ -61,11 +61,6 @@ def successes() -> np.ndarray:
     return np.array([of(method).scores("success")[:SETS] for method in choosing.METHODS]).T
 
 
-def returns() -> np.ndarray:
-    """What each earns on the held-out roads, (sets, agents)."""
-    return np.array([of(method).scores("returns")[:SETS] for method in choosing.METHODS]).T
-
-
 def shares(actions: torch.Tensor) -> tuple[float, float]:
     """How often these actions accelerate, and brake."""
     return float((actions >= 6).float().mean()), float((actions < 3).float().mean())

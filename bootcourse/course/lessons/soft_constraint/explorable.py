@@ -4,7 +4,8 @@ import numpy as np
 import torch
 
 from bootcourse.colours import QUIET
-from bootcourse.learn.bootstrap import log_stochastic_rule, regularised_policy
+from bootcourse.course import own_code
+from bootcourse.learn.bootstrap import log_stochastic_rule
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
 from bootcourse.panels.explorable import Axes, Curve, Explorable, bars
@@ -32,13 +33,15 @@ def one_state() -> tuple[torch.Tensor, torch.Tensor]:
 def pull() -> Explorable:
     """The best compromise between Q, in which another action is worth more, and the rule, while α falls.
 
-    With ξ = 200 α its logits are Q / 201α + (200/201) log π̃.
+    With ξ = 200 α its logits are Q / 201α + (200/201) log π̃. It is the student's `regularised_policy`, if it passed its
+    check.
     """
+    best = own_code.yours_or_ours("regularised_policy", doing="Drawing")
     settings, (q, log_rule) = Settings(), one_state()
     multiplier = settings.xi_multiplier
 
     def draw(alpha: float) -> Drawing:
-        together, alone = (regularised_policy(q, log_rule, alpha, xi)[0] for xi in (multiplier * alpha, 2.0))
+        together, alone = (best(q, log_rule, alpha, xi)[0] for xi in (multiplier * alpha, 2.0))
         lead = head_start(log_rule[0].numpy(), alpha, multiplier * alpha)
         q_lead = LEAD / ((1 + multiplier) * alpha)
         says = f"α = {alpha:.6f}".rstrip("0") + f", ξ = {multiplier * alpha:.2g}: "

@@ -1,4 +1,4 @@
-"""The pictures of the lesson on the soft constraint: drives by a finished Q and the rule, trainings, how they ended."""
+"""The pictures of the lesson on the soft constraint: trainings, and how they ended."""
 
 from collections.abc import Sequence
 from functools import cache
@@ -9,14 +9,13 @@ from matplotlib.figure import Figure
 from bootcourse.colours import INK, QUIET
 from bootcourse.course import shipped
 from bootcourse.course.dots import beside, dots, name_rows
-from bootcourse.course.lessons.soft_constraint.examples import ROADS
 from bootcourse.course.live_curves import LiveCurves
 from bootcourse.learn.training import Training
 from bootcourse.methods import style
 from bootcourse.plots.figure import SMALL, axes_at, finish, label_ends, new_figure, one_axes, plain_axes
 from bootcourse.research.report import rule_results
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import IN_A_ROW, found_after, lost, rolling_means
+from bootcourse.statistics import IN_A_ROW, found_after, rolling_means
 
 PENALTY = "with the value penalty", "without it"
 
@@ -66,22 +65,6 @@ class LivePenalty(LiveCurves):
         return finish(figure, title, alt)
 
 
-def mixed(strengths: Sequence[float], returns: np.ndarray, accidents: np.ndarray) -> Figure:
-    """The drives of `examples.mixed`: a dot for each agent's mean return, beside a row its share of accidents."""
-    rows = [f"ξ = {xi:g}" if xi else "ξ = 0: Q alone" for xi in strengths] + ["their own policies"]
-    title = "The rule and a finished Q together are slow, or crash"
-    figure, ax = one_axes(3.2, title, "", "")
-    ax.set_position((0.2, 0.17, 0.57, 0.66))
-    alt = []
-    for place, (name, each, crashed) in enumerate(zip(rows, returns, 100 * accidents, strict=True)):
-        dots(ax, each, place, style("soft").colour if place == len(strengths) else INK)
-        share = f"{crashed.min():.0f} to {crashed.max():.0f}" if crashed.max() else "0"
-        beside(ax, place, f"{share} % crash")
-        alt.append(f"{name}: {each.min():.0f} to {each.max():.0f}, {share} % crash")
-    name_rows(ax, rows, f"mean return on {len(ROADS)} roads; a dot for each of five agents")
-    return finish(figure, title, f"Returns: {'; '.join(alt)}.")
-
-
 FADING = "ξ falls towards 0"  # the study's own agents with the soft constraint; the other kinds have one change
 
 
@@ -92,35 +75,38 @@ FAULTS = "never reliable", "two never", "found and lost again"  # of the kinds o
 
 
 def courses(kinds: Sequence[str]) -> Figure:
-    """Above ξ, below the success in training of ten agents of each of three kinds. kinds: as in `twenty`.
+    """For each kind above ξ, below the success in training of its ten agents. kinds: as in `twenty`.
 
     An agent of `FADING` is that of `FLOOR` until ξ reaches 0.1; from there on its ξ is not kept.
     """
     changed = shipped.shipped_experiment("ablations") | {FADING: shipped.shipped_results().of("soft")}
-    figure, looks, alt = new_figure(4.3), (QUIET, INK, style("soft").colour), []
-    above = axes_at(figure, 0.5, 0.75, 1.9, 0.75)
-    plain_axes(above, "mean ξ of ten agents")
+    figure, looks, alt = new_figure(4.5), (QUIET, INK, style("soft").colour), []
     for column, (kind, fault, colour) in enumerate(zip(kinds, FAULTS, looks, strict=True)):
+        success = changed[kind].of("soft").curves["success"]
+        left = 0.5 + 2.1 * column
+        above, below = axes_at(figure, left, 0.95, 1.9, 0.75), axes_at(figure, left, 2.15, 1.9, 1.7)
+        plain_axes(above, f"{kind}:\n{fault}")
         xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
         until = np.argmax(xi <= 0.101) if kind == FADING else len(xi)
         above.plot(np.arange(until), xi[:until], color=colour, linewidth=2)
-        success = changed[kind].of("soft").curves["success"]
+        if kind == FADING:
+            arrow = {"arrowstyle": "->", "color": colour, "linewidth": 2, "shrinkB": 0}
+            above.annotate("", (until + 190, 0.03), (until, 0.1), arrowprops=arrow)
+            above.text(until + 240, 0.03, "towards 0", va="center", fontsize=SMALL, color=colour)
+        above.set(yscale="log", ylim=(0.02, 3))
+        above.set_yticks((0.1, 1, 2), ("0.1", "1", "2"))
+        above.minorticks_off()
         episodes, share = rolling_means(success, IN_A_ROW, success.shape[1])
-        below = axes_at(figure, 0.5 + 2.1 * column, 2.15, 1.9, 1.5)
-        plain_axes(below, f"{kind}:\n{fault}")
+        plain_axes(below, "" if column else f"of the last {IN_A_ROW} episodes, ended ahead")
         below.plot(episodes, IN_A_ROW * share.T, color=colour, linewidth=0.8, alpha=0.7)
         below.axhline(IN_A_ROW / 2, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
-        below.set(xlim=(0, success.shape[1]), ylim=(0, IN_A_ROW + 1), xticks=(500, 1000, 1500))
-        below.tick_params(labelleft=not column)
+        below.set(ylim=(0, IN_A_ROW + 1))
         below.set_xlabel("training episode", fontsize=SMALL, color=INK)
+        for ax in (above, below):
+            ax.set(xlim=(0, success.shape[1]), xticks=(500, 1000, 1500))
+            ax.tick_params(labelleft=not column, labelbottom=ax is below)
         alt.append(f"{kind}: {fault}, at last {IN_A_ROW * share[:, -1].mean():.0f} on average")
-    above.set(yscale="log", xlim=(0, success.shape[1]), ylim=(0.02, 3), xticks=(500, 1000, 1500))
-    above.set_yticks((0.1, 1, 2), ("0.1", "1", "2"))
-    arrow = {"arrowstyle": "->", "color": looks[-1], "linewidth": 2, "shrinkB": 0}
-    above.annotate("", (until + 190, 0.03), (until, 0.1), arrowprops=arrow)
-    above.text(until + 240, 0.03, "towards 0", va="center", fontsize=SMALL, color=looks[-1])
-    above.minorticks_off()
-    words = f"below: of the last {IN_A_ROW} training episodes, how many ended ahead; a line for each agent"
+    words = "above: mean ξ of ten agents; below: a line for each agent"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     title = f"Each kind has a fault: {', '.join(FAULTS[:-1])}, or {FAULTS[-1]}"
     return finish(figure, title, f"Of {IN_A_ROW} training episodes in a row, ended ahead. {'; '.join(alt)}.")
@@ -141,10 +127,9 @@ def twenty(kinds: Sequence[str]) -> Figure:
     for place, kind in enumerate(kinds):
         studies = changed[kind], others["soft" if kind == FADING else f"soft, {kind}"]
         returns = np.concatenate([each.scores("returns") for each in studies])
-        found, kept = np.concatenate([each.found_and_kept("soft") for each in studies], axis=1)
+        kept = np.concatenate([each.found_and_kept("soft")[1] for each in studies])
         dots(ax, returns, place, colour, kept, bar=returns.mean())
-        losing = np.concatenate([lost(each.of("soft").curves["success"]) for each in studies])
-        counts = f"{found.sum()} find the way out,\n{losing.sum()} lose it in training,\n{kept.sum()} escape"
+        counts = f"{kept.sum()} of {len(kept)} escape"
         beside(ax, place, counts)
         alt.append(f"{kind}: {counts}, mean return {returns.mean():.0f}, {returns.min():.0f} to {returns.max():.0f}")
     name_rows(ax, kinds, "return of an agent on 1,000 roads; filled: it escapes; bar: mean of twenty")
@@ -153,4 +138,4 @@ def twenty(kinds: Sequence[str]) -> Figure:
         ax.axvline(times * rule, color=green, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
         ax.text(times * rule, -0.55, words, color=green, fontsize=SMALL, ha="center", va="bottom")
     words = f"A dot for each agent. {'; '.join(alt)}. The rule: {rule:.0f}."
-    return finish(figure, title, words.replace("\n", " "))
+    return finish(figure, title, words)

@@ -1,5 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+import math
 import re
 from collections.abc import Callable
 from functools import cache
@@ -7,22 +8,19 @@ from functools import cache
 import numpy as np
 import torch
 
-from bootcourse.course.lessons.soft_constraint import examples
-from bootcourse.course.lessons.soft_constraint.examples import ROADS
 from bootcourse.course.lessons.soft_constraint.figures import ways_out as ways_out
 from bootcourse.course.shipped import shipped_agents
-from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.record import record
 from bootcourse.learn.bootstrap import regularised_policy
 from bootcourse.panels.compromise import CHOSEN, Way, Ways
-from bootcourse.policies import rule_policy
 from bootcourse.research.results import Results
-from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES, found_after, lost
 from bootcourse.statistics import HAD as HAD
 from bootcourse.statistics import IN_A_ROW as IN_A_ROW
 from bootcourse.statistics import LOST as LOST
+from bootcourse.statistics import found_after, lost
 from tools.course.known import RULE_P, of, others, shipped_experiment
+
+ALPHA = 0.01  # of the opening panel
 
 
 def stays(xi: float = 2.0) -> Results:
@@ -44,17 +42,6 @@ def sooner_without() -> bool:
 def found(agents: Results) -> int:
     """How many agents have found the way out in training."""
     return int(agents.found_and_kept("soft")[0].sum())
-
-
-def always_crash(groups: list[Results]) -> int:
-    """How many agents have an accident in more than nine drives of ten."""
-    return sum(int((agents.scores("accident") > 0.9).sum()) for agents in groups)
-
-
-def crash_of_keepers(groups: list[Results]) -> float:
-    """The share of drives that end in an accident of those that escape, on average."""
-    hurt = [agents.scores("accident")[agents.scores("success") >= ESCAPES] for agents in groups]
-    return float(np.concatenate(hurt).mean())
 
 
 def finding(agents: Results) -> np.ndarray:
@@ -104,18 +91,12 @@ def crashes(agents: list[Results]) -> float:
     return float(np.mean([each.of("soft").scores("accident") for each in agents]))
 
 
-def returning_more() -> int:
-    """How many agents of `fading` that escape return more than each agent of `floored`."""
-    most = max(each.scores("returns").max() for each in floored())
-    return sum(int((each.found_and_kept("soft")[1] & (each.scores("returns") > most)).sum()) for each in fading())
-
-
 @cache
 def ways_of_the_panel(xi: float) -> dict[str, Way]:
     """The panel's three ways on from the start of road 10, with p = 0.9, by their names."""
     helped = shipped_agents("soft")[0]
     drive = record(helped.as_policy(with_q=True), [10])[0]
-    return Ways(drive, helped).at(0, RULE_P, xi, examples.ALPHA)
+    return Ways(drive, helped).at(0, RULE_P, xi, ALPHA)
 
 
 def way(xi: float, whose: str = CHOSEN) -> str:
@@ -133,17 +114,6 @@ def accidents_of_the_panel(xi: float) -> list[str]:
     return [name for name, each in ways_of_the_panel(xi).items() if each.accident]
 
 
-@cache
-def drives() -> tuple[np.ndarray, np.ndarray]:
-    """The mean returns and shares of accidents of the drives in Round 2, (5, agents) each: ξ = 1, 0.3, 0.1, 0, own."""
-    return examples.mixed(regularised_policy, [1, 0.3, 0.1, 0])
-
-
-def rule_on_these_roads() -> float:
-    """The rule's mean return on the roads of `drives`."""
-    return float(drive_episodes(rule_policy(DEFAULT), ROADS).returns.mean())
-
-
 def same_until_the_floor() -> bool:
     """Have the study's agents the same episodes, whether ξ falls towards 0 or to 0.1, until it is at 0.1?"""
     stops, goes_on = floored()[0].of("soft").curves, of("soft").of("soft").curves
@@ -156,3 +126,13 @@ def entropy_where_all_q_are_equal(alpha: float) -> float:
     log_rule = torch.tensor([[RULE_P] + [(1 - RULE_P) / 8] * 8]).log()
     policy = regularised_policy(torch.zeros(1, 9), log_rule, alpha, 200 * alpha)
     return float(-(policy * policy.log()).sum())
+
+
+def leaving_costs(xi: float) -> float:
+    """What a second with another action than the rule's costs more than one with it, with this ξ."""
+    return xi * math.log(8 * RULE_P / (1 - RULE_P))
+
+
+def head_start() -> float:
+    """How much larger the best policy's log π of the rule's action is where all Q are equal, with ξ = 200 α: nats."""
+    return leaving_costs(200 / 201)

@@ -56,12 +56,6 @@ MIDDLE, CHEAP, KEPT, BOTH = easier.MIDDLE, easier.CHEAP, easier.KEPT, easier.BOT
 stressed = easier.stressed
 
 
-def too_fast(kind: str) -> np.ndarray:
-    """What those agents of a kind earn that escape, and are faster than 20 m/s on average."""
-    agents = easy(kind)
-    return agents.scores("returns")[(agents.scores("success") >= ESCAPES) & (agents.scores("speed") > 20)]
-
-
 def stay(kind: str) -> int:
     """How many agents of a kind end ahead on hardly any road, and do not crash on most: they stay behind."""
     agents = easy(kind)
@@ -89,14 +83,6 @@ def step_to_the_left() -> attempts.Outcome:
 def one_acceleration() -> attempts.Outcome:
     """What comes of one acceleration mid-lane, on 100 roads."""
     return attempts.drive(PlanPolicy([attempts.ACCELERATE]), held_out_seeds(7, 100), easier.MidLaneStart)
-
-
-def farther() -> np.ndarray:
-    """Which agents of plain SAC with a larger γ than the paper's, and nothing else changed, escape."""
-    sensitivity = shipped_experiment("sensitivity")
-    found = [easy("as it is"), *(sensitivity[f"γ = {gamma}"].of("sac") for gamma in (0.9, 0.95, 0.99))]
-    escaping = [agents.scores("success") >= ESCAPES for agents in found]
-    return np.concatenate([e[[one["gamma"] > 0.8 for one in a.agents]] for a, e in zip(found, escaping, strict=True)])
 
 
 @cache

@@ -13,9 +13,9 @@ from bootcourse.course.lessons.the_rule.rules import crash as crash
 from bootcourse.course.lessons.the_rule.rules import driven as driven
 from bootcourse.course.lessons.the_rule.rules import recorded as recorded
 from bootcourse.course.lessons.the_rule.rules import split as split
-from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
+from bootcourse.episodes.evaluate import Episodes, drive_episodes
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.policies import PolicyOutput, stochastic_rule_policy
+from bootcourse.policies import PolicyOutput
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SETTLED as SETTLED
 from bootcourse.rule import Reason, rule
@@ -118,10 +118,3 @@ def makes_way(drive: Rollout, car: int) -> float:
     cars = drive.states
     left = np.flatnonzero((cars[1:, car, LANE] > 0) & (cars[:-1, car, LANE] == 0) & (cars[1:, EGO, LANE] == 0))
     return float(cars[1 + left[0], car, X] - cars[1 + left[0], EGO, X]) if len(left) else float("inf")
-
-
-@cache
-def erring(p: float) -> float:
-    """The share of 1,000 drives of the stochastic rule that end in an accident."""
-    driver = stochastic_rule_policy(DEFAULT, np.random.default_rng(0), p)
-    return float((drive_episodes(driver, held_out_seeds(2, 1000)).accident > 0).mean())

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from bootcourse.colours import Style
 from bootcourse.course.charts import lines
-from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, compared
+from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, compared, driven
 from bootcourse.course.lessons.the_second_trap.second_trap import speeds
 from bootcourse.episodes.record import Rollout
 from bootcourse.learn.ppo import clipped_loss
@@ -25,6 +25,7 @@ from bootcourse.plots.figure import (
     one_axes,
     plain_axes,
 )
+from bootcourse.policies import idle_policy
 from bootcourse.scenario import DEFAULT
 
 RATIOS = np.linspace(0.3, 1.7, 141)
@@ -96,11 +97,11 @@ def two_speeds(drives: Mapping[str, Rollout]) -> Figure:
 
 
 def credit(speed: np.ndarray, found: Mapping[str, torch.Tensor], horizon: int) -> Figure:
-    """A drive's speeds (seconds,), and below them its advantages, (seconds, 1): good above 0, bad below.
+    """A drive's speeds (seconds,), and below them its advantages, (seconds, 1).
 
     found: {what A sees: the advantages}; horizon: after so many decisions the data end, dotted.
     """
-    title = f"Cut every {horizon} decisions, most of falling back looks bad"
+    title = f"Cut every {horizon} decisions, A does not see the sprint that follows"
     figure, seconds, alt = new_figure(4.0), np.arange(len(speed)), []
     above, below = axes_at(figure, 0.55, 0.75, 5.5, 0.95), axes_at(figure, 0.55, 2.1, 5.5, 1.35)
     for ax, words in ((above, "speed (m/s)"), (below, "advantage A of the decision at that second")):
@@ -117,13 +118,13 @@ def credit(speed: np.ndarray, found: Mapping[str, torch.Tensor], horizon: int) -
         values = np.asarray(found[name])[:, 0]
         below.plot(seconds, values, color=colour, linewidth=2)
         ends.append((values[-1], name, colour))
-        alt.append(f"{(values[slow] > 0).sum()} ({name})")
+        alt.append(f"{values[slow].mean():.1f} ({name})")
     for end in range(horizon, len(speed), horizon):
         below.axvline(end, color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
     below.axhline(0, color=INK, linewidth=0.8)
     below.set_xlabel("time (s); grey: slower than the traps", fontsize=TEXT, color=INK)
     label_ends(below, ends)
-    return finish(figure, title, f"Of {slow.sum()} seconds below 10 m/s, A > 0 in {', '.join(alt)}.")
+    return finish(figure, title, f"Mean A of the {slow.sum()} seconds below 10 m/s: {', '.join(alt)}.")
 
 
 def slow_stretches(speed: np.ndarray) -> list[tuple[int, int]]:
@@ -133,20 +134,30 @@ def slow_stretches(speed: np.ndarray) -> list[tuple[int, int]]:
     return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 
 
-def ahead_in_training(agents: Mapping[str, Mapping[str, np.ndarray]]) -> Figure:
-    """How many of the last 300 training drives got ahead of trap 1: a line for each agent of two kinds.
+def gives_up(alone: Mapping[str, np.ndarray]) -> Figure:
+    """Of the last 300 training drives: how many got ahead of trap 1, and below it what they earned; a line an agent.
 
-    agents: as `ppo_kinds.reference` returns them.
+    alone: the agents of PPO alone, as `ppo_kinds.reference` returns them.
     """
-    title = "After cloning many drives get ahead in training, alone few"
-    figure, ax = one_axes(3.2, title, "decisions in training (thousands)", "of the last 300 drives these got ahead, %")
-    alt, ends = [], []
-    for name, kind, colour in (("PPO after cloning", "cloned", style("ppo").colour), ("PPO alone", "alone", INK)):
-        at, shares = agents[kind]["at"] / 1000, 100 * agents[kind]["escapes"]
-        ax.plot(at.T, shares.T, color=colour, linewidth=1, alpha=0.8, clip_on=False)
-        ends.append((shares[:, -1].mean(), name, colour))
-        alt.append(f"{name}: {shares.min():.0f} to {shares.max():.0f} %, at the end {shares[:, -1].mean():.0f} %")
-    ax.set(xlim=(0, max(kind["at"].max() for kind in (agents["alone"], agents["cloned"])) / 1000), ylim=(0, 100))
-    ax.set_position((0.09, 0.17, 0.68, 0.62))
-    label_ends(ax, ends)
-    return finish(figure, title, f"A line for each agent. {'; '.join(alt)}.")
+    title = "First PPO alone gives up leaving, then it learns to sprint"
+    figure, at = new_figure(4.2), alone["at"].T / 1000
+    above, below = axes_at(figure, 0.55, 0.75, 5.0, 1.05), axes_at(figure, 0.55, 2.2, 5.0, 1.4)
+    panels = ((above, "ahead of trap 1, % of the last 300 drives", 100 * alone["escapes"]),
+              (below, "mean return of these drives", alone["curve"]))  # fmt: skip
+    for ax, words, values in panels:
+        plain_axes(ax, words)
+        ax.plot(at, values.T, color=style("ppo").colour, linewidth=1, clip_on=False)
+        ax.set_xlim(0, at.max())
+    above.set(ylim=(0, 10), xticklabels=[])
+    straight = driven(idle_policy)[0]
+    below.set_ylim(-10, 50)
+    below.axhline(straight, color=INK, linewidth=1, linestyle=(0, (1, 2)), zorder=1)
+    below.set_xlabel("decisions in training (thousands); a line for each agent", fontsize=TEXT, color=INK)
+    label_ends(below, [(straight, "keeping straight", INK)])
+    share, returns = 100 * alone["escapes"], alone["curve"]
+    alt = [
+        f"{1000 * at[place, 0]:,.0f} decisions: ahead {share[:, place].min():.0f} to {share[:, place].max():.0f} %, "
+        f"return {returns[:, place].min():.0f} to {returns[:, place].max():.0f}"
+        for place in (0, 3, 5, 9, len(at) - 1)
+    ]
+    return finish(figure, title, f"A line for each agent. {'; '.join(alt)}. Keeping straight: {straight:.0f}.")

@@ -1,6 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-from functools import cache, partial
+from functools import cache
 
 import numpy as np
 import torch
@@ -57,30 +57,18 @@ def ppo_gap() -> np.ndarray:
     return cars[:, EGO, X] - cars[:, TRAP_1, X]
 
 
-def credit(lam: float, horizon: int | None = None, first: int | None = None) -> np.ndarray:
+def credit(lam: float, horizon: int | None = None) -> np.ndarray:
     """The advantages of that drive, paid by r_v, where V is what a steady 10 m/s pays for ever: (decisions,).
 
-    horizon: after so many decisions the data end, again and again; None: with the drive. first: after so many the first
-    time.
+    horizon: after so many decisions the data end, again and again; None: with the drive.
     """
     rewards = torch.tensor([[speed_reward(v)] for v in ppo_speeds()])
     values = torch.full_like(rewards, speed_reward(10.0) / (1 - ppo_kinds.GAMMA))
     no = torch.zeros_like(rewards)  # accident
     ends = no.clone()
     if horizon:
-        ends[(first or horizon) - 1 :: horizon] = 1
+        ends[horizon - 1 :: horizon] = 1
     return advantages(rewards, values, values, no, ends, ppo_kinds.GAMMA, lam)[:, 0].numpy()
-
-
-def judged_good(lam: float, horizon: int | None = None, first: int | None = None) -> int:
-    """In how many of its seconds below 10 m/s the advantage is above 0. horizon, first: as for `credit`."""
-    return int((credit(lam, horizon, first)[ppo_speeds() < 10] > 0).sum())
-
-
-def wherever_cut() -> np.ndarray:
-    """The same with λ = 0.95, for each place of the first cut within PPO's data."""
-    horizon = settings_for("ppo").horizon
-    return np.array([judged_good(0.95, horizon, first) for first in range(1, horizon + 1)])
 
 
 @cache
@@ -116,10 +104,3 @@ def paid_concavely(drive, gamma: float = 1.0) -> float:
     cars, rewards = drive.states[::2], np.asarray(drive.rewards)
     paid = second_trap.concave_pay(rewards, cars[:-1], cars[1:], np.zeros(len(rewards), dtype=bool))
     return float(gamma ** np.arange(len(paid)) @ paid)
-
-
-def prize(kind: str) -> float:
-    """How much more `careful` earns on the course's road than an agent, "alone" or "concave", by its reward."""
-    pay = paid_concavely if kind == "concave" else partial(discounted, gamma=1.0)
-    agent = ppo_kinds.agent_of(kind).as_policy()
-    return pay(record(teacher_policy(example_teachers.careful), [ROAD])[0]) - pay(record(agent, [ROAD])[0])

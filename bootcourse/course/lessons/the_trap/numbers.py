@@ -3,17 +3,14 @@
 from functools import cache
 
 import numpy as np
-from highway_env.envs.common.abstract import AbstractEnv
 
 from bootcourse.course.lessons.the_barrier.explorable import by_plan
 from bootcourse.course.lessons.the_trap.driving import all_plans, on_road
-from bootcourse.course.lessons.the_trap.exercises import bearable_risk
 from bootcourse.course.lessons.the_trap.figures import RIGHT_FIRST
 from bootcourse.course.lessons.the_trap.time_step import unhurt
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.policies import plan_policy
-from bootcourse.research.results import Results
 from bootcourse.road.formulas import bicycle_step
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
@@ -78,12 +75,6 @@ def in_steps(tau: float, step: float) -> float:
     return unhurt(PLAN, tau, step)
 
 
-def bearable_by_plan(gamma: float = 0.8) -> float:
-    """The share of attempts that may crash after 3 s, if the others drive like the plan on road 10."""
-    crash = float(gamma ** np.arange(4) @ [*by_rule().rewards[:3], DEFAULT.reward.accident])
-    return bearable_risk.solution(discounted(idle(), gamma), discounted(on_ten(), gamma), crash)
-
-
 def farther_escape() -> int:
     """How many of the study's agents of plain SAC that look farther ahead escape."""
     return sum(escaped_with(f"γ = {gamma}", "sac") for gamma in FARTHER)
@@ -99,15 +90,3 @@ def crash_on_most() -> np.ndarray:
     """Which of the agents with the rule's help do not escape, and crash on most roads: (agents,) bool."""
     agents = shipped_results().of("bootstrapped")
     return (agents.scores("success") < ESCAPES) & (agents.scores("accident") > 0.5)
-
-
-def highway_env_rate() -> int:
-    """How many steps a second highway-env makes by default."""
-    return AbstractEnv.default_config()["simulation_frequency"]
-
-
-def nearly() -> Results:
-    """The agent with the rule's help that crashes on most roads, but not on all."""
-    agents = shipped_results().of("bootstrapped")
-    (place,) = np.flatnonzero((agents.scores("accident") > 0.5) & (agents.scores("accident") < 0.99))
-    return agents.pick([place])

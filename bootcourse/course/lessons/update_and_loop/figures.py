@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from bootcourse.colours import OTHER, QUIET, STRANGERS, Style
 from bootcourse.course import charts, table
 from bootcourse.course.lessons.update_and_loop import by_hand, numbers, worlds
+from bootcourse.plots.figure import TEXT, finish, label_ends, one_axes
 
 OF_A_FALL = "What critics expect in a fall"
 
@@ -30,18 +31,20 @@ def tests_in_training(tests: Sequence[float], block: int, lost: float) -> Figure
 
     lost: the test after one block of an agent that learns with the bug and begins as this one.
     """
-    pushes, with_bug = np.arange(len(tests)) * block, np.array([tests[0], lost, *[np.nan] * (len(tests) - 2)])
+    pushes, look = np.arange(len(tests)) * block, STRANGERS[1]
     title = f"After {block:,} pushes of training yours balances {tests[1]:.0f}, with the bug {lost:.0f}"
-    named = {"your agent": np.array(tests), "with the bug": with_bug}
-    looks = [OTHER._replace(marker="o"), STRANGERS[1]._replace(marker="o")]
-    says = f"Your agent: {', '.join(f'{test:.3g}' for test in tests)}; with the bug: {lost:.3g}."
-    figure = charts.lines(pushes, named, title, "pushes in training", "pushes balanced (thin: five of ours)",
-                          looks=looks, alt=says)  # fmt: skip
-    (ax,) = figure.axes
+    figure, ax = one_axes(3.6, title, "pushes in training", "pushes balanced", width=0.66)
     for each in numbers.tests():
-        ax.plot(numbers.BLOCK * np.arange(len(each)), each, color=QUIET, linewidth=0.8, zorder=1)
-    ax.set_xlim(0, max(pushes[-1], *numbers.pushes()))
-    return figure
+        ax.plot(numbers.BLOCK * np.arange(len(each)), each, color=QUIET, linewidth=0.8)
+    ax.plot(pushes, tests, "o-", color=OTHER.colour, linewidth=2, markersize=4)
+    ax.plot(pushes[:2], [tests[0], lost], "o", linestyle=look.line, color=look.colour, linewidth=2, markersize=4)
+    ax.set(xlim=(0, max(pushes[-1], *numbers.pushes())), ylim=(-15, 560))
+    near = {"textcoords": "offset points", "fontsize": TEXT}
+    ax.annotate("your agent", (pushes[-1], tests[-1]), (0, 6), color=OTHER.colour, ha="right", **near)
+    ax.annotate("with the bug", (block, lost), (8, 0), color=look.colour, va="center", **near)
+    label_ends(ax, [(numbers.tests()[0][-1], "thin: five of ours", QUIET)])
+    says = f"Your agent: {', '.join(f'{test:.3g}' for test in tests)}; with the bug: {lost:.3g}."
+    return finish(figure, title, f"Pushes balanced against pushes in training. {says}")
 
 
 def along_falls(yours: np.ndarray, unmarked: by_hand.SAC) -> Figure:

@@ -32,13 +32,12 @@ progress("values")
 # ## Look first
 #
 # Here is the trap of lesson [[the_trap]] as a **chain** of five states, with a quick, safe way out. You start
-# in state 0, the trap. Arrows are actions, 0 or 1. Staying pays a little in the trap and much on the free
-# road; the way between pays nothing.
+# in state 0, the trap. The arrows are the two actions, 0 and 1. Staying pays a little in the trap and much on
+# the free road. The way between them pays nothing.
 # <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
 #   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
 #
-# A reward t decisions later counts γᵗ times what it pays. **Drag** what the trap pays, and then γ: when is
-# leaving worth more?
+# **Drag** what the trap pays, and then γ: when is leaving worth more?
 
 # %%
 explorable.worths()
@@ -86,8 +85,8 @@ better = [g for g in gammas if worth([0.0] * 5 + [1.0] * 495, g) > worth([0.16] 
 print(f"γ = {min(better):.2f}")
 
 # %% [markdown]
-# **Explain.** With one state more $\gamma^5 > 0.16$ decides: from {{ 0.16**0.2 | .2f }} on, not {{ 0.16**0.25 |
-# .2f }}.
+# **Explain.** With one more state leaving pays nothing for five decisions, so it is worth more where
+# $\gamma^5 > 0.16$: from γ = {{ 0.16**0.2 | .2f }} on.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what γ means in seconds: at 0.8 a reward in ten decisions counts {{ 0.8**10 | .2f }}. Nothing in the
@@ -96,21 +95,19 @@ print(f"γ = {min(better):.2f}")
 # %% [markdown]
 # ## Round 2: a value from the next value
 #
-# A **state** holds all of the present that matters: what may come next depends on it and the action alone.
-# Such a world is a *Markov decision process* (MDP). On the road our learners treat the 26 numbers that they
-# see as the state, although these leave out all but the four nearest cars.
-# <!-- claim: DEFAULT.observation_size == 26 and DEFAULT.sight.neighbours == 4 -->
+# A **state** holds all of the present that matters: what may come next depends on the state and the action
+# alone. A world with such states is a *Markov decision process* (MDP).
 #
 # The **value** of action a in state s, **Q(s, a)**, is the discounted return if you take a once and then act
-# as well as possible. It is the reward plus γ V(s'). V(s'), the value of the next state, is the larger of its
-# two Q. This is the **Bellman equation** of acting as well as possible (the *optimality* equation):
+# as well as possible. So it is the reward of a, plus γ times the larger of the two Q in the next state, s'.
+# This is the **Bellman equation**:
 #
 # $$ Q(s, a) = r(s, a) + \gamma \max_{a'} Q(s', a') $$
 #
-# Where chance decides s', the right side is a mean.
+# Where chance decides which s' follows, the right side is a mean.
 #
 # To find Q, begin with Q = 0 everywhere and compute the right side for all ten pairs (s, a) at once. This is
-# one **sweep**; the next begins with the new Q.
+# one **sweep**; the next sweep begins with the new Q.
 #
 # > **Predict.** After which sweep does Q(0, 1), the value of leaving the trap, first contain a part
 # > of the free road's reward?
@@ -142,8 +139,7 @@ for _ in range(40):
 bc.show(diagrams.sweeps(found))
 
 # %% [markdown]
-# **Explain.** A sweep looks one decision ahead, so each one carries the free road's value one state back.
-# (White numbers above 0 come from the trap's pay.)
+# **Explain.** A sweep looks one decision ahead, so each sweep carries the free road's value one state back.
 # <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
 # <!-- claim: (np.abs(sweeps(40, 0.8)[:, 1] - 5 * 0.8 ** np.arange(4, -1, -1)) < 0.005).all() -->
 
@@ -157,17 +153,17 @@ bc.show(diagrams.sweeps(found))
 # %% [markdown]
 # ## Round 3: learning from one decision
 #
-# A sweep needs the whole map. A learner on the road has none: after each decision it sees one reward and one
-# next state. How much better than expected this went is the **temporal difference**:
+# A sweep needs a map: all rewards and next states. A learner on the road has no map; after each decision it
+# sees one reward and one next state. How much better than expected this went is the **temporal difference**:
 #
 # $$ \delta = r + \gamma \max_{a'} Q(s', a') - Q(s, a) $$
 #
-# The part before the minus is the **target**. **Q-learning** moves Q(s, a) a part of the way there,
+# The part before the minus is the **target**. **Q-learning** moves Q(s, a) a part of the way to the target,
 # $Q(s, a) \leftarrow Q(s, a) + \text{step} \cdot \delta$. The **step**, also called *learning rate*, is 0.3
 # here.
 #
 # The target contains the learner's own estimate of the next state. Textbooks call this **bootstrapping**;
-# *bootstrapped SAC* has its name from the rule's help.
+# *bootstrapped SAC*, however, has its name from the rule's help.
 #
 # **Exercise (4 min, ●○○).** Write the difference.
 
@@ -183,9 +179,8 @@ def temporal_difference(q, s, a, reward, s_next, gamma):
 check.temporal_difference(temporal_difference)
 
 # %% [markdown]
-# > **Predict.** Q is 0 everywhere. A learner walks out: it takes action 1 once in each state
-# > from 0 to 4, and learns from each decision right after it. In which of them is Q(s, 1) now above
-# > 0?
+# > **Predict.** Q is 0 everywhere. A learner walks out: it takes action 1 once in each state from 0 to 4, and
+# > learns from each decision right after it. In which states is Q(s, 1) above 0 after this walk?
 
 # %%
 choices = ["in all five", "in 3 and 4", "in 4 alone", "in 0 alone"]
@@ -209,9 +204,9 @@ for _ in range(5):
 bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 
 # %% [markdown]
-# **Explain.** On the first walk the states 0 to 3 are learned before the free road has paid, so only state
-# 4's value rises. In the last row they are learned in reverse: from Q(3, 1) on, each next state already has a
-# value.
+# **Explain.** On the first walk the learner learns in the states 0 to 3 before the free road has paid, so
+# only the value in state 4 rises. In the last row it learns from the same decisions in reverse order, so each
+# next state already has its value.
 # <!-- claim: walked(1) == [False] * 4 + [True] and all(walked(1, backwards=True)) -->
 # <!-- claim: not walked(4)[0] and walked(5)[0] -->
 
@@ -222,14 +217,30 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 # %% [markdown]
 # ## Round 4: what gets a learner across?
 #
-# The learner is **ε-greedy** ("epsilon"): with probability 1 − ε it takes the action with the larger Q, else
-# it **explores**: it draws one at random.
+# The learner is **ε-greedy** ("epsilon"): with probability 1 − ε it takes the action with the larger Q.
+# Otherwise it **explores**: it draws an action at random.
 #
-# **Exercise (20 min, ●●●).** Write this learner.
+# Thirty learners of each of five kinds make 1,000 decisions, in walks of 20. A learner has *learned to leave*
+# if in the end Q(0, 1) > Q(0, 0).
 #
-# - `chances` says for each decision whether to be greedy (−1), or which action to try.
-# - After each of its own decisions it learns from that one, then from every pair (s, a) in `taught`, a
-#   demonstration. A demonstration changes Q, but does not move the learner.
+# - *A*: ε = 0.1 and the paper's γ = {{ SETTINGS.gamma }};
+# - *B*: as A, with γ = 0.95;
+# - *C* and *D*: as A, with ε = 0.5 and with ε = 1;
+# - *E*: as A, with a demonstration of the way out, replayed after each decision.
+#
+# > **Predict.** At first all Q are equal, and the greedy action, 0, leads to the trap. Getting through
+# > takes four random decisions in a row, each right with probability ε / 2. In which of the five kinds do more than
+# > half of the thirty learn to leave?
+
+# %%
+predict("values.4", "In which kinds do more than half learn to leave? Letters, as in: A, C")
+
+# %% [markdown]
+# **Exercise (20 min, ●●●).** Write this learner, to find out.
+#
+# - `chances` says for each decision whether the learner is greedy (−1), or which action it tries.
+# - After each of its own decisions the learner learns from it, and then from every pair (s, a) in `taught`,
+#   the demonstration. A demonstration changes Q, but does not move the learner.
 # - After every 20 decisions the walk starts again in state 0. Learn from the twentieth, too, as if the walk
 #   went on.
 
@@ -258,22 +269,6 @@ def learn_chain(chances, gamma, step, taught):
 
 check.learn_chain(learn_chain)
 
-# %% [markdown]
-# Thirty learners of each kind make 1,000 decisions. A learner has learned to leave if in the end Q(0, 1) >
-# Q(0, 0).
-#
-# - *A*: ε = 0.1 and the paper's γ = {{ SETTINGS.gamma }};
-# - *B*: as A, with γ = 0.95;
-# - *C* and *D*: as A, with ε = 0.5 and with ε = 1;
-# - *E*: as A, with a demonstration of the way out, replayed after each decision.
-#
-# > **Predict.** In which of the five kinds do more than half of the thirty learn to leave? At first
-# > all Q are equal, and the greedy action, 0, leads to the trap. Getting through takes four random
-# > decisions in a row, each right with probability ε / 2.
-
-# %%
-predict("values.4", "In which kinds do more than half learn to leave? Letters, as in: A, C")
-
 # %%
 predicted("values.4")
 kinds = {
@@ -288,31 +283,30 @@ found = {kind: chain.learned(*how, learn=learn) for kind, how in kinds.items()}
 bc.show(diagrams.who_leaves(found))
 
 # %% [markdown]
-# **Explain.** In A none learns to leave, although leaving is worth more. The way out costs the trap's pay
-# now, and earns at its end: this is a **barrier**. Chance gets through in one attempt in {{ 20**4 | ,.0f }}.
-# A longer view alone does not help here: none of B's thirty reached the free road, so none knows its value.
+# **Explain.** In A none learns to leave, although leaving is worth more. The way out costs the trap's pay now
+# and earns at its end: this is a **barrier**. Chance gets through it in one attempt in {{ 20**4 | ,.0f }}. A
+# longer view alone (B) does not help, because none of these thirty reached the free road, so none knows its
+# value.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps: all of D, which act at random, learn to leave. So does a replayed demonstration (E):
-# Q-learning can learn from decisions that it did not make. It is **off-policy**, and so is the learner of the
-# next lessons.
+# More exploration helps: all of D, which act at random, learn to leave. So does a demonstration (E):
+# Q-learning can learn from decisions that the learner did not make. It is **off-policy**, and so is the
+# method of the next lessons.
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
 #
-# In C {{ free_road_seen(0.5, 0.8) }} reach the free road, but only {{ leaving(0.5, 0.8) }} learn to leave.
-# Here are two of the {{ free_road_seen(0.5, 0.8) }}:
+# In C {{ free_road_seen(0.5, 0.8) }} of the thirty reach the free road, but only {{ leaving(0.5, 0.8) }}
+# learn to leave. Here are two of those that reach it:
 
 # %%
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** As in Round 3, each walk carries the free road's value one state back. But here it must beat a
-# rival: turning back is worth γ · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }} in the states 1 to 3,
-# so at first leaving is worth γ · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}, less than
-# staying. Going on wins in state 3, then in 2, then in 1 (dashed), and only then in the trap. Two walks
-# (left) are too few; the {{ len(needed_walks()) }} of C that leave needed {{ min(needed_walks()) }} to {{
-# max(needed_walks()) }}.
+# **Explain.** Each walk carries the free road's value one state back, but there it has a rival: turning back
+# to the trap. Until going on is worth more than turning back in all three states between (dashed), leaving is
+# worth less than staying. Two walks (left) are too few for that: those of C that learned to leave needed
+# {{ min(needed_walks()) }} to {{ max(needed_walks()) }}.
 # <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] and not chain.leaves(walks(29)[-1]) -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 for seed in (1, 16) for q in
@@ -338,18 +332,18 @@ compare_predictions(
 # 1. The discounted return is the sum of the rewards from now on, each × γ to the power of its delay.
 # 2. The Bellman equation says what a value is; sweeps of it find it.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves Q(s, a) by a
-#    part of it, and needs no map.
+#    part of this difference, and needs no map.
 # 4. Learned forwards, a walk moves a value one state back; learned backwards, all the way.
-# 5. On the chain none of A's thirty learners gets past the barrier. Finding the free road once is not enough;
-#    more random decisions help, and so does a replayed demonstration.
+# 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and so does a
+#    demonstration, but finding the free road once is not enough.
 #
 # **Three questions to think about**
 # - After 40 sweeps Q(0, 0) is {{ sweeps(40, 0.8)[0, 0] | .2f }}. Staying for ever is worth {{ 0.16 / 0.2 | .2f }}.
 #   Why is Q(0, 0) more?
-# - Of two equal actions your learner takes 0. If it takes 1, {{ with_ties("1") }} of A's thirty leave; if it
-#   draws one, hardly any. Why?
+# - Of two equal actions your learner takes action 0. If it takes action 1, {{ with_ties("1") }} of A's thirty
+#   learn to leave; if it draws one of the two, none does. Why?
 # - Your car sees 26 numbers. What replaces the chain's table of ten values, and what can then go wrong with a
-#   replayed demonstration?
+#   demonstration?
 # <!-- claim: with_ties("random") == 0 and with_ties("1") > 20 -->
 # <!-- claim: abs(sweeps(40, 0.8)[0, 0] - (0.16 + 0.8 * 0.8**4 / 0.2)) < 0.01 -->
 #

@@ -143,16 +143,17 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
         ax.axvline(0, color=rule, linewidth=2.5, zorder=1)
         ax.plot(angle, -angle, color=INK, linewidth=1.2, linestyle="--")
         ax.set_xticks([-0.2, 0, 0.2], ["−0.2", "0", "0.2"])
+        ax.set_yticks([-1, 0, 1], ["−1", "0", "1"])
+        ax.set_xlabel("angle (rad)", fontsize=TEXT, color=INK)
         falls = f"{min(slopes):.1f} to {max(slopes):.1f}, mean return {earned.mean():.0f}"
         alt.append(f"after {decisions:,} decisions by {falls}")
-        if column == 0:
-            ax.text(-0.19, -1.4, "push left", fontsize=TEXT, color=INK)
-            ax.text(0.19, 1.2, "push right", ha="right", fontsize=TEXT, color=INK)
+        ax.text(-0.19, -1.4, "push left", fontsize=TEXT, color=INK)
+        ax.text(0.19, 1.2, "push right", ha="right", fontsize=TEXT, color=INK)
     keys = {"five agents": soft, "the teacher": rule, "dashes: angle + speed = 0": INK}
     for x, (words, colour) in zip((0.072, 0.23, 0.39), keys.items(), strict=True):
         figure.text(x, 0.8, words, fontsize=TEXT, color=colour)
-    below = "across: angle of the pole, rad; up: its speed, rad/s; return: mean over the agents"
-    figure.text(0.5, 0.06, below, ha="center", fontsize=TEXT, color=INK)
+    figure.text(0.012, 0.4, "speed (rad/s)", rotation=90, va="center", fontsize=TEXT, color=INK)
+    figure.text(0.012, 0.03, "angle and speed of the pole; return: mean over the agents", fontsize=SMALL, color=INK)
     return finish(figure, title, f"Edges fall, in rad/s a rad: {'; '.join(alt)}. The teacher's is upright.")
 
 

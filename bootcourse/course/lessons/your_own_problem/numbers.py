@@ -86,12 +86,12 @@ def drowning_bonus(*arguments: float) -> float:
 labels = cache(loops.labels)
 
 
-def doorkey_errors() -> tuple[int, int, int]:
-    """In how many states of the lesson's drives DoorKey's random teacher errs, how many labels are wrong there, and how
-    many there are in all.
+def doorkey_errors() -> tuple[int, int, float]:
+    """In how many states of the lesson's drives DoorKey's random teacher errs, in how many it is right, and the share
+    of labels that are wrong.
     """
     seen, taught, _, good = labels("doorkey")
-    return loops.states(seen[taught != good]), int((taught != good).sum()), len(seen)
+    return loops.states(seen[taught != good]), loops.states(seen[taught == good]), float((taught != good).mean())
 
 
 def clone_errs_more() -> int:

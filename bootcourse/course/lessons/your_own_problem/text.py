@@ -40,22 +40,26 @@ progress("your_own_problem")
 # %% [markdown]
 # ## Look first
 #
-# MountainCar is a car in a valley. It pays −1 per decision until the flag, at position 0.5, for at most 200
-# decisions.
+# MountainCar is a car in a valley. Each decision pays −1 until the car reaches the flag at position 0.5, or
+# 200 decisions are over.
 
 # %%
 bc.show(figures.climbs())
 
 # %% [markdown]
-# **See.** Pushed to the right only, the car stays in the valley: to get up it has to drive *away* from the
-# flag for a while. The reward does not say so.
+# **See.** Pushed to the right only, the car stays in the valley. To get up it has to drive *away* from the
+# flag for a while, and the reward does not say so.
+#
+# Each round asks one question, which you then ask of your own problem.
 # <!-- claim: loops.climbed(lambda position, speed: 2).max() < 0 -->
 # <!-- claim: loops.climbed(lambda position, speed: 2 if speed >= 0 else 0)[-1] >= 0.5 -->
 
 # %% [markdown]
 # ## Round 1: does a teacher help?
 #
-# **Exercise (8 min, ●●○).** Write the rule of MountainCar. All 20 episodes must reach the flag.
+# First you need a teacher.
+#
+# **Exercise (8 min, ●●○).** Write a rule for MountainCar. All 20 episodes must reach the flag.
 
 
 # %%
@@ -68,7 +72,7 @@ check.climb_rule(climb_rule)
 
 # %% [markdown]
 # Your rule is the teacher. `bc.compare` trains five agents of each method for equally many *decisions*;
-# demonstrations are free. Two methods are controls: plain SAC has no teacher, the clone only the teacher.
+# demonstrations are free. Two methods are controls: plain SAC has no teacher, and the clone has no reward.
 
 # %% tags=["nbval-ignore-output"]
 climb = own_code.yours_or_ours("climb_rule", doing="Teaching")
@@ -82,15 +86,15 @@ car, teacher = PROBLEMS["mountain-car"].make_env, loops.teacher(climb)
 bc.compare(methods, decisions=1_000, make_env=car, teacher=teacher, **how)
 
 # %% [markdown]
-# **See.** Without a teacher hardly any drive reaches the flag. With one many do; the clone, without reward
-# but with 50 drives of your rule, earns no less.
+# **See.** Without a teacher hardly any drive reaches the flag; with one many do. The clone, which has 50
+# drives of your rule but no reward, earns no less.
 # <!-- claim: score('mountain-car', 'good', 'SAC') == 0 and min(score('mountain-car', 'good', m) for
 #   m in ('cloning', 'soft')) > 0.9 and abs(score('mountain-car', 'good', 'soft', 'returns') -
 #   score('mountain-car', 'good', 'cloning', 'returns')) < 5 and 50 * -earned('good') > 1_000 -->
 #
-# **On yours.** Take a gymnasium environment with discrete actions and vectors of numbers near 1 as
-# observations (we divided MountainCar's speed by 0.07, and leave CartPole as it is), and write a rule. Ours
-# is CartPole: balance a pole, for 1 per decision, at most 500 times.
+# **On yours.** Take a gymnasium environment with discrete actions, whose observations are vectors of numbers
+# near 1, and write a rule for it. Ours is CartPole: balance a pole, for 1 per decision and at most 500
+# decisions.
 
 
 # %% tags=["nbval-ignore-output"]
@@ -115,10 +119,9 @@ bc.compare(methods, decisions=1_000, make_env=my_env, teacher=own_rule, **how)
 # ## Round 2: did the agents need the reward?
 #
 # Five agents learn CartPole without reward (all rewards 0, γ = 0): only the soft constraint pulls them to the
-# rule.
+# angle rule.
 #
-# > **Predict.** We test them after 500, 1,000 and 3,000 decisions. How do they compare with the angle
-# > rule?
+# > **Predict.** We test them after 500, 1,000 and 3,000 decisions. How do they compare with the rule?
 
 # %%
 choices = ["they earn less", "about as much, once they copy it", "far more, most of all on the way"]
@@ -130,13 +133,12 @@ predicted("your_own_problem.1")
 bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0)))
 
 # %% [markdown]
-# **See.** Above its line an agent pushes right, below it left. The teacher's line is upright: only the angle
-# counts. On the way there the agents pass the dashes, where angle and speed count alike: that rule earns {{
-# speed_rule_earns() | .0f }}.
-# After 3,000 decisions they are better copies, and earn less: *one budget can mislead.*
+# **See.** The teacher's line is upright: for it only the angle counts. On the way there the agents' lines
+# pass the dashes, where angle and speed count alike. A rule with that line earns {{ speed_rule_earns() | .0f }}.
+# After 3,000 decisions the agents copy their teacher better and earn less: *one budget can mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
-# Below, five agents learn with the reward as well. How much does it add to what the pull alone earns?
+# The same with the reward:
 
 # %% tags=["nbval-ignore-output"]
 for pays, gamma in ((0, 0), (1, 0.99)):  # on yours
@@ -144,17 +146,18 @@ for pays, gamma in ((0, 0), (1, 0.99)):  # on yours
     print("with reward   " if pays else "without reward", earned)
 
 # %% [markdown]
-# **See.** Where the two lines are alike, the reward was not needed: the pull to the rule was enough.
+# **See.** Where the two printed lines are alike, the pull to the rule was enough.
 
 # %% [markdown]
-# ## Round 3: which errors does a clone outvote?
+# ## Round 3: which errors does the teacher make?
 #
-# A **random** teacher errs in some states, picked at random; when it comes back to one, it makes the same
-# error. A **systematic** one errs everywhere in one region. The **good** one makes neither error.
+# A **random** teacher errs in some states, picked at random; when it comes back to one of them, it makes the
+# same error. A **systematic** teacher errs everywhere in one region. The **good** teacher makes neither
+# error.
 #
-# > **Predict.** On MountainCar the good teacher earns {{ earned('good') | .0f }}, the random one, right in
-# > {{ 100 * elsewhere_claims.PROBLEMS['mountain-car'].right | .0f }} % of the states,
-# > {{ earned('random') | .0f }}. And its clone?
+# > **Predict.** On MountainCar the good teacher earns {{ earned('good') | .0f }}. The random teacher is right in
+# > {{ 100 * elsewhere_claims.PROBLEMS['mountain-car'].right | .0f }} % of the states and earns
+# > {{ earned('random') | .0f }}. What does its clone earn?
 
 # %%
 choices = ["less than its teacher", "about as much as its teacher", "about as much as the good one"]
@@ -165,10 +168,8 @@ predicted("your_own_problem.2")
 bc.show(figures.clones())
 
 # %% [markdown]
-# **See.** Clones of these random teachers earn far more than their teachers; on CartPole
-# {{ (cells().scores('cartpole', 'random', 'cloning', 'returns') > score('cartpole', 'good', 'the teacher',
-# 'returns')).sum() }}
-# of ten earn more than the good one, too.
+# **See.** Clones of these random teachers earn far more than their teachers. Clones of the systematic
+# teachers do not.
 # <!-- claim: {len(cells().scores(p, t, 'cloning')) for p, t in SHOWN} == {10} -->
 # <!-- claim: all(score(p, 'random', 'cloning', 'returns') > score(p, 'random', 'the teacher',
 #   'returns') + 20 and score(p, 'random', 'cloning', 'returns') > score(p, 'good', 'the teacher',
@@ -176,19 +177,18 @@ bc.show(figures.clones())
 # <!-- claim: all(score(p, 'systematic', 'cloning', 'returns') < score(p, 'systematic', 'the
 #   teacher', 'returns') + 10 for p in THREE) -->
 #
-# **Drag** *reach*: each square takes the majority's action among the squares up to this far away. Which
-# errors vanish?
+# **Drag** *reach*: each square takes the action of most squares up to this far away. Which errors vanish?
 
 # %%
 explorable.votes()
 
 # %% [markdown]
-# **See.** With reach 1 all drives by the random teacher's map reach the flag. The systematic one's block
-# stays: there the majority is wrong.
+# **See.** With reach 1 all drives by the random teacher's map reach the flag. The systematic teacher's block
+# of errors stays: there the majority is wrong.
 # <!-- claim: [explorable.reached(t, 70, r) for t, r in (('random', 0), ('random', 1), ('systematic',
 #   0), ('systematic', 1))] == [8, 20, 15, 15] -->
 #
-# > **Predict.** Is a clone such a vote? So far it took the most probable action of its π. Now the random
+# > **Predict.** Is a clone such a vote? So far it took the most probable action of its policy π. Now the random
 # > teachers' clones *draw* from π. What do they earn?
 
 # %%
@@ -200,8 +200,8 @@ predicted("your_own_problem.3")
 bc.show(figures.clones_that_draw())
 
 # %% [markdown]
-# **Explain.** The errors are still in π. Drawing alone does no harm: clones of the good teachers earn about
-# the same drawn. The most probable action is the majority's answer; a drawn one is a single voter's.
+# **Explain.** The errors are still in π. The most probable action is the majority's answer; a drawn one is a
+# single voter's. The good teachers' clones earn about the same when they draw.
 # <!-- claim: all(abs(score(p, 'random', 'cloning', 'drawn_returns') - score(p, 'random', 'the
 #   teacher', 'returns')) < 15 and
 #   abs(score(p, 'good', 'cloning', 'drawn_returns') - score(p, 'good', 'cloning', 'returns')) < 5 for p in THREE) -->
@@ -210,17 +210,16 @@ bc.show(figures.clones_that_draw())
 # Ask before the panel: what does a clone do with two labels that contradict each other?
 
 # %% [markdown]
-# ## Round 4: what if states come back?
+# ## Round 4: do states come back?
 #
-# In DoorKey an agent fetches a key, opens a door and walks to a goal, in at most 100 decisions. Only the goal
-# pays: at most 1, the sooner the more.
+# What becomes of the vote where states come back? In DoorKey an agent fetches a key, opens a door and walks
+# to a goal, in at most 100 decisions. Only the goal pays: at most 1, the sooner the more.
 
 # %%
 bc.show(figures.room(loops.drive_in_a_loop(), "Here DoorKey's random teacher ends in a loop"))
 
 # %% [markdown]
-# Where the teacher errs once, it errs each time it comes back. How many of its wrong labels does its clone
-# correct (outvote)?
+# How many of the random teacher's wrong labels does its clone outvote, that is, correct?
 
 # %% tags=["nbval-ignore-output"]
 for name in ("mountain-car", "doorkey"):
@@ -229,11 +228,11 @@ for name in ("mountain-car", "doorkey"):
     print(f"{name}: {len(seen):,} labels, {loops.states(seen):,} states, {outvoted:.0%} outvoted")
 
 # %% [markdown]
-# **See.** In DoorKey the clone outvotes none. Its teacher errs in {{ doorkey_errors()[0] }} states, in its
-# loops {{ doorkey_errors()[1] | , }} times: of {{ doorkey_errors()[2] | , }} labels
-# {{ 100 * doorkey_errors()[1] / doorkey_errors()[2] | .0f }} % are wrong. So here the errors win the vote, in
-# other states, too: the clone errs in some in which its teacher is right.
-# <!-- claim: clone_errs_more() > 10 -->
+# **See.** In DoorKey the clone outvotes no error. Its teacher errs in only {{ doorkey_errors()[0] }} states,
+# but in its loops so often that {{ 100 * doorkey_errors()[2] | .0f }} % of the labels are wrong. So here the
+# errors win the vote, in other states, too: the clone errs in more than half of the {{ doorkey_errors()[1] }}
+# states in which its teacher is right.
+# <!-- claim: clone_errs_more() > doorkey_errors()[1] / 2 -->
 # <!-- claim: [((cloned == good)[taught != good].mean() > 0.9, (cloned == good)[taught != good].any(),
 #   len(seen) > 50 * loops.states(seen)) for seen, taught, cloned, good in
 #   map(labels, ('mountain-car', 'doorkey'))] == [(True, True, False), (False, False, True)] -->
@@ -248,9 +247,10 @@ print(f"{len(seen):,} labels, {loops.states(seen):,} states")
 # one-hot, so the network can tell every state from the others.
 
 # %% [markdown]
-# ## Round 5: how large may the bonus be?
+# ## Round 5: what pays in a loop?
 #
-# In a demonstration each decision pays the bonus c, in a loop, too.
+# The bonus does: every demonstrated decision pays c, so a demonstrated loop pays it again and again. How
+# large may c be?
 #
 # > **Predict.** Agents learn from DoorKey's random teacher by both aids, soft constraint and
 # > demonstrations, with the paper's c = 2. Do they reach the goal more often than plain SAC?
@@ -265,12 +265,12 @@ bc.show(figures.bonuses())
 
 # %% [markdown]
 # **See.** With c = 2 and a flawed teacher hardly any drive reaches the goal; with the good teacher nearly all
-# do, at each c.
+# do.
 # <!-- claim: all(np.diff(by_bonus(t)).max() < 0 and round(100 * by_bonus(t)[-1]) == 0 for t in
 #   ('random', 'systematic')) and by_bonus('good').min() > 0.99 -->
 
 # %% [markdown]
-# **Drag** c until the loop and the way are worth the same. Does a longer way change this c?
+# **Drag** c until the loop and the way to the goal are worth the same. Does a longer way change this c?
 
 # %%
 explorable.loop_or_goal()
@@ -278,7 +278,7 @@ explorable.loop_or_goal()
 # %% [markdown]
 # **Exercise (15 min, ●●●).** A demonstrated loop earns `reward` + c in each decision, for ever: the time
 # limit is no end for the critic (lesson [[update_and_loop]]). The way to the goal has `decisions` decisions.
-# Each earns `reward` + c, the last one also `goal`; then the episode ends. At which c are both worth the
+# Each earns `reward` + c, and the last one also `goal`; then the episode ends. At which c are both worth the
 # same, discounted?
 
 
@@ -291,22 +291,19 @@ def drowning_bonus(reward, goal, decisions, gamma):
 check.drowning_bonus(drowning_bonus)
 
 # %% [markdown]
-# **Explain.** Your threshold depends on the reward, the goal's pay and γ, not on the way's length. (DoorKey
-# pays less for a longer way: here it is at most
-# {{ drowning_bonus(0, 1, 1, PROBLEMS['doorkey'].gamma) | .3f }}.) *It is a warning, not a sharp limit*: with
-# c = 0.1 the random teacher's agents still reach the goal in {{ 100 * by_bonus('random')[2] | .0f }} % of
-# drives.
+# **Explain.** Your threshold depends on the reward, the goal's pay and γ, not on the way's length. In DoorKey
+# it is at most {{ drowning_bonus(0, 1, 1, PROBLEMS['doorkey'].gamma) | .3f }}. *It is a warning, not a sharp
+# limit*: with c = 0.1 the random teacher's agents still reach the goal in
+# {{ 100 * by_bonus('random')[2] | .0f }} % of their drives.
 # <!-- claim: math.isclose(drowning_bonus(0, 1, 1, 0.97), drowning_bonus(0, 1, 90, 0.97)) -->
 # <!-- claim: list(BONUSES)[2] == 'c = 0.1' and min(by_bonus(t)[2] for t in TEACHERS) > 0.5 -->
 #
-# **Is it the loop?** Drives that reach the goal, %, by drawn / by most probable actions:
+# **Is it the loop?** Drives of 100 that reach the goal, by drawn / by most probable actions:
 #
 # {{ loops_table() }}
 #
-# With the soft constraint, too, c = 2 takes every goal away only where the demonstrations hold loops. *Open*:
-# with demonstrations alone c = 2 ruins the good teacher's agents, too
-# ({{ 100 * score('doorkey', 'good', 'demonstrations, c = 0', 'drawn_success') | .0f }} to
-# {{ 100 * score('doorkey', 'good', 'demonstrations', 'drawn_success') | .0f }} %, drawn), without a loop.
+# With both aids c = 2 takes every goal away only where the demonstrations hold loops. *Open*: with
+# demonstrations alone it also ruins the good teacher's agents, who were shown no loop.
 # <!-- claim: without_loops('drawn_success') > 0.8 and without_loops('success') < 0.75 * score('doorkey', 'none',
 #   'SAC') and alone('') < 0.01 < 0.5 < alone(', c = 0') and score('doorkey', 'good', 'the teacher') == 1 -->
 
@@ -339,20 +336,20 @@ compare_predictions(
 bc.show(figures.ranking())
 
 # %% [markdown]
-# **See.** A rank test against the best (lesson [[other_ways]]; not corrected) cannot tell the entries with a
-# teacher apart: *among them the page decides.*
+# **See.** Rank tests against the best (lesson [[other_ways]]; not corrected) cannot tell the entries with a
+# teacher apart. *Among them the page decides.*
 # <!-- claim: {m for m, place in places().items() if place == 1} == {m for m, place in
 #   places(5).items() if place == 1} == set(entries()) - {'ppo', 'sac'} -->
 #
 # - **Budget**: five agents of one setting, seeds 0 to 4; {{ BOARD | , }} decisions each; demonstrations are
 #   free.
-# - **Test**: 1,000 held-out roads, drawn when all have handed in; most probable actions. An entry that asks
-#   its teacher there says so.
+# - **Test**: 1,000 held-out roads, drawn when all have handed in; most probable actions. If yours asks its
+#   teacher there, say so.
 # - **Hand in**: one page, and the folder that `bc.save_runs(enter(200_000), "challenge")` writes.
 # - **Clone**: an entry with a teacher must beat the teacher's clone.
 #
-# **The page**: your predictions; your changes, and why; plain SAC, the clone and a failed try; the decisions
-# of all tries; answers to the five questions below.
+# **The page** holds your predictions, your changes and why, the results of plain SAC, the clone and a failed
+# try, the decisions of all tries, and answers to the five questions below.
 
 
 # %%
@@ -368,11 +365,10 @@ def enter(decisions):
 # ## What you now know
 #
 # 1. *Does a teacher help?* Compare with plain SAC and the clone, at equal decisions and several budgets.
-# 2. *Did the agents need the reward?* Train without it, at several budgets.
-# 3. *Which errors does the teacher make?* The most probable action can outvote random ones.
-# 4. *Do states come back?* In a loop the error is shown again and again: in DoorKey no wrong label is
-#    outvoted.
-# 5. *What pays in a loop?* With a bonus it can be worth more than the goal.
+# 2. *Did the agents need the reward?* Train without it.
+# 3. *Which errors does the teacher make?* A clone's most probable action can outvote random errors.
+# 4. *Do states come back?* In a loop an error is shown again and again, and can win the vote.
+# 5. *What pays in a loop?* With a bonus a loop can be worth more than the goal.
 #
 # **Three questions to think about**
 # - Which systematic error of the course's rule did the agents correct?

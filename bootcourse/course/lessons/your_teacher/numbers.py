@@ -10,12 +10,11 @@ from bootcourse.course.lessons.your_teacher import crashes, example_teachers, fr
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.your_teacher.exercises import without_a_look
 from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
-from bootcourse.episodes.record import record
-from bootcourse.learn.teachers import course_rule, teacher_of, teacher_policy
+from bootcourse.learn.teachers import course_rule, teacher_of
 from bootcourse.research.experiments.teacher_worth import TAUGHT  # noqa: F401 (the text names it)
 from bootcourse.road.state import SPEED, TRAFFIC, Accident
 from bootcourse.statistics import ESCAPES, holm, significant  # noqa: F401 (the text names it)
-from tools.course.known import ROAD, shipped_experiment, shipped_teachers
+from tools.course.known import shipped_experiment, shipped_teachers
 
 COLLIDES = Accident.COLLISION
 
@@ -84,11 +83,6 @@ def reach_free_lane() -> int:
     return sum(crashes.before_free_lane(drive) < len(drive.actions) for drive in crashes.crashed())
 
 
-def kept_of(kind: str) -> float:
-    """How many of these drives' decisions a kind of agents learns from, %."""
-    return 100 * float(crashes.is_kept(kind).mean())
-
-
 def crash_returns(kind: str) -> np.ndarray:
     """What the ten agents of one kind of the experiment `crashes` earn."""
     return shipped_experiment("crashes")[kind].scores("returns")
@@ -113,13 +107,6 @@ def crash_shown(kind: str) -> bool:
 def in_free_lane(teacher: str) -> float:
     """Seconds that the drives of one of the study's teachers are in the free lane, as a mean."""
     return free_lane.shown(teacher)[0]
-
-
-@cache
-def seconds_of_racer() -> int:
-    """Seconds that the racer's drive on the course's road is in the free lane."""
-    drive = record(teacher_policy(example_teachers.racer), [ROAD])[0]
-    return int((crashes.lanes_of(drive) == 0).sum())
 
 
 def escape_of(teachers: list[str]) -> int:

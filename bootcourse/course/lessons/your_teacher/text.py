@@ -50,9 +50,9 @@ progress("your_teacher")
 # %% [markdown]
 # ## Look first
 #
-# Here are three teachers. `racer` gets out of the trap, then aims for 20 m/s and ignores the other cars.
-# `timid` keeps straight behind trap 1. **Half random** is the rule of lesson [[the_rule]], but in half of the
-# states its action is a random one, drawn once for each state. Watch them. Which earns most?
+# Which of these three teachers earns most? `racer` gets out of the trap, then aims for 20 m/s and ignores the
+# other cars. `timid` keeps straight behind trap 1. **Half random** is the rule of lesson [[the_rule]], but in
+# half of the states its action is a random one, drawn once for each state.
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
@@ -65,14 +65,14 @@ drives = [bc.record(teacher_policy(rule), [ROAD], label=name)[0] for name, rule 
 bc.recording([beginning(drive, 30) for drive in drives], height=480)
 
 # %% [markdown]
-# Each drives 100 roads, and so do the rule and `careful`, which goes left as soon as there is room, then
+# Each drives 100 roads, and so do the rule and `careful`, which goes left as soon as there is room and then
 # drives 15 m/s.
 
 # %%
 figures.exam_of_all()
 
 # %% [markdown]
-# **See.** The racer gets out on each of these roads, and on each earns *less* than `timid`: the reward pays
+# **See.** The racer gets out on each of these roads, but earns *less* than `timid` on each: the reward pays
 # next to nothing for 20 m/s.
 # <!-- claim: speed_reward(17) < 0.02 -->
 # <!-- claim: all(teacher_exam(n).success.all() for n in ('careful', 'racer')) -->
@@ -91,8 +91,9 @@ figures.exam_of_all()
 #
 # A rule reads the true state: a table with a row for each car. Row 0 is the ego, lane 0 the leftmost.
 #
-# `ahead` finds the next car ahead in a lane: the gap to it, bumper to bumper, and its speed. A gap below 0:
-# that car is beside you. A car whose middle is behind yours is not seen. In an empty lane both are infinite.
+# `ahead` finds the next car ahead in a lane and returns the gap to it, bumper to bumper, and its speed. If
+# the gap is below 0, that car is beside you. In an empty lane both are infinite. `ahead` does not see a car
+# whose middle is behind yours.
 # <!-- claim: range(DEFAULT.road.lanes)[0] == 0 -->
 
 # %%
@@ -120,7 +121,7 @@ predict("your_teacher.1", "At its best speed it gets out on ...", ["none", "abou
 # %% [markdown]
 # **Exercise (12 min, ●●○).** Write a rule that is ahead of trap 1 at the end of each of the check's 24 roads,
 # without an accident. It draws nothing at random, remembers nothing, and leaves `cars` as it is. Use `ahead`,
-# `toward`, `cars[EGO, LANE]` and `cars[EGO, Y]`: a change lasts some seconds, and ends at
+# `toward`, `cars[EGO, LANE]` and `cars[EGO, Y]`. A lane change lasts some seconds, until `Y` is
 # {{ DEFAULT.road.lane_width | .0f }} m × lane.
 # <!-- claim: len(registry()['my_rule'].worked) +
 #   len([*registry()['my_rule'].cases(np.random.default_rng(0))]) == 24 -->
@@ -148,8 +149,8 @@ predicted("your_teacher.1")
 figures.of_speeds()
 
 # %% [markdown]
-# **Explain.** Up to 10 m/s the car is no faster than the traps; from 11 m/s on it crashes on each of these
-# roads. Two speeds are enough, *without a look at any gap*.
+# **Explain.** Up to 10 m/s the car is no faster than the traps, and from 11 m/s on it crashes on each of
+# these roads. But two speeds are enough, *without a look at any gap*.
 # <!-- claim: not any(one_situation(v).success.any() for v in range(8, 16)) and
 #   all((one_situation(v).accident > 0).all() for v in range(11, 16)) -->
 # <!-- claim: DEFAULT.traps.speed == 10 -->
@@ -188,12 +189,12 @@ driven = [bc.record(driver, [ROAD], label=name)[0] for name, driver in both.item
 bc.recording([beginning(drive, 30) for drive in driven], height=360)
 
 # %% [markdown]
-# Two students are no verdict. Ten students of each teacher ship, and ten agents that learned alone from as
-# many decisions of their own. All drove {{ len(taught_agents.ROADS) }} held-out roads.
+# Two students are no verdict. So ten students of each teacher ship, beside ten agents that learned alone from
+# as many decisions.
 # <!-- claim: len({(s.learning_starts, s.envs_per_agent, s.updates) for s in
 #   map(settings_for, ('sac', 'bootstrapped'))}) == 1 -->
 #
-# > **Predict.** The racer earns next to nothing itself, and those that learned alone
+# > **Predict.** The racer earns next to nothing itself, and those that learned alone earn
 # > {{ students('alone')['returns'].mean() | .0f }}. What do the racer's students earn?
 
 # %%
@@ -201,8 +202,8 @@ choices = ["less than those alone", "about as much", "more"]
 predict("your_teacher.2", "What do the students of the racer earn?", choices)
 
 # %% [markdown]
-# ▲ better, ▼ worse than those alone (rank tests of success and return, Holm at 5 %, lesson
-# [[how_many_seeds]]). Accidents and yours are untested.
+# ▲ marks a better score than that of the agents alone, ▼ a worse one, by rank tests (Holm at 5 %, lesson
+# [[how_many_seeds]]). Accidents and your two students are not tested.
 
 # %%
 predicted("your_teacher.2")
@@ -211,20 +212,15 @@ verdicts = taught_agents.verdicts(groups)
 bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 
 # %% [markdown]
-# **See.** In this short training success and return give the racer opposite verdicts. Its students crash in
-# {{ 100 * students('racer')['accident'].mean() | .0f }} % of drives, the racer itself in
-# {{ 100 * (teacher_exam('racer').accident > 0).mean() | .0f }} %.
+# **See.** In this short training success and return give the racer opposite verdicts: its students get out
+# more often than those alone, but earn less. They also crash far more often than the racer itself.
 #
-# `timid` helps by return: its students stay behind trap 1, without an accident.
-#
-# Of these four, only those that get out have students that escape. Must a teacher get out?
-# <!-- claim: student_escapes('timid') == 0 and (students('timid')['alike'] == 1).all() and
-#   not students('timid')['accident'].any() and not students('timid')['success'].any() -->
+# So far, only teachers that get out had students that escape. Must a teacher get out?
+# <!-- claim: student_escapes('timid') == 0 -->
 # <!-- claim: all(student_escapes(name) >= 5 for name in ('the rule', 'careful', 'racer')) -->
 # <!-- claim: students('racer')['success'].mean() > 3 * students('alone')['success'].mean() and
-#   students('racer')['accident'].mean() > 3 * students('alone')['accident'].mean() -->
-# <!-- claim: len(verdicts()) == 4 and verdicts()['racer'] == {'success': 'helps', 'returns':
-#   'hurts'} and verdicts()['timid'] == {'success': 'not shown', 'returns': 'helps'} -->
+#   students('racer')['accident'].mean() > 3 * (teacher_exam('racer').accident > 0).mean() -->
+# <!-- claim: len(verdicts()) == 4 and verdicts()['racer'] == {'success': 'helps', 'returns': 'hurts'} -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Ask which of the columns a paper would print, and what a reader would then miss. Let each group defend one
@@ -237,11 +233,11 @@ bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 # random.
 # <!-- claim: all(drive.accident > 0 for drive in demonstrated('random-50')) -->
 #
-# The figure has more teachers: **quarter random**, random in a quarter of the states; **late**, the rule 0.75
-# s late; **mirrored**, the rule with left and right exchanged.
+# The figure has three more teachers. **Quarter random** acts at random in a quarter of the states, **late**
+# is the rule 0.75 s late, and **mirrored** is the rule with left and right exchanged.
 #
-# > **Predict.** Ten students learn from half random's drives and labels, in a whole training
-# > ({{ TAUGHT['bootstrapped'][1] | , }} episodes; Round 2's was short). How many escape?
+# > **Predict.** Ten students learn from half random's drives and labels, in a whole training of
+# > {{ TAUGHT['bootstrapped'][1] | , }} episodes. How many escape?
 
 # %%
 predict("your_teacher.3", "Of these ten students escape ...", ["0 to 2", "3 to 7", "8 to 10"])
@@ -252,25 +248,16 @@ taught = shipped_teachers()
 bc.show(figures.of_six_teachers(taught))
 
 # %% [markdown]
-# **See.** All ten escape, although half random's drives are in the free lane for
-# {{ in_free_lane('random-50') | .0f }} s on average. (The rule's {{ escape_of(['rule']) }} and these ten do
-# not differ in a test; in Round 2, with the help still on, all ten of the rule's did.)
+# **See.** All ten escape. (The rule's ten, of which {{ escape_of(['rule']) }} escape, do not differ from them
+# in a test.)
 # <!-- claim: not significant(10)[escape_of(['random-50']), escape_of(['rule'])] -->
-# <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 and
-#   TAUGHT['soft'] == TAUGHT['bootstrapped'] -->
+# <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 -->
 #
-# Where the drives reach the free lane, {{ escape_of(['rule', 'late', 'random-25', 'random-50']) }} of 40
-# students escape; where they do not, {{ escape_of(['timid', 'mirrored']) }} of 20.
+# Where a teacher's drives reach the free lane, most of its students escape; where they do not, none does.
 # <!-- claim: escape_of(['timid', 'mirrored']) == 0 and min(escape_of([name]) for name in ('rule',
 #   'late', 'random-25', 'random-50')) > 5 -->
-# <!-- claim: in_free_lane('timid') == in_free_lane('mirrored') == 0 < in_free_lane('random-50') and
-#   seconds_of_racer() > 10 -->
-# <!-- claim: worth()['random-50', 'bootstrapped'].scores('returns').mean() >
-#   worth()['rule', 'bootstrapped'].scores('returns').mean() -->
-# <!-- claim: worth()['timid', 'bootstrapped'].escapers('bootstrapped') == 0 and not
-#   teacher_exam('timid').accident.any() -->
-# <!-- claim: dataclasses.replace(settings_for('soft'), method='bootstrapped', beta_start=0.6) ==
-#   settings_for('bootstrapped') -->
+# <!-- claim: in_free_lane('timid') == in_free_lane('mirrored') == 0 < min(in_free_lane(name) for name in
+#   ('rule', 'late', 'random-25', 'random-50')) -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Return to the ranking on the board. Ask which column of the figure would have sorted the students, and what
@@ -279,31 +266,24 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # ## Round 4: the free lane, or its accidents?
 #
-# Leave out the {{ gets_ahead('random-50') }} of half random's drives that end ahead of trap 1. Of the other
-# {{ len(crashes.crashed()) }}, {{ reach_free_lane() }} reach the free lane before they crash. Ten new agents
-# each learn from a part of their decisions:
+# Most of half random's drives reach the free lane before they crash. Ten new agents for each row of the table
+# learn from a part of the decisions:
 #
-# | | free lane | the accident there | decisions, % |
-# |---|---|---|---|
-# | **both** | yes | yes | {{ kept_of('as-many') | .0f }} |
-# | **no accident there** | yes | – | {{ kept_of('lane') | .0f }} |
-# | **only the accident** | – | yes | {{ kept_of('accident') | .0f }} |
-# | **neither** | – | – | {{ kept_of('cut') | .0f }} |
+# | | free lane | the accident there |
+# |---|---|---|
+# | **both** | yes | yes |
+# | **no accident there** | yes | – |
+# | **only the accident** | – | yes |
+# | **neither** | – | – |
 #
-# *Both* has no more decisions than *neither*: others are left out before the free lane, drawn at random.
-# <!-- claim: not any(significant(10)[escape_of(['random-50']), crash_escapes(kind)] for kind in ('all',
-#   'no-labels')) -->
-# <!-- claim: DEFAULT.traps.speed - 0.1 < shipped_experiment('crashes')['cut'].scores('speed').min() and
-#   shipped_experiment('crashes')['cut'].scores('speed').max() < DEFAULT.traps.speed + 0.3 -->
-# <!-- claim: crash_returns('cut').max() < crash_returns('all').min() -->
-# <!-- claim: [crash_shown(kind) for kind in ('cut', 'as-many', 'no-bonus', 'no-labels', 'lane')] == [True,
-#   True, True, False, True] and not significant(10)[crash_escapes('all'), crash_escapes('no-labels')] and
-#   crash_returns('no-bonus').mean() < crash_returns('all').mean() and len(crashes.KINDS) == 7 and
-#   crash_returns('as-many').mean() > 4 * crash_returns('cut').mean() -->
+# *Both* also leaves out decisions before the free lane, drawn at random, so it has no more than *neither*.
+# <!-- claim: crash_shown('as-many') and crash_returns('as-many').mean() > 4 * crash_returns('cut').mean() -->
 # <!-- claim: crashes.is_kept('cut').sum() == crashes.is_kept('as-many').sum() -->
-# <!-- claim: crash_escapes('no-bonus') == crash_escapes('cut') == 2 and not any(drive.success for
-#   drive in crashes.crashed()) and crash_escapes('all') >= 5 -->
-# <!-- claim: all(drive.accident > 0 for drive in crashes.crashed()) -->
+# <!-- claim: not any(drive.success for drive in crashes.crashed()) and
+#   gets_ahead('random-50') + len(crashes.crashed()) == len(demonstrated('random-50')) > 20 * gets_ahead('random-50')
+#   -->
+# <!-- claim: all(drive.accident > 0 for drive in crashes.crashed()) and
+#   reach_free_lane() > len(crashes.crashed()) / 2 -->
 #
 # > **Predict.** Who gets out, agents of *no accident there* or of *only the accident*?
 
@@ -312,8 +292,8 @@ choices = ["all of them", "those of no accident there", "those of only the accid
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
-# **Exercise (5 min, ●○○).** Choose the decisions of *no accident there*: leave out the last of a drive, if
-# the drive was ever in lane 0. Keep all others.
+# **Exercise (5 min, ●○○).** Choose the decisions of *no accident there*: if a drive was ever in lane 0, leave
+# out its last decision. Keep all others.
 
 
 # %%
@@ -330,7 +310,7 @@ def without_the_accident(lanes):
 check.without_the_accident(without_the_accident)
 
 # %% [markdown]
-# Then two agents learn from your choice, as long as those of Round 2.
+# Two agents learn from your choice for a short time.
 
 # %% tags=["nbval-ignore-output"]
 predicted("your_teacher.4")
@@ -338,21 +318,21 @@ passed = check.without_the_accident(without_the_accident).passed
 figures.chosen(without_the_accident) if passed else "First the exercise."
 
 # %% [markdown]
-# Two agents are no verdict. Here are ten of each kind, after a whole training:
+# Here are ten of each kind, after a whole training:
 
 # %%
 bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
-# **Explain.** *Students of half random escape if its drives show the free lane, whether they crash there or
-# not*: {{ sum(map(crash_escapes, ('as-many', 'lane'))) }} of 20 with it,
-# {{ sum(map(crash_escapes, ('accident', 'cut'))) }} of 20 without. The number of decisions is not the reason:
-# *both* and *neither* have as many, and *both* earns more (rank test, after Holm). Nor is showing enough:
-# without the bonus {{ crash_escapes('no-bonus') }} of ten escape from all the drives.
+# **Explain.** *Most students of half random escape if its drives show the free lane, whether they crash there
+# or not*. The number of decisions is not the reason: *both* has as many as *neither*, and earns more (rank
+# test, after Holm).
 # <!-- claim: in_free_lane('rule') > 0 and free_lane.shown('rule')[1] == 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=1
-# `bootcourse study crashes --out DIR` trains its seven groups again.
+# `bootcourse study crashes --out DIR` trains its seven groups again. Half random's
+# {{ gets_ahead('random-50') }} drives that end ahead of trap 1 are left out; of the other
+# {{ len(crashes.crashed()) }}, {{ reach_free_lane() }} reach the free lane.
 # <!-- claim: crash_returns('cut').max() < 26 -->
 
 # %%
@@ -369,7 +349,7 @@ compare_predictions(
 # %% [markdown]
 # ## Further: a road on which blind rules fail
 #
-# Here ten cars queue in the left lane. They are faster than the traps: those behind will pass you.
+# Here ten cars queue in the left lane. They are faster than the traps, so those behind will pass you.
 # <!-- claim: example_teachers.DENSE.traffic.cars == 10 and slowest_in_queues() > 10 ==
 #   DEFAULT.traps.speed -->
 
@@ -398,9 +378,8 @@ check.watchful_rule(watchful_rule)
 # %% [markdown]
 # ## Further: ask only when unsure
 #
-# Your worse student drives, and asks your rule whenever your two students disagree, or about as often at
-# random. Compare the accidents. With one student this is an example: no proof that asking helps, or that
-# disagreement picks better seconds than chance.
+# Your worse student drives, and asks your rule whenever your two students disagree. In the last row it asks
+# about as often, but at random. Compare the accidents of this one student: it is an example, not a test.
 
 # %% tags=["nbval-ignore-output"]
 worse_first = [students[place] for place in learned["success"].argsort()]
@@ -412,10 +391,9 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 # 1. A teacher is a function of the true state. It drives, and it labels.
 # 2. A rule that looks at no other car can pass a test. Test it where looking matters.
 # 3. In a short training success and return gave opposite verdicts on a teacher: give both.
-# 4. Half random was good at reaching the free lane: most students escaped if its drives showed it and the
-#    bonus was paid, crash or not.
-# <!-- claim: {kind for kind in crashes.KINDS if crash_escapes(kind) > 5} == {'all', 'no-labels', 'as-many', 'lane'}
-# -->
+# 4. Half random was good at reaching the free lane: most students escaped if its drives showed it, crash or
+#    not.
+# <!-- claim: min(map(crash_escapes, ('as-many', 'lane'))) > 5 > max(map(crash_escapes, ('accident', 'cut'))) -->
 #
 # **Three questions to think about**
 # - Could two bad teachers together be a good one?
