@@ -42,12 +42,15 @@ drive: .venv/installed
 
 # tests/check.txt and tests/all.txt hold what pytest is given: the long files first, and each stays in one process
 # (tests/conftest.py puts some together).
-# One thread each, or two workers with two torches fight over the cores.
+# One thread each, or two workers with two torches fight over the cores. Each process may keep what it has compiled, also
+# where the environment says otherwise: there are some hundred, and each would compile the project again.
+TESTING := $(WITH_PATH) OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest
+
 check: .venv/installed
-	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python -m pytest @tests/check.txt $(PYTEST)
+	@$(TESTING) @tests/check.txt $(PYTEST)
 
 test: .venv/installed
-	@$(WITH_PATH) OMP_NUM_THREADS=1 $(BIN)/python -m pytest @tests/all.txt $(PYTEST)
+	@$(TESTING) @tests/all.txt $(PYTEST)
 
 bench: .venv/installed
 	@OMP_NUM_THREADS=1 $(BIN)/python -m tests.bench

@@ -146,7 +146,7 @@ def test_a_notebooks_cell_shows_its_training_and_closes_what_it_showed_when_it_l
     first, second = train(), train()
     assert not first.interrupted and not second.interrupted
     assert [watch.closed for watch in displayed] == [False, False] and not displayed[0].running
-    assert len(pictures) == 2 and "after 2 episodes" in pictures[0]["text/plain"].lower()
+    assert len(pictures) == 2 and "at most 2 episodes" in pictures[0]["text/plain"].lower()
     assert "Done after" in displayed[1].words
     cell.execution_count = 2
     train()
