@@ -126,6 +126,8 @@ def test_without_details_the_numbers_are_plain_words_and_only_the_rule_says_why(
     for shown in (alone, both):
         assert not any(symbol in shown for symbol in ("π", "KL", "Q", "r v")), shown
     assert "Rule:" in text(hud.page([rule], 7.5, details=False)) and "Rule:" not in alone
+    short_sighted = Timeline(replace(rule_drive, label="rule, sight 20 m"))
+    assert "Rule:" in text(hud.page([short_sighted], 7.5, details=False))
     assert "KL(π‖π̃)" in text(hud.page([agent, rule], 7.5, details=True))
 
 

@@ -5,7 +5,6 @@ import pytest
 
 from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.road.formulas import speed_reward
 from bootcourse.road.vector_env import TrapVectorEnv
 
 RANDOM = np.random.default_rng(0).integers(0, 9, (60, 8))  # (decisions, roads)
@@ -32,20 +31,6 @@ def test_a_shaping_reward_adds_up_to_its_two_ends_over_an_accident_and_a_new_epi
     for start, end in zip([0, *(ends[:-1] + 1)], ends, strict=True):  # each episode: 0 - Φ(s_0)
         extra = (others - rewards)[start : end + 1, 0]
         assert extra.sum() == pytest.approx(-phi[start, 0], abs=1e-9)
-
-
-def test_the_concave_reward_has_the_ends_of_the_road_s_own_and_pays_more_between_them():
-    v = np.array([4.0, 5.0, 7.5, 10.0, 12.5, 15.0, 16.0])
-    pays, own = second_trap.concave_speed_reward(v), np.array([speed_reward(each) for each in v])
-    assert pays == pytest.approx([0, 0, 0.5, 0.5**0.5, 0.75**0.5, 1, np.exp(-1)])
-    assert np.allclose((pays - own)[[0, 1, 5, 6]], 0) and (pays > own)[2:5].all()
-
-
-def test_the_concave_reward_replaces_that_of_the_speed_alone_and_leaves_accidents_as_they_are():
-    rewards, others, *_ = both(second_trap.concave_pay, np.full((20, 8), 4))
-    assert np.allclose(others - rewards, 1.5 / 1.6 * (0.5**0.5 - 2 / 15), atol=1e-3)  # 10 m/s, of w_v + w_y + w_θ = 1.6
-    rewards, others, _, terminated, _ = both(second_trap.concave_pay, RANDOM)
-    assert terminated.sum() > 8 and np.array_equal(rewards[terminated], others[terminated])
 
 
 def test_the_agents_that_ship_drive_as_their_results_say():

@@ -73,7 +73,7 @@ def card(timeline: Timeline, t: float, details: bool = True) -> Markup:
     parts = [html("<h4>{}{} {}{}</h4>", _dot(timeline), display_name(rollout.label), road, badge)]
     shown = (_numbers, _reward, _choice, _reason) if details else (_numbers, _does)
     parts += [part(timeline, t) for part in shown]
-    if not details and rollout.label == "rule":
+    if not details and rollout.label.partition(", sight")[0] == "rule":
         parts.append(_reason(timeline, t))
     if timeline.imagined is not None:
         parts.append(html('<div class="dim">imagined drives: {}; broad: driven</div>', LEGEND))

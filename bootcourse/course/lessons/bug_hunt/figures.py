@@ -3,6 +3,8 @@
 The titles say what is drawn and not what it shows: to find that is the student's work.
 """
 
+from collections.abc import Mapping
+
 from matplotlib.figure import Figure
 
 from bootcourse.course import charts, shipped
@@ -36,19 +38,29 @@ def returns(hunt: Hunt) -> Figure:
 def accidents(hunt: Hunt) -> Figure:
     """Q of the decisions that ended in an accident."""
     title = "Q at an agent's own accidents"
-    what = "Q where an accident followed (dotted: −10)"
-    return charts.many(hunt.probes("end"), title, "updates", what, reference="healthy", level=-10)
+    what = "Q where an accident followed"
+    figure = charts.many(hunt.probes("end"), title, "updates", what, reference="healthy", level=-10)
+    at_dotted(figure, {"right: −10": -10})
+    return figure
 
 
 def promises(hunt: Hunt) -> Figure:
     """Mean of Σ π Q in seconds that the rule drove."""
     title = "What the critic promises"
-    what = f"promise Σ π Q, cut off at 20 (dotted: {most(False):.0f} and {most():.0f})"
+    what = "promise Σ π Q, cut off at 20"
     probes, limits = hunt.probes("promise"), (-2, 20)
     figure = charts.many(probes, title, "updates", what, reference="healthy", limits=limits, level=most())
     for panel in figure.axes:
         panel.axhline(most(False), color=charts.INK, linewidth=1, linestyle=(0, (1, 2)), zorder=1)
+    at_dotted(figure, {f"no bonus: {most(False):.0f}": most(False), f"bonus always: {most():.0f}": most()})
     return figure
+
+
+def at_dotted(figure: Figure, named: Mapping[str, float]) -> None:
+    """Write below the first panel's dotted lines, {words: y}, what they are."""
+    for words, y in named.items():
+        at = {"xy": (1, y), "xycoords": ("axes fraction", "data"), "xytext": (0, -3), "textcoords": "offset points"}
+        figure.axes[0].annotate(words, **at, ha="right", va="top", fontsize=charts.SMALL, color=charts.INK)
 
 
 def rarest(hunt: Hunt) -> Figure:

@@ -46,7 +46,7 @@ progress("bug_hunt")
 # | `no_end` | target: γ · next value only if no accident ended it | always |
 # | `bonus_for_all` | target: a bonus c for each demonstration | for each row |
 # | `no_stop` | the actor's loss takes Q detached | its gradient reaches the critic |
-# | `sampled` | value: the mean of Q − α log π over π | of one drawn action (no gradient through the draw) |
+# | `sampled` | value: Σ π (Q − α log π) | Q − α log π of one drawn action, no gradient through the draw |
 # | `flipped_kl` | KL: the sum of π (log π − log rule) | of rule (log rule − log π) |
 # | `shifted_labels` | label of s: rule(s) | rule(s') |
 #
@@ -88,8 +88,8 @@ bc.show(figures.returns(hunt))
 # it, or with a healthy agent's. Where an accident ends the episode, you know it: the right Q is the reward, {{
 # DEFAULT.reward.accident }}.
 #
-# > **Predict.** Two of the six bugs change the target there. One can only raise it, but the other may pull
-# > Q *below* {{ DEFAULT.reward.accident }}. Which bug is the other?
+# > **Predict.** Two of the six bugs change the target there. Which of them may pull Q *below*
+# > {{ DEFAULT.reward.accident }}?
 
 # %%
 names = list(bugs.BUGS)
@@ -116,6 +116,7 @@ check.end_error(end_error)
 
 # %% [markdown]
 # The table shows Q − r of each version's first seed, at {{ ended().sum() }} accidents of the stochastic rule.
+# The picture shows Q of both seeds at the agents' *own* accidents, on which they were trained.
 
 # %%
 predicted("bug_hunt.1")
@@ -129,9 +130,9 @@ for name in hunt.names:
 bc.show(figures.accidents(hunt))
 
 # %% [markdown]
-# **See.** *One agent is far too low, in table and picture.* But even the healthy critic is too high. So
-# compare with grey, not with {{ DEFAULT.reward.accident | .0f }}: which agents lie *far* from both grey
-# lines, above or below?
+# **See.** *One agent is far too low, in table and picture.* Even the healthy critic is too high, so compare
+# with grey, not with {{ DEFAULT.reward.accident | .0f }}. For the verdict take the picture: which agents end
+# *far* from both grey lines?
 # <!-- claim: asked('healthy') - asked('A') > 3 -->
 # <!-- claim: [n for n in hunt().names if asked(n) < -1] == ['D'] -->
 # <!-- claim: (hunt().probe('healthy', 'end')[:, hunt().updates >= 1000] > DEFAULT.reward.accident + 1).all() -->
@@ -161,14 +162,12 @@ bc.show(figures.promises(hunt))
 # **Explain.** With a bonus in every second the limit is (1 + c) / (1 − γ) =
 # {{ (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}; without any it is 1 / (1 − γ) = {{ 1 / (1 -
 # SETTINGS.gamma) | .0f }}.
-# Grey may lie between the two, because demonstrations earn the bonus.
 #
-# One agent leaves the picture: it promises up to {{ hunt().probe('F', 'promise').max() | .0f }}, far beyond
-# both limits. Which bug lets the actor's loss raise Q?
+# One agent leaves the picture, up to {{ hunt().probe('F', 'promise').max() | .0f }}. Which bug lets the
+# actor's loss raise Q?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} and
 #   hunt().probe('E', 'promise').max() < 15 and (hunt().probe('F', 'promise').max(axis=1) >
 #   20).all() and (hunt().probe('F', 'promise')[:, -1] < 20).all() -->
-# <!-- claim: (hunt().probe('healthy', 'promise')[:, -1] > 1 / (1 - SETTINGS.gamma)).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Ask which of the two probes one should watch during training: Q at accidents, or the promise. A wrong
@@ -200,8 +199,8 @@ bc.show(figures.rarest(hunt))
 # **Explain.** With the right KL it costs little to drop such an action. The flipped KL grows without bound as
 # its probability goes to zero, so the policy drops it more slowly.
 #
-# *Two* agents' rarest action stays far likelier to the end. With `sampled`, Q does not teach the actor, only
-# the KL does. What does such an actor earn?
+# *Two* agents' rarest action stays far likelier to the end. With `sampled` the drawn action's Q is a constant
+# for the actor, so only the KL teaches it. What does such an actor earn?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'rarest')[:, -1].min() > -20} == {'A', 'B'}
 #   and (hunt().probe('healthy', 'rarest')[:, -1] < -30).all() -->
 
@@ -213,8 +212,8 @@ bc.show(figures.rarest(hunt))
 # ## The verdict
 #
 # **Exercise (12 min, ●●●).** Name the bug of each agent. First copy the table and note in each cell whether
-# the agent's lines lie higher than grey (↑), lower (↓) or alike (=). Begin with the agents that stand out in
-# only one column.
+# the agent's lines *end* higher than grey (↑), lower (↓) or alike (=). Begin with the agents that stand out
+# in only one column.
 #
 # | agent | return (Round 1) | Q at own accidents (2) | promise (3) | rarest action (4) | bug |
 # |---|---|---|---|---|---|
@@ -235,7 +234,7 @@ def diagnose(agent):
 check.diagnose(diagnose)
 
 # %% [markdown]
-# Which probe would have shown the bug of the agent that is alike in every column?
+# Which probe would have shown the bug of the agent that ends alike in every column?
 #
 # <details><summary>After your verdict: what decides</summary>
 #
@@ -245,16 +244,16 @@ check.diagnose(diagnose)
 # | B | ↓ | = | ↓ | ↑ | `sampled` |
 # | C | = (rises late) | = | = | = | `shifted_labels` |
 # | D | = | ↓ | = | = | `no_end` |
-# | E | ↑ | ↑ | ↑, below 15 | = at the end | `bonus_for_all` |
-# | F | ↓ | ↑ | ↑, beyond 15 | = at the end | `no_stop` |
+# | E | ↑ | ↑ | ↑, below 15 | = | `bonus_for_all` |
+# | F | ↓ | ↑ | ↑, beyond 15 on the way | = | `no_stop` |
 #
 # - **B**: the KL alone teaches the actor, towards the stochastic rule, which crashes in {{ ended().sum() }}
 #   of 50 drives.
 # - **C** learns late. A fourth probe shows it, but only while it learns: at updates 1,000 to 5,000 its
 #   likeliest action is the rule's in {{ 100 * alike('C', 1000, 5000) | .0f }} % of the seconds, the healthy
 #   agent's in {{ 100 * alike('healthy', 1000, 5000) | .0f }} %.
-# - **D** adds γ times the value of a car that has just crashed. No row teaches that value, so it can come out
-#   too high (lesson [[update_and_loop]]) or, as here, too low.
+# - **D** adds γ times the value of a car that has just crashed, which no row teaches: at the accidents of the
+#   table it is about {{ after_the_end('D') | .0f }}.
 # - **F**: the actor's loss changes the critic, and raises the Q of what the policy likes.
 #
 # </details>
@@ -302,8 +301,7 @@ def unmasks(target):
 check.unmasks(unmasks)
 
 # %% [markdown]
-# Now test the seven untrained learners, with labels from a drive of Round 2
-# ({{ len(labelled_drive().actions) }} s):
+# Now test the seven untrained learners, with labels from a drive of Round 2:
 
 # %%
 test = own_code.yours_or_ours("unmasks", doing="Testing")
@@ -313,8 +311,8 @@ for bug in bugs.LEARNERS:
     print(f"{bug:14} {share:5.0%}  {'WRONG' if test(bugs.target_of(bug)) else 'right'}")
 
 # %% [markdown]
-# **See.** *Before any training, two tests find three of the six bugs.* One of them is C's, which none of our
-# probes showed.
+# **See.** *Before any training, two tests find three of the six bugs.* One of them is C's, which our three
+# probes do not show at the end.
 # <!-- claim: all(agree(bug).all() == (bug != 'shifted_labels') for bug in bugs.LEARNERS) -->
 # <!-- claim: (agree('shifted_labels')[:-1] == (labelled_drive().rule_actions[:-1] ==
 #   labelled_drive().rule_actions[1:])).all() -->
@@ -333,8 +331,8 @@ compare_predictions("bug_hunt", {1: "no_end", 2: limit, 3: "it drops more slowly
 #
 # 1. A curve can look right: of six agents with a bug, three end about where the healthy one ends, and one
 #    earns far more.
-# 2. A probe needs a known right answer, or a healthy agent beside it. It clears only what it asks: one of the
-#    six bugs shows in none of our three.
+# 2. A probe needs a known right answer, or a healthy agent beside it. It clears only what it asks: at the end
+#    one of the six bugs shows in none of our three.
 # 3. Test labels and targets before any training: that finds three of the six, and needs no healthy twin.
 #
 # **Three questions to think about**

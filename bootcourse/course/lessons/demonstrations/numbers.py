@@ -1,6 +1,9 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+import numpy as np
+
 from bootcourse.course.lessons.demonstrations.cloning import UPDATES as UPDATES
+from bootcourse.course.lessons.demonstrations.explorable import WHOLE
 from bootcourse.research.results import Results
 from tools.course.known import shipped_results
 
@@ -10,9 +13,9 @@ def clones_of_the_stochastic_rule() -> Results:
     return shipped_results("paper").of("bc")
 
 
-def ahead_in_accidents(results: Results) -> float:
-    """The share of the drives with an accident that end ahead of trap 1."""
-    return float(results.episodes("success")[results.episodes("accident") > 0].mean())
+def most_errors(share: float) -> float:
+    """How many errors a whole drive has on average at most, if this share of all drives errs first in each second."""
+    return float(np.minimum(1, share * np.arange(1, WHOLE + 1)).sum())
 
 
 def updates_of(results: Results) -> float:

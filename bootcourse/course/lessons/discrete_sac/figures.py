@@ -33,24 +33,24 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
     """
     names = [*(f"α = {alpha:g}" for alpha in alphas), f"α falls, {max(alphas):g} to {min(alphas):g}"]
     parts = {
-        "sure of leaving": (walked.leaves > SURE, style("sac").colour),
-        "found the free road": (walked.found & (walked.leaves <= SURE), PALE),
+        "found it, and sure of leaving": (walked.leaves > SURE, style("sac").colour),
+        "found it, not sure": (walked.found & (walked.leaves <= SURE), PALE),
         "never found it": (~walked.found, "white"),
     }
     row, before, alt_parts = 0.36, np.zeros(len(names)), []
-    figure = new_figure(1.15 + row * len(names) + 0.8)
+    figure = new_figure(1.15 + row * len(names) + 0.6)
     ax = axes_at(figure, 1.35, 1.15, 3.6, row * len(names))
     for words, (of, colour) in parts.items():
         ax.barh(names, of.sum(axis=1), 0.72, left=before, color=colour, edgecolor=INK, linewidth=0.7, label=words)
         before += of.sum(axis=1)
         alt_parts.append(f"{words}: {', '.join(map(str, of.sum(axis=1)))}")
-    beside(ax, -0.75, "takes it, with the map", colour=QUIET)
-    for place, known in enumerate([*knows, knows[0]]):  # a falling α ends at the first
-        beside(ax, place, f"{known:.2f}")
+    beside(ax, -0.75, "π(leave), chain known", colour=QUIET)
+    known = [*knows, knows[0]]  # a falling α ends at the first
+    for place, each in enumerate(known):
+        beside(ax, place, f"{each:.2f}")
     name_rows(ax, names, f"of {walked.leaves.shape[1]} learners")
     ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=3, fontsize=SMALL, frameon=False, columnspacing=1.2)
-    words = "With the map: how probably an agent that knows the chain leaves (falling: in the end)."
-    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=QUIET)
-    alt = f"{'; '.join(alt_parts)}. With the map: {', '.join(f'{each:.2f}' for each in knows)}."
-    title = "A small α rarely finds the road, a large one takes it by chance; falling often does both"
-    return finish(figure, title, f"Learners with {', '.join(names)}. {alt}")
+    alt = f"A bar for each kind of learner: {', '.join(names)}. Of each kind, in this order, {'; '.join(alt_parts)}. "
+    alt += f"To the right, π(leave) of an agent that knows the chain: {', '.join(f'{each:.2f}' for each in known)}."
+    title = "With a small α few find the free road, with a large one none is sure; with a falling α many do both"
+    return finish(figure, title, alt)

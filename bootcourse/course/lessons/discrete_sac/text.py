@@ -42,8 +42,8 @@ bc.show(diagrams.sac_diagram())
 # %% [markdown]
 # - The actions can be counted (*discrete*), and the **actor** gives each one a probability, π(a|s): its
 #   **policy**.
-# - Two **critics** estimate Q(s, a), what each action is worth, later rewards and later pay included. Slow
-#   copies, the **target critics**, give them targets.
+# - Two **critics** estimate Q(s, a), what each action is worth. Slow copies, the **target critics**, give
+#   them targets.
 # - The **temperature** α sets how much the actor is paid for being undecided.
 # - The **replay buffer** keeps one row for each decision: state s, action a, reward r, next state s', and
 #   whether the world ended. An update learns from a **batch** of rows.
@@ -57,8 +57,9 @@ bc.show(diagrams.sac_diagram())
 # %% [markdown]
 # ## Round 1: what is a state worth if indecision is paid?
 #
-# An agent can go left, straight or right. By its estimates straight is best, worth {{ max(q) | g }}. Early
-# estimates are poor, so SAC pays the agent to **explore**: the pay is α times how undecided the agent is.
+# An agent can go left, straight or right. By its estimates going straight is worth {{ q[1] | g }}, left
+# {{ q[0] | g }} and right {{ q[2] | g }}. Early estimates are poor, so SAC pays the agent to **explore**: the
+# pay is α times how undecided the agent is.
 #
 # > **Predict.** The agent chooses the probabilities that are best for it, pay included. What is the
 # > state worth to it now?
@@ -75,8 +76,9 @@ predicted("discrete_sac.1")
 explorable.undecided()
 
 # %% [markdown]
-# **Explain.** More than {{ max(q) | g }}. As the panel opens, the mean of Q is less, {{ BY_Q | .2f }}, but
-# the pay of {{ WORTH - BY_Q | .2f }} outweighs this loss.
+# **Explain.** More than 1. Always going straight is worth 1, so the best mix is worth no less. As the panel
+# opens, its mean Q is only {{ BY_Q | .2f }}, but the pay adds {{ WORTH - BY_Q | .2f }}.
+# <!-- claim: max(q) == q[1] == 1 < WORTH -->
 
 # %% [markdown]
 # The policy's **entropy** says how undecided it is, in *nats* (natural logarithm; 0 · log 0 = 0):
@@ -211,8 +213,8 @@ explorable.overestimated()
 # **Explain.** Above 0: at {{ highest(9)[0] | .2f }}, if the errors' standard deviation is 1. The actor makes
 # the highest estimates most probable, so V(s') is too high, too.
 #
-# So SAC has **two critics** and takes for each action the smaller value, in V(s') and in the actor's loss. If
-# the two err independently, the highest of nine is then at {{ highest(9)[1] | .2f }}.
+# The smaller of two is nearer to 0. So SAC has **two critics** and takes for each action the smaller value,
+# in V(s') and in the actor's loss.
 # <!-- claim: too_high() > 0.2 and abs(highest(9)[1]) < highest(9)[0] -->
 
 # %% [markdown]
@@ -259,19 +261,20 @@ figures.descents({"your loss": own_parts.descended(loss), "Q not detached": bare
 # %% [markdown]
 # ## Round 4: does the pay lead out of the trap?
 #
-# {{ LEARNERS }} learners walk the chain of lesson [[values]] for 1,000 decisions. Each draws its actions from
-# softmax(Q / α), and moves Q(s, a) by 0.3 of the way to the soft target. This is *soft Q-learning*.
+# For each α {{ LEARNERS }} learners walk the chain of lesson [[values]] for 1,000 decisions. Each draws its
+# actions from softmax(Q / α), and moves Q(s, a) by 0.3 of the way to the soft target. This is *soft
+# Q-learning*.
 #
 # A learner must first *find* the free road, and then *take* the way to it. That way is worth taking: without
 # pay, leaving is worth {{ 0.8**4 / 0.2 | .2f }}, and staying once more {{ 0.16 + 0.8 * 0.8**4 / 0.2 | .2f }}.
 # <!-- claim: abs(soft_q(1e-3)[0, 0] - 1.80) < 0.005 > abs(soft_q(1e-3)[0, 1] - 2.05) -->
 #
-# > **Predict.** Take a small α (0.01), a large one (10), and one that falls from 10 to 0.01. With which do more of the
-# > {{ LEARNERS }} learners end *sure of leaving* the trap (π above {{ SURE }}) than with the others?
+# > **Predict.** Take a small α (0.01), a large one (10), and one that falls from 10 to 0.01. With which of
+# > the three do the most learners end *sure of leaving* the trap (π above {{ SURE }})?
 
 # %%
 kinds = ["a small one", "a large one", "one that falls"]
-predict("discrete_sac.4", "With which α do more end sure of leaving than with the others?", kinds)
+predict("discrete_sac.4", "With which α do the most learners end sure of leaving?", kinds)
 
 # %%
 predicted("discrete_sac.4")
@@ -285,9 +288,9 @@ bc.show(figures.two_jobs(constant.tolist(), knows, walked))
 # %% [markdown]
 # **Explain.** The one that falls. **α does two jobs.** It decides how much a learner *tries*: with a small α
 # few find the free road. And it decides how surely a learner *takes* what is better: with α = 1 nearly all
-# find the free road, but even an agent that knows the whole chain leaves with a probability of {{ leave(1) | .2f }}.
-# An α that begins high and falls does both jobs, one after the other. (The learners at α = 0.2 are sure by an
-# error: they seldom stay, so their value of staying is too low.)
+# find the free road, but even an agent that knows the whole chain leaves with a probability of
+# {{ leave(1) | .2f }} (right). An α that begins high and falls does both jobs, one after the other. (The few
+# that are sure at α = 0.2 underestimate staying.)
 # <!-- claim: sure(constant()).max() < LEARNERS / 8 < LEARNERS / 3 < sure(falling())[0] -->
 # <!-- claim: sure(constant(4000)).max() < sure(falling(4000))[0] / 2 -->
 # <!-- claim: 0.5 < leave(1) < 0.55 and max(abs(leave(a) - 0.5) for a in (2, 3, 5, 7, 10)) < 0.01 -->
@@ -317,8 +320,9 @@ explorable.thermostat()
 # <!-- claim: SETTINGS.target_entropy < 0 -->
 #
 # *Is η = −1 why plain SAC stays in the trap of our road?* Not alone: three agents learned with η = 0.3 and
-# three with η = 1, which can be reached, and none of the six escapes. On our road α also begins small, at
-# {{ SETTINGS.alpha_init }}: an action worth 0.05 less than the best is tried less than a hundredth as often.
+# three with η = 1, which can be reached, and none of the six escapes. Besides, α begins at
+# {{ SETTINGS.alpha_init }} on our road: softmax(Q / α), which the actor learns, then tries an action worth
+# 0.05 less than the best less than a hundredth as often.
 # <!-- claim: len(reachable()) == 6 and not reachable().any() -->
 # <!-- claim: math.exp(-0.05 / SETTINGS.alpha_init) < 0.01 -->
 

@@ -32,7 +32,7 @@ def groups() -> dict[str, Results]:
 
 
 def losing() -> Explorable:
-    """When each agent has the way out; how many lose it, by a limit; who has it at the end, and earns how much.
+    """When each agent has the way out; how many lose it, by a limit; who has it at the end, and what these earn.
 
     Who loses it is counted by the student's `ever_lost`, if it passed its check.
     """
@@ -43,15 +43,15 @@ def losing() -> Explorable:
     for tick in ticks(0, episodes, 4):
         across, _ = axes.at(tick, 0)
         still += [line(across, TOP, across, bottom + 3), text(across, bottom + 15, f"{tick:,.0f}", "middle", QUIET, 11)]
-    columns = (LOSE, "lose it at", "least once"), (KEEP, "keep it", "at the end"), (EARN, "return", "of ten")
+    columns = (LOSE, "lose it at", "least once"), (KEEP, "keep it", "at the end"), (EARN, "return of", "these")
     for x, *words in columns:
         still += [text(x, TOP - 38 + 16 * i, word, "middle", bold=True) for i, word in enumerate(words)]
 
     kept, ends = {}, {}
     for place, (words, results) in enumerate(shown.items()):
         keep = results.found_and_kept("bootstrapped")[1]
-        earned = f"{results.scores('returns').mean():.0f}"
-        kept[words] = f"{keep.sum()} keep it, return {earned}"
+        earned = f"{results.scores('returns')[keep].mean():.0f}"
+        kept[words] = f"{keep.sum()} keep it at the end, their return {earned}"
         top = TOP + place * (TALL + APART)
         still += _named(words, top) + [text(KEEP, _middle(top), f"{keep.sum()} of {len(keep)}", "middle")]
         still.append(text(EARN, _middle(top), earned, "middle"))

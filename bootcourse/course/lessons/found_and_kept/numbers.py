@@ -12,7 +12,7 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
 from bootcourse.research.tables import markdown
-from bootcourse.statistics import HAD, IN_A_ROW, LOST, lost  # noqa: F401 (the text names HAD and LOST)
+from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, lost  # noqa: F401 (the text names HAD and LOST)
 from tools.course.known import clocks, in_training, others, pattern, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
@@ -80,38 +80,32 @@ def others_pattern() -> float:
     return float(np.prod([study_clocks.as_printed(others(m).of(m).scores("success"), m).mean() for m in methods]))
 
 
-def alone(beta: str) -> str:
-    """How many finders with demonstrations alone keep the way out, ten others among them; β "ends" or "stays"."""
-    of_ours, of_others = ("β for ever", "demos, β for ever") if beta == "stays" else ("", "demos")
-    ours = shipped_experiment("ablations")[of_ours] if of_ours else shipped_results()
-    each = [way(agents, "demos") for agents in (ours, shipped_experiment("stress")[of_others])]
-    return f"{sum(one.kept for one in each)} of {sum(one.found for one in each)}"
-
-
 def explanations() -> str:
     """What could explain the paper's table, and what was seen of it, as Markdown."""
-    one_road = [100 * pattern(clocks()[updates, "π̃"]).value for updates in "124"]
+    ours, ten_others = way(of_all(), "demos"), way(others("demos"), "demos")
+    chance = [f"{100 * part:.0f}" for part in pattern(clocks()["2", "π̃"])]
     rows = [
         ["1. agents lose the way out",
-         f"with demonstrations alone, of those that find it {alone('ends')} keep it, but {alone('stays')} if β never "
-         "ends (ten others included)",
-         "perhaps part of it, if the paper's β stayed"],
+         f"with demonstrations alone {ours.found} of 10 find it, {ours.kept or 'none'} keeps it (ten others: "
+         f"{ten_others.found} and {ten_others.kept})",
+         f"at most part of it: the other {10 - ours.found} never find it"],
         ["2. single agents",
-         f"with our training the paper's four rates come in {100 * pattern(of_all()).value:.0f} % of the draws (ten "
-         f"others: {100 * others_pattern():.0f} %)",
+         f"with the training of Round 1, {of_all().curves['success'].shape[1]:,} episodes, the paper's four rates come "
+         f"in {100 * pattern(of_all()).value:.0f} % of the draws (ten others: {100 * others_pattern():.0f} %)",
          "seldom, taken alone"],
         ["3. another training",
-         f"with one road and π̃ these four rates come in {min(one_road):.0f} to {max(one_road):.0f} % of the draws",
-         "possible, together with 2"],
+         f"with one road, 2 updates and π̃ these four rates come in {chance[0]} % of the draws (bar: "
+         f"{chance[1]} to {chance[2]} %)",
+         "possible for the rates, together with 2"],
         ["4. other traffic", "not tested", "*open*"],
     ]  # fmt: skip
     return markdown(["what could explain it", "what we saw", "so"], rows)
 
 
-def by_driver(driver: str) -> np.ndarray:
-    """The share of the agents with demonstrations alone that escapes at ¼, 1 and 2 updates, by who demonstrated."""
-    cells = [clocks()[updates, driver].of("demos") for updates in ("1/4", "1", "2")]
-    return np.array([cell.escapers("demos") / len(cell) for cell in cells])
+def least_earned() -> float:
+    """The lowest return of an agent with demonstrations that escapes, in the settings of round 3."""
+    helped = [results.of(method) for results in clocks().values() for method in ("demos", "bootstrapped")]
+    return min(float(each.scores("returns")[each.scores("success") >= ESCAPES].min()) for each in helped)
 
 
 def of_the_agent_shown() -> Rollout:

@@ -102,9 +102,9 @@ explorable.certainty()
 # <!-- claim: [round(100 * each) for each in
 #   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
-# These are the ends of the **exact 95 % interval** of k out of n. At its low end, k *or more* escape in 2.5 %
-# of all studies; at its high end, k *or fewer* do (unless the interval ends at 0 or 100 %). At least 95 % of
-# such intervals contain the true rate.
+# These are the ends of the **exact 95 % interval** of 8 out of 10. If the true rate is the low end, 2.5 % of
+# all studies see 8 *or more* escape; if it is the high end, 2.5 % see 8 *or fewer*. At least 95 % of such
+# intervals contain the true rate.
 # <!-- claim: rarest_cover(10) >= 0.95 -->
 #
 # For demonstrations alone the paper prints a success of 100 %, but of our ten agents none escapes. The paper
@@ -193,7 +193,7 @@ check.power(power)
 # %% [markdown]
 # ## Round 3: are three seeds enough?
 #
-# You have time for three agents. Is their mean worth printing? Our ten bootstrapped agents earn:
+# You have time for three agents. How far can you trust their mean? Our ten bootstrapped agents earn:
 
 # %%
 returns = np.sort(study.of("bootstrapped").scores("returns"))
@@ -203,13 +203,13 @@ print(f"{', '.join(f'{each:.0f}' for each in returns)}; mean {returns.mean():.0f
 # <!-- claim: np.diff(np.sort(of('bootstrapped').scores('returns'))).max() > 40 and
 #   (of('bootstrapped').scores('returns') < 60).sum() == 3 -->
 #
-# How sure is a mean? From the agents *you trained* draw as many again, *uniformly with replacement*: some
-# come twice, others not at all. Take the mean, and repeat this some thousand times. The middle 95 % of these
-# means are the **bootstrap interval** (nothing to do with bootstrapped SAC).
+# From the agents *you trained* draw as many again, *uniformly with replacement*: some come twice, others not
+# at all. Take the mean, and repeat this thousands of times. The middle 95 % of these means are the
+# **bootstrap interval** (nothing to do with bootstrapped SAC).
 #
 # > **Predict.** Suppose that every training gives a copy of one of our ten agents, of each equally often. A
 # > study trains three, and computes their bootstrap interval. In how many of 100 such studies does it contain
-# > the mean of all? (How often do all three do well, and where is their interval then?)
+# > the mean of all?
 
 # %%
 predict(
@@ -258,8 +258,8 @@ check.bootstrap_interval(bootstrap_interval)
 # after 150 episodes.
 #
 # The score of a group is its **interquartile mean** (IQM): sort, leave out a quarter, rounded down, at each
-# end, and take the mean. Of five agents the middle three count, so you do not see it if one of the five
-# fails, or only one succeeds.
+# end, and take the mean. Of five agents the middle three count: how high the best one scores does not change
+# the IQM, but the IQM does not show it, either.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each resample
 # draws both groups anew.
@@ -289,9 +289,9 @@ table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
 # **Explain.** If the interval contains 0, five seeds do not say which group learns earlier, nor that both
-# learn alike. If it leaves out 0, that may be luck, as in the next picture.
-#
-# For an answer train a *new* set, large enough for your smallest effect of interest.
+# learn alike. If it leaves out 0, that may be luck: in Round 3's panel {{ explorable.holding(5) }} of 100
+# intervals of *five* seeds contain the mean, not 95. For an answer train a *new* set, large enough for your
+# smallest effect of interest.
 
 # %% [markdown]
 # ### If you try many changes
@@ -306,16 +306,17 @@ bc.show(figures.nothing_changed(study))
 # points of return. It is luck: the three lowest returns came into one half.
 # <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
 # <!-- claim: all(bad in (0, 3) for bad, effect in splits() if counts.leaves_out_0(effect)) -->
+# <!-- claim: np.mean([counts.leaves_out_0(effect) for _, effect in splits()]) > 0.05 and explorable.holding(5) < 95 -->
 #
-# If each of twenty independent comparisons leaves out 0 by luck in 5 % of cases, at least one does so in
-# {{ 100 * (1 - 0.95**20) | .0f }} %. This is **multiplicity**. So say beforehand which comparison counts, or
-# multiply each p by the number of comparisons (*Bonferroni*).
+# Intervals of five are too short. But even if each of twenty independent comparisons left out 0 by luck in
+# only 5 % of cases, at least one would in {{ 100 * (1 - 0.95**20) | .0f }} %. This is **multiplicity**. So
+# say beforehand which comparison counts, or multiply each p by the number of comparisons (*Bonferroni*).
 #
-# With both aids 7 of 10 agents escape, with plain SAC 1 of 10, and Fisher's p is {{ fisher(7, 1) | .3f }}. If
-# you named this pair beforehand, the difference counts. If you picked it from the six pairs of our first
-# picture, p is {{ 6 * fisher(7, 1) | .2f }}, and it does not. A new set of agents decides: of ten others of
-# each (another implementation, twice the episodes), {{ escapers(others('bootstrapped'), 'bootstrapped') }}
-# escape with both aids and {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
+# With both aids 7 of 10 agents escape, with plain SAC 1 of 10, and Fisher's p is {{ fisher(7, 1) | .3f }}. As
+# one of six comparisons it would not count, because six times p is {{ 6 * fisher(7, 1) | .2f }}. A new set of
+# agents decides: of ten others of each (another implementation, twice the episodes),
+# {{ escapers(others('bootstrapped'), 'bootstrapped') }} escape with both aids and
+# {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
 # <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 # <!-- claim: fisher(7, 1) < 0.05 < 6 * fisher(7, 1) -->

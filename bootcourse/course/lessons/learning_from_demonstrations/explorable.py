@@ -51,5 +51,5 @@ def nine_values(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
         return drawing(WIDTH, HEIGHT, [*head, *chart.parts, *under], f"{says} Distance {apart}.")
 
     second = Number("second", min(6, seconds), 1, seconds, 1, "Of the rule's drive.")
-    margin = Number("margin", 0, 0, 2, 0.1, f"On each other action; the paper's is {settings_for('margin').margin:g}.")
+    margin = Number("margin", 1, 0, 2, 0.1, f"On each other action; the paper's is {settings_for('margin').margin:g}.")
     return Explorable("What a critic thinks of the nine actions", draw, second=second, margin=margin)

@@ -10,7 +10,7 @@ from bootcourse.episodes.evaluate import evaluate
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
 from bootcourse.policies import rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
@@ -42,11 +42,12 @@ def batches(settings: Settings, episodes: Sequence[int]) -> Figure:
 
 def returns(groups: dict[str, Results]) -> Figure:
     """The mean return of groups of ten agents in their first training episodes, and below how often they succeed."""
-    title = "Without the bonus the return leaves the rule's sooner, and success falls sooner"
+    title = "With the bonus agents stay longer with the rule; success falls as it ends"
     figure, rule, said, ends = new_figure(5.0), evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value, [], []
     above, below = (axes_at(figure, 0.5, top, 4.9, tall) for top, tall in ((0.95, 2.0), (3.3, 1.1)))
     plain_axes(above, f"return without the bonus: mean of ten agents and {WINDOW} episodes")
     plain_axes(below, "of these episodes, succeed (%)")
+    ends_at = next(iter(groups.values())).agents[0]["beta_episodes"]
     for name, agents in groups.items():
         colour = style("bootstrapped").colour if agents.agents[0]["bonus"] else NO_BONUS
         at, earned = rolling_means(agents.curves["return"], WINDOW)
@@ -60,7 +61,10 @@ def returns(groups: dict[str, Results]) -> Figure:
     above.text(5, rule + 3, "the rule", fontsize=SMALL, color=style("rule").colour)
     for ax in (above, below):
         ax.axvspan(300, 500, color=style("demos").colour, alpha=0.2, linewidth=0)
+        ax.axvline(ends_at, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
         ax.set(xlim=(0, LAST), xticks=range(0, LAST + 1, 300))
+    words = {"fontsize": SMALL, "color": QUIET, "ha": "right", "va": "bottom"}
+    above.text(ends_at - 8, -18, "last demonstrations", **words)
     above.set(ylim=(-20, 140))
     above.tick_params(labelbottom=False)
     below.set(ylim=(0, 104), yticks=(0, 50, 100))

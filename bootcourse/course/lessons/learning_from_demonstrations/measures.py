@@ -50,7 +50,11 @@ FOUND = ["", "find the way out after (median of 20)", "escape (study, others)", 
 def found_and_escaped(agents: Kinds) -> list[list[str]]:
     """A row for each kind of demonstrations, below `FOUND`."""
     return [
-        [name, f"{np.median(found(soft)):.0f} episodes", " + ".join(escape([each]) for each in soft), escape(free)]
+        [
+            name,
+            f"{np.median(found(soft)):.0f} episodes",
+            *(" + ".join(escape([each]) for each in some) for some in (soft, free)),
+        ]
         for name, (soft, free) in agents.items()
     ]
 

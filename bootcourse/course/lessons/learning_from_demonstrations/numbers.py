@@ -7,6 +7,7 @@ import numpy as np
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.research.results import Results
+from bootcourse.statistics import lost
 from tools.course.known import SETTINGS, by_rule, idle, shipped_experiment, shipped_results
 
 
@@ -17,7 +18,12 @@ def kinds() -> measures.Kinds:
 
 
 def _with(name: str) -> tuple[list[Results], list[Results]]:
-    """One of `kinds`, by its last word: "c = 2", "c = 0" or "none"; or the study's ten with the "margin"."""
+    """One of `kinds`, by its last word: "c = 2", "c = 0" or "none".
+
+    Or the study's ten with the "margin", or the ten whose β reaches 0 "sooner".
+    """
+    if name == "sooner":
+        return [shipped_experiment("ablations")["β over 300 episodes"].of("bootstrapped")], []
     if name == "margin":
         return [shipped_results().of("margin_soft")], [shipped_results().of("margin")]
     return kinds()["no demonstrations" if name == "none" else f"demonstrations, {name}"]
@@ -33,9 +39,15 @@ def of_the_study(name: str) -> str:
     return measures.escape(_with(name)[0][:1])
 
 
-def alone(name: str) -> str:
-    """How many escape with these demonstrations and without the soft constraint."""
-    return measures.escape(_with(name)[1])
+def alone(name: str, which: int | None = None) -> str:
+    """How many escape with these demonstrations and without the soft constraint: all, the study's (0), others (1)."""
+    agents = _with(name)[1]
+    return measures.escape(agents if which is None else agents[which : which + 1])
+
+
+def settings_of(name: str, setting: str) -> object:
+    """A setting of the study's agents with the soft constraint and these demonstrations."""
+    return _with(name)[0][0].agents[0][setting]
 
 
 def found(name: str) -> np.ndarray:
@@ -63,6 +75,11 @@ def training(name: str, curve: str, first: int, last: int | None, others: bool =
 def fall(name: str) -> np.ndarray:
     """By how much the return of each of the study's ten falls as β reaches 0, (agents,)."""
     return training(name, "return", 800, 900) - training(name, "return", 1000, 1100)
+
+
+def losing_until(episode: int) -> list[int]:
+    """How many agents with c = 2 have lost the way out by this training episode: of the study's ten, and the others."""
+    return [int(lost(each.curves["success"][:, :episode]).sum()) for each in _with("c = 2")[0]]
 
 
 def bonus_needed() -> np.ndarray:

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from bootcourse.colours import ALARM
-from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import Rollout
 from bootcourse.errors import BootcourseError
@@ -138,40 +137,51 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
 
 
 def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
-    """Accidents of agents that look ahead in a model that they learned: a row for each driver of what it learned from.
+    """Accidents of agents in a model that they learned: means by what it learned from, and each agent in the last.
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
     title = "In a learned model the look-ahead crashes more than alone, the shield less"
-    agents, base = learned_model.together(computed), learned_model.BASE
-    alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)].mean(), style(base).colour
+    agents, base, forms = learned_model.together(computed), learned_model.BASE, (LEARNED_FORM, "shield")
+    alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)], style(base).colour
     drivers = {"the agent": agents}
     drivers |= {
         f"{100 * share:.0f} % of its actions random": learned_model.together(computed, share)
         for share in learned_model.RANDOM
     }
-    groups = {
-        name: [learned_model.per_thousand(of, form, control=True)[:, 0] for form in (LEARNED_FORM, "shield")]
+    means = {
+        name: [learned_model.per_thousand(of, form, control=True).mean() for form in forms]
         for name, of in drivers.items()
     }
-    last = [learned_model.per_thousand(agents, form)[:, -1] for form in (LEARNED_FORM, "shield")]
-    groups["the agent, then the look-ahead"] = last
-    row, alt_parts = 0.42, []
-    figure = new_figure(1.35 + row * len(groups))
-    ax = axes_at(figure, 2.25, 0.8, 2.8, row * len(groups))
-    ax.axvline(alone, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
-    for place, (name, (ahead, shield)) in enumerate(groups.items()):
-        means, shade = (f"{ahead.mean():,.0f}", f"{shield.mean():,.0f}"), colour if place == len(groups) - 1 else INK
-        dots(ax, ahead, place, shade, bar=ahead.mean())
-        ax.plot(shield.mean(), place, "s", ms=7, color="white", mec=shade, mew=1.6, zorder=4)
-        beside(ax, place, *means)
-        alt_parts.append(f"{name}: {means[0]}, {means[1]}")
-    beside(ax, -0.75, "look-ahead", "shield", colour=QUIET)
-    name_rows(ax, groups, "accidents in 1,000 drives: ● an agent's look-ahead, | their mean, □ the shield's mean")
-    ax.text(alone - 15, -0.75, f"without a model: {alone:.0f}", ha="right", va="center", fontsize=SMALL, color=QUIET)
-    ax.set_xlim(0, 1010)
-    alt = f"Mean accidents in 1,000 drives with the look-ahead and the shield, by who drove. {'; '.join(alt_parts)}. "
-    return finish(figure, title, f"{alt}The agents without a model: {alone:.0f}.")
+    ahead, shield = (learned_model.per_thousand(agents, form)[:, -1] for form in forms)
+    means["the agent, then the look-ahead"] = [ahead.mean(), shield.mean()]
+    means[f"without a model, alone: {alone.mean():.0f}"] = []
+    figure, ends = new_figure(3.25), (3.45, 4.05)  # inches: where the two columns of numbers end
+    height, last = figure.get_figheight(), len(means) - 2
+
+    def write(row: int, *words: str, **look) -> None:
+        y = 1 - (0.75 + 0.3 * row) / height
+        for x, of, side in zip((0.012, *(end / 7 for end in ends)), words, ("left", "right", "right"), strict=False):
+            figure.text(x, y, of, ha=side, va="center", fontsize=TEXT, **look)
+
+    write(0, "accidents in 1,000 drives, mean of ten agents", color=INK)
+    write(1, "the model learns from", "look-ahead", "shield", color=QUIET)
+    for row, (name, of) in enumerate(means.items()):
+        look = {"color": colour, "fontweight": "bold"} if row == last else {"color": INK}
+        write(row + 2, name, *(f"{mean:,.0f}" for mean in of), **look)
+    ax, worse = axes_at(figure, 4.75, 1.05, 2.0, 1.5), ahead > alone
+    for of, shade in ((worse, INK), (~worse, colour)):
+        ax.plot(np.array([ahead, alone, shield])[:, of], color=shade, linewidth=1.4, marker="o", ms=4, clip_on=False)
+    plain_axes(ax, "accidents in 1,000 drives")
+    ax.set(xlim=(-0.15, 2.15), ylim=(0, 1000))
+    ax.set_yticks([0, 500, 1000], ["0", "500", "1,000"])
+    ax.set_xticks(range(3), ["look-ahead", "alone", "shield"])
+    words = "right: each agent, with the orange row's model; dark: it crashes more with the look-ahead than alone"
+    figure.text(0.012, 0.1 / height, words, fontsize=SMALL, color=INK)
+    by_row = "; ".join(" ".join([name, *(f"{mean:,.0f}" for mean in of)]) for name, of in means.items())
+    each = ", ".join(f"{a:.0f}, {b:.0f}, {c:.0f}" for a, b, c in zip(ahead, alone, shield, strict=True))
+    alt = f"Mean accidents in 1,000 drives with the look-ahead and the shield, by what the model learns from. {by_row}."
+    return finish(figure, title, f"{alt} In the last model each agent's look-ahead, alone and shield: {each}.")
 
 
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:

@@ -67,9 +67,14 @@ def worths() -> np.ndarray:
     return imagined_road.worth(np.linspace(0, DEFAULT.ego.max_speed, 401))
 
 
-def led_out() -> int:
-    """How many of the nine that stay behind alone get out in more than a tenth of their drives with the look-ahead."""
-    return int((outs("sac")[outs("sac", "alone") < 0.01] > 0.1).sum())
+def led_out(success: np.ndarray) -> int:
+    """How many of the nine that stay behind alone get out in more than a tenth of their drives: success (agents,)."""
+    return int((success[outs("sac", "alone") < 0.01] > 0.1).sum())
+
+
+def without_worth(measure: str) -> np.ndarray:
+    """A measure of each plain SAC agent that looks ahead without W, (agents,)."""
+    return shipped()[Cell("sac", with_worth=False).name].measured[measure]
 
 
 @cache
@@ -136,6 +141,21 @@ def learned(form: str) -> np.ndarray:
 def learned_without(form: str, share: float | None = None) -> float:
     """The same of a control, whose model learned from drives without a look-ahead."""
     return float(learned_model.per_thousand(learning(share), form, control=True).mean())
+
+
+def of_alone() -> np.ndarray:
+    """Accidents in 1,000 drives of each of these agents alone, (agents,)."""
+    return figures.per_thousand(shipped(), Cell(learned_model.BASE, "alone"))[: len(learning())]
+
+
+def in_last_model(form: str) -> np.ndarray:
+    """The same in the model that learned from the look-ahead's drives, too, (agents,)."""
+    return learned_model.per_thousand(learning(), form)[:, -1]
+
+
+def worse_when_learned() -> np.ndarray:
+    """Which of them crash more often with the look-ahead in that model than alone, (agents,)."""
+    return in_last_model(figures.LEARNED_FORM) > of_alone()
 
 
 def learned_rows(share: float | None = None) -> np.ndarray:

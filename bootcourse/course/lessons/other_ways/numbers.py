@@ -66,12 +66,6 @@ def pairs(budget: int) -> dict[tuple[str, str], float]:
     return {pair: float(each) for pair, each in zip(of, holm(p), strict=True)}
 
 
-def at_edge() -> set[str]:
-    """The methods with a teacher whose best setting of the search is its first or its last."""
-    places = {method: np.argmax(list(search(method).values())) for method in TAUGHT}
-    return {method for method, place in places.items() if place != 1}
-
-
 def search(method: str) -> dict[str, float]:
     """{what was tried: mean return} of the search."""
     return tried(shipped_experiment("beyond-search")[method])
@@ -97,14 +91,6 @@ def by_hand() -> dict[str, set[str]]:
 def accident_shares() -> np.ndarray:
     """In how many % of the test's drives the agents of each method with a teacher have an accident, (methods,)."""
     return 100 * np.array([at(method, "accident").mean() for method in TAUGHT])
-
-
-def decisions_per_update(method: str) -> float:
-    """After how many decisions of their own these agents make an update, on average."""
-    agent = later(method).agents[0]
-    if "epochs" in agent:
-        return agent["batch"] / agent["epochs"]
-    return agent["envs_per_agent"] / agent["updates"]
 
 
 def on_road(decisions: float) -> float:

@@ -15,7 +15,7 @@ from bootcourse.learn.protocol import adam
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.textbook import minimise
 from bootcourse.methods import display_name
-from bootcourse.policies import Policy, rule_policy
+from bootcourse.policies import Policy
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 
 METHODS = ("bc", "cql", "cql_sac", "gail", "sac", "bootstrapped")
@@ -114,11 +114,6 @@ def worth(policy: Policy, roads: Sequence[int], gamma: float) -> float:
     short = replace(DEFAULT, clock=replace(DEFAULT.clock, decisions=SECONDS))
     drive = steps(policy, one_episode_each(len(roads), short, None), list(roads))
     return float(np.mean(sum(gamma**t * step.rewards * step.running for t, step in enumerate(drive))))
-
-
-def rule_worth(roads: Sequence[int] = range(100), gamma: float = 0.8) -> float:
-    """What the rule itself is worth on these roads: the guess that looks at no driver."""
-    return worth(rule_policy(DEFAULT), roads, gamma)
 
 
 def by_set(values: Sequence[float]) -> np.ndarray:

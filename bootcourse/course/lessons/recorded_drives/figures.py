@@ -161,4 +161,4 @@ def chosen(study: Results, guesses: Sequence[float], truth: Sequence[float]) -> 
         [place + 1, *(f"{display_name(choosing.METHODS[one])}, {earned[place, one]:.0f}" for one in each)]
         for place, each in enumerate(first)
     ]
-    return table(["set", "largest estimate", "truly worth most (first seconds)", "highest return (whole drive)"], rows)
+    return table(["set", "largest estimate, its return", "truly worth most, its return", "highest return"], rows)

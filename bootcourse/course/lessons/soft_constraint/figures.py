@@ -71,7 +71,7 @@ FADING = "ξ falls towards 0"  # the study's own agents with the soft constraint
 FLOOR = "ξ falls to 0.1"
 
 
-FAULTS = "never reliable", "two never", "found and lost again"  # of the kinds of `courses`
+FAULTS = "slow", "two never", "found and lost again"  # of the kinds of `courses`
 
 
 def courses(kinds: Sequence[str]) -> Figure:
@@ -85,7 +85,8 @@ def courses(kinds: Sequence[str]) -> Figure:
         success = changed[kind].of("soft").curves["success"]
         left = 0.5 + 2.1 * column
         above, below = axes_at(figure, left, 0.95, 1.9, 0.75), axes_at(figure, left, 2.15, 1.9, 1.7)
-        plain_axes(above, f"{kind}:\n{fault}")
+        earned = changed[kind].of("soft").scores("returns").mean()
+        plain_axes(above, f"{kind}:\n{fault} (return {earned:.0f})")
         xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
         until = np.argmax(xi <= 0.101) if kind == FADING else len(xi)
         above.plot(np.arange(until), xi[:until], color=colour, linewidth=2)
@@ -97,7 +98,7 @@ def courses(kinds: Sequence[str]) -> Figure:
         above.set_yticks((0.1, 1, 2), ("0.1", "1", "2"))
         above.minorticks_off()
         episodes, share = rolling_means(success, IN_A_ROW, success.shape[1])
-        plain_axes(below, "" if column else f"of the last {IN_A_ROW} episodes, ended ahead")
+        plain_axes(below, "" if column else f"of the last {IN_A_ROW} training episodes (actions drawn), ended ahead")
         below.plot(episodes, IN_A_ROW * share.T, color=colour, linewidth=0.8, alpha=0.7)
         below.axhline(IN_A_ROW / 2, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
         below.set(ylim=(0, IN_A_ROW + 1))
@@ -105,8 +106,10 @@ def courses(kinds: Sequence[str]) -> Figure:
         for ax in (above, below):
             ax.set(xlim=(0, success.shape[1]), xticks=(500, 1000, 1500))
             ax.tick_params(labelleft=not column, labelbottom=ax is below)
-        alt.append(f"{kind}: {fault}, at last {IN_A_ROW * share[:, -1].mean():.0f} on average")
-    words = "above: mean ξ of ten agents; below: a line for each agent"
+        ahead = f"at last {IN_A_ROW * share[:, -1].mean():.0f} on average"
+        alt.append(f"{kind}: {fault}, {ahead}, return in the test {earned:.0f}")
+    rule = rule_results(DEFAULT, changed[kinds[0]].sizes[0]).scores("returns").mean()
+    words = f"above: mean ξ of ten agents; below: a line for each; return: mean in the test (the rule: {rule:.0f})"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     title = f"Each kind has a fault: {', '.join(FAULTS[:-1])}, or {FAULTS[-1]}"
     return finish(figure, title, f"Of {IN_A_ROW} training episodes in a row, ended ahead. {'; '.join(alt)}.")

@@ -86,6 +86,11 @@ def losing(agents: list[Results]) -> int:
     return sum(int(lost(each.of("soft").curves["success"]).sum()) for each in agents)
 
 
+def losers_that_escape(agents: Results) -> int:
+    """How many of the agents that lose the way out in their training escape after it."""
+    return int((lost(agents.of("soft").curves["success"]) & agents.found_and_kept("soft")[1]).sum())
+
+
 def crashes(agents: list[Results]) -> float:
     """The share of their drives that end in an accident."""
     return float(np.mean([each.of("soft").scores("accident") for each in agents]))
@@ -107,11 +112,6 @@ def way(xi: float, whose: str = CHOSEN) -> str:
 def metres(xi: float) -> str:
     """How far the panel's compromise gets in its 40 s."""
     return re.fullmatch(r"(\d+) m in 40 s", way(xi))[1]
-
-
-def accidents_of_the_panel(xi: float) -> list[str]:
-    """Which of the panel's three ways end in an accident."""
-    return [name for name, each in ways_of_the_panel(xi).items() if each.accident]
 
 
 def same_until_the_floor() -> bool:

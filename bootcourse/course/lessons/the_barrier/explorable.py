@@ -41,7 +41,7 @@ def barrier() -> Explorable:
         dip = f"after {lowest} s {worth[lowest]:.1f}" if lowest else "no dip"
         says = f"Price {price:g}, γ = {gamma:g}: the plan is worth {worth[0]:.1f} times staying, {dip}, "
         says = f"{says}after {SECONDS} s {worth[-1]:.1f}.".replace("-", "−")
-        axes = Axes("seconds of the plan that are driven", "worth of going on, as a multiple of staying", (-2.0, 7.0))
+        axes = Axes("seconds of the plan that are driven", "worth of the plan's rest (staying: 1)", (-2.0, 7.0))
         named = {
             "going on with the plan": Curve(worth, style("sac").colour),
             "staying": Curve(np.ones(SECONDS + 1), style("idle").colour, "--"),

@@ -83,7 +83,7 @@ def while_they_learned(results: Results, chance: float) -> Figure:
     chance: that an agent would at least once, if all its actions were random.
     """
     times, ahead = times_ahead(results), results.scores("success")
-    escaping = ahead >= ESCAPES
+    escaping, crashing = ahead >= ESCAPES, results.scores("accident") > 0.5
     title = f"{(times > 0).sum()} of {len(times)} agents ended ahead while they learned, "
     title += f"{(times == 1).sum()} of them once; {escaping.sum()} escapes"
     figure = new_figure(4.4)
@@ -97,13 +97,14 @@ def while_they_learned(results: Results, chance: float) -> Figure:
         ax.plot(1 + np.flatnonzero(drives > 0), np.full(times[k], row), "|", color=DARK, markersize=9)
         listed.append(f"{times[k]}")
         if ahead[k] >= 0.1:
-            label = f"{100 * ahead[k]:.0f} %{': escapes' if escaping[k] else ''}"
+            label = f"{100 * ahead[k]:.0f} %" + ", escapes" * int(escaping[k]) + ", crashes" * int(crashing[k])
             ax.text(np.isfinite(drives).sum() + 12, row, label, fontsize=TEXT, color=INK, va="center")
             listed[-1] += f" ({label})"
     ax.set(ylim=(len(times) - 0.3, -0.8), yticks=[])
     ax.set_xlim(left=0)
     words = f"A mark: a drive that ended ahead. If all actions were random, {len(times) * chance:.0f} of {len(times)} "
     words += "agents would have one in 400 drives.\n"
-    words += "At a row's end: the share of the test roads on which the agent then ends ahead, where it is 10 % or more."
+    words += "At a row's end: on how many of the test roads the agent then ends ahead (if 10 % or more), and whether "
+    words += "it crashes on most."
     figure.text(0.012, 0.015, words, fontsize=SMALL, color=QUIET)
     return finish(figure, title, f"{words}\nThe agents' drives that ended ahead: {', '.join(listed)}.")

@@ -9,8 +9,9 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.policies import PlanPolicy, random_policy
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD, shipped_experiment
+from tools.course.known import ROAD, discounted, idle, shipped_experiment
 
 
 @cache
@@ -86,6 +87,21 @@ def one_acceleration() -> attempts.Outcome:
 
 
 @cache
+def only_accelerate() -> int:
+    """How many agents with a start in the free lane alone earn on each road what accelerating for ever earns there."""
+    agents = easy(MIDDLE).episodes("returns")
+    plan = PlanPolicy([attempts.ACCELERATE] * DEFAULT.clock.decisions)
+    drives = attempts.drive(plan, held_out_seeds(1, agents.shape[1]), easier.MidLaneStart)
+    return int(np.isclose(agents, drives.values(1.0), atol=1e-3).all(axis=1).sum())
+
+
+def one_that_pays() -> float:
+    """The chance that one of 400 random drives ends ahead and is worth more than staying, at γ = 0.8."""
+    pays = (lucky(0.8) > discounted(idle(), 0.8)).mean() * len(lucky()) / 5000
+    return 1 - (1 - pays) ** 400
+
+
+@cache
 def searched():
     """The lesson's best drives at γ = 0.8."""
     return is_staying_optimal(range(4), gamma=0.8, beam=50)
@@ -99,3 +115,8 @@ def driven() -> np.ndarray:
 def times_ahead() -> np.ndarray:
     """How many drives each of the twenty ended ahead while it learned."""
     return figures.times_ahead(easy("as it is"))
+
+
+def once_ahead() -> int:
+    """How many of the twenty did so at least once."""
+    return int((times_ahead() > 0).sum())

@@ -3,18 +3,17 @@
 from collections.abc import Sequence
 
 import numpy as np
-from IPython.display import Markdown
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM
-from bootcourse.course import table
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import overtaken
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, label_ends, new_figure, one_axes, plain_axes
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
-from bootcourse.rule import SENTENCES, Reason, safety_distance
+from bootcourse.rule import Reason, safety_distance
 
 
 def when_to_change(drive: Rollout) -> Figure:
@@ -104,18 +103,53 @@ def gap(drive: Rollout, second: int) -> float:
     return trap - ego - drive.scenario.car.length
 
 
-def reasons(drive: Rollout) -> Markdown:
-    """A table of the rule's reasons in a drive, as they change, with what it compares: its sight and the gaps."""
-    steps, given, rows = drive.scenario.clock.steps, drive.rule_reasons, []
-    for second in [0, *(1 + np.flatnonzero(np.diff(given)))]:
-        ego, trap = drive.states[second * steps, [EGO, TRAP_1]]
-        ahead, reason = trap[X] - ego[X], Reason(given[second])
-        seen = f"{ahead:.0f} m" + ", out of sight" * bool(ahead > drive.scenario.sight.distance)
-        asked = f"{drive.rule_distances[second]:.1f} m" if reason in (Reason.FALL_BACK, Reason.CHANGE) else "–"
-        rows.append(
-            [f"{second} s", SENTENCES[reason], f"{ego[SPEED]:.0f} m/s", seen, f"{gap(drive, second):.1f} m", asked]
-        )
-    return table(["from", "the rule's reason", "its speed", "trap 1 ahead", "gap to trap 2", "gap asked for"], rows)
+def crash_over_time(drive: Rollout) -> Figure:
+    """Why a drive with a short sight crashes: how far ahead trap 1 is, and the gap to trap 2 beside what it needs."""
+    scenario, green, steps = drive.scenario, style("rule").colour, drive.scenario.clock.steps
+    ego, one, two = (drive.states[:, car] for car in (EGO, TRAP_1, TRAP_2))
+    ahead, room, sight = one[:, X] - ego[:, X], two[:, X] - ego[:, X] - scenario.car.length, scenario.sight.distance
+    faster = np.maximum(ego[:, SPEED] - two[:, SPEED], 0)
+    brakes = faster**2 / (2 * scenario.ego.acceleration) + faster * scenario.clock.dt / 2  # as in `explorable.gap`
+    given, seconds = drive.rule_reasons, np.arange(len(drive.rule_reasons))
+    compares = np.isin(given, (Reason.FALL_BACK, Reason.CHANGE))
+    asked = np.where(compares, drive.rule_distances[: len(given)], np.nan)
+    lost, changed = int(np.argmax(given == Reason.FREE)), int(np.flatnonzero(given == Reason.CHANGE)[-1])
+    figure, last = new_figure(3.3), drive.times[-1]
+
+    def panel(left: float, words: str, limits: tuple[float, float]) -> Axes:
+        ax = axes_at(figure, left, 0.75, 2.2, 1.95)
+        plain_axes(ax, words)
+        ax.set(xlim=(0, last), ylim=limits, xticks=range(0, 12, 3))
+        ax.set_xlabel("time (s)", fontsize=TEXT, color=INK)
+        return ax
+
+    ax = panel(0.4, "trap 1 ahead (m)", (12, 28))
+    ax.plot(drive.times, ahead, color=green, linewidth=2.5)
+    ax.plot(drive.times, np.where(ahead > sight, ahead, np.nan), color=ALARM, linewidth=2.5)
+    ax.axhline(sight, color=INK, linewidth=1.5, linestyle="--")
+    ax.text(0.2, sight + 0.3, "sight", fontsize=TEXT, color=INK, va="bottom")
+    out = f"{lost} s: out of sight, so\nnobody ahead: speed up"
+    ax.text(lost - 0.6, ahead.max() + 0.9, out, fontsize=TEXT, color=ALARM, va="bottom")
+
+    ax = panel(3.35, "gap to trap 2 (m)", (-0.5, 12))
+    ax.plot(drive.times, brakes, color=ALARM, linewidth=2, linestyle="--")
+    ax.plot(seconds, asked, color=INK, linewidth=2, linestyle="--")
+    ax.plot(drive.times, room, color=green, linewidth=2.5)
+    ax.plot(changed, room[changed * steps], "o", color=green, markersize=7)
+    gap_then, asked_then, needs = room[changed * steps], asked[changed], brakes[changed * steps]
+    says = f"{changed} s: {gap_then:.1f} > {asked_then:.1f} m, so change\nlane; but braking takes {needs:.1f} m"
+    ax.text(last, 11.8, says, fontsize=TEXT, color=INK, ha="right", va="top")
+    asked_last, brakes_last = asked[compares][-1], brakes[-1]
+    label_ends(
+        ax, [(room[-1], "the gap", green), (asked_last, "gap asked for", INK), (brakes_last, "needed to brake", ALARM)]
+    )
+    title = f"It loses trap 1 at {lost} s, speeds up, and changes lane too fast at {changed} s"
+    alt = (
+        f"Trap 1 is {ahead[0]:.0f} m ahead at first and later up to {ahead.max():.0f} m, beyond the sight of "
+        f"{sight:g} m. At {changed} s the gap to trap 2 is {gap_then:.1f} m and the gap asked for {asked_then:.1f} m, "
+        f"but braking takes {needs:.1f} m. At {last:g} s the drive ends in an accident."
+    )
+    return finish(figure, title, alt)
 
 
 def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure:

@@ -82,10 +82,10 @@ def target_speed(v_current, v_new, v_min, v_max, n):
 check.target_speed(target_speed)
 
 # %% [markdown]
-# The **tracker** (`bootcourse.rule.track`) turns the target into actions. The paper leaves the tracker open,
-# so it is our choice (§ marks such choices from here on). Ours neither accelerates nor brakes while the speed
-# is within {{ DEFAULT.ego.acceleration / 2 | g }} m/s of the target. Because of this *dead band* the picture
-# shows 8 m/s, not 8.25.
+# The **tracker** turns the target into actions. The paper leaves the tracker open, so it is our choice (§
+# marks such choices from here on). Ours neither accelerates nor brakes while the speed is within
+# {{ DEFAULT.ego.acceleration / 2 | g }} m/s of the target. Because of this *dead band* the picture shows 8
+# m/s, not 8.25.
 # <!-- claim: np.isclose(by_rule().states[6:13, EGO, SPEED], 8).all() -->
 #
 # > **Predict.** The rule and both traps start at 10 m/s. Give the rule another number of speeds, spread
@@ -119,23 +119,23 @@ table(["speeds", "target behind the traps", "gets out, of 200 roads"], rows)
 # %% [markdown]
 # ## Round 2: when to change lane?
 #
-# The rule takes the first of five cases that applies (`bootcourse.rule.decide_rule`). The *new* lane is the
-# one on its left.
+# The rule takes the first of five cases that applies. Imagine that you drive; the *new* lane is the one on
+# your left.
 #
-# 1. Nobody is ahead in sight in this lane, or it is the leftmost: stay.
-# 2. Its car is still on the way into this lane, more than {{ SETTLED }} m from its middle: finish this lane
-#    change first.
+# 1. You see nobody ahead in this lane, or it is the leftmost: stay.
+# 2. You are still on the way into this lane, more than {{ SETTLED }} m from the lane's middle: finish this
+#    lane change first.
 # 3. The gap to the car ahead in the new lane is not longer than the **safety distance** $d_s$: fall back.
-# 4. The car behind in the new lane is too close: wait.
+# 4. The car behind you in the new lane is too close: wait.
 # 5. Else: change to the new lane.
 #
-# In each case the rule aims at the target speed, which is 15 m/s with nobody ahead.
+# In each case you aim at the target speed, which is 15 m/s with nobody ahead.
 #
 # How long must the gap of case 3 be? Suppose that the car ahead in the new lane is slower than you. The rule
 # asks for a gap of t_safe seconds times this difference in speed, and at least {{ DEFAULT.rule.floor | g }}
 # m, its *floor* (§). The paper leaves t_safe open; we take {{ DEFAULT.rule.t_safe }} s (§). **Drag** t_safe.
-# Up to which difference in speed can the car, at {{ DEFAULT.ego.acceleration | g }} m/s², brake within that
-# gap?
+# The car brakes at {{ DEFAULT.ego.acceleration | g }} m/s². Up to which difference in speed is that gap long
+# enough?
 
 # %%
 explorable.gap()
@@ -266,8 +266,9 @@ bc.show(figures.speeds_by_sight(drive, rules.recorded(ROAD, 30)))
 # %% [markdown]
 # **Explain.** The sight for the speed does it: a slow car counts as much at 200 m as at 20 m. From 11 s on
 # the rule follows a car of {{ np.median(followed(by_rule(), 11).speed) | .0f }} m/s that is more than 150 m
-# ahead, so its target is 10.5 m/s. When that car leaves its sight, the rule accelerates, sees the car again,
-# and brakes. That makes the saw teeth in the picture, on a road that looks empty.
+# ahead, so its target is 10.5 m/s (10 to 11 in the picture: the dead band). When that car leaves its sight,
+# the rule accelerates, sees the car again, and brakes. That makes the saw teeth in the picture, on a road
+# that looks empty.
 # <!-- claim: len(followed(by_rule(), 11, 33).car) == 22 and (by_rule().rule_speeds[11:33] == 10.5).all() -->
 # <!-- claim: set(followed(by_rule(), 11).car) == {4} and
 #   150 < followed(by_rule(), 11).distance.min() and followed(by_rule(), 11).distance.max() <= 200 -->
@@ -303,22 +304,20 @@ safe = [s for s, each in zip(sights, by_sight, strict=True) if not each.accident
 bc.show(figures.against_sight(sights, by_sight))
 
 # %% [markdown]
-# Play one of the crashes (sight 20 m). The table says what the rule *wants*; the car follows later. What
-# causes the crash?
+# Play one of the crashes (sight 20 m). What causes it?
 
 # %%
 bc.recording([rules.crash()], height=360)
 
 # %%
-figures.reasons(rules.crash())
+bc.show(figures.crash_over_time(rules.crash()))
 
 # %% [markdown]
 # **Explain.** Two causes, and the first leads to the second:
 #
-# - *First* (4 s): the rule sees nobody ahead, calls its lane change off, and speeds up.
-# - *Second* (9 s): it changes lane {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster than trap 2.
-#   The gap that it asks for is too short, since at this difference braking takes more than 5 m (Round 2's
-#   picture).
+# - *First* (4 s): it loses trap 1 from sight, calls the lane change off, and speeds up.
+# - *Second* (9 s): it changes lane {{ np.median(by_the_formula(20.0).faster) | .0f }} m/s faster than trap 2,
+#   and the gap that it asks for is too short to brake in (Round 2).
 #
 # Of the 200 drives {{ len(by_the_formula(20.0).speeds) }} change lane that fast.
 # {{ by_the_formula(20.0).crashed }} of these crash, and none of the others.
@@ -337,7 +336,7 @@ figures.reasons(rules.crash())
 # {{ len(ROADS) }} drives get out. Which cause has to go, the first or the second?
 
 # %%
-mine = {"sight": 20, "lane_sight": 20, "t_safe": 1.5, "floor": 3, "n": 5}
+mine = {"sight": 20, "lane_sight": 20, "t_safe": 1.5, "floor": 3}
 rules.ranked({"the rule": {}, "30 m": {"sight": 30}, "yours": mine})
 
 # %% [markdown]
@@ -348,8 +347,9 @@ rules.ranked({"the rule": {}, "30 m": {"sight": 30}, "yours": mine})
 #
 # - `lane_sight` = 200: trap 1 stays in sight.
 # - A *floor of 0.5 m*: the lane change begins earlier, and {{ lost_in_change(0.5).sum() or 'no' }} drive
-#   loses trap 1 in the next second (with 3 m, {{ lost_in_change(3.0).sum() }} do). But a smaller floor is a
-#   risk: {{ (driven(20.0, floor=1.0).accident > 0).sum() }} drives crash with a floor of 1 m.
+#   loses trap 1 in the next second (with 3 m, {{ lost_in_change(3.0).sum() }} do). A floor of 1 m is not
+#   small enough: {{ lost_in_change(1.0).sum() }} drives lose trap 1, and
+#   {{ (driven(20.0, floor=1.0).accident > 0).sum() }} crash.
 #
 # To remove only the *second* cause, with t_safe = 2 s, is not enough: no drive crashes, but about half stay
 # behind. They lose trap 1 from sight, speed up, come too close and fall back, again and again.
@@ -371,11 +371,6 @@ rules.ranked({"the rule": {}, "30 m": {"sight": 30}, "yours": mine})
 # <!-- claim: rule_seeing(30.0).success.all() and not rule_seeing(30.0).accident.any() -->
 # <!-- claim: rule_seeing(30.0).returns.mean() > 2 * of('rule').scores('returns').mean() -->
 # <!-- claim: driven(20.0).accident.any() and not driven(30.0).accident.any() -->
-#
-# The **stochastic rule**, $\tilde\pi$ ("pi tilde"), takes the rule's action with probability $p$, and
-# otherwise one of the other eight, all equally likely. Lesson [[soft_constraint]] asks how probable each
-# action is under $\tilde\pi$.
-# <!-- claim: N_ACTIONS - 1 == 8 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask for the cause of the crash before anybody unfolds it. Which number does it point to? Somebody will
@@ -405,7 +400,6 @@ compare_predictions(
 # 4. With a sight of 20 m most drives lose trap 1 from sight in a lane change, and then most crash or stay
 #    behind. A long sight for the choice of lane repairs that.
 # <!-- claim: (lost_in_change(3.0) & ~driven(20.0).success).sum() > lost_in_change(3.0).sum() / 2 > 50 -->
-# 5. The stochastic rule gives each action a probability above 0.
 #
 # **Three questions to think about**
 # - How would you choose the sight for a car that carries people?

@@ -1,3 +1,1 @@
-"""You will watch another learner, find out what pays for what it does, change the reward, put PPO together, clone the
-rule first.
-"""
+"""You will watch another learner, find out what pays for what it does, put PPO together, clone the rule first."""

@@ -1,4 +1,4 @@
-"""Two drives' speeds, a drive's advantages, PPO's clipped loss, return against success, who gets ahead in training."""
+"""PPO's clipped loss, return against success, who gets ahead in training."""
 
 from collections.abc import Mapping
 
@@ -6,11 +6,7 @@ import numpy as np
 import torch
 from matplotlib.figure import Figure
 
-from bootcourse.colours import Style
-from bootcourse.course.charts import lines
 from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, compared, driven
-from bootcourse.course.lessons.the_second_trap.second_trap import speeds
-from bootcourse.episodes.record import Rollout
 from bootcourse.learn.ppo import clipped_loss
 from bootcourse.methods import style
 from bootcourse.plots.figure import (
@@ -26,7 +22,6 @@ from bootcourse.plots.figure import (
     plain_axes,
 )
 from bootcourse.policies import idle_policy
-from bootcourse.scenario import DEFAULT
 
 RATIOS = np.linspace(0.3, 1.7, 141)
 POINTS = (0.5, 1.5)  # where a dot says what the gradient does
@@ -85,53 +80,6 @@ def hinges(clip: float) -> Figure:
     words = "The ratio is above 1 where the action is likelier now than when it was taken."
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     return finish(figure, title, f"The loss against the ratio. {'; '.join(alt_parts)}.")
-
-
-def two_speeds(drives: Mapping[str, Rollout]) -> Figure:
-    """The speeds of a drive of PPO alone and of another one over time, and that of the traps."""
-    title = "Paid by the concave reward, this agent drives at almost the traps' speed, and stays"
-    named = {words: speeds(drive) for words, drive in drives.items()}
-    seconds, looks = np.arange(1, 1 + max(map(len, named.values()))), (Style(style("ppo").colour), Style(QUIET))
-    marks = {"the traps": DEFAULT.traps.speed}
-    return lines(seconds, named, title, "time (s)", "speed (m/s)", marks=marks, looks=looks)
-
-
-def credit(speed: np.ndarray, found: Mapping[str, torch.Tensor], horizon: int) -> Figure:
-    """A drive's speeds (seconds,), and below them its advantages, (seconds, 1).
-
-    found: {what A sees: the advantages}; horizon: after so many decisions the data end, dotted.
-    """
-    title = f"Cut every {horizon} decisions, A does not see the sprint that follows"
-    figure, seconds, alt = new_figure(4.0), np.arange(len(speed)), []
-    above, below = axes_at(figure, 0.55, 0.75, 5.5, 0.95), axes_at(figure, 0.55, 2.1, 5.5, 1.35)
-    for ax, words in ((above, "speed (m/s)"), (below, "advantage A of the decision at that second")):
-        plain_axes(ax, words)
-        ax.set_xlim(0, len(speed))
-        for start, end in slow_stretches(speed):
-            ax.axvspan(start, end, color=QUIET, alpha=0.13, linewidth=0)
-    above.plot(seconds, speed, color=style("ppo").colour, linewidth=2)
-    above.axhline(DEFAULT.traps.speed, color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
-    above.set(ylim=(0, 17), yticks=(0, 5, 10, 15), xticklabels=[])
-    label_ends(above, [(DEFAULT.traps.speed, "the traps", QUIET)])
-    ends, slow = [], np.asarray(speed) < DEFAULT.traps.speed
-    for name, colour in zip(found, (INK, style("ppo").colour), strict=True):
-        values = np.asarray(found[name])[:, 0]
-        below.plot(seconds, values, color=colour, linewidth=2)
-        ends.append((values[-1], name, colour))
-        alt.append(f"{values[slow].mean():.1f} ({name})")
-    for end in range(horizon, len(speed), horizon):
-        below.axvline(end, color=INK, linewidth=0.8, linestyle=(0, (1, 2)))
-    below.axhline(0, color=INK, linewidth=0.8)
-    below.set_xlabel("time (s); grey: slower than the traps", fontsize=TEXT, color=INK)
-    label_ends(below, ends)
-    return finish(figure, title, f"Mean A of the {slow.sum()} seconds below 10 m/s: {', '.join(alt)}.")
-
-
-def slow_stretches(speed: np.ndarray) -> list[tuple[int, int]]:
-    """From when to when (s) a drive is slower than the traps."""
-    slow = np.concatenate([[False], np.asarray(speed) < DEFAULT.traps.speed, [False]])
-    edges = np.flatnonzero(slow[1:] != slow[:-1])
-    return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 
 
 def gives_up(alone: Mapping[str, np.ndarray]) -> Figure:

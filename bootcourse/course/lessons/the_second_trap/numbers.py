@@ -3,24 +3,21 @@
 from functools import cache
 
 import numpy as np
-import torch
 
 from bootcourse.course.lessons import number
 from bootcourse.course.lessons.the_second_trap import explorable, ppo_kinds, second_trap  # noqa: F401 (for the text)
 from bootcourse.course.lessons.your_teacher import example_teachers
 from bootcourse.episodes.record import record
-from bootcourse.learn.ppo import advantages
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.research.tables import markdown
-from bootcourse.road.formulas import speed_reward
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, by_rule, discounted, idle, shipped_teachers
 
 
 def ppo(kind: str) -> dict:
-    """What ships of the second trap's agents of a kind: "alone", "shaped", "concave" or "cloned"."""
+    """What ships of the second trap's agents of a kind: "alone", "shaped" or "cloned"."""
     return ppo_kinds.reference()[kind]
 
 
@@ -57,27 +54,13 @@ def ppo_gap() -> np.ndarray:
     return cars[:, EGO, X] - cars[:, TRAP_1, X]
 
 
-def credit(lam: float, horizon: int | None = None) -> np.ndarray:
-    """The advantages of that drive, paid by r_v, where V is what a steady 10 m/s pays for ever: (decisions,).
-
-    horizon: after so many decisions the data end, again and again; None: with the drive.
-    """
-    rewards = torch.tensor([[speed_reward(v)] for v in ppo_speeds()])
-    values = torch.full_like(rewards, speed_reward(10.0) / (1 - ppo_kinds.GAMMA))
-    no = torch.zeros_like(rewards)  # accident
-    ends = no.clone()
-    if horizon:
-        ends[horizon - 1 :: horizon] = 1
-    return advantages(rewards, values, values, no, ends, ppo_kinds.GAMMA, lam)[:, 0].numpy()
-
-
 @cache
 def worth(driver: str, gamma: float) -> float:
     """The discounted return of a drive on road 10."""
     drives = {
         "keeping straight": idle,
         "the rule": by_rule,
-        "sprinting": ppo_drive,
+        "this agent": ppo_drive,
         "careful": lambda: record(teacher_policy(example_teachers.careful), [ROAD])[0],
     }
     return discounted(drives[driver](), gamma)
@@ -89,18 +72,21 @@ def worth_table() -> str:
     names = {"careful": f"`careful` (lesson {number('your_teacher')})"}
     rows = [
         [names.get(driver, driver), f"{worth(driver, gammas['sac']):.1f}", f"{worth(driver, gammas['ppo']):.0f}"]
-        for driver in ("keeping straight", "the rule", "sprinting", "careful")
+        for driver in ("keeping straight", "the rule", "this agent", "careful")
     ]
     return markdown(["", f"SAC's γ = {gammas['sac']}", f"PPO's γ = {gammas['ppo']}"], rows)
+
+
+def worths() -> list[float]:
+    """What the drives of the ten agents of PPO alone on this road are worth with PPO's γ."""
+    return [discounted(ppo_drive(seed=seed), ppo_kinds.GAMMA) for seed in range(ppo_agents())]
+
+
+def worth_more_than_the_rule() -> int:
+    """How many of them are worth more than the rule's."""
+    return sum(value > worth("the rule", ppo_kinds.GAMMA) for value in worths())
 
 
 def cloned_escape(teacher: str) -> int:
     """How many of the study's ten agents of PPO after cloning this teacher escape."""
     return shipped_teachers()[teacher, "ppo_cloned"].escapers("ppo_cloned")
-
-
-def paid_concavely(drive, gamma: float = 1.0) -> float:
-    """What a drive without an accident earns with the concave reward."""
-    cars, rewards = drive.states[::2], np.asarray(drive.rewards)
-    paid = second_trap.concave_pay(rewards, cars[:-1], cars[1:], np.zeros(len(rewards), dtype=bool))
-    return float(gamma ** np.arange(len(paid)) @ paid)

@@ -1,4 +1,4 @@
-"""Ten agents of PPO alone, with two other rewards, and after cloning: trained, tested, kept with their networks.
+"""Ten agents of PPO alone, with another reward, and after cloning: trained, tested, kept with their networks.
 
     bootcourse study second-trap --out DIR    # some minutes
 
@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 import torch
 
-from bootcourse.course.lessons.the_second_trap.second_trap import Repaid, concave_pay, left_of, shaped_pay
+from bootcourse.course.lessons.the_second_trap.second_trap import Repaid, left_of, shaped_pay
 from bootcourse.course.lessons.your_teacher.taught_agents import alike
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.errors import BootcourseError
@@ -47,7 +47,6 @@ class Kind(NamedTuple):
 KINDS = {
     "alone": Kind("ppo", 800_000),
     "shaped": Kind("ppo", 800_000, partial(Repaid, pay=shaped_pay(left_of, GAMMA))),
-    "concave": Kind("ppo", 800_000, partial(Repaid, pay=concave_pay)),
     "cloned": Kind("ppo_cloned", 300_000),
 }
 

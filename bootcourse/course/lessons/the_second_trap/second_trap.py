@@ -5,8 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from bootcourse.episodes.record import Rollout
-from bootcourse.road.formulas import speed_reward
-from bootcourse.road.state import EGO, HEADING, SPEED, Y
+from bootcourse.road.state import EGO, SPEED, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
 
@@ -56,15 +55,3 @@ def shaped_pay(potential: Callable[[np.ndarray], np.ndarray], gamma: float) -> P
         return rewards + shaping_reward(potential(before), potential(after), terminated, gamma)
 
     return pay
-
-
-def concave_speed_reward(v_lon: np.ndarray) -> np.ndarray:
-    """In place of r_v: √((v - 5) / 10) from 5 to 15 m/s, which has the same ends and bends the other way; any shape."""
-    return np.where(v_lon > 15, np.exp(-((v_lon - 15) ** 2)), np.sqrt(np.clip((v_lon - 5) / 10, 0, 1)))
-
-
-def concave_pay(rewards: np.ndarray, before: np.ndarray, after: np.ndarray, terminated: np.ndarray) -> np.ndarray:
-    """The road's reward with `concave_speed_reward` for r_v; an accident pays what it paid: (roads,)."""
-    v_lon, w = after[:, EGO, SPEED] * np.cos(after[:, EGO, HEADING]), DEFAULT.reward
-    gained = concave_speed_reward(v_lon) - np.array([speed_reward(v) for v in v_lon])
-    return rewards + np.where(terminated, 0.0, w.w_v / (w.w_v + w.w_y + w.w_theta) * gained)

@@ -26,15 +26,15 @@ def discount() -> Explorable:
         out, quick, behind = (np.cumsum(gamma**times * rewards) for rewards in (by_rule, sooner, stay))
         ranked = sorted(((out[-1], "the rule's way out"), (quick[-1], "the blind plan"), (behind[-1], "staying")))
         named = {
-            f"the rule's way out: {out[-1]:.2f} in 150 s": Curve(out[:SECONDS], style("rule").colour),
-            f"the blind plan: {quick[-1]:.2f} in 150 s": Curve(quick[:SECONDS], INK),
-            f"staying behind: {behind[-1]:.2f} in 150 s": Curve(behind[:SECONDS], style("idle").colour, "--"),
+            f"the rule's way out, worth {out[-1]:.2f}": Curve(out[:SECONDS], style("rule").colour),
+            f"the blind plan, worth {quick[-1]:.2f}": Curve(quick[:SECONDS], INK),
+            f"staying, worth {behind[-1]:.2f}": Curve(behind[:SECONDS], style("idle").colour, "--"),
         }
         what = "sum of the rewards until then, each × γ to the power of its second"
         top = 1.15 * max(float(each[SECONDS]) for each in (out, quick, behind))
         axes = Axes("second of the drive, the first 60 of 150", what, (0.0, top))
         best, middle, least = (name for _, name in reversed(ranked))
-        says = f"γ = {gamma:g}: at the start {best} is worth most, then {middle}, then {least}."
+        says = f"γ = {gamma:g}: {best} is worth most, {middle} less, {least} least."
         return curves(says, axes, times[:SECONDS], named)
 
     gamma = Number("γ", 0.8, 0.5, 1, 0.01, "What a reward one second later is worth, as a share of one now.")

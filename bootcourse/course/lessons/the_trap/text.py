@@ -42,12 +42,12 @@ progress("the_trap")
 # ## Look first
 #
 # This is the trap of lesson [[start]]. Your car, the **ego**, starts at {{ DEFAULT.ego.speed }} m/s, boxed in
-# by two dark red cars that are as fast as itself: **trap 1** is ahead in its lane, and **trap 2** in the next
-# lane, a few metres ahead. The left lane is free.
+# by two dark red cars as fast as itself: **trap 1** is ahead in its lane, and **trap 2** in the next lane, a
+# few metres ahead. The left lane is free.
 # <!-- claim: DEFAULT.traps.speed == DEFAULT.ego.speed -->
 # <!-- claim: all(4 < idle(road).states[0, TRAP_2, X] < 7.5 for road in (7, ROAD)) -->
 #
-# Drive road 7, this time *without braking*. Can you get ahead of trap 1?
+# Drive road 7 *without braking*. Can you get ahead of trap 1?
 
 # %% tags=["nbval-ignore-output"]
 bc.world(road=7, ghosts=[])
@@ -157,7 +157,7 @@ for road in (7, ROAD, 1):  # all plans, on three roads
 # <!-- claim: 70 < getting_out(7) < 150 and 0 < getting_out(ROAD) < 10 and getting_out(1) == 0 -->
 #
 # One of the {{ getting_out(ROAD) }} plans that get out on road {{ ROAD }} now drives {{ roads() | , }} other
-# roads. It is the **blind plan**: it looks at nothing.
+# roads: the **blind plan**, which looks at nothing.
 # <!-- claim: on_road(ROAD)(np.array([[5, 3, 3, 3, 3, 5, 5, 5]])).all() and ROAD not in
 #   held_out_seeds(1, roads()) -->
 
@@ -267,8 +267,8 @@ print(f"the rule's way out, 150 s: {driving.paid(pay, by_rule).sum():.4f}")
 bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", reward="one number"))
 
 # %% [markdown]
-# **See.** Six of the 26 numbers describe the ego. Five more describe each of the four nearest cars within
-# {{ DEFAULT.sight.distance }} m: whether it is there, where it is, and how much faster or slower.
+# The agent sees 26 numbers: six of the ego, and five of each of the four nearest cars within
+# {{ DEFAULT.sight.distance }} m, such as where it is and how much faster or slower.
 # <!-- claim: [name for name in observation.names(DEFAULT) if not name.startswith('car')] ==
 #   ['presence', 'x', 'y', 'v_lon', 'v_lat', 'd_e'] -->
 # <!-- claim: [name.removeprefix('car 1 ') for name in observation.names(DEFAULT) if
@@ -276,11 +276,12 @@ bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", rewa
 # <!-- claim: DEFAULT.sight.neighbours == 4 and DEFAULT.observation_size == 26 -->
 #
 # The agent's **policy**, π ("pi"), gives each action a probability. Each **update** corrects what the agent
-# expects of actions that it took, and makes the more promising ones a little more probable.
+# expects of some actions that it took, and makes the actions from which it expects most a little more
+# probable.
 #
-# Four agents now learn for about 10 seconds by a method called SAC, *soft actor-critic*. Two learn alone
-# (*plain SAC*). Two have the rule's help, which fades (*bootstrapped SAC*): they also learn from drives of
-# the rule and are pulled towards its actions.
+# Four agents now learn for about 10 seconds by *soft actor-critic* (SAC). Two learn alone (*plain SAC*). Two
+# have the rule's help, which fades (*bootstrapped SAC*): they also learn from drives of the rule and are
+# pulled towards its actions.
 
 # %% tags=["nbval-ignore-output"]
 agents = bc.with_seeds(bc.settings_for("sac"), 2)
@@ -379,8 +380,8 @@ def bearable_risk(stay, out, crash):
 check.bearable_risk(bearable_risk)
 
 # %% [markdown]
-# Your `reward` and `bearable_risk` draw the next picture. An attempt that goes well drives as the rule, or
-# the blind plan, does on road {{ ROAD }}. One that goes wrong crashes after 3 s.
+# Your `reward` and `bearable_risk` draw the next picture. If an attempt goes well, it is the drive of the
+# rule, or of the blind plan, on road {{ ROAD }}. If it goes wrong, it crashes after 3 s.
 
 # %%
 bearable = own_code.yours_or_ours("bearable_risk", doing="Judging attempts")
@@ -394,9 +395,9 @@ for gamma in gammas:
 bc.show(figures.bearable_risks(gammas, np.array(risks)))
 
 # %% [markdown]
-# **Explain.** At γ = 0.8 the rule's way out bears no risk, because even without a crash it is worth less than
-# staying. The blind plan bears little, and on the {{ roads() | , }} other roads, crashes included, it is
-# worth {{ worth_of_plan() | .2f }} on average, less than staying ({{ discounted(idle(), 0.8) | .2f }}).
+# **Explain.** At γ = 0.8 the rule's way out is worth less than staying even without any risk. The blind plan
+# bears little risk, and on the {{ roads() | , }} other roads, crashes included, it is worth
+# {{ worth_of_plan() | .2f }} on average, less than staying ({{ discounted(idle(), 0.8) | .2f }}).
 # <!-- claim: discounted(idle(), 0.8) > worth_of_plan() -->
 #
 # That is not the whole answer to why so many stay. At γ = 0.9, 0.95 and 0.99 the blind plan is worth more
@@ -419,19 +420,19 @@ compare_predictions(
 # %% [markdown]
 # ## Further: is a time step of 0.5 s fine enough?
 #
-# The simulation moves the cars in *time steps* of {{ DEFAULT.clock.dt }} s. The table halves them, on our
-# road and with the traffic of *highway-env*, the simulator under it.
+# The simulation moves the cars in *time steps* of {{ DEFAULT.clock.dt }} s. The table halves them, for our
+# traffic and for traffic that steers as quickly as in *highway-env*, the simulator that ours follows.
 
 # %%
 rows = []
-for traffic, tau in (("ours", time_step.OURS), ("highway-env's", time_step.HIGHWAY_ENVS)):
+for cars, tau in (("ours", time_step.OURS), ("as quick as highway-env's", time_step.HIGHWAY_ENVS)):
     shares = [time_step.unhurt(blind_plan, tau, step) for step in (0.5, 0.25)]
-    rows.append([traffic, *(f"{share:.0%}" for share in shares)])
+    rows.append([cars, *(f"{share:.0%}" for share in shares)])
 table(["the blind plan gets out unhurt, with traffic", "in steps of 0.5 s", "of 0.25 s"], rows)
 
 # %% [markdown]
-# A step of 0.5 s is fine enough for our traffic, but not for highway-env's, which corrects its heading with a
-# time constant of {{ time_step.HIGHWAY_ENVS }} s: the step multiplies an error by 1 − 0.5 / 0.2 =
+# A step of 0.5 s is fine enough for our traffic, but not for the quicker one: with its time constant of
+# {{ time_step.HIGHWAY_ENVS }} s a step multiplies an error of the heading by 1 − 0.5 / 0.2 =
 # {{ 1 - 0.5 / 0.2 | .1f }}, and cars swing more and more.
 # <!-- claim: abs(in_steps(time_step.OURS, 0.5) - in_steps(time_step.OURS, 0.25)) < 0.03 -->
 # <!-- claim: time_step.HIGHWAY_ENVS == 0.2 and DEFAULT.clock.dt == 0.5 -->

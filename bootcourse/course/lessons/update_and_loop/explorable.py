@@ -16,7 +16,7 @@ from bootcourse.plots.svg import Drawing, drawing, line, rect, text
 from bootcourse.research.experiments import checks
 
 LAST = 40  # pushes before the fall that are shown
-AXES = Axes("pushes from the end (−1: the last push)", "what a push is worth, once learned", (0.0, 55.0))
+AXES = Axes("pushes from the end (−1: the last push)", "Q of a push, once learned", (0.0, 55.0))
 
 
 def the_end() -> Explorable:
@@ -32,7 +32,7 @@ def the_end() -> Explorable:
             "the pole falls": Curve(knows, OTHER.colour),
             "only the time is up: the pole stands on": Curve(forgets, STRANGERS[1].colour, "--"),
         }
-        says = f"γ = {gamma:g}: the last push is worth {knows[-1]:.3g} and {forgets[-1]:.3g}."
+        says = f"γ = {gamma:g}: Q of the last push is {knows[-1]:.3g} and {forgets[-1]:.3g}."
         return curves(says, AXES, np.arange(-LAST, 0), named, mark=-1)
 
     gamma = Number("γ", 0.97, 0.5, 0.98, 0.01, "What a reward one push later is worth, as a share of one now.")

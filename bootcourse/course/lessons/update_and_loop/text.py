@@ -53,15 +53,15 @@ explorable.two_poles()
 # ## Round 1: what does an update learn from?
 #
 # Each push leaves a row (s, a, r, terminated, s'). As in lesson [[discrete_sac]], *terminated* is 1 after a
-# fall. It is 0 when only the time is up, since the pole would go on earning. **Drag** γ. What is the last
-# push worth before a fall, and when only the time is up?
+# fall. It is 0 when only the time is up, since the pole would go on earning. **Drag** γ. What is Q of the
+# last push if the pole falls after it, and what if only the time is up?
 
 # %%
 explorable.the_end()
 
 # %% [markdown]
-# The nearer the fall, the less a push is worth. When only the time is up, the pole would have stood on, so
-# even the last push is worth 1 / (1 − γ).
+# The nearer the fall, the fewer rewards follow, so Q is lower. When only the time is up, the pole would have
+# stood on, so even the last push has Q = 1 / (1 − γ).
 #
 # SAC keeps its rows in the **replay buffer**. Each update learns from a **batch** of rows, which are drawn
 # **uniformly with replacement**: at each draw each row has the same chance.
@@ -124,7 +124,8 @@ check.ReplayBuffer(ReplayBuffer)
 # > 8. **Copies.** Q̄ₖ becomes Q̄ₖ + τ (Qₖ − Q̄ₖ), weight by weight.
 #
 # The functions are those of lesson [[discrete_sac]]. `q_pair` is the Q of both critics, (2, batch, 2), and
-# `q` is the smaller of the two, `q_pair.amin(0)`. α is exp(`agent.log_alpha`).
+# `q` is the smaller of the two, `q_pair.amin(0)`. α is `agent.log_alpha.exp().detach()`; the functions hold
+# fixed the rest.
 
 # %%
 own_code.load()
@@ -178,8 +179,7 @@ check.train(train)
 
 # %% [markdown]
 # Before the pole, test your parts in **probe environments**: worlds so small that you can work out the right
-# Q. (Leave the entropy aside: α begins at 0.01.) A new agent learns in each world, with τ = 0.5 and γ = {{ GAMMA }}.
-# <!-- claim: np.isclose(by_hand.SAC().log_alpha.exp().item(), 0.01) -->
+# Q. (Leave the entropy aside.) A new agent learns in each world, with τ = 0.5 and γ = {{ GAMMA }}.
 
 # %%
 figures.small_worlds()
@@ -241,11 +241,11 @@ bc.show(figures.tests_in_training(tests, BLOCK, with_bug))
 explorable.trained_poles(agent, unmarked)
 
 # %% [markdown]
-# **See.** **Drag** the push. (Your agent here has learned until the pole was solved.) We trained five agents
-# with the bug and five without it. After {{ BLOCK | , }} pushes of training those with the bug balance the
-# pole for {{ after_a_block('unmarked').max() | .0f }} pushes on average, no longer than before their
-# training. Those without the bug balance it for {{ after_a_block().min() | .0f }} to
-# {{ after_a_block().max() | .0f }} pushes, and later all of them solve it.
+# **See.** **Drag** the push. We trained five agents with the bug and five without it. After {{ BLOCK | , }}
+# pushes of training those with the bug balance the pole for {{ after_a_block('unmarked').max() | .0f }}
+# pushes on average, no longer than before their training. Those without the bug balance it for
+# {{ after_a_block().min() | .0f }} to {{ after_a_block().max() | .0f }} pushes, and later all of them solve
+# it.
 # <!-- claim: fell_at_once() == len(agents('unmarked')) == 5 == len(tests()) == solved() -->
 # <!-- claim: after_a_block('unmarked').mean() <= agents('unmarked').notes['tests'][:, 0].mean() -->
 
@@ -269,8 +269,8 @@ entropy = sac.entropy(unmarked.log_pi(torch.zeros(1, 4))).item()
 print(f"Entropy with the bug, pole upright: {entropy:.2f} nats")
 
 # %% [markdown]
-# **See.** For this picture 40 poles are pushed to one side until they fall. The critics with the bug expect
-# most of the fallen pole, so a push towards the fall should look best to the actor. With the pole upright
+# **See.** For this picture 40 poles are pushed to one side until they fall. To the critics with the bug the
+# fallen pole is worth most, so to the actor a push towards the fall should look best. With the pole upright
 # this actor is sure of one side (its entropy is 0.00), and a pole that is pushed to one side only falls.
 #
 # Q is even above its limit (dotted), in {{ unmarked() }} of our {{ len(agents('unmarked')) }} agents with the
@@ -291,18 +291,18 @@ predict("update_and_loop.4", "What do the added rows change?", changes)
 predicted("update_and_loop.4")
 PAID = 0  # what a push pays a fallen pole
 added = worlds.taught(loop, step, worlds.Lying(buffer(50_000), PAID), BLOCK, SEED)
-bc.show(figures.with_rows(expects[0], added))
+bc.show(figures.with_rows(expects[0], unmarked, added))
 stands = by_hand.balanced(added)
 print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {tests[1]:.0f}.")
 
 # %% [markdown]
-# **Explain.** Only rows were added, and now Q is possible. So it is in all five agents that we trained with
-# these rows, and they balance the pole for {{ after_a_block('paid-0').min() | .0f }} to
-# {{ after_a_block('paid-0').max() | .0f }} pushes.
+# **Explain.** Only rows were added, and Q is possible in all five agents that we trained with them. They
+# balance the pole for {{ after_a_block('paid-0').min() | .0f }} to {{ after_a_block('paid-0').max() | .0f }}
+# pushes.
 #
-# We think that without these rows Q fed itself. The network guessed too much for the fallen pole, and the
-# target passed that on to the last push. One network gives both values, so the guess rose with it. The added
-# rows say almost what a mark says: from here on only entropy pays.
+# We think that without these rows Q fed itself: the target passed the guess for the fallen pole on to the
+# last push, and one network gives both values, so the guess rose, too. The added rows say almost what a mark
+# says: from here on only entropy pays.
 # <!-- claim: possible('paid-0') == 5 == len(agents('paid-0')) and after_a_block('paid-0').argmax() == 1 -->
 #
 # A low score shows that something is wrong. An impossible Q also says where to look: at the critics and their
@@ -336,7 +336,7 @@ compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: compared, 4
 # - With `PAID = 1` a fallen pole is paid as much as a standing one. Which line of round 1 does Q resemble? Is
 #   Q possible, and does the pole stand?
 # - Let `sample` give 256 rows that follow each other. What do you expect?
-# - What could four updates after each push do?
+# - Suppose that the end of the time counts as a fall. Which small world shows it?
 #
 # **Read on**: Jones, *Debugging RL, Without the Agonizing Pain* (2021), on probe environments. Mnih et al.,
 # *Human-level control through deep reinforcement learning* (Nature, 2015). Sutton and Barto, *Reinforcement

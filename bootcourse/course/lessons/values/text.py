@@ -85,8 +85,7 @@ better = [g for g in gammas if worth([0.0] * 5 + [1.0] * 495, g) > worth([0.16] 
 print(f"γ = {min(better):.2f}")
 
 # %% [markdown]
-# **Explain.** With one more state leaving pays nothing for five decisions, so it is worth more where
-# $\gamma^5 > 0.16$: from γ = {{ 0.16**0.2 | .2f }} on.
+# **Explain.** Leaving is now worth $\gamma^5 / (1 - \gamma)$, so it is worth more where $\gamma^5 > 0.16$.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what γ means in seconds: at 0.8 a reward in ten decisions counts {{ 0.8**10 | .2f }}. Nothing in the
@@ -95,12 +94,12 @@ print(f"γ = {min(better):.2f}")
 # %% [markdown]
 # ## Round 2: a value from the next value
 #
-# A **state** holds all of the present that matters: what may come next depends on the state and the action
-# alone. A world with such states is a *Markov decision process* (MDP).
+# A **state** says all that matters of the present: what comes next, and with which probability, depends only
+# on the state and the action. A world with such states is a *Markov decision process* (MDP).
 #
 # The **value** of action a in state s, **Q(s, a)**, is the discounted return if you take a once and then act
-# as well as possible. So it is the reward of a, plus γ times the larger of the two Q in the next state, s'.
-# This is the **Bellman equation**:
+# as well as possible. A state is worth the larger of its two Q. So Q(s, a) is the reward of a, plus γ times
+# what the next state, s', is worth. This is the **Bellman equation**:
 #
 # $$ Q(s, a) = r(s, a) + \gamma \max_{a'} Q(s', a') $$
 #
@@ -139,7 +138,10 @@ for _ in range(40):
 bc.show(diagrams.sweeps(found))
 
 # %% [markdown]
-# **Explain.** A sweep looks one decision ahead, so each sweep carries the free road's value one state back.
+# **Explain.** Each sweep looks one decision farther ahead, and the free road pays at the fifth. The
+# {{ sweeps(3, 0.8)[0, 1] | .2f }} of sweep 3 is the trap's own pay, discounted: go on, turn back, and stay
+# once.
+# <!-- claim: abs(sweeps(3, 0.8)[0, 1] - 0.8**2 * chain.REWARD[0, 0]) < 1e-9 -->
 # <!-- claim: sweeps(4, 0.8)[0, 1] < 0.2 < 0.4 < sweeps(5, 0.8)[0, 1] -->
 # <!-- claim: (np.abs(sweeps(40, 0.8)[:, 1] - 5 * 0.8 ** np.arange(4, -1, -1)) < 0.005).all() -->
 
@@ -158,12 +160,10 @@ bc.show(diagrams.sweeps(found))
 #
 # $$ \delta = r + \gamma \max_{a'} Q(s', a') - Q(s, a) $$
 #
-# The part before the minus is the **target**. **Q-learning** moves Q(s, a) a part of the way to the target,
+# The part before the minus is the **target**; it contains the learner's own estimate of the next state.
+# **Q-learning** moves Q(s, a) a part of the way to the target,
 # $Q(s, a) \leftarrow Q(s, a) + \text{step} \cdot \delta$. The **step**, also called *learning rate*, is 0.3
 # here.
-#
-# The target contains the learner's own estimate of the next state. Textbooks call this **bootstrapping**;
-# *bootstrapped SAC*, however, has its name from the rule's help.
 #
 # **Exercise (4 min, ●○○).** Write the difference.
 
@@ -205,8 +205,8 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 
 # %% [markdown]
 # **Explain.** On the first walk the learner learns in the states 0 to 3 before the free road has paid, so
-# only the value in state 4 rises. In the last row it learns from the same decisions in reverse order, so each
-# next state already has its value.
+# only the value in state 4 rises. In the last row it learns in reverse order, so each next state already has
+# its value.
 # <!-- claim: walked(1) == [False] * 4 + [True] and all(walked(1, backwards=True)) -->
 # <!-- claim: not walked(4)[0] and walked(5)[0] -->
 
@@ -229,8 +229,8 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 # - *E*: as A, with a demonstration of the way out, replayed after each decision.
 #
 # > **Predict.** At first all Q are equal, and the greedy action, 0, leads to the trap. Getting through
-# > takes four random decisions in a row, each right with probability ε / 2. In which of the five kinds do more than
-# > half of the thirty learn to leave?
+# > takes four random decisions in a row, each right with probability ε / 2. In which kinds do more than half learn to
+# > leave?
 
 # %%
 predict("values.4", "In which kinds do more than half learn to leave? Letters, as in: A, C")
@@ -297,15 +297,15 @@ bc.show(diagrams.who_leaves(found))
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
 #
 # In C {{ free_road_seen(0.5, 0.8) }} of the thirty reach the free road, but only {{ leaving(0.5, 0.8) }}
-# learn to leave. Here are two of those that reach it:
+# learn to leave. Here are two that reach it:
 
 # %%
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** Each walk carries the free road's value one state back, but there it has a rival: turning back
-# to the trap. Until going on is worth more than turning back in all three states between (dashed), leaving is
-# worth less than staying. Two walks (left) are too few for that: those of C that learned to leave needed
+# **Explain.** A walk carries the free road's value back past a state only once going on is worth more there
+# than turning back to the trap, because max Q takes the larger of the two. This must happen in all three
+# states between (dashed). Two walks (left) are too few: those of C that learned to leave needed
 # {{ min(needed_walks()) }} to {{ max(needed_walks()) }}.
 # <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] and not chain.leaves(walks(29)[-1]) -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
@@ -330,12 +330,13 @@ compare_predictions(
 # ## What you now know
 #
 # 1. The discounted return is the sum of the rewards from now on, each × γ to the power of its delay.
-# 2. The Bellman equation says what a value is; sweeps of it find it.
+# 2. The Bellman equation: an action is worth its reward plus γ times the larger Q of the next state. Sweeps
+#    of it find Q.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves Q(s, a) by a
 #    part of this difference, and needs no map.
-# 4. Learned forwards, a walk moves a value one state back; learned backwards, all the way.
+# 4. Learned forwards, a walk carries a value one state back, so finding the free road once is not enough.
 # 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and so does a
-#    demonstration, but finding the free road once is not enough.
+#    demonstration.
 #
 # **Three questions to think about**
 # - After 40 sweeps Q(0, 0) is {{ sweeps(40, 0.8)[0, 0] | .2f }}. Staying for ever is worth {{ 0.16 / 0.2 | .2f }}.

@@ -57,8 +57,6 @@ bc.show(figures.climbs())
 # %% [markdown]
 # ## Round 1: does a teacher help?
 #
-# First you need a teacher.
-#
 # **Exercise (8 min, ●●○).** Write a rule for MountainCar. All 20 episodes must reach the flag.
 
 
@@ -72,7 +70,7 @@ check.climb_rule(climb_rule)
 
 # %% [markdown]
 # Your rule is the teacher. `bc.compare` trains five agents of each method for equally many *decisions*;
-# demonstrations are free. Two methods are controls: plain SAC has no teacher, and the clone has no reward.
+# demonstrations are free. Two methods are controls: plain SAC has no teacher, the clone no reward.
 
 # %% tags=["nbval-ignore-output"]
 climb = own_code.yours_or_ours("climb_rule", doing="Teaching")
@@ -86,15 +84,14 @@ car, teacher = PROBLEMS["mountain-car"].make_env, loops.teacher(climb)
 bc.compare(methods, decisions=1_000, make_env=car, teacher=teacher, **how)
 
 # %% [markdown]
-# **See.** Without a teacher hardly any drive reaches the flag; with one many do. The clone, which has 50
-# drives of your rule but no reward, earns no less.
+# **See.** Without a teacher hardly any drive reaches the flag; with your rule many do. The clone, which sees
+# 50 drives of your rule and no reward, earns no less than the soft constraint.
 # <!-- claim: score('mountain-car', 'good', 'SAC') == 0 and min(score('mountain-car', 'good', m) for
 #   m in ('cloning', 'soft')) > 0.9 and abs(score('mountain-car', 'good', 'soft', 'returns') -
 #   score('mountain-car', 'good', 'cloning', 'returns')) < 5 and 50 * -earned('good') > 1_000 -->
 #
 # **On yours.** Take a gymnasium environment with discrete actions, whose observations are vectors of numbers
-# near 1, and write a rule for it. Ours is CartPole: balance a pole, for 1 per decision and at most 500
-# decisions.
+# near 1, and write a rule for it. Ours is CartPole: balance a pole, where each of at most 500 decisions pays 1.
 
 
 # %% tags=["nbval-ignore-output"]
@@ -134,7 +131,7 @@ bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0))
 
 # %% [markdown]
 # **See.** The teacher's line is upright: for it only the angle counts. On the way there the agents' lines
-# pass the dashes, where angle and speed count alike. A rule with that line earns {{ speed_rule_earns() | .0f }}.
+# pass the dashes, where angle and speed count alike, and a rule with that line earns {{ speed_rule_earns() | .0f }}.
 # After 3,000 decisions the agents copy their teacher better and earn less: *one budget can mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
@@ -146,14 +143,15 @@ for pays, gamma in ((0, 0), (1, 0.99)):  # on yours
     print("with reward   " if pays else "without reward", earned)
 
 # %% [markdown]
-# **See.** Where the two printed lines are alike, the pull to the rule was enough.
+# **See.** Where the two lines are alike, the agents did not need the reward.
 
 # %% [markdown]
 # ## Round 3: which errors does the teacher make?
 #
 # A **random** teacher errs in some states, picked at random; when it comes back to one of them, it makes the
 # same error. A **systematic** teacher errs everywhere in one region. The **good** teacher makes neither
-# error.
+# error; on CartPole it is not the best rule.
+# <!-- claim: speed_rule_earns() > score('cartpole', 'good', 'the teacher', 'returns') + 100 -->
 #
 # > **Predict.** On MountainCar the good teacher earns {{ earned('good') | .0f }}. The random teacher is right in
 # > {{ 100 * elsewhere_claims.PROBLEMS['mountain-car'].right | .0f }} % of the states and earns
@@ -168,7 +166,7 @@ predicted("your_own_problem.2")
 bc.show(figures.clones())
 
 # %% [markdown]
-# **See.** Clones of these random teachers earn far more than their teachers. Clones of the systematic
+# **See.** Clones of these random teachers earn far more than their teachers; clones of the systematic
 # teachers do not.
 # <!-- claim: {len(cells().scores(p, t, 'cloning')) for p, t in SHOWN} == {10} -->
 # <!-- claim: all(score(p, 'random', 'cloning', 'returns') > score(p, 'random', 'the teacher',
@@ -201,10 +199,9 @@ bc.show(figures.clones_that_draw())
 
 # %% [markdown]
 # **Explain.** The errors are still in π. The most probable action is the majority's answer; a drawn one is a
-# single voter's. The good teachers' clones earn about the same when they draw.
+# single voter's.
 # <!-- claim: all(abs(score(p, 'random', 'cloning', 'drawn_returns') - score(p, 'random', 'the
-#   teacher', 'returns')) < 15 and
-#   abs(score(p, 'good', 'cloning', 'drawn_returns') - score(p, 'good', 'cloning', 'returns')) < 5 for p in THREE) -->
+#   teacher', 'returns')) < 15 for p in THREE) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask before the panel: what does a clone do with two labels that contradict each other?
@@ -219,7 +216,7 @@ bc.show(figures.clones_that_draw())
 bc.show(figures.room(loops.drive_in_a_loop(), "Here DoorKey's random teacher ends in a loop"))
 
 # %% [markdown]
-# How many of the random teacher's wrong labels does its clone outvote, that is, correct?
+# How many of the teacher's wrong labels does the clone outvote?
 
 # %% tags=["nbval-ignore-output"]
 for name in ("mountain-car", "doorkey"):
@@ -230,7 +227,7 @@ for name in ("mountain-car", "doorkey"):
 # %% [markdown]
 # **See.** In DoorKey the clone outvotes no error. Its teacher errs in only {{ doorkey_errors()[0] }} states,
 # but in its loops so often that {{ 100 * doorkey_errors()[2] | .0f }} % of the labels are wrong. So here the
-# errors win the vote, in other states, too: the clone errs in more than half of the {{ doorkey_errors()[1] }}
+# errors win the vote. They even spread: the clone errs in more than half of the {{ doorkey_errors()[1] }}
 # states in which its teacher is right.
 # <!-- claim: clone_errs_more() > doorkey_errors()[1] / 2 -->
 # <!-- claim: [((cloned == good)[taught != good].mean() > 0.9, (cloned == good)[taught != good].any(),
@@ -264,8 +261,8 @@ predicted("your_own_problem.4")
 bc.show(figures.bonuses())
 
 # %% [markdown]
-# **See.** With c = 2 and a flawed teacher hardly any drive reaches the goal; with the good teacher nearly all
-# do.
+# **See.** With c = 2 and a flawed teacher hardly any drive reaches the goal, with the good teacher nearly
+# all.
 # <!-- claim: all(np.diff(by_bonus(t)).max() < 0 and round(100 * by_bonus(t)[-1]) == 0 for t in
 #   ('random', 'systematic')) and by_bonus('good').min() > 0.99 -->
 
@@ -298,14 +295,18 @@ check.drowning_bonus(drowning_bonus)
 # <!-- claim: math.isclose(drowning_bonus(0, 1, 1, 0.97), drowning_bonus(0, 1, 90, 0.97)) -->
 # <!-- claim: list(BONUSES)[2] == 'c = 0.1' and min(by_bonus(t)[2] for t in TEACHERS) > 0.5 -->
 #
-# **Is it the loop?** Drives of 100 that reach the goal, by drawn / by most probable actions:
+# **Is it the loop?** Drives of 100 that reach the goal, by drawn actions:
 #
 # {{ loops_table() }}
 #
-# With both aids c = 2 takes every goal away only where the demonstrations hold loops. *Open*: with
-# demonstrations alone it also ruins the good teacher's agents, who were shown no loop.
-# <!-- claim: without_loops('drawn_success') > 0.8 and without_loops('success') < 0.75 * score('doorkey', 'none',
-#   'SAC') and alone('') < 0.01 < 0.5 < alone(', c = 0') and score('doorkey', 'good', 'the teacher') == 1 -->
+# With both aids c = 2 takes every goal away only where the demonstrations hold loops. (By most probable
+# actions the random teacher harms even at c = 0: {{ 100 * score('doorkey', 'random', 'both, c = 0') | .0f }},
+# plain SAC {{ 100 * score('doorkey', 'none', 'SAC') | .0f }}.) *Open*: with demonstrations alone c = 2 also
+# ruins the good teacher's agents, who were shown no loop.
+# <!-- claim: max(score('doorkey', 'random', how) for how in ('both', 'both, c = 0', elsewhere.WITHOUT_LOOPS)) <
+#   0.75 * score('doorkey', 'none', 'SAC') -->
+# <!-- claim: without_loops() > 0.8 and alone('') < 0.01 < 0.5 < alone(', c = 0') and
+#   score('doorkey', 'good', 'the teacher') == 1 -->
 
 # %%
 # On yours: which loop is there, and what is its threshold? Put in your numbers:
@@ -337,7 +338,7 @@ bc.show(figures.ranking())
 
 # %% [markdown]
 # **See.** Rank tests against the best (lesson [[other_ways]]; not corrected) cannot tell the entries with a
-# teacher apart. *Among them the page decides.*
+# teacher apart.
 # <!-- claim: {m for m, place in places().items() if place == 1} == {m for m, place in
 #   places(5).items() if place == 1} == set(entries()) - {'ppo', 'sac'} -->
 #

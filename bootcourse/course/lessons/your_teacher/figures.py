@@ -27,11 +27,11 @@ SIX = {  # teacher of the experiment `teachers`: the name of its row
     "timid": "timid",
     "mirrored": "mirrored",
 }
-PARTS = {  # as the lesson lists them
-    "as-many": "both",
-    "lane": "no accident there",
-    "accident": "only the accident",
-    "cut": "neither",
+PARTS = {  # as the lesson lists them: what they learn from, of a drive's three parts
+    "as-many": ("both", "◪■■"),
+    "lane": ("no accident there", "■■□"),
+    "accident": ("only the accident", "■□■"),
+    "cut": ("neither", "■□□"),
 }
 
 
@@ -100,21 +100,16 @@ def all_parts(computed: Mapping[str, Results]) -> Figure:
 
     computed: {kind of the experiment `crashes`: agents}, as it ships.
     """
-    title = "Students get out where their drives show the free lane, crash or not"
-    return of_kinds(title, computed, PARTS)
-
-
-def of_kinds(title: str, computed: Mapping[str, Results], kinds: Mapping[str, str]) -> Figure:
-    """Each agent's success as a dot, a row for each kind of the experiment `crashes`. kinds: {kind: its row's name}."""
-    groups = {name: scores(computed[kind]) for kind, name in kinds.items()}
-    return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in kinds], "success", left=1.5)
+    title = "Most students get out if their drives show the free lane, few if not"
+    groups = {f"{name}  {marks}": scores(computed[kind]) for kind, (name, marks) in PARTS.items()}
+    return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in PARTS], "success", left=1.9)
 
 
 def chosen(kept: Callable[[np.ndarray], np.ndarray]) -> Markdown:
     """A table of two agents that learn from the crashing drives' decisions that `kept` marks."""
     tested = crashes.short_training(kept)
     shares = (f"{100 * tested[name].mean():.0f}" for name in ("success", "accident"))
-    rows = [[PARTS["lane"], *shares, f"{tested['returns'].mean():.0f}"]]
+    rows = [[PARTS["lane"][0], *shares, f"{tested['returns'].mean():.0f}"]]
     return table(["two agents learn from", "get out, %", "accidents, %", "return"], rows)
 
 

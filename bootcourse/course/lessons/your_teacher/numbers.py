@@ -10,7 +10,6 @@ from bootcourse.course.lessons.your_teacher import crashes, example_teachers, fr
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.your_teacher.exercises import without_a_look
 from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
-from bootcourse.learn.teachers import course_rule, teacher_of
 from bootcourse.research.experiments.teacher_worth import TAUGHT  # noqa: F401 (the text names it)
 from bootcourse.road.state import SPEED, TRAFFIC, Accident
 from bootcourse.statistics import ESCAPES, holm, significant  # noqa: F401 (the text names it)
@@ -71,13 +70,6 @@ def gets_ahead(teacher: str) -> int:
     return sum(bool(drive.success) for drive in demonstrated(teacher))
 
 
-def like_the_rule(teacher: str) -> float:
-    """In which share of the states of its drives a teacher's action is the rule's."""
-    drives = demonstrated(teacher)
-    cars, actions = (np.concatenate([getattr(drive, name) for drive in drives]) for name in ("cars", "actions"))
-    return float(np.mean(teacher_of(course_rule)(cars) == actions))
-
-
 def reach_free_lane() -> int:
     """How many of the crashing drives come to the free lane."""
     return sum(crashes.before_free_lane(drive) < len(drive.actions) for drive in crashes.crashed())
@@ -112,6 +104,11 @@ def in_free_lane(teacher: str) -> float:
 def escape_of(teachers: list[str]) -> int:
     """How many of ten bootstrapped students each of these teachers escape, in the experiment `teachers`, together."""
     return sum(worth()[teacher, "bootstrapped"].escapers("bootstrapped") for teacher in teachers)
+
+
+def taught_returns(teacher: str) -> np.ndarray:
+    """What the ten bootstrapped students of one of these teachers earn."""
+    return worth()[teacher, "bootstrapped"].scores("returns")
 
 
 def worth() -> dict:

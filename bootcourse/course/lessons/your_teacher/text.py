@@ -92,8 +92,7 @@ figures.exam_of_all()
 # A rule reads the true state: a table with a row for each car. Row 0 is the ego, lane 0 the leftmost.
 #
 # `ahead` finds the next car ahead in a lane and returns the gap to it, bumper to bumper, and its speed. If
-# the gap is below 0, that car is beside you. In an empty lane both are infinite. `ahead` does not see a car
-# whose middle is behind yours.
+# the gap is below 0, that car is beside you. In an empty lane both are infinite.
 # <!-- claim: range(DEFAULT.road.lanes)[0] == 0 -->
 
 # %%
@@ -112,8 +111,8 @@ figures.cars_in_rows(cars)
 source("bootcourse.course.lessons.your_teacher.example_teachers", "racer")
 
 # %% [markdown]
-# > **Predict.** A simple rule aims for *one* speed everywhere, and for the next lane to the left.
-# > At the best whole speed from 8 to 15 m/s, on how many of 100 roads does it get out?
+# > **Predict.** A blind rule steers to the next lane on the left, always at one speed. At the best speed
+# > (8, 9, …, 15 m/s), on how many of 100 roads does it get out?
 
 # %%
 predict("your_teacher.1", "At its best speed it gets out on ...", ["none", "about half", "all"])
@@ -215,7 +214,7 @@ bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 # **See.** In this short training success and return give the racer opposite verdicts: its students get out
 # more often than those alone, but earn less. They also crash far more often than the racer itself.
 #
-# So far, only teachers that get out had students that escape. Must a teacher get out?
+# So far, students escaped only if their teacher gets out. Must it?
 # <!-- claim: student_escapes('timid') == 0 -->
 # <!-- claim: all(student_escapes(name) >= 5 for name in ('the rule', 'careful', 'racer')) -->
 # <!-- claim: students('racer')['success'].mean() > 3 * students('alone')['success'].mean() and
@@ -248,9 +247,14 @@ taught = shipped_teachers()
 bc.show(figures.of_six_teachers(taught))
 
 # %% [markdown]
-# **See.** All ten escape. (The rule's ten, of which {{ escape_of(['rule']) }} escape, do not differ from them
-# in a test.)
-# <!-- claim: not significant(10)[escape_of(['random-50']), escape_of(['rule'])] -->
+# **See.** All ten escape. The rule's ten earn less, {{ taught_returns('rule').mean() | .0f }} against {{
+# taught_returns('random-50').mean() | .0f }}.
+# Of them {{ escape_of(['rule']) }} escape, which a test does not tell from ten; in Round 2's short training
+# all did.
+# <!-- claim: not significant(10)[escape_of(['random-50']), escape_of(['rule'])] and
+#   student_escapes('the rule') == 10 -->
+# <!-- claim: 2 * taught_agents.p_value(taught_returns('rule'), taught_returns('random-50')) < 0.05 and
+#   taught_returns('rule').mean() < taught_returns('random-50').mean() -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 -->
 #
 # Where a teacher's drives reach the free lane, most of its students escape; where they do not, none does.
@@ -267,17 +271,16 @@ bc.show(figures.of_six_teachers(taught))
 # ## Round 4: the free lane, or its accidents?
 #
 # Most of half random's drives reach the free lane before they crash. Ten new agents for each row of the table
-# learn from a part of the decisions:
+# learn from these drives' decisions marked ■, and from all of the other drives:
 #
-# | | free lane | the accident there |
-# |---|---|---|
-# | **both** | yes | yes |
-# | **no accident there** | yes | – |
-# | **only the accident** | – | yes |
-# | **neither** | – | – |
+# | | before lane 0 | from lane 0 on | last decision: the accident |
+# |---|---|---|---|
+# | **both** | ◪ | ■ | ■ |
+# | **no accident there** | ■ | ■ | □ |
+# | **only the accident** | ■ | □ | ■ |
+# | **neither** | ■ | □ | □ |
 #
-# *Both* also leaves out decisions before the free lane, drawn at random, so it has no more than *neither*.
-# <!-- claim: crash_shown('as-many') and crash_returns('as-many').mean() > 4 * crash_returns('cut').mean() -->
+# ◪: a part, drawn at random, so that *both* has as many decisions as *neither*.
 # <!-- claim: crashes.is_kept('cut').sum() == crashes.is_kept('as-many').sum() -->
 # <!-- claim: not any(drive.success for drive in crashes.crashed()) and
 #   gets_ahead('random-50') + len(crashes.crashed()) == len(demonstrated('random-50')) > 20 * gets_ahead('random-50')
@@ -292,8 +295,8 @@ choices = ["all of them", "those of no accident there", "those of only the accid
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
-# **Exercise (5 min, ●○○).** Choose the decisions of *no accident there*: if a drive was ever in lane 0, leave
-# out its last decision. Keep all others.
+# **Exercise (5 min, ●○○).** Choose the decisions of *no accident there*. Of a drive that was never in lane 0,
+# choose all.
 
 
 # %%
@@ -325,15 +328,14 @@ bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
 # **Explain.** *Most students of half random escape if its drives show the free lane, whether they crash there
-# or not*. The number of decisions is not the reason: *both* has as many as *neither*, and earns more (rank
-# test, after Holm).
-# <!-- claim: in_free_lane('rule') > 0 and free_lane.shown('rule')[1] == 0 -->
+# or not*. But the drives are not enough: from all of them without the bonus c,
+# {{ crash_escapes('no-bonus') }} of ten escape.
+# <!-- claim: crash_shown('no-bonus') and crash_escapes('no-bonus') < 5 < crash_escapes('all') -->
 
 # %% [markdown] tags=["instructor"] minutes=1
 # `bootcourse study crashes --out DIR` trains its seven groups again. Half random's
 # {{ gets_ahead('random-50') }} drives that end ahead of trap 1 are left out; of the other
 # {{ len(crashes.crashed()) }}, {{ reach_free_lane() }} reach the free lane.
-# <!-- claim: crash_returns('cut').max() < 26 -->
 
 # %%
 compare_predictions(
@@ -360,10 +362,11 @@ at, speed = queue[:, X], queue[:, SPEED]
 print(f"{min(at):.0f} to {max(at):.0f} m from you, {min(speed):.1f} to {max(speed):.1f} m/s")
 
 # %% [markdown]
-# **Exercise (25 min, ●●●).** Write a rule that gets out on such roads, too, without an accident. The check
-# drives it on {{ len(registry()['watchful_rule'].all_arguments) }}. The rule of two speeds collides on
-# {{ dense('without_a_look')[COLLIDES] }}, and `careful`, which does not look behind, on {{
-# dense('careful')[COLLIDES] }}.
+# **Exercise (25 min, ●●●).** Write a rule that gets out on such roads, too, without an accident. `ahead` does
+# not see a car whose middle is behind yours. The check drives it on {{
+# len(registry()['watchful_rule'].all_arguments) }}.
+# The rule of two speeds collides on {{ dense('without_a_look')[COLLIDES] }}, and `careful`, which does not
+# look behind, on {{ dense('careful')[COLLIDES] }}.
 # <!-- claim: [*dense('watchful')] == [OUT] -->
 
 
@@ -391,24 +394,21 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 # 1. A teacher is a function of the true state. It drives, and it labels.
 # 2. A rule that looks at no other car can pass a test. Test it where looking matters.
 # 3. In a short training success and return gave opposite verdicts on a teacher: give both.
-# 4. Half random was good at reaching the free lane: most students escaped if its drives showed it, crash or
-#    not.
+# 4. Half random was good at reaching the free lane: with the bonus, most students escaped if its drives
+#    showed it, crash or not.
 # <!-- claim: min(map(crash_escapes, ('as-many', 'lane'))) > 5 > max(map(crash_escapes, ('accident', 'cut'))) -->
 #
 # **Three questions to think about**
 # - Could two bad teachers together be a good one?
-# - Half random's label is the rule's in {{ 1 / 2 + 1 / 18 | .2f }} of the states. Would it teach more if the
-#   KL trusted it with that p, not {{ SETTINGS.rule_p }}?
-# <!-- claim: settings_for('soft').rule_p == settings_for('bootstrapped').rule_p == SETTINGS.rule_p
-#   and abs(like_the_rule('random-50') - 1 / 2 - 1 / 18) < 0.02 -->
+# - Why may half random's students need the bonus?
 # - The racer's students crash far more often than it does. What would you change in it first?
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Answers to the three questions. (1) Ask what is missing. Once it is out, the racer looks at no car, and
 # `timid` looks at none anywhere, so these two mixed do not look either. Let them try a mixture with
-# `example_teachers.examine`. (2) Open. A lower p pulls more weakly towards each label, the right ones too:
-# `settings_for("soft", rule_p=0.56)`. (3) Open. The racer's free lane is driven at 20 m/s, where a second
-# pays next to nothing but the bonus. Let it aim for 15 m/s.
+# `example_teachers.examine`. (2) Open. These drives end in an accident, so the reward speaks against them;
+# the bonus pays for each of their decisions. (3) Open. The racer's free lane is driven at 20 m/s, where a
+# second pays next to nothing but the bonus. Let it aim for 15 m/s.
 
 # %% [markdown]
 # **Read on**: Uchendu et al., *Jump-Start Reinforcement Learning* (arXiv 2204.02372). Next: [the second
