@@ -34,7 +34,6 @@ Counted = Callable[[Results], np.ndarray]
 FOUR = "4 updates, no demonstrations"  # a cell of the experiment with the clocks
 HEAD_START = 200 / 201 * math.log(0.9 / (0.1 / (N_ACTIONS - 1)))  # of the rule's action, with p = 0.9 and ξ = 200 α
 EASED = "a later start, mid-lane", "accidents cost 1", "mid-lane, and accidents cost 1"  # cells of `easier`
-KEPT = "a lane keeper and cheap accidents"  # another
 BLOCK, ROADS = 9, 200  # held-out roads that no lesson and no study uses
 BLIND = [("keep right", 1), ("keep left", 4), ("keep right", 3), ("accelerate straight", 5)]
 
@@ -171,7 +170,6 @@ def eased(study: StudyResults) -> Claim:
         different(both, middle, escaping),
         [
             "Mid-lane: on the free lane, behind the traps. That takes away the steering, and the wait and risk before.",
-            f"A lane keeper in place of the start mid-lane, at a price of 1: {told(roads[KEPT])}.",
             "Tested on 200 roads of their own kind. To escape is not to earn: return and accidents stand beside it.",
         ],
     )  # fmt: skip
@@ -258,15 +256,7 @@ def ends(study: StudyResults) -> Claim:
         many, few = losing(fading, bar), losing(staying, bar)
         return many.mean() > few.mean(), f"{many.sum()} of {len(many)}, against {few.sum()} of {len(few)}"
 
-    def missing(*groups: Results) -> str:
-        each = [results.found_and_kept("bootstrapped") for results in groups]
-        return " against ".join(f"{(found & ~kept).sum()} of {found.sum()}" for found, kept in each)
-
     others = twice(study, "bootstrapped"), twice(study, "bootstrapped, β for ever")
-
-    def with_updates(updates: int) -> str:
-        each = [losing(study.experiments["clocks"][f"{updates} updates, demonstrations by {by}"]) for by in ("μ", "π̃")]
-        return f"{sum(agents.sum() for agents in each)} of {sum(map(len, each))}"
 
     def unpaid(cell: str) -> str:
         return f"{losing(changed[cell]).sum()} of {len(losing(changed[cell]))}"
@@ -286,10 +276,6 @@ def ends(study: StudyResults) -> Claim:
             f"Lost: after {HAD} of {IN_A_ROW} training episodes in a row ahead, {LOST} of {IN_A_ROW} or fewer.",
             f"It takes the bonus: with c = 0, {unpaid('c = 0')} lose it if they run out by episode 1,000, "
             f"{unpaid('β for ever, c = 0')} if they stay.",
-            f"With two updates for each decision and demonstrations that run out {with_updates(2)} lose it by episode "
-            f"1,200, with four {with_updates(4)}.",
-            f"Withdrawn: that fewer have it at the end. Of those that found it {missing(ours, lasting)} do not keep "
-            f"it; of the other agents {missing(*others)}.",
         ],
     )
 

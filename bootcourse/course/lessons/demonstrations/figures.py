@@ -108,10 +108,11 @@ def off_the_road(own: Sequence[Rollout], of_rule: Sequence[Rollout], seconds: in
         title = "Left of the rule's path, nearly every decision is an error"
     figure = new_figure(3.9)
     paths = figure.add_axes((0.075, 0.14, 0.5, 0.7))
-    bars = figure.add_axes((0.63, 0.14, 0.24, 0.7))
+    bars = figure.add_axes((0.63, 0.14, 0.34, 0.7))
     gone = [drive for drive in own if cloning.off_on_the_left(drive)]
     nearest = STEPS_LEFT[np.argmax(rows > 0)]  # the lowest bar with a decision of the rule
-    paths.axhspan(nearest, furthest, color=style("rule").colour, alpha=0.13, linewidth=0)
+    for ax in (paths, bars):
+        ax.axhspan(nearest, furthest, color=style("rule").colour, alpha=0.13, linewidth=0)
     last = [cloning.metres_left(each)[-seconds:] for each in gone]
     once = {tuple(np.round(way, 2)): way for way in last}  # or equal paths look like a thick one
     for way in once.values():
@@ -124,19 +125,18 @@ def off_the_road(own: Sequence[Rollout], of_rule: Sequence[Rollout], seconds: in
     paths.set_xlabel("seconds before the accident", fontsize=TEXT, color=INK)
     plain_axes(paths, "left of the lane's middle (m); black: beyond the rule's drives")
     bars.barh((STEPS_LEFT[:-1] + STEPS_LEFT[1:]) / 2, shares, height=0.42, color=style("bc").colour, alpha=0.8)
-    for middle, share, count in zip((STEPS_LEFT[:-1] + STEPS_LEFT[1:]) / 2, shares, rows, strict=True):
+    for middle, share in zip((STEPS_LEFT[:-1] + STEPS_LEFT[1:]) / 2, shares, strict=True):
         bars.text(share - 2, middle, f"{share:.0f}", fontsize=TEXT, color="white", ha="right", va="center")
-        bars.text(104, middle, f"{count:,}", fontsize=TEXT, color=style("rule").colour, ha="left", va="center")
-    bars.text(104, 2.1, "rule's\ndecisions", fontsize=TEXT, color=style("rule").colour, ha="left", va="bottom")
     bars.set(xlim=(0, 100), ylim=(-2, 2.05), yticks=[])
     plain_axes(bars, "errors there, all drives (%)", grid="x")
     bars.set_yticks([])
-    said, counted = ", ".join(f"{share:.0f}" for share in shares), ", ".join(map(str, rows))
+    said = ", ".join(f"{share:.0f}" for share in shares)
     return finish(
         figure, title,
         f"Left: {len(gone)} drives, their last {seconds} s. Right, all {len(own)} drives: from "
         f"{-STEPS_LEFT[0]:g} m right of the left lane's middle to "
-        f"{STEPS_LEFT[-1]:g} m left, by half metres, the clones err in {said} %; the rule's decisions: {counted}.",
+        f"{STEPS_LEFT[-1]:g} m left, by half metres, the clones err in {said} %; the rule's drives are "
+        f"from {-nearest:g} m right to {furthest:.1f} m left.",
     )  # fmt: skip
 
 

@@ -1,9 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-import numpy as np
-
 from bootcourse.course.lessons.demonstrations.cloning import UPDATES as UPDATES
-from bootcourse.course.lessons.demonstrations.explorable import WHOLE
 from bootcourse.research.results import Results
 from tools.course.known import shipped_results
 
@@ -11,11 +8,6 @@ from tools.course.known import shipped_results
 def clones_of_the_stochastic_rule() -> Results:
     """The ten clones of the study with the paper's choices, where the stochastic rule drives the demonstrations."""
     return shipped_results("paper").of("bc")
-
-
-def most_errors(share: float) -> float:
-    """How many errors a whole drive has on average at most, if this share of all drives errs first in each second."""
-    return float(np.minimum(1, share * np.arange(1, WHOLE + 1)).sum())
 
 
 def updates_of(results: Results) -> float:

@@ -68,32 +68,41 @@ def found_and_kept(results: Results) -> Figure:
 
 
 def chances(cells: Mapping[tuple[str, str], Results], counted: Mapping[tuple[str, str], float]) -> Figure:
-    """How often single agents read as the paper's four rows, in %, a row for each of the settings `cells`.
+    """How often single agents read as the paper's four rows, in %, over the updates, a line for each driver.
 
-    counted: each setting's chance, drawn as a dot; the bar is the interval over seeds, see `clocks.pattern`.
+    counted: the chance of each of the settings `cells`, drawn as a dot; the bar is the interval over seeds, see
+    `clocks.pattern`.
     """
-    tall, alt_parts, driven = 0.27, [], style("rule").colour
-    figure = new_figure(0.95 + tall * len(cells) + 0.5)
-    ax = axes_at(figure, 1.95, 0.95, 3.5, tall * len(cells))
-    plain_axes(ax, "", grid="x")
-    heads = (-0.55, "updates, roads"), (-0.16, "driver"), (1.03, "chance"), (1.19, "agents a row")
-    for x, words in heads:
-        ax.text(x, 1.03, words, transform=ax.transAxes, fontsize=TEXT, color=QUIET, va="bottom")
-    for y, ((updates, driver), results) in enumerate(cells.items()):
-        value, (_, *bar) = 100 * counted[updates, driver], (100 * part for part in clocks.pattern(results))
-        ax.plot(bar, (y, y), color=driven, linewidth=2, alpha=0.5)
-        ax.plot(value, y, "o", ms=7, color=driven if driver == "π̃" else "white", mec=driven, mew=1.6, zorder=3)
-        sizes = sorted({len(results.of(method)) for method in VARIED})
-        agents, roads = " or ".join(map(str, sizes)), results.agents[0]["envs_per_agent"]
-        setting = f"{updates.replace('1/4', '¼')}, {'one road' if roads == 1 else f'{roads} roads'}"
-        written = (-0.55, "" if y % 2 else setting), (-0.16, driver), (1.03, f"{value:.0f} %"), (1.19, agents)
-        for x, words in written:
-            ax.text(x, y, words, transform=ax.get_yaxis_transform(), fontsize=TEXT, color=INK, va="center")
-        alt_parts.append(f"{setting}, {driver}: {value:.0f} % [{bar[0]:.0f}, {bar[1]:.0f}], of {agents}")
-    ax.set(xlim=(0, 100), ylim=(len(cells) - 0.5, -0.5), yticks=())
-    ax.set_xlabel("% of the draws with all four rates as the paper's; bar: 95 % over seeds", fontsize=TEXT, color=INK)
-    one_road, four_roads = ([counted[cell] for cell in cells if (cell[0] == "1/4") == four] for four in (False, True))
+    updates, colour, alt_parts, rises = list(dict.fromkeys(each for each, _ in cells)), style("rule").colour, [], {}
+    figure = new_figure(3.7)
+    ax = axes_at(figure, 0.5, 0.8, 5.2, 2.1)
+    plain_axes(ax, "% of the draws with all four rates as the paper's; bar: 95 % over seeds")
+    for driver, aside, fill in (("μ", -0.05, "white"), ("π̃", 0.05, colour)):
+        at = np.arange(len(updates)) + aside
+        values = [100 * counted[each, driver] for each in updates]
+        bars = [[100 * part for part in clocks.pattern(cells[each, driver])[1:]] for each in updates]
+        ax.vlines(at, *np.transpose(bars), color=colour, linewidth=2, alpha=0.5)
+        ax.plot(at, values, "-o", ms=7, color=colour, mfc=fill, mec=colour, mew=1.6, linewidth=1.3, zorder=3)
+        ax.text(at[-1] + 0.16 - aside, values[-1], f"driven by {driver}", fontsize=TEXT, color=INK, va="center")
+        rises[driver] = all(np.diff(values) > 0)
+        each = zip(updates, values, bars, strict=True)
+        alt_parts.append(f"{driver}: " + ", ".join(f"{u} {v:.0f} % [{a:.0f}, {b:.0f}]" for u, v, (a, b) in each))
+    for place, each in enumerate(updates):
+        sizes = sorted({len(cells[cell].of(method)) for cell in cells if cell[0] == each for method in VARIED})
+        agents = str(sizes[0]) if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
+        ax.text(place, -0.125, agents, transform=ax.get_xaxis_transform(), fontsize=TEXT, color=QUIET,
+                ha="center", va="top")  # fmt: skip
+    ax.axvline(0.5, color=QUIET, linewidth=0.8)
+    for x, side, words in ((0.44, "right", "four roads"), (0.56, "left", "one road")):
+        ax.text(x, 98, words, fontsize=TEXT, color=QUIET, ha=side, va="top")
+    ax.set(xlim=(-0.35, len(updates) - 0.8), ylim=(0, 100))
+    ax.set_xticks(range(len(updates)), [each.replace("1/4", "¼") for each in updates], fontsize=TEXT, color=INK)
+    ax.set_xlabel(
+        "updates for a decision; in grey: how many agents each row is drawn from", fontsize=TEXT, color=INK, labelpad=20
+    )
     title = "How often do single agents have the paper's four rates?"
-    if min(one_road) > max(four_roads):
-        title = "With one road the paper's four rates come more often, but the bars are wide"
-    return finish(figure, title, f"Updates, roads, driver: chance [95 %], agents a row. {'; '.join(alt_parts)}.")
+    if all(rises.values()):
+        title = "With more updates the paper's four rates come more often, but the bars are wide"
+    return finish(
+        figure, title, f"For each number of updates, chance [95 %]. Driven by {'; driven by '.join(alt_parts)}."
+    )

@@ -83,7 +83,7 @@ def others_pattern() -> float:
 def explanations() -> str:
     """What could explain the paper's table, and what was seen of it, as Markdown."""
     ours, ten_others = way(of_all(), "demos"), way(others("demos"), "demos")
-    chance = [f"{100 * part:.0f}" for part in pattern(clocks()["2", "π̃"])]
+    chance, alone = ([f"{100 * part:.0f}" for part in pattern(each)] for each in (clocks()["2", "π̃"], of_all()))
     rows = [
         ["1. agents lose the way out",
          f"with demonstrations alone {ours.found} of 10 find it, {ours.kept or 'none'} keeps it (ten others: "
@@ -91,7 +91,7 @@ def explanations() -> str:
          f"at most part of it: the other {10 - ours.found} never find it"],
         ["2. single agents",
          f"with the training of Round 1, {of_all().curves['success'].shape[1]:,} episodes, the paper's four rates come "
-         f"in {100 * pattern(of_all()).value:.0f} % of the draws (ten others: {100 * others_pattern():.0f} %)",
+         f"in {alone[0]} % of the draws (bar: {alone[1]} to {alone[2]} %; ten others: {100 * others_pattern():.0f} %)",
          "seldom, taken alone"],
         ["3. another training",
          f"with one road, 2 updates and π̃ these four rates come in {chance[0]} % of the draws (bar: "

@@ -1,11 +1,11 @@
-"""To drag in this lesson: a true rate beside an exact interval, the counts of two methods, intervals of few seeds."""
+"""To drag in this lesson: a true rate above an exact interval, the counts of two methods, intervals of few seeds."""
 
 from functools import lru_cache
 
 import numpy as np
 import scipy
 
-from bootcourse.colours import GRID, INK, QUIET
+from bootcourse.colours import INK, QUIET
 from bootcourse.course.shipped import shipped_results
 from bootcourse.methods import style
 from bootcourse.panels.explorable import CHART, WIDTH, Explorable
@@ -16,39 +16,50 @@ from bootcourse.statistics import rate, significant
 SHARE, MOST = 0.8, 60  # of the trained agents so many escape; at most so many are trained
 PLAIN = "#B8BEC6"  # of what does not count
 STUDIES, DRAWS = 100, 2000  # that are shown, and of each study's bootstrap
+RARE, SEEN = 2.5, 20.0  # %: the blue part at the ends of an interval; so large a part is drawn
 RESOLUTION = 400  # studies are drawn for each that is shown
 
 
+def blue_part(true: np.ndarray | float, k: int, n: int) -> np.ndarray:
+    """How often k or more of n escape, in %, at a true rate (%) of up to k / n; above it, how often k or fewer do."""
+    or_more = scipy.stats.binom.sf(k - 1, n, np.divide(true, 100))
+    return 100 * np.where(np.less_equal(true, 100 * k / n), or_more, scipy.stats.binom.cdf(k, n, np.divide(true, 100)))
+
+
 def certainty() -> Explorable:
-    """How many agents escape at a true rate, above the exact interval of a count, while rate and agents move."""
-    colour = style("soft").colour
+    """How many agents escape at a true rate, above how rare so many are at each, while rate and agents move."""
+    colour, everywhere = style("soft").colour, np.linspace(0, 100, 401)
 
     def draw(true: float, agents: float) -> Drawing:
         n, k = int(agents), round(SHARE * agents)
         chances, more = scipy.stats.binom.pmf(np.arange(n + 1), n, true / 100), true <= 100 * k / n
         counted = np.arange(n + 1) >= k if more else np.arange(n + 1) <= k
+        blue, curve = float(blue_part(true, k, n)), blue_part(everywhere, k, n)
         says = f"If {true:g} % escape in truth, {k} or {'more' if more else 'fewer'} of {n} escape in "
-        says += f"{100 * chances[counted].sum():.1f} % of all studies."
-        _, low, high = rate(np.arange(n) < k)
-        bar = f"95 % interval of {k} of {n}: {100 * low:.0f} to {100 * high:.0f} %"
-        counts = SvgAxes(52, 66, 690, 130, (-0.6, n + 0.6), (0.0, chances.max()))
+        says += f"{blue:.1f} % of all studies."
+        counts = SvgAxes(52, 66, 690, 110, (-0.6, n + 0.6), (0.0, chances.max()))
         for count, (chance, inside) in enumerate(zip(chances, counted, strict=True)):
             sides = [count - 0.4, count + 0.4, count + 0.4, count - 0.4]
             counts.fill(sides, [0, 0, chance, chance], colour if inside else PLAIN)
         for count in ticks(0, n, 10):
-            counts.parts.append(text(counts.at(count, 0)[0], 211, f"{count:g}", "middle", QUIET, 10.5))
-        below = SvgAxes(52, 258, 690, 22, (0.0, 100.0), (0.0, 1.0))
-        below.line([0, 100], [0.5, 0.5], GRID, 1.5)
-        below.fill([100 * low, 100 * high, 100 * high, 100 * low], [0.2, 0.2, 0.8, 0.8], colour)
-        below.line([true, true], [0, 1], INK, 2)
+            counts.parts.append(text(counts.at(count, 0)[0], 191, f"{count:g}", "middle", QUIET, 10.5))
+        below = SvgAxes(52, 232, 690, 84, (0.0, 100.0), (0.0, SEEN))
+        below.scale("how large the blue part is at each true rate (%; in the gap over 20; dashed: 2.5)", 4)
+        below.line([0, 100], [RARE, RARE], INK, 1, "--")
+        below.line(everywhere, np.where(curve <= SEEN, curve, np.nan), colour, 2)
+        below.line([true, true], [0, SEEN], QUIET, 0.8, "--")
+        if blue <= SEEN:
+            below.dot(true, blue, INK)
         for tick in ticks(0, 100, 10):
-            below.parts.append(text(below.at(tick, 0)[0], 294, f"{tick:g}", "middle", QUIET, 10.5))
+            below.parts.append(text(below.at(tick, 0)[0], 331, f"{tick:g}", "middle", QUIET, 10.5))
         words = [
             text(4, 20, says, size=14, bold=True),
             text(52, 54, f"how often so many of {n} escape (blue: {k} or {'more' if more else 'fewer'})", bold=True),
-            text(52, 246, f"{bar}; the line: your true rate", bold=True),
+            text(397, 348, "true rate (%); the dot: yours", "middle", QUIET, 11),
         ]
-        return drawing(WIDTH, 300, [*words, *counts.parts, *below.parts], f"{says} {bar}.")
+        _, low, high = rate(np.arange(n) < k)
+        alt = f"{says} The blue part is above 2.5 % at true rates of {100 * low:.0f} to {100 * high:.0f} %."
+        return drawing(WIDTH, 354, [*words, *counts.parts, *below.parts], alt)
 
     numbers = {
         "true": Number("true rate", 50, 0, 100, 0.5, "So many of a hundred agents would escape in truth.", "%"),

@@ -36,7 +36,7 @@ def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
     everyone = np.concatenate([results.of(method).scores("success") for method in methods])
     split = int(((everyone > 0.9) | (everyone < 0.1)).sum())
     who = f"each of {split} agents gets out" if split == len(everyone) else f"{split} of {len(everyone)} agents get out"
-    title = f"Success is all or nothing: {who} on over 90 % of the roads or on under 10 %"
+    title = f"Here success is all or nothing: {who} on over 90 % of the roads or on under 10 %"
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
 
 

@@ -45,7 +45,7 @@ def returns(groups: dict[str, Results]) -> Figure:
     title = "With the bonus agents stay longer with the rule; success falls as it ends"
     figure, rule, said, ends = new_figure(5.0), evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value, [], []
     above, below = (axes_at(figure, 0.5, top, 4.9, tall) for top, tall in ((0.95, 2.0), (3.3, 1.1)))
-    plain_axes(above, f"return without the bonus: mean of ten agents and {WINDOW} episodes")
+    plain_axes(above, f"return, no bonus counted: mean of ten agents and {WINDOW} episodes")
     plain_axes(below, "of these episodes, succeed (%)")
     ends_at = next(iter(groups.values())).agents[0]["beta_episodes"]
     for name, agents in groups.items():

@@ -44,7 +44,12 @@ def paid_and_not(study: Results, changed: Computed) -> dict[str, Results]:
     return {"c = 2": study.of("bootstrapped"), "c = 0": changed["c = 0"].of("bootstrapped")}
 
 
-FOUND = ["", "find the way out after (median of 20)", "escape (study, others)", "escape without the soft constraint"]
+FOUND = [
+    "",
+    "with the soft constraint, find the way out after (median of 20)",
+    "with the soft constraint, escape (study + others)",
+    "without it, escape (study + others)",
+]
 
 
 def found_and_escaped(agents: Kinds) -> list[list[str]]:

@@ -20,10 +20,8 @@ def kinds() -> measures.Kinds:
 def _with(name: str) -> tuple[list[Results], list[Results]]:
     """One of `kinds`, by its last word: "c = 2", "c = 0" or "none".
 
-    Or the study's ten with the "margin", or the ten whose β reaches 0 "sooner".
+    Or the study's ten with the "margin".
     """
-    if name == "sooner":
-        return [shipped_experiment("ablations")["β over 300 episodes"].of("bootstrapped")], []
     if name == "margin":
         return [shipped_results().of("margin_soft")], [shipped_results().of("margin")]
     return kinds()["no demonstrations" if name == "none" else f"demonstrations, {name}"]
@@ -39,15 +37,9 @@ def of_the_study(name: str) -> str:
     return measures.escape(_with(name)[0][:1])
 
 
-def alone(name: str, which: int | None = None) -> str:
-    """How many escape with these demonstrations and without the soft constraint: all, the study's (0), others (1)."""
-    agents = _with(name)[1]
-    return measures.escape(agents if which is None else agents[which : which + 1])
-
-
-def settings_of(name: str, setting: str) -> object:
-    """A setting of the study's agents with the soft constraint and these demonstrations."""
-    return _with(name)[0][0].agents[0][setting]
+def alone(name: str) -> str:
+    """How many agents escape with these demonstrations and without the soft constraint."""
+    return measures.escape(_with(name)[1])
 
 
 def found(name: str) -> np.ndarray:

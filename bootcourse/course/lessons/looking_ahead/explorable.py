@@ -43,7 +43,7 @@ def futures(drive: Rollout, policy: Policy) -> Explorable:
     car = replace(scenario.car, length=CAR * scenario.car.length, width=CAR * scenario.car.width / STRETCH)
     under = (
         f"{LEGEND[0].upper()}{LEGEND[1:]}; bold: worth most, if it has no accident.",
-        f"Across, the road is drawn {STRETCH:g} times larger than along; cars are drawn {CAR:g} times as long.",
+        f"The other cars stand where they are now, but drive on, too. The road is drawn {STRETCH:g} times as wide.",
     )
 
     def draw(decision: float) -> Drawing:

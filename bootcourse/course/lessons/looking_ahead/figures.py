@@ -157,31 +157,37 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
     means["the agent, then the look-ahead"] = [ahead.mean(), shield.mean()]
     means[f"without a model, alone: {alone.mean():.0f}"] = []
     figure, ends = new_figure(3.25), (3.45, 4.05)  # inches: where the two columns of numbers end
-    height, last = figure.get_figheight(), len(means) - 2
+    height = figure.get_figheight()
 
-    def write(row: int, *words: str, **look) -> None:
-        y = 1 - (0.75 + 0.3 * row) / height
-        for x, of, side in zip((0.012, *(end / 7 for end in ends)), words, ("left", "right", "right"), strict=False):
-            figure.text(x, y, of, ha=side, va="center", fontsize=TEXT, **look)
+    def write(row: int, name: str, of: Sequence[float | str] = (), best: Sequence[float] = (), color: str = INK):
+        look = {"y": 1 - (0.75 + 0.3 * row) / height, "va": "center", "fontsize": TEXT, "color": color}
+        figure.text(0.012, s=name, **look)
+        for end, each in zip(ends, of, strict=False):
+            words, bold = each if isinstance(each, str) else f"{each:,.0f}", "bold" if each in best else "normal"
+            figure.text(end / 7, s=words, ha="right", fontweight=bold, **look)
 
-    write(0, "accidents in 1,000 drives, mean of ten agents", color=INK)
-    write(1, "the model learns from", "look-ahead", "shield", color=QUIET)
+    write(0, "accidents in 1,000 drives, mean of ten agents")
+    write(1, "the model learns from", ("look-ahead", "shield"), color=QUIET)
+    best = [min(column) for column in zip(*filter(None, means.values()), strict=True)]
     for row, (name, of) in enumerate(means.items()):
-        look = {"color": colour, "fontweight": "bold"} if row == last else {"color": INK}
-        write(row + 2, name, *(f"{mean:,.0f}" for mean in of), **look)
-    ax, worse = axes_at(figure, 4.75, 1.05, 2.0, 1.5), ahead > alone
-    for of, shade in ((worse, INK), (~worse, colour)):
-        ax.plot(np.array([ahead, alone, shield])[:, of], color=shade, linewidth=1.4, marker="o", ms=4, clip_on=False)
-    plain_axes(ax, "accidents in 1,000 drives")
-    ax.set(xlim=(-0.15, 2.15), ylim=(0, 1000))
-    ax.set_yticks([0, 500, 1000], ["0", "500", "1,000"])
-    ax.set_xticks(range(3), ["look-ahead", "alone", "shield"])
-    words = "right: each agent, with the orange row's model; dark: it crashes more with the look-ahead than alone"
+        write(row + 2, name, of, best)
+    for column, (form, with_it) in enumerate(zip(NAMES.values(), (ahead, shield), strict=True)):
+        ax, worse = axes_at(figure, 4.7 + 1.25 * column, 1.05, 0.95, 1.5), with_it > alone
+        for of, shade, width in ((~worse, colour, 1.1), (worse, INK, 2.2)):
+            pair = np.array([alone, with_it])[:, of]
+            ax.plot([0, 1], pair, color=shade, linewidth=width, marker="o", ms=4, clip_on=False)
+        plain_axes(ax, form)
+        ax.set(xlim=(-0.2, 1.2), ylim=(0, 1000))
+        ax.set_yticks([0, 500, 1000], ["0", "500", "1,000"] if column == 0 else [""] * 3)
+        ax.set_xticks([0, 1], ["alone", "with it"])
+    words = (
+        "right: accidents of each agent in 1,000 drives, in the last of the four models; dark: more often than alone"
+    )
     figure.text(0.012, 0.1 / height, words, fontsize=SMALL, color=INK)
     by_row = "; ".join(" ".join([name, *(f"{mean:,.0f}" for mean in of)]) for name, of in means.items())
-    each = ", ".join(f"{a:.0f}, {b:.0f}, {c:.0f}" for a, b, c in zip(ahead, alone, shield, strict=True))
+    each = "; ".join(f"{a:.0f}, {b:.0f}, {c:.0f}" for a, b, c in zip(alone, ahead, shield, strict=True))
     alt = f"Mean accidents in 1,000 drives with the look-ahead and the shield, by what the model learns from. {by_row}."
-    return finish(figure, title, f"{alt} In the last model each agent's look-ahead, alone and shield: {each}.")
+    return finish(figure, title, f"{alt} Each agent alone, with the look-ahead, with the shield: {each}.")
 
 
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:

@@ -8,11 +8,12 @@ from matplotlib.figure import Figure
 from bootcourse.colours import ALARM, OTHER, Style
 from bootcourse.course import charts
 from bootcourse.course.dots import beside, dots, name_rows
-from bootcourse.course.lessons.other_ways.measures import AGENTS, Episodes, Judged
+from bootcourse.course.lessons.other_ways.measures import AGENTS, DECISIONS, SECONDS, Episodes, Judged, in_training
 from bootcourse.methods import display_name, style
 from bootcourse.plots.diagrams import Diagram, label
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
 from bootcourse.research import equal_decisions
+from bootcourse.research.beyond import WINDOW
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import iqm
@@ -27,6 +28,9 @@ TAKES = {  # learner: (what it takes, from, until, whether it fades)
     "ibrl": ("demonstrations at first, and the rule's action beside its own", START, END, False),
 }
 MEASURED = ("returns", "accident")  # of each agent in the test
+LONGEST = {SECONDS: 15, DECISIONS: 150_000}  # the ends of the learning curves
+MARKED = {SECONDS: equal_decisions.SECONDS, DECISIONS: equal_decisions.BUDGETS[0]}  # where the lesson compares them
+POINTS = 60  # of each curve
 
 
 def what_is_taken() -> Diagram:
@@ -143,3 +147,51 @@ def in_the_test(computed: Mapping[str, Results], rule: float) -> Figure:
     ax.set_xlim(0, 140)
     ax.text(rule + 2, len(names) - 1, "the rule", color=green, fontsize=SMALL, va="center")
     return finish(figure, title, f"A dot for each agent. Return: {'; '.join(alt_parts)}. The rule: {rule:.0f}.")
+
+
+def learning_curve(results: Results, count: str) -> np.ndarray:
+    """The interquartile mean of the agents at `POINTS` places of the axis, NaN where one of them has no value."""
+    each = [in_training(results, spent, count) for spent in np.linspace(0, LONGEST[count], POINTS + 1)[1:]]
+    return np.array([iqm(of) if np.isfinite(of).all() else np.nan for of in each])
+
+
+def two_counts(computed: Mapping[str, Results], rule: float) -> Figure:
+    """The learning curves of all methods over the seconds that they computed, and over their decisions.
+
+    computed: see `equal_decisions.by_method`; rule: what the rule earns, the green line.
+    """
+    figure, green, ends, order = new_figure(3.9), style("rule").colour, [(rule, "the rule", style("rule").colour)], {}
+    for count, left in zip(LONGEST, (0.5, 3.05), strict=True):
+        unit, by_decisions = (1000, True) if count == DECISIONS else (1, False)
+        ax, mark = axes_at(figure, left, 0.95, 2.3, 2.1), MARKED[count]
+        plain_axes(ax, "return in training" if not by_decisions else "")
+        ax.set(xlim=(0, LONGEST[count] / unit), ylim=(-20, 140))
+        ax.set_xlabel("thousand decisions" if by_decisions else count, fontsize=TEXT, color=INK)
+        ax.axhline(rule, color=green, linewidth=1.2)
+        ax.axvline(mark / unit, color=QUIET, linewidth=0.9, linestyle="--")
+        says = f"{mark / DEFAULT.clock.decision_rate / 3600:.0f} h on a road" if by_decisions else f"{mark} s"
+        ax.text(1.03 * mark / unit, -17, says, fontsize=SMALL, color=QUIET)
+        ax.set_xticks(np.linspace(0, LONGEST[count] / unit, 4).round())
+        ax.tick_params(axis="y", labelleft=not by_decisions)
+        x = np.linspace(0, LONGEST[count] / unit, POINTS + 1)[1:]
+        for method in reversed([one for one in computed if by_decisions or one not in equal_decisions.UNTIMED]):
+            look, values = style(method), learning_curve(computed[method], count)
+            ax.plot(x, values, color=look.colour, linewidth=look.width, linestyle=look.line)
+            if by_decisions:
+                name = display_name(method) + ", no teacher" * (method not in TAKES)
+                ends.append((values[np.isfinite(values)][-1], name, look.colour))
+        earned = {display_name(one): iqm(in_training(computed[one], mark, count)) for one in TAKES}
+        order[count] = dict(sorted(earned.items(), key=lambda one: -one[1]))
+    label_ends(ax, ends)
+    best, least = next(iter(order[SECONDS])), [*order[DECISIONS]][-1]
+    title = f"By seconds of computing {best} earns the most of the five, by decisions"
+    title += f"{'' if best == least else ' ' + least} the least"
+    words = (
+        f"the last {WINDOW} training episodes, interquartile mean of ten agents (plain SAC's seconds are not compared)"
+    )
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
+    each = {count: ", ".join(f"{name} {of:.0f}" for name, of in by.items()) for count, by in order.items()}
+    alt = f"Return in training after {MARKED[SECONDS]} s of computing: {each[SECONDS]}."
+    return finish(
+        figure, title, f"{alt} After {MARKED[DECISIONS]:,} decisions: {each[DECISIONS]}. The rule: {rule:.0f}."
+    )

@@ -1,4 +1,7 @@
-"""What this lesson's trainings are asked: what critics believe, who decides, and when a teacher hands over."""
+"""What this lesson's trainings are asked: what critics believe, who decides, and when a teacher hands over.
+
+At the end, what shipped trainings earned after so many decisions, or seconds of computing.
+"""
 
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
@@ -15,10 +18,14 @@ from bootcourse.learn.replay_buffer import Batch
 from bootcourse.learn.rlpd import RLPDLearner
 from bootcourse.learn.training import Training
 from bootcourse.policies import rule_policy
+from bootcourse.research import equal_decisions
+from bootcourse.research.beyond import at_budget
 from bootcourse.research.paper import earned_at
+from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 
 AGENTS = ("normalised", "not normalised", "the target asks the rule")  # of the first round
+SECONDS, DECISIONS = "seconds of computing", "decisions"  # two counts of what a training spends
 
 
 def worth_at_most(gamma: float) -> float:
@@ -130,3 +137,14 @@ def _episodes(training: Training, by_rule: np.ndarray) -> Episodes:
     curves, n = training.curves.values, training.episodes
     decisions = curves["decisions"][0][:n]
     return Episodes(np.minimum(by_rule[:n], decisions), decisions, curves["accident"][0][:n] > 0)
+
+
+def seconds_per_decision(results: Results) -> np.ndarray:
+    """Of one core, in the training of each agent up to the first budget: (agents,)."""
+    first = equal_decisions.BUDGETS[0]
+    return results.measured[f"seconds_{first}"] / first
+
+
+def in_training(results: Results, spent: float, count: str) -> np.ndarray:
+    """The mean return of each agent's last training episodes after so many decisions or seconds, (agents,)."""
+    return at_budget(results.curves, spent if count == DECISIONS else spent / seconds_per_decision(results))

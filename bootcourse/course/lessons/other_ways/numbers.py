@@ -5,7 +5,7 @@ from itertools import combinations
 
 import numpy as np
 
-from bootcourse.course.lessons.other_ways import explorable, figures
+from bootcourse.course.lessons.other_ways import figures, measures
 from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
 from bootcourse.episodes.record import record
@@ -15,7 +15,6 @@ from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
-from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, holm, interval
@@ -23,6 +22,8 @@ from tools.course.known import shipped_experiment
 
 FIRST, SECOND, LONGEST = BUDGETS
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
+FIVE_SECONDS = (equal_decisions.SECONDS, measures.SECONDS)  # what a training spends, in each of two counts
+ON_ROAD = (FIRST, measures.DECISIONS)
 
 
 @cache
@@ -93,42 +94,25 @@ def accident_shares() -> np.ndarray:
     return 100 * np.array([at(method, "accident").mean() for method in TAUGHT])
 
 
-def on_road(decisions: float) -> float:
-    """The hours that so many decisions take on a road."""
-    return decisions / DEFAULT.clock.decision_rate / 3600
-
-
 def training_scores(spent: float, count: str) -> dict[str, Estimate]:
     """{method with a teacher: the interquartile mean of its returns in training by then}."""
-    return {method: interval(explorable.in_training(later(method), spent, count)) for method in TAUGHT}
+    return {method: interval(measures.in_training(later(method), spent, count)) for method in TAUGHT}
 
 
-def spent_table() -> str:
-    """How many decisions each method with a teacher makes in some seconds, and what it earns by two clocks, as
-    Markdown.
-    """
-    kinds = {"ppo_cloned": "PPO", "bootstrapped": "bootstrapped", "jsrl": "jump-start", "rlpd": "RLPD", "ibrl": "IBRL"}
-    seconds = equal_decisions.SECONDS
-    clocks = {
-        f"return after {seconds} s of computing": (seconds, explorable.SECONDS),
-        f"return after {FIRST:,} decisions ({on_road(FIRST):.0f} h on a road)": (FIRST, explorable.DECISIONS),
-    }
-    scores = {words: training_scores(*spent) for words, spent in clocks.items()}
-    rows = [[words, *(_marked_if_apart(each, method) for method in kinds)] for words, each in scores.items()]
-    made = (f"{seconds * FIRST / at(method, 'seconds', FIRST).mean() / 1000:.0f}" for method in kinds)
-    return markdown(["in training", *kinds.values()], [[f"thousand decisions in {seconds} s", *made], *rows])
+def ppo_and_others(spent: float, count: str) -> tuple[float, list[float]]:
+    """What PPO after cloning earns in training by then, and what each of the others with a teacher earns."""
+    scores = {method: each.value for method, each in training_scores(spent, count).items()}
+    return scores.pop("ppo_cloned"), list(scores.values())
 
 
-def _marked_if_apart(scores: dict, method: str) -> str:
-    """A mean, with an arrow up or down if its interval lies above or below that of PPO after cloning."""
-    mine, ppo = scores[method], scores["ppo_cloned"]
-    mark = " ↑" if mine.low > ppo.high else " ↓" if mine.high < ppo.low else ""
-    return f"{mine.value:.0f}{mark}"
+def thousands_made(method: str) -> float:
+    """How many thousand decisions its training makes in five seconds of computing."""
+    return equal_decisions.SECONDS * FIRST / at(method, "seconds", FIRST).mean() / 1000
 
 
 def below_all_others(method: str, spent: float, count: str) -> bool:
     """Whether rank tests, corrected for all pairs of the five, show that it earns less in training than each other."""
-    returns = {one: explorable.in_training(later(one), spent, count) for one in TAUGHT}
+    returns = {one: measures.in_training(later(one), spent, count) for one in TAUGHT}
     of = list(combinations(TAUGHT, 2))
     p = dict(zip(of, holm([p_value(returns[a], returns[b]) for a, b in of]), strict=True))
     scores = training_scores(spent, count)
@@ -138,5 +122,5 @@ def below_all_others(method: str, spent: float, count: str) -> bool:
 
 def left_of(method: str) -> float:
     """The smallest share that a learning curve over the decisions keeps of its best until then."""
-    curve = explorable.learning_curve(later(method), explorable.DECISIONS)
+    curve = figures.learning_curve(later(method), measures.DECISIONS)
     return float(np.nanmin(curve / np.fmax.accumulate(curve)))

@@ -34,20 +34,17 @@ def recorded(drives: int = 200) -> Batch:
     return decode_transitions(rows, DEFAULT.observation_size, torch.zeros(len(rows)))
 
 
-def earned(data: Batch, drives: int = 200, gamma: float = 0.8) -> float:
-    """What the recorded driver went on to earn, discounted: the mean over the recorded seconds."""
-    later, worths = torch.zeros(drives), []
-    for rewards in data.rewards.reshape(-1, drives).flip(0):  # the rows are second by second, all drives in each
-        later = rewards + gamma * later
-        worths.append(later)
-    return float(torch.stack(worths).mean())
-
-
-def promised(policy: Policy, states: torch.Tensor) -> tuple[torch.Tensor, float]:
-    """What an agent with a critic would do in these states, (n,), and the mean of its Q of these actions."""
+def promised(policy: Policy, states: torch.Tensor) -> float:
+    """The Q of what an agent with a critic would do in these states, (n, observation): the mean."""
     decided = policy(states.numpy(), None)
-    actions = np.asarray(decided.actions, dtype=np.int64)
-    return torch.from_numpy(actions), float(decided.q_values[np.arange(len(actions)), actions].mean())
+    return float(np.take_along_axis(decided.q_values, np.asarray(decided.actions)[:, None], -1).mean())
+
+
+@cache
+def starts() -> torch.Tensor:
+    """What a driver sees first on each of 100 roads, (100, observation)."""
+    observations, _ = one_episode_each(100, DEFAULT, None).reset(seed=list(range(100)))
+    return torch.from_numpy(observations).float()
 
 
 def actions_of(policy: Policy, states: torch.Tensor) -> torch.Tensor:
@@ -103,10 +100,8 @@ def estimates(
 
 def fits(policies: Collection[Policy], data: Batch, times: int, gamma: float = 0.8) -> np.ndarray:
     """What each driver is worth by so many fits with the seeds 0, 1, ...: the mean of 100 roads, (times, policies)."""
-    observations, _ = one_episode_each(100, DEFAULT, None).reset(seed=list(range(100)))
-    starts = torch.from_numpy(observations).float()
     seeds = np.repeat(range(times), len(policies))
-    return np.reshape(estimates([*policies] * times, data, starts, gamma, seeds), (times, -1))
+    return np.reshape(estimates([*policies] * times, data, starts(), gamma, seeds), (times, -1))
 
 
 def worth(policy: Policy, roads: Sequence[int], gamma: float) -> float:

@@ -73,23 +73,25 @@ def returns(study: Results) -> Figure:
 def would_do(learners: Mapping[str, SACLearner]) -> Figure:
     """In which share of the recorded seconds the rule took each of the nine actions, and agents would, as grids.
 
-    learners: by what they are called, such as `WITH`. Below each grid, the crashes on 100 roads, and the mean Q
-    of what an agent would do, beside what the rule went on to earn in these seconds.
+    learners: by what they are called, such as `WITH`. Below each grid, the crashes on 100 roads, and what an
+    agent promises at their starts (the mean Q of its actions) beside what it is worth from there.
     """
     data, names = choosing.recorded(), ["the rule"]
     taken, colours = [data.actions], [style("rule").colour]
-    words = [f"no crash\nearned {choosing.earned(data):.1f} from there on"]
+    words = ["no crash"]
     crashes = {name: [] for name in learners}
     for name, learner in learners.items():
         for row, settings in enumerate(learner.settings):
             agent = learner.agent(row)
-            actions, promise = choosing.promised(agent.as_policy(with_q=True), data.states)
+            policy = agent.as_policy(with_q=True)
+            promise, earns = choosing.promised(policy, choosing.starts()), choosing.worth(policy, range(100), 0.8)
             drives = record(agent.as_policy(), range(100))
             crashes[name].append(sum(drive.accident > 0 for drive in drives))
-            taken.append(actions)
+            taken.append(choosing.actions_of(policy, data.states))
             names.append(f"{name}, seed {settings.seed}")
             colours.append(style("cql").colour if name == WITH else OTHER.colour)
-            words.append(f"crashes on {crashes[name][-1]} of 100 roads\npromises {promise:.1f}")
+            says = f"at the start promises {promise:.1f},\nthen earns {earns:.1f}".replace("-", "−")
+            words.append(f"crashes on {crashes[name][-1]} of 100 roads\n{says}")
     shares = [torch.bincount(each, minlength=9).reshape(3, 3).numpy() / len(each) for each in taken]
     faster = [share[2].sum() for share in shares[1:]]
     title = "What the rule did, and what the agents would do"
@@ -97,7 +99,7 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
         title = "Both would always accelerate, and crash on every road"
     elif set(learners) == {WITH} and max(abs(each - shares[0][2].sum()) for each in faster) < 0.15:
         title = "With CQL's term they stay near what the rule did"
-    figure, height = new_figure(2.95), 2.95
+    figure, height = new_figure(3.15), 3.15
     for place, (name, share, colour, below) in enumerate(zip(names, shares, colours, words, strict=True)):
         ax = axes_at(figure, 0.85 + 2.1 * place, 0.92, 1.7, 1.2)
         fade = LinearSegmentedColormap.from_list("", ["white", colour])
@@ -110,10 +112,10 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
         ax.spines[:].set_color(GRID)
         ax.set_title(name, fontsize=TEXT, color=colour)
         ax.set_xlabel(below, fontsize=TEXT, color=INK)
-    key = f"share of the {len(data.actions):,} recorded seconds · promise: mean Q of the action chosen (γ = 0.8)"
+    key = f"share of the {len(data.actions):,} recorded seconds"
     figure.text(0.012, 1 - 0.52 / height, key, fontsize=TEXT, color=QUIET)
     said = "; ".join(
-        f"{name}: accelerates {100 * share[2].sum():.0f} %, {below}".replace("\n", ", ")
+        f"{name}: accelerates {100 * share[2].sum():.0f} %, {below}".replace(",\n", ", ").replace("\n", ", ")
         for name, share, below in zip(names, shares, words, strict=True)
     )
     return finish(figure, title, f"A grid of nine actions each. {said}.")

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 import torch
@@ -9,7 +10,6 @@ import torch
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
-from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
@@ -50,44 +50,46 @@ def off() -> np.ndarray:
     return estimated() - truth()
 
 
-def of_taken(values: np.ndarray) -> np.ndarray:
-    """Of values (sets, agents) those of the agent with the largest estimate of its set, (sets,)."""
-    return np.take_along_axis(values, estimated().argmax(-1)[:, None], -1)[:, 0]
-
-
 @cache
 def successes() -> np.ndarray:
     """In which share of its drives each gets ahead of trap 1, (sets, agents)."""
     return np.array([of(method).scores("success")[:SETS] for method in choosing.METHODS]).T
 
 
-def shares(actions: torch.Tensor) -> tuple[float, float]:
-    """How often these actions accelerate, and brake."""
-    return float((actions >= 6).float().mean()), float((actions < 3).float().mean())
+def accelerates(actions: torch.Tensor) -> float:
+    """In which share of the seconds these actions accelerate."""
+    return float((actions >= 6).float().mean())
 
 
-def did() -> tuple[float, float]:
-    """How often the rule accelerated in the recorded seconds, and braked."""
-    return shares(choosing.recorded().actions)
+def did() -> float:
+    """In which share of the recorded seconds the rule accelerated."""
+    return accelerates(choosing.recorded().actions)
 
 
-def would_do(method: str) -> np.ndarray:
-    """How often each of a method's agents that ship would accelerate in these seconds, and brake: (agents, 2)."""
-    agents = [agent.as_policy() for agent in shipped_agents(method)]
-    return np.array([shares(choosing.actions_of(agent, choosing.recorded().states)) for agent in agents])
+class Short(NamedTuple):
+    """What Round 2 says of its two agents, a number of each."""
+
+    accelerate: list[float]  # share of the recorded seconds in which it would
+    crashes: list[int]  # of 100 roads
+    promises: list[float]  # mean Q of its actions at 100 starts
+    earns: list[float]  # what it is worth from there
 
 
 @cache
-def short(weight: float) -> tuple[list[float], list[int], list[float]]:
-    """Two agents of Round 2, with this weight of CQL's term: how often they would accelerate, crashes, mean Q.
+def short(weight: float) -> Short:
+    """Two agents of Round 2, with this weight of CQL's term.
 
     They depend on the processor, a little: the text names no value, and its bounds are wide.
     """
     settings = with_seeds(settings_for("cql", cql_weight=weight), 2)
     learner, states = updated(settings, 1000), choosing.recorded().states
     policies = [learner.agent(row).as_policy(with_q=True) for row in range(2)]
-    actions, promises = zip(*(choosing.promised(policy, states) for policy in policies), strict=True)
-    return [float((each >= 6).float().mean()) for each in actions], [*map(crashes, policies)], [*promises]
+    return Short(
+        [accelerates(choosing.actions_of(policy, states)) for policy in policies],
+        [crashes(policy) for policy in policies],
+        [choosing.promised(policy, choosing.starts()) for policy in policies],
+        [choosing.worth(policy, range(100), 0.8) for policy in policies],
+    )
 
 
 def updated(settings: Sequence[Settings], updates: int) -> SACLearner:

@@ -71,7 +71,7 @@ FADING = "ξ falls towards 0"  # the study's own agents with the soft constraint
 FLOOR = "ξ falls to 0.1"
 
 
-FAULTS = "slow", "two never", "found and lost again"  # of the kinds of `courses`
+FAULTS = "slow", "not found by all", "lost again"  # of the kinds of `courses`
 
 
 def courses(kinds: Sequence[str]) -> Figure:

@@ -133,6 +133,11 @@ def leaving_costs(xi: float) -> float:
     return xi * math.log(8 * RULE_P / (1 - RULE_P))
 
 
+def q_lead(alpha: float) -> float:
+    """How much larger the best policy's log π of an action is whose Q is 1 above, with ξ = 200 α: nats."""
+    return 1 / (201 * alpha)
+
+
 def head_start() -> float:
     """How much larger the best policy's log π of the rule's action is where all Q are equal, with ξ = 200 α: nats."""
     return leaving_costs(200 / 201)

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import PALE, TRAP
+from bootcourse.colours import ALARM, PALE
 from bootcourse.course import table
 from bootcourse.course.lessons.the_barrier import easier
 from bootcourse.methods import style
@@ -19,9 +19,10 @@ DARK = style("sac").colour
 ENDS = {  # how an agent of an easier road ends, in the order of `how_they_end`: its colour
     "escapes, earns more than by staying": DARK,
     "escapes, earns no more": PALE,
-    "crashes on most roads": TRAP,
+    "does not escape, crashes on most roads": "white",
     "stays behind": "white",
 }
+CRASHES = {"marker": "X", "c": ALARM, "edgecolors": "white", "linewidths": 0.5}  # on most roads
 
 
 def how_they_end(agents: Results, staying: float) -> tuple[int, ...]:
@@ -31,9 +32,18 @@ def how_they_end(agents: Results, staying: float) -> tuple[int, ...]:
     return tuple(int(each.sum()) for each in (out & more, out & ~more, ~out & crashing, ~out & ~crashing))
 
 
+def how_crashing_end(agents: Results, staying: float) -> tuple[int, ...]:
+    """How many agents of a kind have an accident on most roads, in each of the `ENDS`."""
+    return how_they_end(agents.pick(np.flatnonzero(agents.scores("accident") > 0.5).tolist()), staying)
+
+
 def escapes(trained: Mapping[str, Results], shown: Mapping[str, str]) -> Figure:
-    """A square for each agent, coloured by how it ends, a row for each kind. shown: {the row's words: the kind}."""
+    """A square for each agent, coloured by how it ends, with a cross if it crashes on most roads; a row for each kind.
+
+    shown: {the row's words: the kind}.
+    """
     ends = {words: how_they_end(trained[kind], easier.staying(kind)) for words, kind in shown.items()}
+    crashes = {words: how_crashing_end(trained[kind], easier.staying(kind)) for words, kind in shown.items()}
     tall, many = 0.36, max(map(sum, ends.values()))
     figure = new_figure(0.8 + tall * len(ends) + 0.95)
     ax = axes_at(figure, 1.75, 0.8, 0.2 * many, tall * len(ends))
@@ -42,21 +52,26 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[str, str]) -> Figure:
     look = {"marker": "s", "edgecolors": INK, "linewidths": 0.8}
     for row, (words, counts) in enumerate(ends.items()):
         colours = [colour for colour, count in zip(ENDS.values(), counts, strict=True) for _ in range(count)]
-        ax.scatter(
-            range(len(colours)), [row] * len(colours), s=95, marker="s", c=colours, edgecolors=INK, linewidths=0.8
-        )
+        ax.scatter(range(len(colours)), [row] * len(colours), s=125, c=colours, **look)
+        firsts = np.cumsum((0, *counts[:-1]))
+        crossed = [first + k for first, of in zip(firsts, crashes[words], strict=True) for k in range(of)]
+        ax.scatter(crossed, [row] * len(crossed), s=42, **CRASHES)
         ax.text(-1, row, words, ha="right", va="center", fontsize=TEXT, color=INK)
         escaping = f"{sum(counts[:2])} escape{'s' * (sum(counts[:2]) == 1)}"
         ax.text(many, row, escaping, va="center", fontsize=TEXT, color=INK, fontweight="bold")
-    for place, (words, colour) in enumerate(ENDS.items()):
-        at = 0.5 + 11 * (place % 2), len(ends) + 0.1 + 0.65 * (place // 2)
-        ax.scatter(*at, s=60, c=[colour], clip_on=False, **look)
+    keys = {words: look | {"c": [colour]} for words, colour in [*ENDS.items()][:2]}
+    keys |= {"does not escape": look | {"c": ["white"]}, "crashes on most roads": CRASHES}
+    for place, (words, key) in enumerate(keys.items()):
+        at = 0.5 + 11.5 * (place % 2), len(ends) + 0.1 + 0.65 * (place // 2)
+        ax.scatter(*at, s=50, clip_on=False, **key)
         ax.text(at[0] + 0.8, at[1], words, va="center", fontsize=SMALL, color=INK)
     both = ends[[*ends][-1]]
     title = f"Cheap accidents and the free lane together: {sum(both[:2])} of {sum(both)} escape, "
     title += f"{both[0]} earn more than by staying"
     listed = "; ".join(f"{words}: {', '.join(map(str, counts))}" for words, counts in ends.items())
-    return finish(figure, title, f"A square for each agent. {', '.join(ENDS)}: {listed}.")
+    crossed = "; ".join(f"{words}: {sum(counts)}" for words, counts in crashes.items())
+    alt = f"A square for each agent. {', '.join(ENDS)}: {listed}. A cross: crashes on most roads: {crossed}."
+    return finish(figure, title, alt)
 
 
 def how_they_drive(agents: Sequence, tests: Sequence):
@@ -80,13 +95,15 @@ def times_ahead(results: Results) -> np.ndarray:
 def while_they_learned(results: Results, chance: float) -> Figure:
     """When each agent ended a drive ahead while it learned: a row for each agent, a mark for each such drive.
 
+    At a row's end stands how the agent then drives on the test roads, if it ends ahead on 10 % or more.
+
     chance: that an agent would at least once, if all its actions were random.
     """
     times, ahead = times_ahead(results), results.scores("success")
     escaping, crashing = ahead >= ESCAPES, results.scores("accident") > 0.5
     title = f"{(times > 0).sum()} of {len(times)} agents ended ahead while they learned, "
     title += f"{(times == 1).sum()} of them once; {escaping.sum()} escapes"
-    figure = new_figure(4.4)
+    figure = new_figure(4.25)
     ax = axes_at(figure, 0.2, 0.75, 6.5, 2.85)
     plain_axes(ax, "agents", grid="")
     ax.set_xlabel("drives of an agent while it learned", fontsize=TEXT, color=INK)
@@ -97,14 +114,13 @@ def while_they_learned(results: Results, chance: float) -> Figure:
         ax.plot(1 + np.flatnonzero(drives > 0), np.full(times[k], row), "|", color=DARK, markersize=9)
         listed.append(f"{times[k]}")
         if ahead[k] >= 0.1:
-            label = f"{100 * ahead[k]:.0f} %" + ", escapes" * int(escaping[k]) + ", crashes" * int(crashing[k])
+            ends = ", escapes" * int(escaping[k]) + ", crashes" * int(crashing[k])
+            label = f"tested: {100 * ahead[k]:.0f} % ahead{ends}"
             ax.text(np.isfinite(drives).sum() + 12, row, label, fontsize=TEXT, color=INK, va="center")
             listed[-1] += f" ({label})"
     ax.set(ylim=(len(times) - 0.3, -0.8), yticks=[])
     ax.set_xlim(left=0)
     words = f"A mark: a drive that ended ahead. If all actions were random, {len(times) * chance:.0f} of {len(times)} "
-    words += "agents would have one in 400 drives.\n"
-    words += "At a row's end: on how many of the test roads the agent then ends ahead (if 10 % or more), and whether "
-    words += "it crashes on most."
+    words += "agents would have one in 400 drives."
     figure.text(0.012, 0.015, words, fontsize=SMALL, color=QUIET)
     return finish(figure, title, f"{words}\nThe agents' drives that ended ahead: {', '.join(listed)}.")

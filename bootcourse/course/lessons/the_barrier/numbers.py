@@ -46,11 +46,10 @@ def easy(kind: str) -> Results:
     return shipped_experiment("easier")[kind]
 
 
-def farther_sighted() -> np.ndarray:
-    """Which of the ten of Round 1's twenty agents escape that have γ = 0.95."""
+def farther_sighted() -> Results:
+    """The ten of Round 1's twenty agents that have γ = 0.95."""
     agents = easy("as it is")
-    escaping = agents.scores("success") >= ESCAPES
-    return escaping[[agent["gamma"] == 0.95 for agent in agents.agents]]
+    return agents.pick([k for k, agent in enumerate(agents.agents) if agent["gamma"] == 0.95])
 
 
 MIDDLE, CHEAP, KEPT, BOTH = easier.MIDDLE, easier.CHEAP, easier.KEPT, easier.BOTH
@@ -61,6 +60,11 @@ def stay(kind: str) -> int:
     """How many agents of a kind end ahead on hardly any road, and do not crash on most: they stay behind."""
     agents = easy(kind)
     return int(((agents.scores("success") < 0.01) & (agents.scores("accident") <= 0.5)).sum())
+
+
+def crash_on_most(kind: str) -> int:
+    """How many agents of a kind have an accident on most roads."""
+    return int((easy(kind).scores("accident") > 0.5).sum())
 
 
 def escape_and_crash(kind: str) -> int:

@@ -14,21 +14,29 @@ SPEEDS = np.linspace(0, 8, 161)  # m/s by which the ego is faster than the car a
 AXES = Axes("faster than the car in the new lane by (m/s)", "gap (m)", (0.0, 35.0))
 
 
+def long_enough(t_safe: float) -> tuple[np.ndarray, np.ndarray, float]:
+    """At each of the `SPEEDS`, the gap that the rule wants and the distance in which the car brakes (m); and up to
+    which of them (m/s) the gap is long enough.
+    """
+    step = DEFAULT.clock.dt  # s; in each the car moves at its old speed
+    brakes = SPEEDS**2 / (2 * DEFAULT.ego.acceleration) + SPEEDS * step / 2
+    wanted = np.array([safety_distance(speed, 0.0, 0.0, t_safe, DEFAULT.rule.floor) for speed in SPEEDS])
+    return wanted, brakes, float(SPEEDS[np.maximum.accumulate(brakes > wanted) == 0][-1])
+
+
 def gap() -> Explorable:
     """The gap that the rule wants over the closing speed, and the way in which the car brakes, while t_safe moves."""
-    step = DEFAULT.clock.dt  # s; in each the car moves at its old speed
-    brakes_in = f"the distance in which it brakes, at {DEFAULT.ego.acceleration:g} m/s² in steps of {step:g} s"
-    brakes = SPEEDS**2 / (2 * DEFAULT.ego.acceleration) + SPEEDS * step / 2
+    brakes_in = f"the distance in which it brakes, at {DEFAULT.ego.acceleration:g} m/s² "
+    brakes_in += f"in steps of {DEFAULT.clock.dt:g} s"
 
     def draw(t_safe: float) -> Drawing:
-        wanted = np.array([safety_distance(speed, 0.0, 0.0, t_safe, DEFAULT.rule.floor) for speed in SPEEDS])
-        safe = SPEEDS[np.maximum.accumulate(brakes > wanted) == 0][-1]
+        wanted, brakes, safe = long_enough(t_safe)
         named = {
             "the gap that the rule wants": Curve(wanted, style("rule").colour),
             brakes_in: Curve(brakes, ALARM, "--"),
         }
         says = f"t_safe = {t_safe:g} s: up to {safe:.1f} m/s the gap is long enough to brake in it."
-        return curves(says, AXES, SPEEDS, named, mark=float(safe))
+        return curves(says, AXES, SPEEDS, named, mark=safe)
 
     t_safe = Number("t_safe", DEFAULT.rule.t_safe, 0.5, 4, 0.1, "The time for which the gap must last.", "s")
     return Explorable("How large a gap is large enough?", draw, t_safe=t_safe)

@@ -7,11 +7,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM
+from bootcourse.course.lessons.the_rule.explorable import long_enough
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import overtaken
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, label_ends, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import Reason, safety_distance
 
@@ -97,22 +98,12 @@ def speeds_by_sight(far: Rollout, near: Rollout) -> Figure:
     return finish(figure, title, f"Two drives on one road. {'; '.join(said)}.")
 
 
-def gap(drive: Rollout, second: int) -> float:
-    """The room (m) between the ego and trap 2, from bumper to bumper."""
-    ego, trap = drive.states[second * drive.scenario.clock.steps, [EGO, TRAP_2], X]
-    return trap - ego - drive.scenario.car.length
-
-
 def crash_over_time(drive: Rollout) -> Figure:
-    """Why a drive with a short sight crashes: how far ahead trap 1 is, and the gap to trap 2 beside what it needs."""
+    """Why a drive with a short sight crashes: how far ahead trap 1 is, and how much faster it is than trap 2."""
     scenario, green, steps = drive.scenario, style("rule").colour, drive.scenario.clock.steps
     ego, one, two = (drive.states[:, car] for car in (EGO, TRAP_1, TRAP_2))
-    ahead, room, sight = one[:, X] - ego[:, X], two[:, X] - ego[:, X] - scenario.car.length, scenario.sight.distance
-    faster = np.maximum(ego[:, SPEED] - two[:, SPEED], 0)
-    brakes = faster**2 / (2 * scenario.ego.acceleration) + faster * scenario.clock.dt / 2  # as in `explorable.gap`
-    given, seconds = drive.rule_reasons, np.arange(len(drive.rule_reasons))
-    compares = np.isin(given, (Reason.FALL_BACK, Reason.CHANGE))
-    asked = np.where(compares, drive.rule_distances[: len(given)], np.nan)
+    ahead, faster, sight = one[:, X] - ego[:, X], ego[:, SPEED] - two[:, SPEED], scenario.sight.distance
+    given, (*_, safe) = drive.rule_reasons, long_enough(scenario.rule.t_safe)
     lost, changed = int(np.argmax(given == Reason.FREE)), int(np.flatnonzero(given == Reason.CHANGE)[-1])
     figure, last = new_figure(3.3), drive.times[-1]
 
@@ -131,23 +122,19 @@ def crash_over_time(drive: Rollout) -> Figure:
     out = f"{lost} s: out of sight, so\nnobody ahead: speed up"
     ax.text(lost - 0.6, ahead.max() + 0.9, out, fontsize=TEXT, color=ALARM, va="bottom")
 
-    ax = panel(3.35, "gap to trap 2 (m)", (-0.5, 12))
-    ax.plot(drive.times, brakes, color=ALARM, linewidth=2, linestyle="--")
-    ax.plot(seconds, asked, color=INK, linewidth=2, linestyle="--")
-    ax.plot(drive.times, room, color=green, linewidth=2.5)
-    ax.plot(changed, room[changed * steps], "o", color=green, markersize=7)
-    gap_then, asked_then, needs = room[changed * steps], asked[changed], brakes[changed * steps]
-    says = f"{changed} s: {gap_then:.1f} > {asked_then:.1f} m, so change\nlane; but braking takes {needs:.1f} m"
-    ax.text(last, 11.8, says, fontsize=TEXT, color=INK, ha="right", va="top")
-    asked_last, brakes_last = asked[compares][-1], brakes[-1]
-    label_ends(
-        ax, [(room[-1], "the gap", green), (asked_last, "gap asked for", INK), (brakes_last, "needed to brake", ALARM)]
-    )
+    ax = panel(3.35, "faster than trap 2 (m/s)", (-3, 4))
+    ax.plot(drive.times, faster, color=green, linewidth=2.5)
+    ax.axhline(safe, color=INK, linewidth=1.5, linestyle="--")
+    ax.text(last + 0.3, safe, "Round 2: more\nis too fast", fontsize=TEXT, color=INK, va="center")
+    then = faster[changed * steps]
+    ax.plot(changed, then, "o", color=ALARM, markersize=7)
+    says = f"{changed} s: changes lane"
+    ax.text(changed - 0.5, then + 0.2, says, fontsize=TEXT, color=ALARM, ha="right", va="center")
     title = f"It loses trap 1 at {lost} s, speeds up, and changes lane too fast at {changed} s"
     alt = (
         f"Trap 1 is {ahead[0]:.0f} m ahead at first and later up to {ahead.max():.0f} m, beyond the sight of "
-        f"{sight:g} m. At {changed} s the gap to trap 2 is {gap_then:.1f} m and the gap asked for {asked_then:.1f} m, "
-        f"but braking takes {needs:.1f} m. At {last:g} s the drive ends in an accident."
+        f"{sight:g} m. At {changed} s it changes lane {then:.1f} m/s faster than trap 2; more than {safe:g} m/s is too "
+        f"fast to brake in the gap. At {last:g} s the drive ends in an accident."
     )
     return finish(figure, title, alt)
 

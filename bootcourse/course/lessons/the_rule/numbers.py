@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bootcourse.course.lessons.the_rule.figures import gap as gap
 from bootcourse.course.lessons.the_rule.rules import ALOOF as ALOOF
 from bootcourse.course.lessons.the_rule.rules import ROADS, with_numbers
 from bootcourse.course.lessons.the_rule.rules import as_printed as as_printed
@@ -72,6 +71,12 @@ def called_off(sight: float = 20.0) -> np.ndarray:
     began, lanes = changes.argmax(0), cars[:, :, EGO, LANE]
     completed = lanes[began + 4, roads] < lanes[began, roads]
     return changes.any(0) & ~completed & (reasons[began + 1, roads] == Reason.FREE)
+
+
+def gap(drive: Rollout, second: int) -> float:
+    """The room (m) between the ego and trap 2, from bumper to bumper."""
+    ego, trap = drive.states[second * drive.scenario.clock.steps, [EGO, TRAP_2], X]
+    return trap - ego - drive.scenario.car.length
 
 
 def speeds_up_behind() -> np.ndarray:

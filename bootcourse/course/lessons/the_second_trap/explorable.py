@@ -55,7 +55,8 @@ def sprints() -> Explorable:
     def draw(swing: float) -> Drawing:
         turns, steady = paid(speed_reward, swing)
         more = f"pay {turns / steady:.1f} times as much as" if turns > steady + 1e-9 else "pay the same as"
-        says = f"{MEAN - swing:g} and {MEAN + swing:g} m/s in turn {more} a steady {MEAN:g}."
+        why = ": r_v is a straight line between them" if 0 < swing and more.endswith("same as") else ""
+        says = f"{MEAN - swing:g} and {MEAN + swing:g} m/s in turn {more} a steady {MEAN:g}{why}."
         return picture(says, speed_reward, swing)
 
     swing = Number("swing", MOST, 0, MOST, 0.5, "So far below and above 10 m/s the two speeds lie.", "m/s")

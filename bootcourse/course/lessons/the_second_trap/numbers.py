@@ -67,24 +67,20 @@ def worth(driver: str, gamma: float) -> float:
 
 
 def worth_table() -> str:
-    """What four drives are worth with SAC's γ and with PPO's, as Markdown."""
+    """What four drives are worth with SAC's γ and with PPO's, as Markdown; the two traps in bold."""
     gammas = {method: settings_for(method).gamma for method in ("sac", "ppo")}
     names = {"careful": f"`careful` (lesson {number('your_teacher')})"}
     rows = [
         [names.get(driver, driver), f"{worth(driver, gammas['sac']):.1f}", f"{worth(driver, gammas['ppo']):.0f}"]
         for driver in ("keeping straight", "the rule", "this agent", "careful")
     ]
+    rows[0][1], rows[2][2] = f"**{rows[0][1]}**", f"**{rows[2][2]}**"
     return markdown(["", f"SAC's γ = {gammas['sac']}", f"PPO's γ = {gammas['ppo']}"], rows)
 
 
 def worths() -> list[float]:
     """What the drives of the ten agents of PPO alone on this road are worth with PPO's γ."""
     return [discounted(ppo_drive(seed=seed), ppo_kinds.GAMMA) for seed in range(ppo_agents())]
-
-
-def worth_more_than_the_rule() -> int:
-    """How many of them are worth more than the rule's."""
-    return sum(value > worth("the rule", ppo_kinds.GAMMA) for value in worths())
 
 
 def cloned_escape(teacher: str) -> int:

@@ -6,6 +6,7 @@ import numpy as np
 
 from bootcourse.course.lessons.the_barrier.explorable import by_plan
 from bootcourse.course.lessons.the_trap.driving import all_plans, on_road
+from bootcourse.course.lessons.the_trap.exercises import bearable_risk
 from bootcourse.course.lessons.the_trap.figures import RIGHT_FIRST
 from bootcourse.course.lessons.the_trap.time_step import unhurt
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
@@ -67,6 +68,18 @@ def pays_from() -> float:
 def worth_of_plan(gamma: float = 0.8) -> float:
     """What the plan is worth at its start, the mean of those roads."""
     return float(by_plan().values(gamma).mean())
+
+
+def crashed_early() -> np.ndarray:
+    """On which of those roads the plan crashes in its first ten seconds: (1000,) bool."""
+    return by_plan().accident & (by_plan().lasted <= 10)
+
+
+def borne(gamma: float) -> float:
+    """The risk of an early crash that the plan bears on road 10, if the crash pays as the last figure's does."""
+    rewards = on_ten().rewards
+    crash = gamma ** np.arange(5) @ [*rewards[:4], DEFAULT.reward.accident]
+    return bearable_risk.solution(discounted(idle(), gamma), discounted(on_ten(), gamma), crash)
 
 
 @cache

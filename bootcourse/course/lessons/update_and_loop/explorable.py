@@ -29,8 +29,8 @@ def the_end() -> Explorable:
         forgets = np.full(LAST, 1 / (1 - gamma))
         knows = knows[::-1]  # in the order of time
         named = {
-            "the pole falls": Curve(knows, OTHER.colour),
-            "only the time is up: the pole stands on": Curve(forgets, STRANGERS[1].colour, "--"),
+            "the pole falls": Curve(knows, STRANGERS[1].colour, "--"),
+            "only the time is up: the pole stands on": Curve(forgets, OTHER.colour),
         }
         says = f"γ = {gamma:g}: Q of the last push is {knows[-1]:.3g} and {forgets[-1]:.3g}."
         return curves(says, AXES, np.arange(-LAST, 0), named, mark=-1)

@@ -15,12 +15,14 @@ OF_A_FALL, WITH_BUG = "What critics expect in a fall", "with the bug"
 
 
 def small_worlds(*learned: Mapping[str, worlds.Learned]) -> Markdown:
-    """A table of what Q should be in each small world, and of what agents learned: one, and one with a bug."""
+    """A table of what is right in each small world, and of what agents learned: one, and one with a bug."""
     rows = []
     for words, world in worlds.WORLDS.items():
         alike = len(set(world.pays[0])) == 1  # both pushes pay the same
-        found = (each[words].q for each in learned)
-        shown = (f"{q.mean():.1f}" if alike else f"{abs(q[0]):.1f} and {q[1]:.1f}" for q in found)
+        found = (each[words] for each in learned)
+        shown = (
+            f"{q.mean():.1f}" if alike else f"{abs(q[0]):.1f} and {q[1]:.1f}; π(right) {pi[1]:.2f}" for q, pi in found
+        )
         rows.append([words, world.right, *shown])
     headings = ["world", "right Q", "your agent's Q", "its Q if `terminated` is lost"]
     return table(headings[: 2 + len(learned)], rows)

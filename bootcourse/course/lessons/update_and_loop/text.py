@@ -15,7 +15,7 @@
 #
 # **What you will be able to do**
 # - write how a batch is drawn, an update of SAC and the loop around it;
-# - test them in small worlds whose right Q you can work out, then solve the pole;
+# - test them in small worlds where you can work out what is right, then solve the pole;
 # - say why a fall counts as terminated, and the end of the time does not.
 #
 # **Time** 55 minutes; the machine computes for about 30 seconds. **It builds on** lesson [[discrete_sac]].
@@ -123,9 +123,9 @@ check.ReplayBuffer(ReplayBuffer)
 # > 7. **Steps.** Compute the three losses, then make a gradient step for each.
 # > 8. **Copies.** Q̄ₖ becomes Q̄ₖ + τ (Qₖ − Q̄ₖ), weight by weight.
 #
-# The functions are those of lesson [[discrete_sac]]. `q_pair` is the Q of both critics, (2, batch, 2), and
-# `q` is the smaller of the two, `q_pair.amin(0)`. α is `agent.log_alpha.exp().detach()`; the functions hold
-# fixed the rest.
+# The functions are those of lesson [[discrete_sac]], which detach y, Q and H. `q_pair` is the Q of both
+# critics, (2, batch, 2), and `q` is the smaller of the two, `q_pair.amin(0)`. Detach α yourself:
+# `agent.log_alpha.exp().detach()`.
 
 # %%
 own_code.load()
@@ -149,7 +149,7 @@ def update(agent, batch):
     step 5. actor_loss(log_pi, q, alpha): agent.log_pi(states), (n, 2), and agent.q(states)
     step 6. temperature_loss(log_alpha, state_entropy, target_entropy): agent.log_alpha,
             sac.entropy(log_pi) of each state, agent.target_entropy
-    step 7. agent.optimisers, of the critics, the actor and log α
+    step 7. zero_grad, backward, step: agent.optimisers (critics, actor, log α)
     step 8. agent.critics.parameters(), agent.copies.parameters(), agent.tau; changed in place
     """
     # solution: the exercise's own
@@ -165,8 +165,8 @@ check.update(update)
 #   up. Reset the environment after a fall and when the time is up.
 # - `agent.draw(state, rng)` draws an action, and `by_hand.row(s, a, r, terminated, s')` makes a row.
 # - `by_hand.batch_of(buffer.sample(256, rng))` is a batch for `update`.
-# - A call begins with a reset. Count pushes from the start of the call, even if the buffer already holds
-#   rows. Make no update before push 256, and from then on one update at every fourth push.
+# - A call begins with a reset. Make no update before push 256, and from then on one update at every fourth
+#   push.
 
 
 # %%
@@ -179,7 +179,8 @@ check.train(train)
 
 # %% [markdown]
 # Before the pole, test your parts in **probe environments**: worlds so small that you can work out the right
-# Q. (Leave the entropy aside.) A new agent learns in each world, with τ = 0.5 and γ = {{ GAMMA }}.
+# Q and, in the fourth, the right push. (Leave the entropy aside.) A new agent learns in each world, with τ =
+# 0.5 and γ = {{ GAMMA }}.
 
 # %%
 figures.small_worlds()
@@ -199,8 +200,8 @@ lost = worlds.learn(loop, step, lambda size: worlds.Unmarked(buffer(size)))
 figures.small_worlds(right, lost)
 
 # %% [markdown]
-# **See.** Without the bug each Q is right within 0.1. With the bug each Q is too high, except in the third
-# world, which has no fall to mark.
+# **See.** Without the bug each number is right within 0.1. With the bug each Q is too high, except in the
+# third world, which has no fall to mark.
 #
 # With the bug the target also counts the fallen state. No row begins there, so the network makes up what it
 # is worth.
@@ -208,7 +209,8 @@ figures.small_worlds(right, lost)
 # %% [markdown] tags=["instructor"] minutes=7
 # Let those who have finished exchange their `update` with a neighbour and find the lines in which they
 # differ. Then each plants a bug in the other's, and looks which of the four worlds shows it: the second a
-# lost γ, the third an end of the time that counts as a fall, the fourth exchanged actions.
+# lost γ, the third an end of the time that counts as a fall, the fourth exchanged actions, or an actor's loss
+# with the wrong sign (then π(right) is near 0).
 
 # %% [markdown]
 # ## Round 3: is the pole solved without the bug, and with it?
@@ -271,10 +273,11 @@ print(f"Entropy with the bug, pole upright: {entropy:.2f} nats")
 # %% [markdown]
 # **See.** For this picture 40 poles are pushed to one side until they fall. To the critics with the bug the
 # fallen pole is worth most, so to the actor a push towards the fall should look best. With the pole upright
-# this actor is sure of one side (its entropy is 0.00), and a pole that is pushed to one side only falls.
+# this actor is sure of one side (its entropy is 0.00), and a pole that is always pushed to the same side
+# falls.
 #
-# Q is even above its limit (dotted), in {{ unmarked() }} of our {{ len(agents('unmarked')) }} agents with the
-# bug and in none without it.
+# Q is even above its limit (dotted) in all our agents with the bug, and in none without it.
+# <!-- claim: unmarked() == len(agents('unmarked')) == len(agents()) == 5 -->
 # <!-- claim: along_falls().max() < 1 / (1 - by_hand.SAC.gamma) -->
 
 # %% [markdown]
@@ -301,8 +304,7 @@ print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {t
 # pushes.
 #
 # We think that without these rows Q fed itself: the target passed the guess for the fallen pole on to the
-# last push, and one network gives both values, so the guess rose, too. The added rows say almost what a mark
-# says: from here on only entropy pays.
+# last push, and one network gives both values, so the guess rose, too.
 # <!-- claim: possible('paid-0') == 5 == len(agents('paid-0')) and after_a_block('paid-0').argmax() == 1 -->
 #
 # A low score shows that something is wrong. An impossible Q also says where to look: at the critics and their
@@ -327,7 +329,7 @@ compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: compared, 4
 # 1. A batch holds mostly rows of earlier policies: SAC learns off-policy.
 # 2. An update steps the critics, the actor and the temperature; the copies follow.
 # 3. `terminated` says that nothing more is earned. A time limit does not say so.
-# 4. In a small world you know the right Q, so a bug can show as a wrong number.
+# 4. In a small world you can work out Q and the right push, so a bug can show as a wrong number.
 # 5. A critic makes up what no row tells it. A Q above its limit gives that away, but a Q below it may still
 #    be wrong.
 

@@ -19,7 +19,7 @@ class World(NamedTuple):
 
     pays: tuple[tuple[int, int], ...]
     falls: bool
-    right: str  # what Q should be at the start, γ = 0.8
+    right: str  # what Q, and in the last world π, should be at the start, γ = 0.8
 
 
 GAMMA = 0.8
@@ -27,7 +27,7 @@ WORLDS = {
     "A push pays 1, then the pole falls": World(((1, 1),), True, "1"),
     "Two pushes pay 1 each, then it falls": World(((1, 1), (1, 1)), True, f"1 + γ = {1 + GAMMA:g}"),
     "A push pays 1, then the time is up; s' = s": World(((1, 1),), False, f"1 / (1 − γ) = {1 / (1 - GAMMA):.0f}"),
-    "Left pays 0, right pays 1, then it falls": World(((0, 1),), True, "0 and 1"),
+    "Left pays 0, right pays 1, then it falls": World(((0, 1),), True, "0 and 1; π(right) near 1"),
 }
 
 

@@ -25,7 +25,7 @@ from bootcourse.plots.figure import (
     wrapped,
 )
 
-WIDE, HIGH = 106, 46  # pixels of a state's box
+WIDE, HIGH = 82, 46  # pixels of a state's box
 ON = charts.Style("#56B4E9")  # going on to the free road; what stays in the trap has OTHER's look
 CELL = (0.95, 0.31)  # inches of a number's cell
 DARK, LIGHT, EMPTY = style("sac").colour, PALE, "white"
@@ -44,13 +44,14 @@ def five_states(middles: Sequence[float], top: float, pay: float) -> tuple[list[
     left, low, free = [x - WIDE / 2 for x in middles], top + HIGH + 30, chain.REWARD[4, 0]
     parts = []
     for s, x in enumerate(left):
-        lines = {0: ("0", "the trap"), 4: ("4", "the free road")}.get(s, (str(s),))
+        lines = {0: ("0", "trap"), 4: ("4", "free road")}.get(s, (str(s),))
         parts.append(box(x, top, WIDE, HIGH, lines, {0: "stored", 4: "world"}.get(s, "learned")))
         if s < 4:
             parts += [arrow(x + WIDE, top + HIGH / 2, left[s + 1], top + HIGH / 2)]
-            parts += [label((x + WIDE + left[s + 1]) / 2, top + HIGH / 2 - 8, "1")]
+            parts += [label((x + WIDE + left[s + 1]) / 2, top + HIGH / 2 - 8, "action 1")]
         if s in (1, 2, 3):
-            parts += [line(middles[s], top + HIGH, middles[s], low), label(middles[s] + 9, top + HIGH + 20, "0")]
+            parts += [line(middles[s], top + HIGH, middles[s], low)]
+            parts += [label(middles[s] + 6, top + HIGH + 20, "action 0", "start")]
     parts += [line(middles[3], low, middles[0], low), arrow(middles[0], low, middles[0], top + HIGH)]
     for x, words in ((left[0], f"action 0: +{pay:.2f}"), (left[4], f"action 0 or 1: +{free:g}")):
         parts += [line(x + 36, top, x + 36, top - 16), line(x + 36, top - 16, x + 70, top - 16)]

@@ -13,20 +13,17 @@ def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
     return sum(map(chain.has_been_free, chain.learned(explore, gamma, walks=walks)))
 
 
-def with_ties(pick: str, walks: int = 30) -> int:
-    """How many of the chain's learners with A's ε and γ leave, by what they do with two equal actions: "1" takes
-    action 1, "random" draws one of the two."""
-    return sum(_leaves(pick, seed) for seed in range(walks))
+def with_ties(walks: int = 30) -> int:
+    """How many of the chain's learners with A's ε and γ leave, if they take action 1 of two equal ones."""
+    return sum(map(_leaves, range(walks)))
 
 
-def _leaves(pick: str, seed: int) -> bool:
+def _leaves(seed: int) -> bool:
     """Does A's learner of this seed leave, if it treats two equal actions so?"""
-    q, s, rng = np.zeros((chain.STATES, 2)), 0, np.random.default_rng([seed, 1])
+    q, s = np.zeros((chain.STATES, 2)), 0
     for t, chance in enumerate(chain.chances(0.1, 1000, seed)):
         s = 0 if t % chain.EPISODE == 0 else s
-        equal = 1 if pick == "1" else int(rng.integers(2))
-        greedy = int(q[s].argmax()) if q[s, 0] != q[s, 1] else equal
-        a = greedy if chance < 0 else chance
+        a = int(q[s, 1] >= q[s, 0]) if chance < 0 else chance
         q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
         s = chain.NEXT[s, a]
     return chain.leaves(q)

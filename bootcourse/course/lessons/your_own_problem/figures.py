@@ -1,4 +1,4 @@
-"""Drives of MountainCar and DoorKey, what ships of other problems (research/elsewhere.py), and a class's ranking."""
+"""Drives of MountainCar and DoorKey, and what ships of other problems (research/elsewhere.py)."""
 
 from collections.abc import Mapping, Sequence
 
@@ -8,17 +8,13 @@ from matplotlib.patches import Arc, Rectangle
 
 from bootcourse.colours import ALARM, Style
 from bootcourse.course import charts
-from bootcourse.course.dots import beside, dots, name_rows
+from bootcourse.course.dots import dots
 from bootcourse.course.lessons.your_own_problem import loops
-from bootcourse.course.lessons.your_own_problem.cells import AGENTS, BONUSES, THREE, cells, entries, places
-from bootcourse.course.shipped import shipped_results
+from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, cells
 from bootcourse.learn.agent import Agent
-from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
+from bootcourse.methods import style
+from bootcourse.plots.figure import INK, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.problems import PROBLEMS
-from bootcourse.statistics import iqm
-
-ALONE = ("ppo", "sac")  # the entries without a teacher
 
 
 def climbs() -> Figure:
@@ -155,26 +151,3 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
     figure.text(0.012, 0.4, "speed (rad/s)", rotation=90, va="center", fontsize=TEXT, color=INK)
     figure.text(0.012, 0.03, "angle and speed of the pole; return: mean over the agents", fontsize=SMALL, color=INK)
     return finish(figure, title, f"Edges fall, in rad/s a rad: {'; '.join(alt)}. The teacher's is upright.")
-
-
-def ranking() -> Figure:
-    """How a class is ranked: what five agents of each entry of the kit earn, a dot each, and its place beside it."""
-    by_method, place_of, row = entries(), places(), 0.36
-    first = sum(place == 1 for place in place_of.values())
-    title = f"{first} of these {len(by_method)} entries share the first place"
-    figure = new_figure(1.35 + row * len(by_method))
-    ax, names, alt = axes_at(figure, 1.9, 0.75, 3.4, row * len(by_method)), [], []
-    clone, look = float(iqm(shipped_results().of("bc").scores("returns"))), style("bc")
-    for at, (method, returns) in enumerate(by_method.items()):
-        place, earned = place_of[method], iqm(returns)
-        names.append(display_name(method) + ", no teacher" * (method in ALONE))
-        dots(ax, returns, at, style(method).colour, size=16)
-        beside(ax, at, f"{earned:.0f}", str(place))
-        alt.append(f"{names[-1]}: {earned:.0f}, place {place}")
-    beside(ax, -0.8, "IQM", "place", colour=QUIET)
-    below = f"mean return on 1,000 held-out roads; a dot for each of {AGENTS} agents; IQM: interquartile mean"
-    name_rows(ax, names, below)
-    ax.axvline(clone, color=look.colour, linewidth=1.6, linestyle="--", zorder=1)
-    ax.text(clone + 2, 1, "the clone of\nthe course's rule", color=look.colour, fontsize=SMALL, va="center")
-    ax.set_xlim(0, 140)
-    return finish(figure, title, f"Interquartile means: {'; '.join(alt)}. The clone of the course's rule: {clone:.0f}.")

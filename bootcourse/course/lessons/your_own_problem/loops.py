@@ -7,6 +7,7 @@ import gymnasium as gym
 import numpy as np
 from gymnasium.vector import VectorEnv
 from gymnasium.wrappers.vector import TransformReward
+from torch import Tensor
 
 from bootcourse.course.lessons.your_teacher.driven_out import (
     NOT_SAME,
@@ -19,7 +20,7 @@ from bootcourse.course.lessons.your_teacher.driven_out import (
 from bootcourse.episodes.driving import copies_of
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.demonstrations import demonstrate
+from bootcourse.learn.demonstrations import Demonstrations, demonstrate
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import Rule, teacher_policy
 from bootcourse.learn.training import Training
@@ -150,18 +151,26 @@ def returns(*arguments, **settings) -> dict[int, int]:
     return {decisions: round(earned.mean()) for decisions, (_, earned) in trained(*arguments, **settings).items()}
 
 
-def labels(problem: str, decisions: int = 2_000) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(the states of 50 drives of the random teacher, its actions there, its clone's, the good teacher's), n of each.
+def shown(problem: str) -> Demonstrations:
+    """50 drives of a problem's random teacher."""
+    one = PROBLEMS[problem]
+    return demonstrate(50, None, teacher=one.teachers()["random"], make_env=one.make_env)
 
-    The clone, a single agent, learns for so many decisions.
-    """
-    one, teachers = PROBLEMS[problem], PROBLEMS[problem].teachers()
-    drives = demonstrate(50, None, teacher=teachers["random"], make_env=one.make_env)
-    learning = {"make_env": one.make_env, "teacher": teachers["random"], "demonstrations": drives.rows()}
+
+def cloned(problem: str, rows: Tensor, decisions: int = 2_000) -> Agent:
+    """The random teacher's clone, a single agent that learns from these rows for so many decisions."""
+    one = PROBLEMS[problem]
+    learning = {"make_env": one.make_env, "teacher": one.teachers()["random"], "demonstrations": rows}
     training = Training([settings_for("bc")], episodes=MOST_EPISODES, **learning)
     (clone,) = training.run(False, stop=lambda: training.decisions >= decisions).agents
-    seen = drives.observations
-    return seen, drives.actions, np.asarray(clone.probabilities(seen)).argmax(-1), teachers["good"](seen)
+    return clone
+
+
+def labels(problem: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """(the states in 50 drives of the random teacher, its actions there, its clone's, the good one's), n of each."""
+    drives, good = shown(problem), PROBLEMS[problem].teachers()["good"]
+    seen, clone = drives.observations, cloned(problem, drives.rows())
+    return seen, drives.actions, np.asarray(clone.probabilities(seen)).argmax(-1), good(seen)
 
 
 def states(seen: np.ndarray) -> int:

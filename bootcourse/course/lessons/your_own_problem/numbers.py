@@ -4,6 +4,7 @@ from functools import cache
 
 import gymnasium as gym
 import numpy as np
+import torch
 from gymnasium.vector import VectorEnv
 
 from bootcourse.course.lessons import registry
@@ -13,6 +14,8 @@ from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
 from bootcourse.research.equal_decisions import BOARD  # noqa: F401
 from bootcourse.research.problems import PROBLEMS  # noqa: F401
 from bootcourse.research.tables import markdown
+from bootcourse.statistics import iqm
+from tools.course.known import of
 
 TEACHERS = ("good", "random", "systematic")
 SHOWN = [(p, t) for p in THREE for t in TEACHERS]
@@ -54,22 +57,34 @@ def alone(bonus: str) -> float:
 
 
 def loops_table() -> str:
-    """How many drives of DoorKey reach the goal, by drawn actions, as Markdown."""
+    """How many drives of DoorKey reach the goal, by drawn actions and by the most probable ones, as Markdown."""
     kinds = [
         ("no teacher (plain SAC)", "–", "none", "SAC", None),
         ("random teacher, both aids", "yes", "random", "both, c = 0", "both"),
         ("the same, only its drives that reach the goal", "no", "random", None, elsewhere.WITHOUT_LOOPS),
         ("good teacher, both aids", "no", "good", "both, c = 0", "both"),
     ]
-    rows = [
-        [
-            name,
-            loops_,
-            *(f"{100 * score('doorkey', teacher, how, 'drawn_success'):.0f}" if how else "–" for how in both),
-        ]
-        for name, loops_, teacher, *both in kinds
-    ]
+
+    def reached(teacher: str, how: str | None) -> str:
+        if how is None:
+            return "–"
+        drawn, probable = (100 * score("doorkey", teacher, how, by) for by in ("drawn_success", "success"))
+        return f"{drawn:.0f} ({probable:.0f})"
+
+    rows = [[name, loops_, *(reached(teacher, how) for how in both)] for name, loops_, teacher, *both in kinds]
     return markdown(["learns from", "loops", "c = 0", "c = 2"], rows)
+
+
+def entry_scores() -> list[float]:
+    """The interquartile mean of each entry to the challenge: those with a teacher, which rise, and two without."""
+    scores = {method: float(iqm(returns)) for method, returns in entries().items()}
+    alone = [scores.pop(method) for method in ("ppo", "sac")]
+    return sorted(scores.values()) + alone
+
+
+def clone_earns() -> float:
+    """What the clone of the course's rule earns on its road."""
+    return float(iqm(of("bc").scores("returns")))
 
 
 def drowning_bonus(*arguments: float) -> float:
@@ -78,6 +93,15 @@ def drowning_bonus(*arguments: float) -> float:
 
 
 labels = cache(loops.labels)
+
+
+@cache
+def shown_once() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """`labels` of DoorKey, each state once; the clone has learned from these alone."""
+    seen, taught, _, good = labels("doorkey")
+    first = np.unique(seen, axis=0, return_index=True)[1]
+    clone = loops.cloned("doorkey", loops.shown("doorkey").rows()[torch.as_tensor(first)])
+    return seen[first], taught[first], np.asarray(clone.probabilities(seen[first])).argmax(-1), good[first]
 
 
 def doorkey_errors() -> tuple[int, int, float]:

@@ -29,7 +29,7 @@ SIX = {  # teacher of the experiment `teachers`: the name of its row
 }
 PARTS = {  # as the lesson lists them: what they learn from, of a drive's three parts
     "as-many": ("both", "◪■■"),
-    "lane": ("no accident there", "■■□"),
+    "lane": ("only the free lane", "■■□"),
     "accident": ("only the accident", "■□■"),
     "cut": ("neither", "■□□"),
 }
@@ -43,7 +43,7 @@ def exam_of_all() -> Markdown:
         driven = example_teachers.examine(rule).episodes
         shares = (100 * driven.success.mean(), 100 * np.mean(driven.accident > 0))
         rows.append([name, *(f"{share:.0f}" for share in shares), f"{driven.returns.mean():.0f}"])
-    below = "A drive that ends ahead of trap 1 got out, even if it ends by a crash."
+    below = "A drive that ends ahead of trap 1 got out, even if it crashes there."
     return table([f"{len(driven.success)} roads", "gets out, %", "accidents, %", "return"], rows, below)
 
 
@@ -87,7 +87,7 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], verdicts: Mapping[s
 
 def of_six_teachers(computed: Cells) -> Figure:
     """The students' success in the experiment `teachers`; beside each row what its teacher's drives show."""
-    title = "No student of timid or mirrored escapes: their drives do not reach the free lane"
+    title = "No student of timid or mirrored escapes, and their drives never reach the free lane"
     groups = {words: scores(computed[name, "bootstrapped"]) for name, words in SIX.items()}
     shown = {words: free_lane.shown(name) for name, words in SIX.items()}
     cells = {words: (f"{seconds:.0f}", f"{100 * crash:.3g}") for words, (seconds, crash) in shown.items()}

@@ -12,7 +12,7 @@ from bootcourse.course.lessons.your_teacher.exercises import without_a_look
 from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
 from bootcourse.research.experiments.teacher_worth import TAUGHT  # noqa: F401 (the text names it)
 from bootcourse.road.state import SPEED, TRAFFIC, Accident
-from bootcourse.statistics import ESCAPES, holm, significant  # noqa: F401 (the text names it)
+from bootcourse.statistics import ESCAPES, holm
 from tools.course.known import shipped_experiment, shipped_teachers
 
 COLLIDES = Accident.COLLISION

@@ -51,8 +51,8 @@ progress("your_teacher")
 # ## Look first
 #
 # Which of these three teachers earns most? `racer` gets out of the trap, then aims for 20 m/s and ignores the
-# other cars. `timid` keeps straight behind trap 1. **Half random** is the rule of lesson [[the_rule]], but in
-# half of the states its action is a random one, drawn once for each state.
+# other cars. `timid` keeps straight behind trap 1. **Half random** is the rule of lesson [[the_rule]] with
+# random actions in half of the states; the same state always gives the same action.
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
@@ -173,9 +173,8 @@ print(example_teachers.examine(mine))
 # %% [markdown]
 # ## Round 2: success or return?
 #
-# A teacher enters the learner in three places: it **drives** the demonstrations, and in each row of a batch
-# it **labels** s, for the actor's KL, and s′, for the KL in the critic's target.
-# `Training(..., teacher=my_rule)` swaps all three.
+# A teacher enters the learner in two places: it **drives** the demonstrations, and it **labels** each row of
+# a batch, for the KL. `Training(..., teacher=my_rule)` swaps both.
 #
 # Two agents learn from your rule with the paper's method, for {{ taught_agents.UPDATES | , }} updates.
 # **Yours will differ** with your processor.
@@ -214,7 +213,7 @@ bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 # **See.** In this short training success and return give the racer opposite verdicts: its students get out
 # more often than those alone, but earn less. They also crash far more often than the racer itself.
 #
-# So far, students escaped only if their teacher gets out. Must it?
+# So far, students escaped only if their teacher gets out. Must a teacher get out?
 # <!-- claim: student_escapes('timid') == 0 -->
 # <!-- claim: all(student_escapes(name) >= 5 for name in ('the rule', 'careful', 'racer')) -->
 # <!-- claim: students('racer')['success'].mean() > 3 * students('alone')['success'].mean() and
@@ -249,10 +248,6 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # **See.** All ten escape. The rule's ten earn less, {{ taught_returns('rule').mean() | .0f }} against {{
 # taught_returns('random-50').mean() | .0f }}.
-# Of them {{ escape_of(['rule']) }} escape, which a test does not tell from ten; in Round 2's short training
-# all did.
-# <!-- claim: not significant(10)[escape_of(['random-50']), escape_of(['rule'])] and
-#   student_escapes('the rule') == 10 -->
 # <!-- claim: 2 * taught_agents.p_value(taught_returns('rule'), taught_returns('random-50')) < 0.05 and
 #   taught_returns('rule').mean() < taught_returns('random-50').mean() -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 -->
@@ -270,33 +265,32 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # ## Round 4: the free lane, or its accidents?
 #
-# Most of half random's drives reach the free lane before they crash. Ten new agents for each row of the table
-# learn from these drives' decisions marked ■, and from all of the other drives:
+# Two of half random's drives end ahead of trap 1, and are left out. Of the others, {{ reach_free_lane() }}
+# reach the free lane. Ten new agents for each row learn the parts marked ■ of these drives, and all of the
+# others:
 #
-# | | before lane 0 | from lane 0 on | last decision: the accident |
+# | | before the free lane | from the free lane on | the accident |
 # |---|---|---|---|
 # | **both** | ◪ | ■ | ■ |
-# | **no accident there** | ■ | ■ | □ |
+# | **only the free lane** | ■ | ■ | □ |
 # | **only the accident** | ■ | □ | ■ |
 # | **neither** | ■ | □ | □ |
 #
-# ◪: a part, drawn at random, so that *both* has as many decisions as *neither*.
+# ◪: a part, drawn at random, so that *both* has no more decisions than *neither*.
 # <!-- claim: crashes.is_kept('cut').sum() == crashes.is_kept('as-many').sum() -->
 # <!-- claim: not any(drive.success for drive in crashes.crashed()) and
-#   gets_ahead('random-50') + len(crashes.crashed()) == len(demonstrated('random-50')) > 20 * gets_ahead('random-50')
-#   -->
-# <!-- claim: all(drive.accident > 0 for drive in crashes.crashed()) and
-#   reach_free_lane() > len(crashes.crashed()) / 2 -->
+#   gets_ahead('random-50') == 2 == len(demonstrated('random-50')) - len(crashes.crashed()) -->
+# <!-- claim: all(drive.accident > 0 for drive in crashes.crashed()) -->
 #
-# > **Predict.** Who gets out, agents of *no accident there* or of *only the accident*?
+# > **Predict.** Who gets out, agents of *only the free lane* or of *only the accident*?
 
 # %%
-choices = ["all of them", "those of no accident there", "those of only the accident", "none"]
+choices = ["all of them", "those of only the free lane", "those of only the accident", "none"]
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
-# **Exercise (5 min, ●○○).** Choose the decisions of *no accident there*. Of a drive that was never in lane 0,
-# choose all.
+# **Exercise (5 min, ●○○).** Choose the decisions of *only the free lane*: of a drive that reaches lane 0 all
+# but the last one, of any other drive all.
 
 
 # %%
@@ -333,9 +327,7 @@ bc.show(figures.all_parts(shipped_experiment("crashes")))
 # <!-- claim: crash_shown('no-bonus') and crash_escapes('no-bonus') < 5 < crash_escapes('all') -->
 
 # %% [markdown] tags=["instructor"] minutes=1
-# `bootcourse study crashes --out DIR` trains its seven groups again. Half random's
-# {{ gets_ahead('random-50') }} drives that end ahead of trap 1 are left out; of the other
-# {{ len(crashes.crashed()) }}, {{ reach_free_lane() }} reach the free lane.
+# `bootcourse study crashes --out DIR` trains its seven groups again.
 
 # %%
 compare_predictions(
@@ -382,7 +374,7 @@ check.watchful_rule(watchful_rule)
 # ## Further: ask only when unsure
 #
 # Your worse student drives, and asks your rule whenever your two students disagree. In the last row it asks
-# about as often, but at random. Compare the accidents of this one student: it is an example, not a test.
+# about as often, but at random. Compare the accidents (one student: an example).
 
 # %% tags=["nbval-ignore-output"]
 worse_first = [students[place] for place in learned["success"].argsort()]
@@ -415,8 +407,7 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS[:5
 # trap](the_second_trap.ipynb).
 
 # %% [markdown] tags=["instructor"]
-# **On the board.** Three arrows from the teacher into the learner: actions in the memory, labels for the KL,
-# drives at the start.
+# **On the board.** Two arrows from the teacher into the learner: drives into its memory, labels into the KL.
 #
 # **To discuss.** Would you rather have a teacher that is right in nine states of ten, or one that knows when
 # it is wrong?
