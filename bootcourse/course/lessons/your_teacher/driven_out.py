@@ -1,12 +1,12 @@
 """How a rule is judged: it drives a road to the end, and a sentence says what went wrong on how many of them."""
 
 import numpy as np
-from gymnasium.vector import AutoresetMode
 
 from bootcourse.course.values import NUMERIC, plain
 from bootcourse.learn.teachers import is_action
+from bootcourse.road import twin
+from bootcourse.road.constants import constants
 from bootcourse.road.state import EGO, LANE, TRAP_1, X
-from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import N_ACTIONS
 
 OUT, BEHIND, OUTSIDE, NOT_SAME, NOT_WHOLE, NOTHING, SLOW = 0, 4, 5, 6, 7, 8, 9  # 1 to 3 are the accidents
@@ -24,12 +24,11 @@ def drive_out(answer, cars, scenario):
 
     An answer that is not a number is returned unchanged.
     """
-    env = TrapVectorEnv(1, scenario, AutoresetMode.DISABLED)
-    env.reset(seed=0)
-    env.cars[0] = cars
-    asked, end = [], None
-    while end is None and len(asked) < scenario.clock.decisions:
-        seen = env.cars[0].copy()
+    road, c = cars[None].copy(), constants(scenario)  # of one road, without what an environment does besides
+    accident, asleep, (rewards, terms) = np.zeros(1, np.int64), np.zeros(1, bool), (np.zeros(1), np.zeros((1, 3)))
+    asked = []
+    while accident[0] == twin.NO_ACCIDENT and len(asked) < scenario.clock.decisions:
+        seen = road[0].copy()
         action = answer(seen.copy() if asked else cars, scenario)  # its own array, so that the check sees a change
         wrong = no_action(action)
         if wrong == NOTHING and not asked:
@@ -37,15 +36,14 @@ def drive_out(answer, cars, scenario):
         if wrong is not None:
             return action if wrong == "as it is" else wrong
         asked.append((seen, int(action)))
-        _, _, terminated, _, infos = env.step(np.array([int(action)]))
-        end = int(infos["accident"][0]) if terminated[0] else None
+        twin.decide(road, np.array([int(action)]), asleep, c, rewards, terms, accident, twin.NO_TRACE)
     if any(not same_action(answer(seen.copy(), scenario), action) for seen, action in reversed(asked)):
         return NOT_SAME
-    if end is not None:
-        return end
-    if env.cars[0, EGO, X] > env.cars[0, TRAP_1, X]:
+    if accident[0] != twin.NO_ACCIDENT:
+        return int(accident[0])
+    if road[0, EGO, X] > road[0, TRAP_1, X]:
         return OUT
-    return SLOW if env.cars[0, EGO, LANE] == 0 else BEHIND
+    return SLOW if road[0, EGO, LANE] == 0 else BEHIND
 
 
 def same_action(again, action: int) -> bool:
