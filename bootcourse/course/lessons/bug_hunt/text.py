@@ -250,7 +250,7 @@ check.diagnose(diagnose)
 # | B | ↓ | = | ↓ | ↑ | `sampled` |
 # | C | = (rises late) | = | = | = | `shifted_labels` |
 # | D | = | ↓ | = | = | `no_end` |
-# | E | ↑ | ↑ | ↑, below 15 | about = | `bonus_for_all` |
+# | E | ↑ | ↑ | ↑, below 15 | a little ↑ | `bonus_for_all` |
 # | F | ↓ | ↑ | one line ↑; both beyond 15 on the way | = | `no_stop` |
 #
 # - **B**: the KL alone teaches the actor, towards the stochastic rule, which crashes in {{ ended().sum() }}

@@ -147,9 +147,10 @@ print(cloning.accidents(alone))
 bc.show(figures.off_the_road(alone, driven["the rule"]))
 
 # %% [markdown]
-# **See.** *The clone drifts off a free lane.* In most of its accidents, errors take it left of the rule's
-# path, where the rule's drives have no row and nearly every decision of the clone is an error. Errors that
-# lead to more errors are called **compounding errors** (Ross and Bagnell 2010).
+# **See.** *The clone drifts off a free lane.* Nearly half of its decisions are errors on the rule's path,
+# too. In most of its accidents they take it left of this path, where the rule's drives have no row: there
+# nearly every decision is an error. Errors that lead to more errors are called **compounding errors** (Ross
+# and Bagnell 2010).
 #
 # Suppose the worst: in each second another share ε of all drives makes its first error, and these drives err
 # in every second from then on. **Drag** ε from 0.5 % up to 2 %. How many errors can a whole drive have?
@@ -200,8 +201,7 @@ bc.show(figures.added(KINDS[0], measured[KINDS[0]], fed_crash))
 # Longer training on the rule's drives alone helps, too, and in the study Round 1's order is reversed. With
 # some {{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates, the study's clones of the rule crash
 # in {{ 100 * accidents('bc') | .1f }} % of their drives. Those of the stochastic rule, with twice as many
-# again, crash in {{ 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .0f }} %. Why the two
-# orders differ is open.
+# again, crash in {{ 100 * clones_of_the_stochastic_rule().scores('accident').mean() | .0f }} %.
 # <!-- claim: 1.9 < updates_of(clones_of_the_stochastic_rule()) / updates_of(of('bc')) < 2.1 -->
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 and
 #   len(clones_of_the_stochastic_rule()) == 10 -->
@@ -286,8 +286,8 @@ compare_predictions(
 #
 # 1. A clone learns to predict the demonstrator's action. Its agreement with its data does not say how well it
 #    drives.
-# 2. It is trained on the teacher's states and drives in its own, where errors lead to more errors. Most of
-#    our accidents happen where the rule's drives have no row.
+# 2. It is trained on the teacher's states and drives in its own, where errors lead to more errors. In most of
+#    our accidents it first comes to places where the rule's drives have no row.
 # 3. After a short training, a few rows from these places prevent most of the accidents. Longer training on
 #    the rule's drives helps, too.
 # 4. DAgger adds rows from the clone's own states: the clone drives, the teacher labels.

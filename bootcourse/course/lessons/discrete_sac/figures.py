@@ -29,9 +29,9 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
     """What α does in the chain's trap: how many learners find the way out, and how many then surely take it.
 
     knows: π(leave | trap) of an agent that knows the whole chain; walked: the learners at each temperature, and last
-    those whose temperature falls.
+    those whose temperature falls, from the largest and from the smallest of these.
     """
-    names = [*(f"α = {alpha:g}" for alpha in alphas), f"α falls, {max(alphas):g} to {min(alphas):g}"]
+    names = [*(f"α = {alpha:g}" for alpha in alphas), *(f"α falls from {alpha:g}" for alpha in reversed(alphas))]
     parts = {
         "found it, and sure of leaving": (walked.leaves > SURE, style("sac").colour),
         "found it, not sure": (walked.found & (walked.leaves <= SURE), PALE),
@@ -45,12 +45,12 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
         before += of.sum(axis=1)
         alt_parts.append(f"{words}: {', '.join(map(str, of.sum(axis=1)))}")
     beside(ax, -0.75, "π(leave), chain known", colour=QUIET)
-    known = [*knows, knows[0]]  # a falling α ends at the first
+    known = [*knows, knows[0], knows[0]]  # each falling α ends at the first, or below it
     for place, each in enumerate(known):
         beside(ax, place, f"{each:.2f}")
     name_rows(ax, names, f"of {walked.leaves.shape[1]} learners")
     ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=3, fontsize=SMALL, frameon=False, columnspacing=1.2)
     alt = f"A bar for each kind of learner: {', '.join(names)}. Of each kind, in this order, {'; '.join(alt_parts)}. "
     alt += f"To the right, π(leave) of an agent that knows the chain: {', '.join(f'{each:.2f}' for each in known)}."
-    title = "With a small α few find the free road, with a large one none is sure; with a falling α many do both"
+    title = "With a small α few find the free road, with a large one none is sure; with a falling α nearly half do both"
     return finish(figure, title, alt)

@@ -57,9 +57,10 @@ def constant(decisions: int = 1000) -> Walked:
 
 
 @cache
-def falling(decisions: int = 1000) -> Walked:
-    """Learners whose α falls from 10 to 0.01 by equal factors."""
-    return walked(sac.soft_value, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, decisions))[:, None])
+def falling(decisions: int = 1000, begin: float = 10) -> Walked:
+    """Learners whose α falls to a thousandth of where it begins, by equal factors."""
+    alphas = np.geomspace(begin, begin / 1000, decisions)
+    return walked(sac.soft_value, sac.critic_target, torch.tensor(alphas)[:, None])
 
 
 def sure(of: Walked) -> np.ndarray:

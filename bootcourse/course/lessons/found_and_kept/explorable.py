@@ -32,7 +32,7 @@ def groups() -> dict[str, Results]:
 
 
 def losing() -> Explorable:
-    """When each agent has the way out; how many lose it, by a limit; who has it at the end, and what these earn.
+    """When each agent has the way out; how many lose it, by a limit; who escapes in the test, and what these earn.
 
     Who loses it is counted by the student's `ever_lost`, if it passed its check.
     """
@@ -43,7 +43,7 @@ def losing() -> Explorable:
     for tick in ticks(0, episodes, 4):
         across, _ = axes.at(tick, 0)
         still += [line(across, TOP, across, bottom + 3), text(across, bottom + 15, f"{tick:,.0f}", "middle", QUIET, 11)]
-    columns = (LOSE, "lose it at", "least once"), (KEEP, "keep it", "at the end"), (EARN, "return of", "these")
+    columns = (LOSE, "lose it at", "least once"), (KEEP, "escape", "in the test"), (EARN, "return of", "these")
     for x, *words in columns:
         still += [text(x, TOP - 38 + 16 * i, word, "middle", bold=True) for i, word in enumerate(words)]
 
@@ -51,7 +51,7 @@ def losing() -> Explorable:
     for place, (words, results) in enumerate(shown.items()):
         keep = results.found_and_kept("bootstrapped")[1]
         earned = f"{results.scores('returns')[keep].mean():.0f}"
-        kept[words] = f"{keep.sum()} keep it at the end, their return {earned}"
+        kept[words] = f"{keep.sum()} escape in the test, their return {earned}"
         top = TOP + place * (TALL + APART)
         still += _named(words, top) + [text(KEEP, _middle(top), f"{keep.sum()} of {len(keep)}", "middle")]
         still.append(text(EARN, _middle(top), earned, "middle"))
@@ -67,7 +67,8 @@ def losing() -> Explorable:
         *some, last = losers.values()
         says = f"Lost at {limit:.0f} of {IN_A_ROW} or fewer: {', '.join(map(str, some))} and {last} of ten lose it."
         parts.append(text(4, 20, says, size=14, bold=True))
-        parts.append(text(LEFT, TOP - 22, f"bar: more than {limit:.0f} of the last {IN_A_ROW} ahead", bold=True))
+        bars = f"bar: in training, more than {limit:.0f} of the last {IN_A_ROW} ahead"
+        parts.append(text(LEFT, TOP - 22, bars, bold=True))
         in_all = "; ".join(f"{words}: {count} lose it at least once, {kept[words]}" for words, count in losers.items())
         return drawing(WIDTH, bottom + 38, still + parts, f"{says} {in_all}.")
 

@@ -91,7 +91,7 @@ def explanations() -> str:
          f"at most part of it: the other {10 - ours.found} never find it"],
         ["2. single agents",
          f"with the training of Round 1, {of_all().curves['success'].shape[1]:,} episodes, the paper's four rates come "
-         f"in {alone[0]} % of the draws (bar: {alone[1]} to {alone[2]} %; ten others: {100 * others_pattern():.0f} %)",
+         f"in {alone[0]} % of the draws (ten others: {100 * others_pattern():.0f} %)",
          "seldom, taken alone"],
         ["3. another training",
          f"with one road, 2 updates and π̃ these four rates come in {chance[0]} % of the draws (bar: "

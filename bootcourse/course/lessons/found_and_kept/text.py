@@ -85,7 +85,8 @@ table(counts.BOTH_TABLES, counts.both_tables(study))
 #
 # - **Found**: in at least one *window* of {{ WINDOW }} training episodes in a row, more than half ended ahead
 #   of trap 1.
-# - **Kept**: the agent found the way out, and escapes after training (lesson [[how_many_seeds]]).
+# - **Kept**: the agent found the way out, and escapes in the *test* (lesson [[how_many_seeds]]), where it
+#   takes its most probable actions.
 #
 # > **Predict.** None of our ten agents with demonstrations alone escapes, but you saw one that had found the way
 # > out. How many of the ten find it?
@@ -116,8 +117,8 @@ bc.show(figures.found_and_kept(study))
 # %% [markdown]
 # ## Round 2: who loses it?
 #
-# An agent has **lost** the way out if a window with {{ HAD }} or more of {{ WINDOW }} episodes ahead is
-# followed, at any time, by one with {{ LOST }} or fewer.
+# An agent has **lost** the way out if, *in training*, a window with {{ HAD }} or more of {{ WINDOW }}
+# episodes ahead is followed, at any time, by one with {{ LOST }} or fewer.
 # <!-- claim: LOST == WINDOW / 2 -->
 #
 # The agent of the first picture lost the way out while its demonstrations ran out: their share β of each
@@ -177,9 +178,9 @@ explorable.losing()
 # <!-- claim: group('β never ends, bonus').keep.all() and group('β ends, no bonus').keep.all() and
 #   earns_less(*map(group, ('β never ends, bonus', 'β ends, bonus', 'β ends, no bonus', 'β never ends, no bonus'))) -->
 #
-# *A loss need not last*: where β ends and no bonus is paid, eight of ten lose the way out, but all ten have
-# it at the end. Of *ten others* all lose it, and {{ group('others: no bonus').keep.sum() }} have it at the
-# end.
+# *To lose it in training and to escape in the test are two things*: where β ends and no bonus is paid, eight
+# of ten lose the way out, but all ten escape. (Of *ten others* all lose it, and
+# {{ group('others: no bonus').keep.sum() }} escape.)
 # <!-- claim: 0 < group('others: never').lost.sum() < group('others: ends').lost.sum() and
 #   group('others: no bonus').lost.all() and 0 < group('others: no bonus').keep.sum() < 10 -->
 
@@ -260,9 +261,9 @@ bc.show(figures.chances(cells, chance))
 # <!-- claim: row_reads('soft') < 0.5 and min(map(row_reads, ('sac', 'demos', 'bootstrapped'))) > 0.8 -->
 # <!-- claim: [clocks()['4', by].of('soft').scores('success').tolist() for by in ('μ', 'π̃')] == [[0] * 3] * 2 -->
 #
-# The bars overlap, so whether the updates matter is *open*. And the step from ¼ to 1 changes the roads, too.
-# <!-- claim: all(max(pattern(clocks()[u, by]).low for u in ('1/4', '1', '2', '4')) < min(pattern(clocks()[u,
-#   by]).high for u in ('1/4', '1', '2', '4')) for by in ('μ', 'π̃')) -->
+# Whether the updates matter is *open*: with 4 updates each row has three agents, and the step from ¼ to 1
+# changes the roads, too.
+# <!-- claim: {len(clocks()['4', by].of('soft')) for by in ('μ', 'π̃')} == {3} -->
 # <!-- claim: min(pattern(of).value for (u, _), of in clocks().items() if u != '1/4') > max(pattern(of).value
 #   for (u, _), of in clocks().items() if u == '1/4') -->
 # <!-- claim: all(pattern(of).high - pattern(of).low > 0.2 for (u, _), of in clocks().items() if u != '1/4') -->
@@ -320,8 +321,8 @@ compare_predictions(
 # - How would you test the setting of prediction 3 fairly?
 # - A reviewer asks for "the success rate". Which two numbers do you give, and over what?
 #
-# **Read on**: [the next lesson](recorded_drives.ipynb) learns from recorded drives alone. Christodoulou
-# (arXiv 1910.07207); Ecoffet et al. (arXiv 2004.12919).
+# **Read on**: [the next lesson](recorded_drives.ipynb) learns from recorded drives. Christodoulou (arXiv
+# 1910.07207); Ecoffet et al. (arXiv 2004.12919).
 
 # %% [markdown] tags=["instructor"] minutes=3
 # **Model answers.**

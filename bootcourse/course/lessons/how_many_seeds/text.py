@@ -79,8 +79,7 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 #
 # > **Predict.** Suppose that many studies train ten agents each. The lower the true rate, the fewer of these
 # > studies see eight or more escape. At 50 %, as with ten fair coins,
-# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of them do. At which true rate do 2.5 %? (At a lower rate, our
-# > eight would be luck too rare to believe.)
+# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of them do. At which true rate do 2.5 %?
 
 # %%
 predict(
@@ -139,9 +138,9 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # %% [markdown]
 # ## Round 2: how many agents does it take?
 #
-# With the soft constraint alone eight of ten agents escape, with both aids seven. Do the methods differ? The
-# **p value** says how often luck would split these fifteen escapes at least this unevenly if the methods were
-# alike. *Fisher's exact test* computes it, and below 0.05 we speak of a difference. Here p is {{ fisher(8, 7) |
+# With the soft constraint alone eight of ten agents escape, with both aids seven. Do the methods differ? If
+# they were alike, how often would luck split these fifteen escapes at least this unevenly? That is the **p
+# value**. *Fisher's exact test* computes it, and below 0.05 we speak of a difference. Here p is {{ fisher(8, 7) |
 # .0f }}.
 # <!-- claim: escaped('soft') == 8 and escaped('bootstrapped') == 7 -->
 #
@@ -227,8 +226,9 @@ explorable.intervals()
 # %% [markdown]
 # **See.** *Of 100 intervals {{ explorable.holding(3) }} contain the mean, not 95.* In
 # {{ 100 * 0.7**3 | .0f }} of 100 studies all three agents do well. Resampling knows these three alone, so the
-# interval is short and lies above the mean of all: *the shortest intervals miss.* So print the three returns,
-# not their interval.
+# interval is short and lies above the mean of all: *the shortest intervals miss.* Of five seeds
+# {{ explorable.holding(5) }} contain it, of ten {{ explorable.holding(10) }}. So print the returns
+# themselves.
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
 #   of('bootstrapped').scores('returns').mean()).sum() == round(100 * 0.7**3) == 34)(
@@ -287,8 +287,8 @@ table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
 # **Explain.** If the interval contains 0, five seeds do not say which group learns earlier, nor that both
-# learn alike. If it leaves out 0, that may be luck: see the next picture. For an answer train a *new* set,
-# large enough for your smallest effect of interest.
+# learn alike. If it leaves out 0, remember that intervals of five seeds miss too often. For an answer train a
+# *new* set, large enough for your smallest effect of interest.
 
 # %% [markdown]
 # ### If you try many changes
@@ -305,15 +305,15 @@ bc.show(figures.nothing_changed(study))
 # <!-- claim: all(bad in (0, 3) for bad, effect in splits() if counts.leaves_out_0(effect)) -->
 # <!-- claim: np.mean([counts.leaves_out_0(effect) for _, effect in splits()]) > 0.05 -->
 #
-# Of the {{ len(splits()) }} ways to split the ten,
+# Of all {{ len(splits()) }} splits
 # {{ 100 * np.mean([counts.leaves_out_0(effect) for _, effect in splits()]) | .0f }} % give an interval that
-# leaves out 0. But even if each of twenty independent comparisons left out 0 by luck in only 5 % of cases, at
-# least one would in {{ 100 * (1 - 0.95**20) | .0f }} %. This is **multiplicity**. So say beforehand which
-# comparison counts, or multiply each p by the number of comparisons (*Bonferroni*).
+# leaves out 0, not 5 %: five seeds again. And even at 5 %, at least one of twenty independent comparisons
+# would leave out 0 in {{ 100 * (1 - 0.95**20) | .0f }} % of cases. This is **multiplicity**. So say
+# beforehand which comparison counts, or multiply each p by the number of comparisons (*Bonferroni*).
 #
-# With both aids 7 of 10 agents escape, with plain SAC 1 of 10, and Fisher's p is {{ fisher(7, 1) | .3f }}. As
-# one of six comparisons it would not count, because six times p is {{ 6 * fisher(7, 1) | .2f }}. A new set of
-# agents decides: of ten others of each (another implementation, twice the episodes),
+# With both aids 7 of 10 agents escape, with plain SAC 1 of 10, and Fisher's p is {{ fisher(7, 1) | .3f }}.
+# Four methods make six pairs: as one of six it would not count, because six times p is {{ 6 * fisher(7, 1) | .2f }}.
+# A new set of agents decides: of ten others of each (another implementation, twice the episodes),
 # {{ escapers(others('bootstrapped'), 'bootstrapped') }} escape with both aids and
 # {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
 # <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->

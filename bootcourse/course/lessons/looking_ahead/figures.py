@@ -141,53 +141,43 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
-    title = "In a learned model the look-ahead crashes more than alone, the shield less"
-    agents, base, forms = learned_model.together(computed), learned_model.BASE, (LEARNED_FORM, "shield")
+    title = "In a learned model most agents crash more with the look-ahead than alone"
+    agents, base = learned_model.together(computed), learned_model.BASE
     alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)], style(base).colour
     drivers = {"the agent": agents}
     drivers |= {
         f"{100 * share:.0f} % of its actions random": learned_model.together(computed, share)
         for share in learned_model.RANDOM
     }
-    means = {
-        name: [learned_model.per_thousand(of, form, control=True).mean() for form in forms]
-        for name, of in drivers.items()
-    }
-    ahead, shield = (learned_model.per_thousand(agents, form)[:, -1] for form in forms)
-    means["the agent, then the look-ahead"] = [ahead.mean(), shield.mean()]
-    means[f"without a model, alone: {alone.mean():.0f}"] = []
-    figure, ends = new_figure(3.25), (3.45, 4.05)  # inches: where the two columns of numbers end
+    means = {name: learned_model.per_thousand(of, LEARNED_FORM, control=True).mean() for name, of in drivers.items()}
+    ahead = learned_model.per_thousand(agents, LEARNED_FORM)[:, -1]
+    last = "the agent, then the look-ahead"
+    means |= {last: ahead.mean(), "without a model, alone": alone.mean()}
+    figure, end = new_figure(3.25), 3.6  # inches: where the numbers end
     height = figure.get_figheight()
 
-    def write(row: int, name: str, of: Sequence[float | str] = (), best: Sequence[float] = (), color: str = INK):
+    def write(row: int, name: str, number: str = "", color: str = INK, weight: str = "normal"):
         look = {"y": 1 - (0.75 + 0.3 * row) / height, "va": "center", "fontsize": TEXT, "color": color}
         figure.text(0.012, s=name, **look)
-        for end, each in zip(ends, of, strict=False):
-            words, bold = each if isinstance(each, str) else f"{each:,.0f}", "bold" if each in best else "normal"
-            figure.text(end / 7, s=words, ha="right", fontweight=bold, **look)
+        figure.text(end / 7, s=number, ha="right", fontweight=weight, **look)
 
     write(0, "accidents in 1,000 drives, mean of ten agents")
-    write(1, "the model learns from", ("look-ahead", "shield"), color=QUIET)
-    best = [min(column) for column in zip(*filter(None, means.values()), strict=True)]
-    for row, (name, of) in enumerate(means.items()):
-        write(row + 2, name, of, best)
-    for column, (form, with_it) in enumerate(zip(NAMES.values(), (ahead, shield), strict=True)):
-        ax, worse = axes_at(figure, 4.7 + 1.25 * column, 1.05, 0.95, 1.5), with_it > alone
-        for of, shade, width in ((~worse, colour, 1.1), (worse, INK, 2.2)):
-            pair = np.array([alone, with_it])[:, of]
-            ax.plot([0, 1], pair, color=shade, linewidth=width, marker="o", ms=4, clip_on=False)
-        plain_axes(ax, form)
-        ax.set(xlim=(-0.2, 1.2), ylim=(0, 1000))
-        ax.set_yticks([0, 500, 1000], ["0", "500", "1,000"] if column == 0 else [""] * 3)
-        ax.set_xticks([0, 1], ["alone", "with it"])
-    words = (
-        "right: accidents of each agent in 1,000 drives, in the last of the four models; dark: more often than alone"
-    )
+    write(1, "the model learns from", "look-ahead", color=QUIET)
+    for row, (name, mean) in enumerate(means.items()):
+        write(row + 2, name, f"{mean:,.0f}", weight="bold" if name == last else "normal")
+    ax, worse = axes_at(figure, 4.6, 0.95, 1.9, 1.6), ahead > alone
+    for of, shade, width in ((~worse, colour, 1.1), (worse, INK, 2.2)):
+        ax.plot([0, 1], np.array([alone, ahead])[:, of], color=shade, linewidth=width, marker="o", ms=4, clip_on=False)
+    plain_axes(ax, "accidents in 1,000 drives")
+    ax.set(xlim=(-0.2, 1.2), ylim=(0, 1000))
+    ax.set_yticks([0, 500, 1000], ["0", "500", "1,000"])
+    ax.set_xticks([0, 1], ["alone", "look-ahead"])
+    words = "right: each agent, in the last of the four models; dark: it crashes more often than alone"
     figure.text(0.012, 0.1 / height, words, fontsize=SMALL, color=INK)
-    by_row = "; ".join(" ".join([name, *(f"{mean:,.0f}" for mean in of)]) for name, of in means.items())
-    each = "; ".join(f"{a:.0f}, {b:.0f}, {c:.0f}" for a, b, c in zip(alone, ahead, shield, strict=True))
-    alt = f"Mean accidents in 1,000 drives with the look-ahead and the shield, by what the model learns from. {by_row}."
-    return finish(figure, title, f"{alt} Each agent alone, with the look-ahead, with the shield: {each}.")
+    by_row = "; ".join(f"{name} {mean:,.0f}" for name, mean in means.items())
+    each = "; ".join(f"{a:.0f}, {b:.0f}" for a, b in zip(alone, ahead, strict=True))
+    alt = f"Mean accidents in 1,000 drives with the look-ahead, by what the model learns from. {by_row}."
+    return finish(figure, title, f"{alt} Each agent alone, and with the look-ahead in the last model: {each}.")
 
 
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:

@@ -306,10 +306,7 @@ bc.show(figures.learned(shipped_experiment("learned-model"), study))
 # %% [markdown]
 # **See.** With more of the agent's own drives still every drive with the look-ahead crashes. Random actions
 # help, and the look-ahead's own drives help it most on average; yet with them
-# {{ worse_when_learned().sum() }} of the ten agents still crash more than alone. Its drives do not help the
-# shield: {{ learned('shield')[-1] | .0f }} accidents in 1,000, with the agent's own drives {{
-# learned_without('shield') | .0f }}.
-# <!-- claim: learned('shield')[-1] > learned_without('shield') and (in_last_model('shield') < of_alone()).all() -->
+# {{ worse_when_learned().sum() }} of the ten agents still crash more than alone.
 # <!-- claim: learned_without('mean of five') == 1000 and learned('mean of five')[-1] < 0.6 *
 #   learned_without('mean of five', share=0.1) and learned('mean of five')[-1] < 0.6 *
 #   learned_without('mean of five', share=0.3) and all(learned_without('mean of five', share=share) <
@@ -320,8 +317,6 @@ bc.show(figures.learned(shipped_experiment("learned-model"), study))
 # actions do in the same state. There the model has to guess.
 # <!-- claim: all((learned_rows() > learned_rows(share)).all() for share in learned_model.RANDOM) and
 #   learning().measured['rows'].mean() > learned_rows().mean() -->
-#
-# The shield mostly keeps the agent's own action, which the model knows.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what an honest learned model would have to say besides a number: how sure it is. Five networks that
@@ -346,7 +341,7 @@ compare_predictions(
 #    out, where no single one that we tried did.
 # 3. With a wrong model the look-ahead can be worse than none.
 # 4. In a learned model the look-ahead picks actions that the model has hardly seen. Random actions in the
-#    drives help it, and its own drives perhaps more. The shield crashes less than the agent alone.
+#    drives help it, and its own drives perhaps more.
 #
 # **Three questions to think about**
 # - A car is two seconds late. How could it look ahead without an error?

@@ -278,12 +278,15 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 # |---|---|---|---|---|---|
 # | {{ hours_before('rlpd') | .0f }} h of the rule's drives, not counted | yes | yes | no | yes | yes |
 # | the rule acts | no | no | in training, counted | no | in training and test |
+# | updates for a decision | – | 1 in 4 | 1 in 4 | 2 in 4 | 1 in 4 |
 # | each try changes | roads at once, fewest best | target entropy | target entropy | target entropy | target entropy |
 #
 # <!-- claim: {m: (set().union(*equal_decisions.TRIES[m]), equal_decisions.CHOSEN[m]) for m in TAUGHT}['ppo_cloned']
 #   == ({'envs_per_agent'}, 0) and {name for m in TAUGHT if m != 'ppo_cloned' for each in
 #   equal_decisions.TRIES[m] for name in each} == {'target_entropy'} -->
 # <!-- claim: by_hand() == {'bootstrapped': {'bonus', 'beta_episodes'}} -->
+# <!-- claim: {m: (later(m).agents[0]['updates'], later(m).agents[0]['envs_per_agent']) for m in TAUGHT[1:]} ==
+#   {m: (2 if m == 'rlpd' else 1, 4) for m in TAUGHT[1:]} and TAUGHT[0] == 'ppo_cloned' -->
 # <!-- claim: {m for m in TAUGHT if drives_before(m) and later(m).agents[0]['stochastic_demonstrations']} ==
 #   {'ppo_cloned'} -->
 # <!-- claim: drives_before('jsrl') == 0 and {drives_before(m) for m in TAUGHT if m != 'jsrl'} ==
@@ -328,8 +331,8 @@ bc.show(figures.two_counts(compared, by_rule.returns.mean()))
 #   training_scores(*ON_ROAD)) -->
 #
 # **Explain.** PPO computes least for a decision, but it needs more decisions. Where decisions are as cheap as
-# on this simulator, take PPO; where each costs a second, take one of the other four: after {{ FIRST | , }}
-# decisions they earn more in training than PPO, and these tests cannot rank them.
+# on this simulator, take PPO; where each costs a second, the other four earn more in training, but in the
+# test of Round 4 only two of them do.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask who in the room has which clock: a simulator and one night, or a car and one day. Jump-start RL falls by

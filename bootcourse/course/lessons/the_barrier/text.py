@@ -222,8 +222,8 @@ explorable.barrier()
 # With a price of 1, or with γ = 0.95, there is no dip, and the plan pays from its start. But none of Round
 # 1's ten agents with γ = 0.95 earns more than by staying. One ends ahead on
 # {{ 100 * farther_sighted().scores('success').max() | .0f }} % of the roads, and crashes (Round 2's top row).
-# The curve holds for a driver who follows the plan to its end; a learner does not know the plan. What frees
-# it? We make the road easier, in two ways:
+# The curve holds for a driver who follows the plan to its end, and a learner does not know the plan. What
+# would free a learner? We make the road easier, in two ways:
 # <!-- claim: min(hill(1, 0.8)) > 1 and min(hill(10, 0.95)) > 1 and len(farther_sighted()) == 10 -->
 # <!-- claim: farther_sighted().scores('returns').max() < easier.staying('as it is') -->
 # <!-- claim: (farther_sighted().scores('success') > 0).sum() == 1 and
@@ -255,14 +255,16 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 # **Explain.** *Neither alone is enough; together they free {{ easy(BOTH).escapers('sac') }} of twenty
 # agents.*
 #
-# - *Cheap accidents alone*: {{ crash_on_most(CHEAP) }} crash on most roads, the two that escape among them.
+# - *Cheap accidents alone*: the dip is gone, yet {{ crash_on_most(CHEAP) }} crash on most roads, the two that
+#   escape among them.
 # - *The free lane alone*: {{ ends(MIDDLE)[3] }} stay behind, although one acceleration would do. Of the
 #   {{ easy(MIDDLE).escapers('sac') }} that escape, {{ only_accelerate() }} only accelerate, up to the top
 #   speed, where a second pays hardly anything (pale).
 # - *Both*: {{ ends(BOTH)[0] }} earn more than by staying. But {{ escape_and_crash(BOTH) }} that escape still
 #   crash on most roads: to escape is not to drive well.
 #
-# Luck is not cleared: by chance, few drives are worth more than staying (Round 2).
+# So the dip is not all that keeps agents in. Luck may be a part: by chance, few drives are worth more than
+# staying (Round 2).
 # <!-- claim: escape_and_crash(CHEAP) == 2 == easy(CHEAP).escapers('sac') -->
 # <!-- claim: only_accelerate() == 4 and second_pays(DEFAULT.ego.max_speed) < 0.05 -->
 # <!-- claim: all(len(easy(kind)) == 20 for kind in (BOTH, CHEAP, MIDDLE, 'a later start')) and
@@ -302,7 +304,8 @@ compare_predictions(
 # 2. To a planner that knows the future staying is not best, even at γ = 0.8. A larger γ alone is not enough:
 #    none of ten agents with γ = 0.95 earns more than by staying.
 # 3. Most agents end ahead at least once while they learn, and do not escape.
-# 4. At γ = 0.8 and a price of 10 lesson [[the_trap]]'s plan leads through a dip.
+# 4. At γ = 0.8 and a price of 10 lesson [[the_trap]]'s plan leads through a dip. Without the dip, at a price
+#    of 1, still only {{ easy(CHEAP).escapers('sac') }} of twenty agents escape.
 # 5. Neither cheap accidents nor a start in the free lane frees half of twenty agents. Together they free
 #    {{ easy(BOTH).escapers('sac') }}, and {{ ends(BOTH)[0] }} of these earn more than by staying.
 #

@@ -129,8 +129,8 @@ table(["speeds", "target behind the traps", "gets out, of 200 roads"], rows)
 # 4. The car behind you in the new lane is too close: wait.
 # 5. Else: change to the new lane.
 #
-# Cases 1 to 4 keep the lane. In all five you aim at the target speed, which is 15 m/s with nobody ahead;
-# behind the traps this alone makes you fall back.
+# Cases 1 to 4 keep the lane. In case 1 only the car ahead in your own lane counts for the target speed: with
+# nobody there it is 15 m/s. Behind the traps the target speed alone makes you fall back.
 #
 # How long must the gap of case 3 be? Suppose that the car ahead in the new lane is slower than you. The rule
 # asks for a gap of t_safe seconds times this difference in speed, and at least {{ DEFAULT.rule.floor | g }}

@@ -87,7 +87,7 @@ def gives_up(alone: Mapping[str, np.ndarray]) -> Figure:
 
     alone: the agents of PPO alone, as `ppo_kinds.reference` returns them.
     """
-    title = "PPO alone gives up leaving before sprints pay"
+    title = "PPO alone gives up leaving before it earns more than keeping straight"
     figure, at = new_figure(4.2), alone["at"].T / 1000
     above, below = axes_at(figure, 0.55, 0.75, 5.0, 1.05), axes_at(figure, 0.55, 2.2, 5.0, 1.4)
     panels = ((above, "ahead of trap 1, % of the last 300 drives", 100 * alone["escapes"]),

@@ -74,7 +74,6 @@ def worth_table() -> str:
         [names.get(driver, driver), f"{worth(driver, gammas['sac']):.1f}", f"{worth(driver, gammas['ppo']):.0f}"]
         for driver in ("keeping straight", "the rule", "this agent", "careful")
     ]
-    rows[0][1], rows[2][2] = f"**{rows[0][1]}**", f"**{rows[2][2]}**"
     return markdown(["", f"SAC's γ = {gammas['sac']}", f"PPO's γ = {gammas['ppo']}"], rows)
 
 

@@ -136,18 +136,18 @@ print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {s
 # way to earn them by irregular work?
 
 # %% [markdown]
-# ## Round 2: what came first, staying or sprinting?
+# ## Round 2: when does it give up leaving?
 #
-# Behind trap 1 an agent earns more than by keeping straight if it sprints. For a while in training some
-# drives got ahead of trap 1; after training all ten agents sprint, and none gets ahead.
+# An agent that stays behind trap 1 earns more by sprints than by keeping straight. For a while in training
+# some drives got ahead of trap 1; after training all ten agents sprint, and none gets ahead.
 # <!-- claim: all(ppo_speeds(seed=i).max() > 14 and ppo_speeds(seed=i).min() < 4 for i in range(ppo_agents())) -->
 #
 # > **Predict.** What comes first?
 
 # %%
 choices = [
-    "sprints begin to pay, and so it gives up leaving",
-    "it gives up leaving, and then sprints begin to pay",
+    "it earns more than keeping straight, and then gives up leaving",
+    "it gives up leaving, and then earns more than keeping straight",
     "both at about the same time",
 ]
 predict("the_second_trap.3", "What comes first in training?", choices)
@@ -159,7 +159,7 @@ bc.show(figures.gives_up(ppo_kinds.reference()["alone"]))
 # %% [markdown]
 # **See.** At 200,000 decisions up to {{ 100 * ppo('alone')['escapes'][:, 3].max() | .0f }} % of an agent's
 # drives get ahead, at 300,000 none, and later hardly any. At 300,000 all ten agents still earn less than by
-# keeping straight: they gave up leaving *before* sprints paid more than that.
+# keeping straight: they gave up leaving *before* they earned more than that.
 # <!-- claim: all(abs(at[3] - 200_000) < 500 and abs(at[5] - 300_000) < 500 for at in ppo('alone')['at']) and
 #   ppo('alone')['escapes'][:, 5].max() == 0 and ppo('alone')['curve'][:, :6].max() < idle().rewards.sum() -->
 # <!-- claim: ppo('alone')['curve'][:, 9:].max(axis=1).min() > idle().rewards.sum() + 5 and
@@ -203,8 +203,14 @@ explorable.later()
 #
 # PPO then fits V to A + V, as computed from its drives.
 #
-# **Two endings need care**: an accident, and the end of the time. The sum stops at both, and where the data
-# end. The next V is 0 after an accident; when the time is over, it is V of the last state.
+# **Two endings need care**:
+#
+# | after decision t comes | next V in δ | the sum |
+# |---|---|---|
+# | a decision | V of the next state | goes on |
+# | an accident | 0 | stops |
+# | the end of the time | V of the last state | stops |
+# | the end of the data | V of the next state | stops |
 #
 # PPO's data end after {{ settings_for('ppo').horizon }} decisions, often before the sprint. What follows
 # counts in A only through V of the last state, so falling back then looks good only once V has learned that a
@@ -254,8 +260,8 @@ predicted("the_second_trap.4")
 bc.show(figures.hinges(0.2))
 
 # %% [markdown]
-# **See.** Where the line is flat, the decision has no gradient. The actor's loss, apart from a small entropy
-# bonus, is
+# **See.** Where the line is flat, the decision has no gradient. With A scaled to mean 0 and deviation 1, and
+# but for a small entropy bonus, the actor's loss is
 #
 # $$ L = -\,\mathrm{mean}\big[\min(\rho A,\ \mathrm{clip}(\rho, 1 - ε, 1 + ε)\, A)\big] $$
 #
@@ -330,7 +336,7 @@ compare_predictions(
     {
         1: "on none",
         2: "almost four times as much",
-        3: "it gives up leaving, and then sprints begin to pay",
+        3: "it gives up leaving, and then earns more than keeping straight",
         4: "yes, it makes the action rarer",
         5: "it earns far more",
     },
@@ -342,8 +348,8 @@ compare_predictions(
 # 1. Ten agents of PPO alone earn twice what keeping straight earns, and none gets out: look at success, and
 #    at a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one.
-# 3. They gave up leaving before sprints paid more than keeping straight.
-# 4. After cloning the rule, all ten escape; why is open.
+# 3. They gave up leaving before they earned more than keeping straight.
+# 4. After cloning the rule, all ten escape.
 #
 # **Three questions to think about**
 # - Which number, other than success, would have shown the second trap?

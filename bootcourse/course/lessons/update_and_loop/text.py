@@ -165,8 +165,8 @@ check.update(update)
 #   up. Reset the environment after a fall and when the time is up.
 # - `agent.draw(state, rng)` draws an action, and `by_hand.row(s, a, r, terminated, s')` makes a row.
 # - `by_hand.batch_of(buffer.sample(256, rng))` is a batch for `update`.
-# - A call begins with a reset. Make no update before push 256, and from then on one update at every fourth
-#   push.
+# - A call begins with a reset. Count its pushes: no update before push 256, and from then on one at every
+#   fourth.
 
 
 # %%
@@ -299,13 +299,15 @@ stands = by_hand.balanced(added)
 print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {tests[1]:.0f}.")
 
 # %% [markdown]
-# **Explain.** Only rows were added, and Q is possible in all five agents that we trained with them. They
-# balance the pole for {{ after_a_block('paid-0').min() | .0f }} to {{ after_a_block('paid-0').max() | .0f }}
-# pushes.
+# **Explain.** With these rows Q is possible in all five agents that we trained, and they balance the pole for
+# {{ after_a_block('paid-0').min() | .0f }} to {{ after_a_block('paid-0').max() | .0f }} pushes. With
+# `PAID = 1` Q is possible in all five, too, but they balance it for {{ after_a_block('paid-1').max() | .0f }}
+# pushes. So rows make Q possible, and the pole stands if they pay 0.
 #
 # We think that without these rows Q fed itself: the target passed the guess for the fallen pole on to the
 # last push, and one network gives both values, so the guess rose, too.
-# <!-- claim: possible('paid-0') == 5 == len(agents('paid-0')) and after_a_block('paid-0').argmax() == 1 -->
+# <!-- claim: possible('paid-0') == possible('paid-1') == 5 == len(agents('paid-1')) == len(agents('paid-0')) and
+#   after_a_block('paid-0').argmax() == 1 -->
 #
 # A low score shows that something is wrong. An impossible Q also says where to look: at the critics and their
 # rows.
@@ -330,8 +332,8 @@ compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: compared, 4
 # 2. An update steps the critics, the actor and the temperature; the copies follow.
 # 3. `terminated` says that nothing more is earned. A time limit does not say so.
 # 4. In a small world you can work out Q and the right push, so a bug can show as a wrong number.
-# 5. A critic makes up what no row tells it. A Q above its limit gives that away, but a Q below it may still
-#    be wrong.
+# 5. A critic makes up what no row tells it. A Q above its limit gives that away. A Q below it may still be
+#    wrong (`PAID = 1`).
 
 # %% [markdown]
 # **Three questions to think about**

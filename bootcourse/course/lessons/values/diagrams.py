@@ -163,7 +163,7 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
                 beaten = decisions[goes_on_from(q, state)]
                 ax.plot([beaten] * 2, [-0.05, 1.85], color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
                 ax.text(beaten, 1.87, f"in {state}", **words)
-        ends = [(q[-1, 0, 0], "Q(0, 0), stay", OTHER.colour), (q[-1, 0, 1], "Q(0, 1), leave", ON.colour)]
+        ends = [(q[-1, 0, 0], "Q(0, 0), stay once", OTHER.colour), (q[-1, 0, 1], "Q(0, 1), leave", ON.colour)]
         label_ends(ax, ends)
         listed.append(
             f"{len(arrived)} walks reach the free road, the first after {decisions[arrived[0]]} decisions; "

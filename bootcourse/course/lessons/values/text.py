@@ -152,7 +152,8 @@ bc.show(diagrams.sweeps(found))
 # ## Round 3: learning from one decision
 #
 # A sweep needs a map: all rewards and next states. A learner on the road has no map; after each decision it
-# sees one reward and one next state. How much better than expected this went is the **temporal difference**:
+# sees one reward and one next state. The **temporal difference** says how much better this went than
+# expected:
 #
 # $$ \delta = r + \gamma \max_{a'} Q(s', a') - Q(s, a) $$
 #
@@ -328,7 +329,7 @@ compare_predictions(
 #    of it find Q.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves Q(s, a) by a
 #    part of this difference, and needs no map.
-# 4. Learned forwards, a walk carries a value at most one state back, and past a state only once going on is
+# 4. Learned forwards, a walk carries a value at most one state back. It passes a state only when going on is
 #    worth more there than turning back.
 # 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and so does a
 #    demonstration.

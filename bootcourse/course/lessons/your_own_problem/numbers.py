@@ -59,20 +59,17 @@ def alone(bonus: str) -> float:
 def loops_table() -> str:
     """How many drives of DoorKey reach the goal, by drawn actions and by the most probable ones, as Markdown."""
     kinds = [
-        ("no teacher (plain SAC)", "–", "none", "SAC", None),
-        ("random teacher, both aids", "yes", "random", "both, c = 0", "both"),
-        ("the same, only its drives that reach the goal", "no", "random", None, elsewhere.WITHOUT_LOOPS),
-        ("good teacher, both aids", "no", "good", "both, c = 0", "both"),
+        ("all drives of the random teacher", "yes", "random", "both"),
+        ("only those of them that reach the goal", "no", "random", elsewhere.WITHOUT_LOOPS),
+        ("all drives of the good teacher", "no", "good", "both"),
     ]
 
-    def reached(teacher: str, how: str | None) -> str:
-        if how is None:
-            return "–"
+    def reached(teacher: str, how: str) -> str:
         drawn, probable = (100 * score("doorkey", teacher, how, by) for by in ("drawn_success", "success"))
         return f"{drawn:.0f} ({probable:.0f})"
 
-    rows = [[name, loops_, *(reached(teacher, how) for how in both)] for name, loops_, teacher, *both in kinds]
-    return markdown(["learns from", "loops", "c = 0", "c = 2"], rows)
+    rows = [[name, loops_, reached(teacher, how)] for name, loops_, teacher, how in kinds]
+    return markdown(["the demonstrations", "loops", "goals"], rows)
 
 
 def entry_scores() -> list[float]:

@@ -223,13 +223,12 @@ for name in ("mountain-car", "doorkey"):
 
 # %% [markdown]
 # **See.** In DoorKey the clone outvotes no error, nor does a clone that is shown each of the
-# {{ loops.states(labels('doorkey')[0]) }} states once. It learns these few states one by one, so there is no
-# vote.
+# {{ loops.states(labels('doorkey')[0]) }} states once. It learns these few states one by one.
 #
-# The loops *spread* the errors. The teacher errs in only {{ doorkey_errors()[0] }} states, but
-# {{ 100 * doorkey_errors()[2] | .0f }} % of its labels are wrong. The clone errs in more than half of the
-# {{ doorkey_errors()[1] }} states in which its teacher is right; a clone shown each state once errs in hardly
-# any.
+# In the drives there *is* a vote, but loops repeat errors: the teacher errs in only {{ doorkey_errors()[0] }}
+# states, yet {{ 100 * doorkey_errors()[2] | .0f }} % of its labels are wrong. So the errors *spread*: the
+# clone errs in more than half of the {{ doorkey_errors()[1] }} states in which its teacher is right; a clone
+# shown each state once errs in hardly any.
 # <!-- claim: clone_errs_more() > doorkey_errors()[1] / 2 -->
 # <!-- claim: (lambda seen, taught, cloned, good: (cloned == taught)[taught != good].all() and
 #   (cloned != taught).sum() <= 3 and len(seen) == loops.states(seen))(*shown_once()) -->
@@ -298,13 +297,13 @@ check.drowning_bonus(drowning_bonus)
 # <!-- claim: math.isclose(drowning_bonus(0, 1, 1, 0.97), drowning_bonus(0, 1, 90, 0.97)) -->
 # <!-- claim: list(BONUSES)[2] == 'c = 0.1' and min(by_bonus(t)[2] for t in TEACHERS) > 0.5 -->
 #
-# **Is it the loop?** Drives of 100 that reach the goal, by drawn actions (by most probable ones):
+# **Is it the loop?** Goals in 100 drives with c = 2, by agents with both aids, which draw their actions (or
+# take the most probable ones):
 #
 # {{ loops_table() }}
 #
-# With both aids c = 2 takes *every* goal away only where the demonstrations hold loops. By most probable
-# actions the random teacher harms even without loops. *Open*: with demonstrations alone c = 2 also ruins the
-# good teacher's agents.
+# So with both aids c = 2 takes *every* goal away only where the demonstrations hold loops. *Open*: with
+# demonstrations alone it also ruins the good teacher's agents.
 # <!-- claim: max(score('doorkey', 'random', how) for how in ('both', 'both, c = 0', elsewhere.WITHOUT_LOOPS)) <
 #   0.75 * score('doorkey', 'none', 'SAC') -->
 # <!-- claim: without_loops() > 0.8 and score('doorkey', 'random', 'both', 'drawn_success') == 0 and
@@ -367,8 +366,8 @@ def enter(decisions):
 # 1. *Does a teacher help?* Compare with plain SAC and the clone, at equal decisions and several budgets.
 # 2. *Did the agents need the reward?* Train without it.
 # 3. *Which errors does the teacher make?* A clone's most probable action can outvote random errors.
-# 4. *Do states come back?* Where few states come back, a clone can copy each error, and a loop's errors can
-#    spread.
+# 4. *Do states come back?* Where the same few states come back, a clone can copy each error, and a loop's
+#    errors can spread.
 # 5. *What pays in a loop?* With a bonus a loop can be worth more than the goal.
 #
 # **Three questions to think about**

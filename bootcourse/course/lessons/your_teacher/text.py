@@ -246,10 +246,8 @@ taught = shipped_teachers()
 bc.show(figures.of_six_teachers(taught))
 
 # %% [markdown]
-# **See.** All ten escape. The rule's ten earn less, {{ taught_returns('rule').mean() | .0f }} against {{
-# taught_returns('random-50').mean() | .0f }}.
-# <!-- claim: 2 * taught_agents.p_value(taught_returns('rule'), taught_returns('random-50')) < 0.05 and
-#   taught_returns('rule').mean() < taught_returns('random-50').mean() -->
+# **See.** All ten escape. Of the rule's ten, {{ escape_of(['rule']) }} do after this longer training (lesson
+# [[found_and_kept]] looks at such losses).
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 -->
 #
 # Where a teacher's drives reach the free lane, most of its students escape; where they do not, none does.
@@ -307,22 +305,22 @@ def without_the_accident(lanes):
 check.without_the_accident(without_the_accident)
 
 # %% [markdown]
-# Two agents learn from your choice for a short time.
+# Two agents learn from your choice, as briefly as in Round 2.
 
 # %% tags=["nbval-ignore-output"]
-predicted("your_teacher.4")
 passed = check.without_the_accident(without_the_accident).passed
 figures.chosen(without_the_accident) if passed else "First the exercise."
 
 # %% [markdown]
-# Here are ten of each kind, after a whole training:
+# Ten of each kind, after a whole training:
 
 # %%
+predicted("your_teacher.4")
 bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
-# **Explain.** *Most students of half random escape if its drives show the free lane, whether they crash there
-# or not*. But the drives are not enough: from all of them without the bonus c,
+# **Explain.** *Most students of half random escape if its drives show the free lane, with the accident there
+# or without it*. But the drives are not enough: from all of them without the bonus c,
 # {{ crash_escapes('no-bonus') }} of ten escape.
 # <!-- claim: crash_shown('no-bonus') and crash_escapes('no-bonus') < 5 < crash_escapes('all') -->
 
