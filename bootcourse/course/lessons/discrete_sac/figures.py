@@ -52,5 +52,5 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
     ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=3, fontsize=SMALL, frameon=False, columnspacing=1.2)
     alt = f"A bar for each kind of learner: {', '.join(names)}. Of each kind, in this order, {'; '.join(alt_parts)}. "
     alt += f"To the right, π(leave) of an agent that knows the chain: {', '.join(f'{each:.2f}' for each in known)}."
-    title = "With a small α few find the free road, with a large one none is sure; with a falling α nearly half do both"
+    title = "With a small α few find the free road, with a large one none is sure; falling from 10, nearly half do both"
     return finish(figure, title, alt)
