@@ -172,9 +172,14 @@ def own_method(name: str, method: Method) -> Iterator[str]:
 def display_name(label: str) -> str:
     """The name of a drive or a method in text and figures: "sac, seed 3" -> "plain SAC, seed 3"."""
     first, comma, rest = label.partition(",")
-    key = first.strip().lower()
+    key = driver_of(label)
     name = METHODS[key].name if key in METHODS else DRIVERS.get(key, (first.strip(),))[0]
     return name + comma + rest
+
+
+def driver_of(label: str) -> str:
+    """The name of who drives, at the beginning of a drive's label: "sac, seed 3" -> "sac"."""
+    return label.partition(",")[0].strip().lower()
 
 
 def style(label: str) -> Style:

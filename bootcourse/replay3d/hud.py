@@ -10,7 +10,7 @@ from bootcourse.colours import ALARM, TRAP
 from bootcourse.episodes.rollout import series
 from bootcourse.episodes.words import ACCIDENTS
 from bootcourse.markup import Markup, html, joined
-from bootcourse.methods import display_name, style
+from bootcourse.methods import display_name, driver_of, style
 from bootcourse.plots.futures import LEGEND
 from bootcourse.plots.svg import SvgAxes
 from bootcourse.replay3d.timeline import Timeline
@@ -73,7 +73,7 @@ def card(timeline: Timeline, t: float, details: bool = True) -> Markup:
     parts = [html("<h4>{}{} {}{}</h4>", _dot(timeline), display_name(rollout.label), road, badge)]
     shown = (_numbers, _reward, _choice, _reason) if details else (_numbers, _does)
     parts += [part(timeline, t) for part in shown]
-    if not details and rollout.label.partition(", sight")[0] == "rule":
+    if not details and driver_of(rollout.label) == "rule":
         parts.append(_reason(timeline, t))
     if timeline.imagined is not None:
         parts.append(html('<div class="dim">imagined drives: {}; broad: driven</div>', LEGEND))

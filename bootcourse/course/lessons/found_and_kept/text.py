@@ -290,8 +290,8 @@ bc.show(figures.chances(cells, chance))
 #   settings_for('demos', 'paper').stochastic_demonstrations) == (2, 1, True) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Write the four explanations on the board before they read this section, and let the class fill in what was
-# seen of each, and "shown" or "not shown". What would the authors have to print so that nobody had to guess?
+# Write the four explanations on the board before they read this section. Let the class write beside each what
+# was seen of it, and whether that shows it. What must a paper print, so that nobody has to guess?
 # (Updates for a decision, agents behind a row, all seeds.)
 
 # %%

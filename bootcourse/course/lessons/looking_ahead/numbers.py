@@ -133,14 +133,14 @@ def learned_drives() -> int:
     return len(learning()) * learned_model.TESTS
 
 
-def learned(form: str) -> np.ndarray:
-    """Accidents in 1,000 drives, the agents' mean after each round, (rounds,)."""
-    return learned_model.per_thousand(learning(), form).mean(0)
+def in_last_model() -> np.ndarray:
+    """Accidents in 1,000 drives of each that looks ahead in the model of the look-ahead's drives, too, (agents,)."""
+    return learned_model.per_thousand(learning(), figures.LEARNED_FORM)[:, -1]
 
 
-def learned_without(form: str, share: float | None = None) -> float:
-    """The same of a control, whose model learned from drives without a look-ahead."""
-    return float(learned_model.per_thousand(learning(share), form, control=True).mean())
+def learned_without(share: float | None = None) -> float:
+    """The agents' mean in a control, whose model learned from drives without a look-ahead."""
+    return float(learned_model.per_thousand(learning(share), figures.LEARNED_FORM, control=True).mean())
 
 
 def of_alone() -> np.ndarray:
@@ -148,14 +148,9 @@ def of_alone() -> np.ndarray:
     return figures.per_thousand(shipped(), Cell(learned_model.BASE, "alone"))[: len(learning())]
 
 
-def in_last_model(form: str) -> np.ndarray:
-    """The same in the model that learned from the look-ahead's drives, too, (agents,)."""
-    return learned_model.per_thousand(learning(), form)[:, -1]
-
-
 def worse_when_learned() -> np.ndarray:
     """Which of them crash more often with the look-ahead in that model than alone, (agents,)."""
-    return in_last_model(figures.LEARNED_FORM) > of_alone()
+    return in_last_model() > of_alone()
 
 
 def learned_rows(share: float | None = None) -> np.ndarray:

@@ -307,9 +307,9 @@ bc.show(figures.learned(shipped_experiment("learned-model"), study))
 # **See.** With more of the agent's own drives still every drive with the look-ahead crashes. Random actions
 # help, and the look-ahead's own drives help it most on average; yet with them
 # {{ worse_when_learned().sum() }} of the ten agents still crash more than alone.
-# <!-- claim: learned_without('mean of five') == 1000 and learned('mean of five')[-1] < 0.6 *
-#   learned_without('mean of five', share=0.1) and learned('mean of five')[-1] < 0.6 *
-#   learned_without('mean of five', share=0.3) and all(learned_without('mean of five', share=share) <
+# <!-- claim: learned_without() == 1000 and in_last_model().mean() < 0.6 *
+#   learned_without(share=0.1) and in_last_model().mean() < 0.6 *
+#   learned_without(share=0.3) and all(learned_without(share=share) <
 #   800 for share in learned_model.RANDOM) -->
 # <!-- claim: learned_model.RANDOM == (0.1, 0.3) and len(worse_when_learned()) == 10 -->
 #

@@ -122,15 +122,15 @@ table(["speeds", "target behind the traps", "gets out, of 200 roads"], rows)
 # The rule takes the first of five cases that applies. Imagine that you drive; the *new* lane is the one on
 # your left.
 #
-# 1. You see nobody ahead in this lane, or it is the leftmost: stay.
+# 1. You see nobody ahead in your lane, or your lane is the leftmost: stay.
 # 2. You are still on the way into this lane, more than {{ SETTLED }} m from the lane's middle: finish this
 #    lane change first.
 # 3. The gap to the car ahead in the new lane is not longer than the **safety distance** $d_s$: fall back.
 # 4. The car behind you in the new lane is too close: wait.
 # 5. Else: change to the new lane.
 #
-# Cases 1 to 4 keep the lane. In case 1 only the car ahead in your own lane counts for the target speed: with
-# nobody there it is 15 m/s. Behind the traps the target speed alone makes you fall back.
+# Cases 1 to 4 keep the lane. In case 1 only the car ahead in your own lane counts for the target speed, which
+# is 15 m/s if you see nobody there. Behind the traps the target speed is below theirs, so you fall back.
 #
 # How long must the gap of case 3 be? Suppose that the car ahead in the new lane is slower than you. The rule
 # asks for a gap of t_safe seconds times this difference in speed, and at least {{ DEFAULT.rule.floor | g }}

@@ -67,7 +67,7 @@ def worth(driver: str, gamma: float) -> float:
 
 
 def worth_table() -> str:
-    """What four drives are worth with SAC's γ and with PPO's, as Markdown; the two traps in bold."""
+    """What four drives are worth with SAC's γ and with PPO's, as Markdown."""
     gammas = {method: settings_for(method).gamma for method in ("sac", "ppo")}
     names = {"careful": f"`careful` (lesson {number('your_teacher')})"}
     rows = [

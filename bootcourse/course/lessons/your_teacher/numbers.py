@@ -106,11 +106,6 @@ def escape_of(teachers: list[str]) -> int:
     return sum(worth()[teacher, "bootstrapped"].escapers("bootstrapped") for teacher in teachers)
 
 
-def taught_returns(teacher: str) -> np.ndarray:
-    """What the ten bootstrapped students of one of these teachers earn."""
-    return worth()[teacher, "bootstrapped"].scores("returns")
-
-
 def worth() -> dict:
     """{(teacher, method): ten agents} of the experiment `teachers`."""
     return shipped_teachers()
