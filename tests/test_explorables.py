@@ -57,7 +57,7 @@ def test_each_slider_changes_the_picture_and_refuses_nonsense(lesson, name):
         assert "bc-wrong" in number.help.value
 
 
-@pytest.mark.parametrize("lesson", COURSE[1:])
+@pytest.mark.parametrize("lesson", [each for each in COURSE[1:] if FIRST[each] or "$$" in text_file(each).read_text()])
 def test_each_core_lesson_has_something_to_drag_before_the_formula_of_its_round(lesson):
     cells = read(text_file(lesson))
     shows = r"^explorable\.\w+\(\)|^bc\.panels\.bonus_panel\(c=0\)"

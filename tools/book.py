@@ -37,6 +37,7 @@ LEARNED = {
         "without the soft constraint": "learn=demos&agents=2&drives=600",
     },
 }
+AFTER = {"soft_constraint": "figures.twenty("}  # lesson -> in the code of the cell below which it trains
 BEFORE_THE_RULE = ("the_trap", "the_barrier")  # the sliders of the page that learns are of later lessons
 WORLD = re.compile(r'<img [^>]*data-world="([^"]*)"[^>]*>')  # the picture that a world leaves where no kernel runs
 SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
@@ -67,7 +68,12 @@ def gather(to: Path, edition: str = "student") -> None:
         as_a_page(notebook, to / "lessons" / notebook.name)
         lesson = notebook.stem.partition("_")[2]
         if lesson in LEARNED:
-            add_learning(to / "lessons" / notebook.name, LEARNED[lesson], folded=lesson in BEFORE_THE_RULE)
+            add_learning(
+                to / "lessons" / notebook.name,
+                LEARNED[lesson],
+                AFTER.get(lesson, ".run("),
+                folded=lesson in BEFORE_THE_RULE,
+            )
         if edition != "instructor":
             continue
         # The solved notebooks are not in the book: the page has the solutions itself, and says where they lie.
@@ -103,11 +109,11 @@ def is_folded_text(cell: dict) -> bool:
     return cell["cell_type"] == "markdown" and cell["metadata"].get("jupyter", {}).get("source_hidden", False)
 
 
-def add_learning(notebook: Path, addresses: dict[str, str], folded: bool = False) -> None:
+def add_learning(notebook: Path, addresses: dict[str, str], after: str = ".run(", folded: bool = False) -> None:
     """Let agents learn in a lesson's page in the book: one page, several links.
 
     It stands in the place of the lesson's training panel, which needs a kernel, or below what is said of the first
-    training. folded: its sliders are not explained yet.
+    training. after: in the code of that cell. folded: its sliders are not explained yet.
     """
     from bootcourse.markup import html
 
@@ -127,7 +133,7 @@ def add_learning(notebook: Path, addresses: dict[str, str], folded: bool = False
         output = {"output_type": "display_data", "metadata": {}, "data": {"text/html": said, "text/plain": ""}}
         cells[panels[0]]["outputs"] = [output]
     else:
-        trains = next(i for i, text in code.items() if ".run(" in text)
+        trains = next(i for i, text in code.items() if after in text)
         below = next((i for i in range(trains, len(cells)) if is_folded_text(cells[i])), trains)
         cells.insert(below + 1, {"cell_type": "markdown", "id": "learn", "metadata": {}, "source": said})
     notebook.write_text(json.dumps(content), encoding="utf-8")

@@ -6,11 +6,14 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
+from bootcourse.colours import QUIET
+from bootcourse.course.dots import dots, name_rows
 from bootcourse.learn.curves import by_label
 from bootcourse.learn.training import Training
 from bootcourse.methods import display_name
-from bootcourse.plots.figure import Picture
+from bootcourse.plots.figure import Picture, axes_at, finish, label_ends, new_figure, plain_axes
 from bootcourse.plots.training_curves import WINDOW, training_curves
+from bootcourse.statistics import IN_A_ROW
 
 MEASURES = ("success", "return")
 EVERY = 10  # updates between the points of a curve
@@ -74,3 +77,51 @@ class LiveCurves:
         others = "".join(f", {name} {word}{share}" for name, share in zip(names[1:], now[1:], strict=True))
         title = f"After {training.updates:,} updates {names[0]} {verb} {word}{now[0]} {unit}{others}"
         return training_curves(each, title, updates=np.array(self.updates), **self.drawn)
+
+
+class LiveWayOut(LiveCurves):
+    """Of the last 50 episodes, how many two agents end ahead, while they learn; below, when trained ones found the way.
+
+    names: what tells the two apart, for the title and the rows of dots; looks: their colours. found: for each of the
+    two, the episodes after which agents trained like it found the way out, (agents,); a_dot: which agents these are.
+    """
+
+    def __init__(self, names: Sequence[str], looks: Sequence[str], found: Sequence[np.ndarray], a_dot: str):
+        super().__init__()
+        self.names, self.looks, self.found, self.a_dot = names, looks, found, a_dot
+
+    def show(self, training: Training) -> None:
+        if training.curves.finished.min() >= 2:  # a line has two points
+            super().show(training)
+
+    def draw(self, training: Training) -> Figure:
+        done = np.minimum(training.curves.finished, training.episodes)
+        success = training.curves.values["success"]
+        lines = [_ahead(each[:count]) for each, count in zip(success, done, strict=True)]
+        title = f"Ahead in the last {min(*done, IN_A_ROW)} episodes: "
+        title += ", ".join(f"{line[-1]:.0f} {name}" for line, name in zip(lines, self.names, strict=True))
+        figure, most = new_figure(4.2), 400  # episodes: by then the agents that trained have found it
+        ax, below = axes_at(figure, 1.6, 0.9, 3.7, 1.4), axes_at(figure, 1.6, 2.65, 3.7, 0.9)
+        plain_axes(ax, f"of the last {IN_A_ROW} training episodes, ended ahead: one agent each")
+        for line, colour in zip(lines, self.looks, strict=True):
+            ax.plot(np.arange(1, len(line) + 1), line, color=colour, linewidth=2)
+            ax.plot(len(line), line[-1], "o", color=colour, markersize=5, clip_on=False)
+        ax.axhline(IN_A_ROW / 2, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+        ax.set(xlim=(0, most), ylim=(0, IN_A_ROW))
+        ends = [(line[-1], name, colour) for line, name, colour in zip(lines, self.names, self.looks, strict=True)]
+        label_ends(ax, [*ends, (IN_A_ROW / 2, "above: it finds the way out", QUIET)])
+        for place, (episodes, colour) in enumerate(zip(self.found, self.looks, strict=True)):
+            dots(below, episodes, place, colour)
+        name_rows(below, self.names, f"episode; a dot: {self.a_dot} finds the way out")
+        below.set_xlim(0, most)
+        said = (f"{name}, after {each.min():.0f} to {each.max():.0f} episodes"
+                for name, each in zip(self.names, self.found, strict=True))  # fmt: skip
+        alt = f"Lines over {done[0]} and {done[1]} episodes. A dot: {self.a_dot} finds the way out: {'; '.join(said)}."
+        return finish(figure, title, alt)
+
+
+def _ahead(success: np.ndarray) -> np.ndarray:
+    """Of each episode and the 49 before it, how many ended ahead: 0/1 (episodes,) -> (episodes,)."""
+    ahead = np.cumsum(success)
+    ahead[IN_A_ROW:] -= ahead[:-IN_A_ROW].copy()
+    return ahead

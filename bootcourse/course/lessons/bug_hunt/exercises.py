@@ -75,7 +75,7 @@ def explain_hunt(cases, answers):
 
 
 @exercise(
-    "six bugs, six agents", minutes=12, difficulty=3, explain=explain_hunt,
+    "six bugs, six agents", minutes=8, difficulty=2, explain=explain_hunt,
     cases=lambda rng: [(letter,) for _ in range(4) for letter in rng.permutation(list("ABCDEF")).tolist()],
     worked=[(("A",), "flipped_kl"), (("F",), "no_stop")],
     hints=(

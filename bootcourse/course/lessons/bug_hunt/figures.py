@@ -5,15 +5,22 @@ The titles say what is drawn and not what it shows: to find that is the student'
 
 from collections.abc import Mapping
 
+import numpy as np
 from matplotlib.figure import Figure
 
+from bootcourse.colours import OTHER
 from bootcourse.course import charts, shipped
-from bootcourse.course.lessons.bug_hunt.bugs import Hunt
+from bootcourse.course.dots import name_rows
+from bootcourse.course.lessons.bug_hunt.bugs import EVERY, LETTERS, Hunt
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.settings import settings_for
+from bootcourse.plots.figure import axes_at, finish, new_figure
 
 DRIVERS = {"first agent": "healthy", "second agent": "E"}
+HEAD, FOOT = 0.6, 0.5  # inches, above and below the rows of `line_ends`
+LAST = 8  # values of a probe, of which `line_ends` shows the mean
+PALE = "#CFD5DB"  # the healthy agent
 
 
 def most(with_bonus: bool = True) -> float:
@@ -68,3 +75,37 @@ def rarest(hunt: Hunt) -> Figure:
     title = "The policy's rarest action"
     what = "ln of the rarest action's probability (−20: 2 in a billion)"
     return charts.many(hunt.probes("rarest"), title, "updates", what, reference="healthy")
+
+
+def line_ends(hunt: Hunt) -> Figure:
+    """Where the lines of the four pictures above end: a row for each agent, a column for each picture.
+
+    The return is the mean of the last 30 episodes, as above; a probe's value is the mean of its last `LAST`.
+    """
+    panels = {
+        "return (Round 1)": hunt.at_the_end("return"),
+        "Q at own accidents (2)": last(hunt, "end"),
+        "promise (3)": last(hunt, "promise"),
+        "rarest action, ln (4)": last(hunt, "rarest"),
+    }
+    title, row, alt = "Where the lines end", 0.27, []
+    figure = new_figure(HEAD + row * len(LETTERS) + FOOT)
+    for place, (what, ends) in enumerate(panels.items()):
+        ax = axes_at(figure, 0.4 + 1.66 * place, HEAD, 1.45, row * len(LETTERS))
+        low, high = min(ends["healthy"]), max(ends["healthy"])
+        ax.axvspan(low, high, color=PALE, linewidth=3, zorder=1)  # its edge shows a narrow band, too
+        for y, name in enumerate(LETTERS):
+            ax.scatter(ends[name], [y, y], s=22, color=OTHER.colour, zorder=3, clip_on=False)
+        name_rows(ax, LETTERS if place == 0 else [""] * len(LETTERS), what)
+        ax.margins(x=0.08)
+        said = "; ".join(f"{name}: {', '.join(f'{value:.3g}' for value in ends[name])}" for name in ends)
+        alt.append(f"{what}: {said}")
+    span = f"means of the last 30 episodes or {LAST * EVERY:,} updates"
+    words = f"dots: an agent's two lines; grey: from one of the healthy agent's to the other ({span})"
+    figure.text(0.012, 1 - 0.42 / figure.get_figheight(), words, fontsize=charts.SMALL, color=charts.QUIET)
+    return finish(figure, title, f"Two dots in each row. {'. '.join(alt)}.".replace("-", "−"))
+
+
+def last(hunt: Hunt, probe: str) -> dict[str, np.ndarray]:
+    """The mean of a probe's last `LAST` values, {name: (2 seeds,)}."""
+    return {name: hunt.probe(name, probe)[:, -LAST:].mean(axis=1) for name in hunt.names}

@@ -90,8 +90,8 @@ def alone(agents: Sequence[Agent]) -> list[Rollout]:
     return record(all_at_once(agents), [*range(60)] * len(agents))
 
 
-def accidents(drives: Sequence[Rollout]) -> str:
-    """A sentence: how many of the drives end in an accident, and in which."""
+def accidents(drives: Sequence[Rollout], of_rule: Tensor) -> str:
+    """How many of the drives end in an accident, in which, and how many of these come left of the rule's rows."""
     ended = Counter(Accident(each.accident) for each in drives if each.accident)
     left = sum(off_on_the_left(each) for each in drives)
     kinds = {
@@ -101,7 +101,12 @@ def accidents(drives: Sequence[Rollout]) -> str:
         "into another car": ended[Accident.COLLISION],
     }
     said = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count)
-    return f"{sum(ended.values())} of {len(drives)} drives end in an accident: {said}."
+    crashed, furthest = [each for each in drives if each.accident], left_in(of_rule).max().item()
+    beyond = sum(bool((metres_left(each) > furthest).any()) for each in crashed)
+    return (
+        f"{len(crashed)} of {len(drives)} drives end in an accident: {said}.\n"
+        f"In {beyond} of these the car comes left of all the rule's rows first."
+    )
 
 
 def off_on_the_left(drive: Rollout) -> bool:

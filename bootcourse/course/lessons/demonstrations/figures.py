@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
+from torch import Tensor
 
 from bootcourse.course.lessons.demonstrations import cloning
 from bootcourse.episodes.rollout import Rollout
@@ -93,50 +94,40 @@ def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title:
 
 
 STEPS_LEFT = np.array([-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0])  # m, the bars of `off_the_road`
+PLACES = "2 m right", "1 m right", "lane's middle", "1 m left", "2 m left:\nthe road's edge"
 
 
-def off_the_road(own: Sequence[Rollout], of_rule: Sequence[Rollout], seconds: int = 15) -> Figure:
-    """How clones leave the road: their last seconds, where the rule has been, and how often they decide unlike it."""
-    furthest = max(cloning.metres_left(drive).max() for drive in of_rule)
+def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
+    """How many rows the rule has at each place across the left lane, and how often the clones err there."""
     left = np.concatenate([cloning.metres_left(drive) for drive in own])
     wrong = np.concatenate([drive.actions != drive.rule_actions for drive in own])
     each = np.digitize(left, STEPS_LEFT) - 1
     shares = np.array([100 * wrong[each == k].mean() for k in range(len(STEPS_LEFT) - 1)])
-    rows = np.histogram(np.concatenate([cloning.metres_left(drive) for drive in of_rule]), STEPS_LEFT)[0]
-    title = "How the clones leave the road, and where they err"
-    if shares[-1] > 90 and rows[-1] == 0:
-        title = "Left of the rule's path, nearly every decision is an error"
-    figure = new_figure(3.9)
-    paths = figure.add_axes((0.075, 0.14, 0.5, 0.7))
-    bars = figure.add_axes((0.63, 0.14, 0.34, 0.7))
-    gone = [drive for drive in own if cloning.off_on_the_left(drive)]
-    nearest = STEPS_LEFT[np.argmax(rows > 0)]  # the lowest bar with a decision of the rule
-    for ax in (paths, bars):
-        ax.axhspan(nearest, furthest, color=style("rule").colour, alpha=0.13, linewidth=0)
-    last = [cloning.metres_left(each)[-seconds:] for each in gone]
-    once = {tuple(np.round(way, 2)): way for way in last}  # or equal paths look like a thick one
-    for way in once.values():
-        when = np.arange(-len(way), 0)
-        paths.plot(when, way, color=style("bc").colour, linewidth=0.7, alpha=0.5)
-        paths.plot(when, np.where(way > furthest, way, np.nan), color=INK, linewidth=1.2)
-    where = {"color": style("rule").colour, "fontsize": TEXT, "va": "bottom", "backgroundcolor": "#DEF2EA"}
-    paths.text(-seconds + 0.1, nearest + 0.05, "where the rule's drives are", **where)
-    paths.set(xlim=(-seconds - 0.2, -0.6), ylim=(-2, 2.05))
-    paths.set_xlabel("seconds before the accident", fontsize=TEXT, color=INK)
-    plain_axes(paths, "left of the lane's middle (m); black: beyond the rule's drives")
-    bars.barh((STEPS_LEFT[:-1] + STEPS_LEFT[1:]) / 2, shares, height=0.42, color=style("bc").colour, alpha=0.8)
-    for middle, share in zip((STEPS_LEFT[:-1] + STEPS_LEFT[1:]) / 2, shares, strict=True):
-        bars.text(share - 2, middle, f"{share:.0f}", fontsize=TEXT, color="white", ha="right", va="center")
-    bars.set(xlim=(0, 100), ylim=(-2, 2.05), yticks=[])
-    plain_axes(bars, "errors there, all drives (%)", grid="x")
-    bars.set_yticks([])
-    said = ", ".join(f"{share:.0f}" for share in shares)
+    rows = np.histogram(cloning.left_in(of_rule).numpy(), STEPS_LEFT)[0]
+    few = rows < rows.max() / 10
+    title = "The rule's rows and the clones' errors, across the left lane"
+    if shares[few].min() > shares[~few].max():
+        title = "Where the rule has few rows, the clones err most"
+    figure, middles = new_figure(3.9), (STEPS_LEFT[:-1] + STEPS_LEFT[1:]) / 2
+    panels = (
+        (0.155, "rows of the rule there", rows, style("rule").colour, "{:,}"),
+        (0.585, "errors there, all drives (%)", shares, style("bc").colour, "{:.0f}"),
+    )
+    for k, (place, label, values, colour, form) in enumerate(panels):
+        ax = figure.add_axes((place, 0.04, 0.385, 0.8))
+        ax.barh(middles, values, height=0.42, color=colour, alpha=0.8)
+        for middle, value in zip(middles, values, strict=True):
+            ax.text(value + 0.015 * max(values), middle, form.format(value), fontsize=TEXT, color=INK, va="center")
+        plain_axes(ax, label, grid="")
+        ax.spines["bottom"].set_visible(False)
+        ax.axhline(STEPS_LEFT[-1], color=INK, linewidth=1.5)
+        ax.set(xlim=(0, 1.15 * max(values)), ylim=(-2, 2.02), xticks=[])
+        ax.set_yticks(STEPS_LEFT[::2], [""] * len(PLACES) if k else PLACES)
     return finish(
         figure, title,
-        f"Left: {len(gone)} drives, their last {seconds} s. Right, all {len(own)} drives: from "
-        f"{-STEPS_LEFT[0]:g} m right of the left lane's middle to "
-        f"{STEPS_LEFT[-1]:g} m left, by half metres, the clones err in {said} %; the rule's drives are "
-        f"from {-nearest:g} m right to {furthest:.1f} m left.",
+        f"From 2 m right of the left lane's middle to 2 m left, by half metres, the rule's drives have "
+        f"{', '.join(map(str, rows))} rows, and {len(own)} drives of clones err in "
+        f"{', '.join(f'{share:.0f}' for share in shares)} % of their decisions.",
     )  # fmt: skip
 
 

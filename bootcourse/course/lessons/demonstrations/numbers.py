@@ -2,12 +2,6 @@
 
 from bootcourse.course.lessons.demonstrations.cloning import UPDATES as UPDATES
 from bootcourse.research.results import Results
-from tools.course.known import shipped_results
-
-
-def clones_of_the_stochastic_rule() -> Results:
-    """The ten clones of the study with the paper's choices, where the stochastic rule drives the demonstrations."""
-    return shipped_results("paper").of("bc")
 
 
 def updates_of(results: Results) -> float:

@@ -12,8 +12,8 @@ from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START, high
 from bootcourse.course.lessons.discrete_sac.own_parts import LEARNERS as LEARNERS
 from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, soft_sweeps, walked
 from bootcourse.learn import sac
-from bootcourse.research.computed import experiment
 from bootcourse.statistics import ESCAPES
+from tools.course.known import shipped_experiment
 
 q = np.array(START)
 pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
@@ -70,5 +70,5 @@ def sure(of: Walked) -> np.ndarray:
 
 def reachable() -> np.ndarray:
     """Which agents of plain SAC with a target entropy of 0.3 or 1 escape on the road."""
-    of_two = (experiment("sensitivity")[f"target entropy {eta}"].of("sac") for eta in (0.3, 1))
+    of_two = (shipped_experiment("sensitivity")[f"target entropy {eta}"].of("sac") for eta in (0.3, 1))
     return np.concatenate([agents.scores("success") for agents in of_two]) >= ESCAPES

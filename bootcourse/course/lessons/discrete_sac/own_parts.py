@@ -61,10 +61,18 @@ SURE = 0.9  # a learner that leaves with a higher probability is sure of it
 
 
 class Walked(NamedTuple):
-    """How probable leaving is for each learner in the end, and if it was on the free road: (kinds, LEARNERS)."""
+    """How probable leaving is for each learner in the end, and on how many walks it was on the free road.
+
+    Both are (kinds, LEARNERS).
+    """
 
     leaves: np.ndarray
-    found: np.ndarray
+    walks: np.ndarray
+
+    @property
+    def found(self) -> np.ndarray:
+        """Which learners were on the free road: (kinds, LEARNERS) bool."""
+        return self.walks > 0
 
 
 def walked(value: Callable, target: Callable, alphas: Tensor) -> Walked:
@@ -77,16 +85,17 @@ def walked(value: Callable, target: Callable, alphas: Tensor) -> Walked:
     drawn = torch.tensor(np.random.default_rng(0).random((decisions, LEARNERS))).repeat(1, kinds)
     alphas, one = alphas.repeat_interleave(LEARNERS, dim=1)[..., None], torch.ones((), dtype=torch.float64)
     each, goes_on = torch.arange(kinds * LEARNERS), torch.zeros(kinds * LEARNERS)
-    q, found = torch.zeros(len(each), *reward.shape, dtype=torch.float64), torch.zeros(len(each), dtype=torch.bool)
+    q, walks = torch.zeros(len(each), *reward.shape, dtype=torch.float64), torch.zeros_like(each)
     for t, alpha in enumerate(alphas):
         if t % chain.EPISODE == 0:
-            s = torch.zeros_like(each)
+            s, was_free = torch.zeros_like(each), torch.zeros_like(each, dtype=torch.bool)
         a = (drawn[t] < (q[each, s] / alpha).softmax(-1)[:, 1]).long()
-        found |= s == chain.STATES - 1
+        is_free = s == chain.STATES - 1
+        walks += is_free & ~was_free
         s_next = following[s, a]
         scaled = q[each, s_next] / alpha  # V of Q at α is α times V of Q / α at 1: one call for all kinds
         v = alpha[:, 0] * value(scaled.log_softmax(-1), scaled, one)
         q[each, s, a] += STEP * (target(reward[s, a], goes_on, v, GAMMA) - q[each, s, a])
-        s = s_next
+        s, was_free = s_next, is_free
     leaves = (q[:, 0] / alpha).softmax(-1)[:, 1]
-    return Walked(*(of.reshape(kinds, LEARNERS).numpy() for of in (leaves, found)))
+    return Walked(*(of.reshape(kinds, LEARNERS).numpy() for of in (leaves, walks)))

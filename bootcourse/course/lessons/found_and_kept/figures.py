@@ -15,6 +15,8 @@ from bootcourse.research.experiments import clocks
 from bootcourse.research.results import Results
 from bootcourse.statistics import IN_A_ROW, rolling_means
 
+DRAWN_FROM = "2", "π̃"  # the setting that the lesson's picture shows: updates for a decision, driver
+
 
 def one_agent(results: Results, which: int, title: str) -> Figure:
     """Training of one agent of one method: how often it is ahead, its first and last good window, and β's end."""
@@ -40,14 +42,18 @@ def one_agent(results: Results, which: int, title: str) -> Figure:
     return figure
 
 
-def found_and_kept(results: Results) -> Figure:
-    """A square for each agent, a row for each method, which has ten.
+def found_and_kept(results: Results, printed: Mapping[str, float] | None = None) -> Figure:
+    """A square for each agent, a row for each method, which has ten; beside it how many found the way out, and kept it.
 
-    Filled: it found the way out and kept it; empty: found and did not keep it; a dot: never found it.
+    Filled: it found the way out and kept it; empty: found and did not keep it; a dot: never found it. printed: the
+    paper's success of each method, %, for a last column.
     """
-    left, top, tall, counted = 1.95, 0.75, 0.34, {}
+    left, top, tall, counted = 1.7, 0.85, 0.34, {}
     figure = new_figure(top + tall * len(VARIED) + 0.5)
-    ax = axes_at(figure, left, top, 4.0, tall * len(VARIED))
+    ax = axes_at(figure, left, top, 3.5, tall * len(VARIED))
+    heads = {1.08: "found", 1.2: "kept"} | ({1.36: "the paper"} if printed else {})
+    for x, head in heads.items():
+        ax.text(x, 1.03, head, transform=ax.transAxes, ha="center", va="bottom", fontsize=TEXT, color=INK)
     for y, method in enumerate(VARIED):
         found, kept = (int(each.sum()) for each in results.found_and_kept(method))
         n, colour = len(results.of(method)), style(method).colour
@@ -55,7 +61,11 @@ def found_and_kept(results: Results) -> Figure:
             at = range(first, after)
             ax.plot(at, [y] * len(at), "s", ms=8.5, color=fill, mec=colour, mew=1.6)
         ax.plot(range(found, n), [y] * (n - found), "o", ms=2.5, color=QUIET)
-        counted[method] = f"{found} of {n} find the way out, {kept or 'none'} keep{'' if kept else 's'} it"
+        cells = [f"{found}", f"{kept}"] + ([f"{printed[method]:.0f} %"] if printed else [])
+        for x, words in zip(heads, cells, strict=True):
+            ax.text(x, y, words, transform=ax.get_yaxis_transform(), ha="center", va="center", fontsize=TEXT, color=INK)
+        keep = "and keep it" if kept == found else f"{kept or 'none'} keep{'' if kept > 1 else 's'} it"
+        counted[method] = f"{found} of {n} find the way out{' ' if kept == found else ', '}{keep}"
     ax.set(xlim=(-0.6, 9.6), ylim=(len(VARIED) - 0.5, -0.5), xticks=())
     ax.set_yticks(range(len(VARIED)), map(display_name, VARIED), fontsize=TEXT, color=INK)
     ax.tick_params(axis="y", length=0)
@@ -63,7 +73,8 @@ def found_and_kept(results: Results) -> Figure:
         side.set_visible(False)
     key = "■ found and kept   □ found, not kept   · not found.   Each mark is an agent."
     figure.text(0.012, 0.14 / figure.get_figheight(), key, fontsize=TEXT, color=INK)
-    alt = "; ".join(f"{display_name(method)}: {words}" for method, words in counted.items())
+    paper = {method: f" (the paper: {rate:.0f} %)" for method, rate in (printed or {}).items()}
+    alt = "; ".join(f"{display_name(method)}: {words}{paper.get(method, '')}" for method, words in counted.items())
     return finish(figure, f"With demonstrations alone {counted['demos']}", f"{alt}.")
 
 
@@ -87,9 +98,11 @@ def chances(cells: Mapping[tuple[str, str], Results], counted: Mapping[tuple[str
         rises[driver] = all(np.diff(values) > 0)
         each = zip(updates, values, bars, strict=True)
         alt_parts.append(f"{driver}: " + ", ".join(f"{u} {v:.0f} % [{a:.0f}, {b:.0f}]" for u, v, (a, b) in each))
+    at, value = updates.index(DRAWN_FROM[0]), 100 * counted[DRAWN_FROM]
+    ax.text(at + 0.02, value + 5, f"{value:.0f} %", fontsize=TEXT, fontweight="bold", color=INK, ha="right")
     for place, each in enumerate(updates):
         sizes = sorted({len(cells[cell].of(method)) for cell in cells if cell[0] == each for method in VARIED})
-        agents = str(sizes[0]) if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
+        agents = f"{sizes[0]} agents" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]} agents"
         ax.text(place, -0.125, agents, transform=ax.get_xaxis_transform(), fontsize=TEXT, color=QUIET,
                 ha="center", va="top")  # fmt: skip
     ax.axvline(0.5, color=QUIET, linewidth=0.8)
@@ -98,7 +111,7 @@ def chances(cells: Mapping[tuple[str, str], Results], counted: Mapping[tuple[str
     ax.set(xlim=(-0.35, len(updates) - 0.8), ylim=(0, 100))
     ax.set_xticks(range(len(updates)), [each.replace("1/4", "¼") for each in updates], fontsize=TEXT, color=INK)
     ax.set_xlabel(
-        "updates for a decision; in grey: how many agents each row is drawn from", fontsize=TEXT, color=INK, labelpad=20
+        "updates for a decision; in grey: how many agents stand in a row", fontsize=TEXT, color=INK, labelpad=20
     )
     title = "How often do single agents have the paper's four rates?"
     if all(rises.values()):

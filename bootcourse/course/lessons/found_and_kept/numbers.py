@@ -48,7 +48,7 @@ def way(results: Results, method: str) -> Counted:
 def group(words: str) -> Group:
     """Of round 2: see `groups`; or "others: never", of the ten others, where β never ends; "others: ends", …"""
     if words.startswith("others: "):
-        cell = {"ends": "", "never": ", β for ever", "no bonus": ", c = 0"}[words.removeprefix("others: ")]
+        cell = {"ends": "", "never": ", β for ever"}[words.removeprefix("others: ")]
         agents = shipped_experiment("stress")[f"bootstrapped{cell}"]
     else:
         agents = groups()[words]
@@ -70,7 +70,7 @@ def earns_less(both: Group, *others: Group) -> bool:
 
 
 def row_reads(method: str) -> float:
-    """The chance that one row of the right panel of round 3 reads as the paper's."""
+    """The chance that one row of the picture of round 3 reads as the paper's."""
     return float(study_clocks.as_printed(clocks()["2", "π̃"].of(method).scores("success"), method).mean())
 
 
@@ -82,20 +82,18 @@ def others_pattern() -> float:
 
 def explanations() -> str:
     """What could explain the paper's table, and what was seen of it, as Markdown."""
-    ours, ten_others = way(of_all(), "demos"), way(others("demos"), "demos")
+    ours = way(of_all(), "demos")
     chance, alone = ([f"{100 * part:.0f}" for part in pattern(each)] for each in (clocks()["2", "π̃"], of_all()))
     rows = [
         ["1. agents lose the way out",
-         f"with demonstrations alone {ours.found} of 10 find it, {ours.kept or 'none'} keeps it (ten others: "
-         f"{ten_others.found} and {ten_others.kept})",
+         f"with demonstrations alone {ours.found} of 10 find it, and {ours.kept or 'none'} keeps it",
          f"at most part of it: the other {10 - ours.found} never find it"],
         ["2. single agents",
-         f"with the training of Round 1, {of_all().curves['success'].shape[1]:,} episodes, the paper's four rates come "
-         f"in {alone[0]} % of the draws (ten others: {100 * others_pattern():.0f} %)",
+         f"Round 1's agents give the paper's four rates in {alone[0]} % of the draws (ten others: "
+         f"{100 * others_pattern():.0f} %)",
          "seldom, taken alone"],
         ["3. another training",
-         f"with one road, 2 updates and π̃ these four rates come in {chance[0]} % of the draws (bar: "
-         f"{chance[1]} to {chance[2]} %)",
+         f"with 2 updates and π̃ they come in {chance[0]} % of the draws (bar: {chance[1]} to {chance[2]} %)",
          "possible for the rates, together with 2"],
         ["4. other traffic", "not tested", "*open*"],
     ]  # fmt: skip

@@ -16,7 +16,7 @@ from bootcourse.statistics import rate, significant
 SHARE, MOST = 0.8, 60  # of the trained agents so many escape; at most so many are trained
 PLAIN = "#B8BEC6"  # of what does not count
 STUDIES, DRAWS = 100, 2000  # that are shown, and of each study's bootstrap
-RARE, SEEN = 2.5, 20.0  # %: the blue part at the ends of an interval; so large a part is drawn
+RARE = 2.5  # %: the blue part at the ends of an interval
 RESOLUTION = 400  # studies are drawn for each that is shown
 
 
@@ -35,6 +35,7 @@ def certainty() -> Explorable:
         chances, more = scipy.stats.binom.pmf(np.arange(n + 1), n, true / 100), true <= 100 * k / n
         counted = np.arange(n + 1) >= k if more else np.arange(n + 1) <= k
         blue, curve = float(blue_part(true, k, n)), blue_part(everywhere, k, n)
+        _, low, high = (100 * part for part in rate(np.arange(n) < k))
         says = f"If {true:g} % escape in truth, {k} or {'more' if more else 'fewer'} of {n} escape in "
         says += f"{blue:.1f} % of all studies."
         counts = SvgAxes(52, 66, 690, 110, (-0.6, n + 0.6), (0.0, chances.max()))
@@ -43,23 +44,22 @@ def certainty() -> Explorable:
             counts.fill(sides, [0, 0, chance, chance], colour if inside else PLAIN)
         for count in ticks(0, n, 10):
             counts.parts.append(text(counts.at(count, 0)[0], 191, f"{count:g}", "middle", QUIET, 10.5))
-        below = SvgAxes(52, 232, 690, 84, (0.0, 100.0), (0.0, SEEN))
-        below.scale("how large the blue part is at each true rate (%; in the gap over 20; dashed: 2.5)", 4)
+        below = SvgAxes(52, 232, 690, 120, (0.0, 100.0), (0.0, 100.0))
+        below.scale(f"the blue part at each true rate (%); dashed: {RARE:g}; shaded: it is larger", 4)
+        below.fill([low, high, high, low], [0, 0, 100, 100], colour, 0.15)
         below.line([0, 100], [RARE, RARE], INK, 1, "--")
-        below.line(everywhere, np.where(curve <= SEEN, curve, np.nan), colour, 2)
-        below.line([true, true], [0, SEEN], QUIET, 0.8, "--")
-        if blue <= SEEN:
-            below.dot(true, blue, INK)
+        below.line(everywhere, curve, colour, 2)
+        below.line([true, true], [0, 100], QUIET, 0.8, "--")
+        below.dot(true, blue, INK)
         for tick in ticks(0, 100, 10):
-            below.parts.append(text(below.at(tick, 0)[0], 331, f"{tick:g}", "middle", QUIET, 10.5))
+            below.parts.append(text(below.at(tick, 0)[0], 367, f"{tick:g}", "middle", QUIET, 10.5))
         words = [
             text(4, 20, says, size=14, bold=True),
             text(52, 54, f"how often so many of {n} escape (blue: {k} or {'more' if more else 'fewer'})", bold=True),
-            text(397, 348, "true rate (%); the dot: yours", "middle", QUIET, 11),
+            text(397, 384, "true rate (%); the dot: yours", "middle", QUIET, 11),
         ]
-        _, low, high = rate(np.arange(n) < k)
-        alt = f"{says} The blue part is above 2.5 % at true rates of {100 * low:.0f} to {100 * high:.0f} %."
-        return drawing(WIDTH, 354, [*words, *counts.parts, *below.parts], alt)
+        alt = f"{says} The blue part is above 2.5 % at true rates of {low:.0f} to {high:.0f} %."
+        return drawing(WIDTH, 390, [*words, *counts.parts, *below.parts], alt)
 
     numbers = {
         "true": Number("true rate", 50, 0, 100, 0.5, "So many of a hundred agents would escape in truth.", "%"),

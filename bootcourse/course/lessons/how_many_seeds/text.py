@@ -89,15 +89,15 @@ predict(
 )
 
 # %% [markdown]
-# **Drag** the true rate down until the blue part, *eight or more*, is 2.5 %. Then drag it up, past 80 %,
-# until the blue part, now *eight or fewer*, is 2.5 % again.
+# **Drag** the true rate down until the blue part, *eight or more*, is 2.5 %.
 
 # %%
 predicted("how_many_seeds.1")
 explorable.certainty()
 
 # %% [markdown]
-# **See.** The curve is above 2.5 % from 44 to 97 %: eight of ten may mean any of these true rates.
+# **See.** The curve is above 2.5 % from 44 to 97 % (above 80 % the blue part is *eight or fewer*): eight of
+# ten may mean any of these true rates.
 # <!-- claim: [round(100 * each) for each in
 #   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
@@ -252,9 +252,8 @@ check.bootstrap_interval(bootstrap_interval)
 # ## Round 4: what do your five seeds show?
 #
 # Change one number of the method, train five agents with the change and five without, and see which group
-# learns the way out early. `bonus=0.0` pays no bonus for demonstrated seconds. Or change `rule_p` (now 0.9),
-# `beta_start` (0.6), `gamma` (0.8) or `xi_multiplier` (200). The score is an agent's success on 200 roads
-# after 150 episodes.
+# learns the way out early. `bonus=0.0` pays no bonus for demonstrated seconds. The score is an agent's
+# success on 200 roads after 150 episodes.
 #
 # The score of a group is its **interquartile mean** (IQM): sort, leave out a quarter, rounded down, at each
 # end, and take the mean. Of five agents the middle three count.
@@ -275,7 +274,8 @@ def difference_interval(x, y, draws_x, draws_y):
 check.difference_interval(difference_interval)
 
 # %%
-CHANGE = {"bonus": 0.0}  # yours
+# Yours: you may also change rule_p (now 0.9), beta_start (0.6), gamma (0.8) or xi_multiplier (200).
+CHANGE = {"bonus": 0.0}
 settings = {
     "as it is": bc.settings_for("bootstrapped"),
     "changed": bc.settings_for("bootstrapped", **CHANGE),
@@ -307,9 +307,10 @@ bc.show(figures.nothing_changed(study))
 #
 # Of all {{ len(splits()) }} splits
 # {{ 100 * np.mean([counts.leaves_out_0(effect) for _, effect in splits()]) | .0f }} % give an interval that
-# leaves out 0, not 5 %: five seeds again. And even at 5 %, at least one of twenty independent comparisons
-# would leave out 0 in {{ 100 * (1 - 0.95**20) | .0f }} % of cases. This is **multiplicity**. So say
-# beforehand which comparison counts, or multiply each p by the number of comparisons (*Bonferroni*).
+# leaves out 0, not 5 %: intervals of five seeds miss too often. And even at 5 %, at least one of twenty
+# independent comparisons would leave out 0 in {{ 100 * (1 - 0.95**20) | .0f }} % of cases. This is
+# **multiplicity**. So say beforehand which comparison counts, or multiply each p by the number of comparisons
+# (*Bonferroni*).
 #
 # With both aids 7 of 10 agents escape, with plain SAC 1 of 10, and Fisher's p is {{ fisher(7, 1) | .3f }}.
 # Four methods make six pairs: as one of six it would not count, because six times p is {{ 6 * fisher(7, 1) | .2f }}.

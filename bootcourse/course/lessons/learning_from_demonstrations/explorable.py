@@ -29,7 +29,7 @@ def nine_values(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
         ahead = int(values.argmax())
         says = f"Second {second:.0f}: {ACTION_NAMES[mine]} is demonstrated"
         says += " and has the largest Q." if ahead == mine else f", {ACTION_NAMES[ahead]} has the largest Q."
-        apart = f"between the dashed lines: {levels[1] - levels[0]:.1f}"
+        apart = f"loss, between the dashed lines: {levels[1] - levels[0]:.1f}"
         chart = SvgAxes(*CHART, (0.0, float(len(values))), y)
         chart.scale("Q" if q.min() > LOWEST else f"Q (bars are cut off at {LOWEST:g})".replace("-", "−"))
         for place, value in enumerate(values):
@@ -48,7 +48,7 @@ def nine_values(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
         names = {"demonstrated": Curve([], style("demos").colour), "other actions": Curve([], OTHERS)}
         names |= {"margin": Curve([], EDGE)} if margin else {}
         head = [text(4, 20, says, size=14, bold=True), text(520, 46, apart), *legend(names)]
-        return drawing(WIDTH, HEIGHT, [*head, *chart.parts, *under], f"{says} Distance {apart}.")
+        return drawing(WIDTH, HEIGHT, [*head, *chart.parts, *under], f"{says} {apart[0].upper()}{apart[1:]}.")
 
     second = Number("second", min(6, seconds), 1, seconds, 1, "Of the rule's drive.")
     margin = Number("margin", 1, 0, 2, 0.1, f"On each other action; the paper's is {settings_for('margin').margin:g}.")

@@ -1,4 +1,4 @@
-"""What the lesson on demonstrations draws: batches while β falls, and returns while the bonus is paid and after."""
+"""What the lesson on demonstrations draws: batches while β falls, two agents that learn, and returns with the bonus."""
 
 from collections.abc import Sequence
 
@@ -6,11 +6,14 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from bootcourse.colours import INK, QUIET
+from bootcourse.course.lessons.learning_from_demonstrations import measures
+from bootcourse.course.live_curves import LiveWayOut
 from bootcourse.episodes.evaluate import evaluate
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
+from bootcourse.plots.figure import SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
 from bootcourse.policies import rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
@@ -38,6 +41,19 @@ def batches(settings: Settings, episodes: Sequence[int]) -> Figure:
     ax.axis("off")
     words = ", ".join(f"{count} at episode {episode:,}" for episode, count in zip(episodes, counts, strict=True))
     return finish(figure, title, f"A batch of {settings.batch} boxes, of which these are demonstrated: {words}.")
+
+
+class LiveDemonstrations(LiveWayOut):
+    """Two agents while they learn, the first with demonstrations; below, when those that trained found the way out.
+
+    All have the soft constraint; twenty of each kind have trained: the study's ten, and the ten others.
+    """
+
+    def __init__(self):
+        kinds = (measures.kinds()[name][0] for name in ("demonstrations, c = 2", "no demonstrations"))
+        looks = [style(method).colour for method in ("bootstrapped", "soft")]
+        names = "with demonstrations", "without"
+        super().__init__(names, looks, list(map(measures.found, kinds)), "one of twenty agents")
 
 
 def returns(groups: dict[str, Results]) -> Figure:

@@ -1,24 +1,27 @@
 """Measured for the lesson: who finds the way out, who escapes, and in which states a margin loss counts."""
 
 from collections.abc import Callable, Sequence
+from functools import cache
 
 import numpy as np
 import torch
 from torch import Tensor
 
+from bootcourse.course.shipped import shipped_experiment, shipped_results
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.bootstrap import paper_q_filter
-from bootcourse.research.experiment import Computed
 from bootcourse.research.results import Results
 from bootcourse.statistics import found_after
 
 Kinds = dict[str, tuple[list[Results], list[Results]]]
 
 
-def kinds(study: Results, changed: Computed, others: Computed) -> Kinds:
+@cache
+def kinds() -> Kinds:
     """{demonstrations: (agents with the soft constraint, without it)}: the study's ten first, then the ten others."""
-    free = changed["c = 0"]
+    study, others = shipped_results(), shipped_experiment("stress")
+    free = shipped_experiment("ablations")["c = 0"]
     return {
         "demonstrations, c = 2": (
             [study.of("bootstrapped"), others["bootstrapped"]],
@@ -39,28 +42,19 @@ def found(agents: Sequence[Results]) -> np.ndarray:
     return np.concatenate([found_after(each.curves["success"]) for each in agents])
 
 
-def paid_and_not(study: Results, changed: Computed) -> dict[str, Results]:
-    """Ten agents with both aids each, with the bonus and without it."""
-    return {"c = 2": study.of("bootstrapped"), "c = 0": changed["c = 0"].of("bootstrapped")}
+def paid_and_not() -> dict[str, Results]:
+    """The study's ten agents with both aids, with the bonus and without it."""
+    return {name: kinds()[f"demonstrations, {name}"][0][0] for name in ("c = 2", "c = 0")}
 
 
-FOUND = [
-    "",
-    "with the soft constraint, find the way out after (median of 20)",
-    "with the soft constraint, escape (study + others)",
-    "without it, escape (study + others)",
-]
+ESCAPE = ["escape (study + others)", "with the soft constraint", "without it"]
 
 
-def found_and_escaped(agents: Kinds) -> list[list[str]]:
-    """A row for each kind of demonstrations, below `FOUND`."""
+def escaped() -> list[list[str]]:
+    """A row for each kind of demonstrations, below `ESCAPE`."""
     return [
-        [
-            name,
-            f"{np.median(found(soft)):.0f} episodes",
-            *(" + ".join(escape([each]) for each in some) for some in (soft, free)),
-        ]
-        for name, (soft, free) in agents.items()
+        [name, *(" + ".join(escape([each]) for each in some) for some in (soft, free))]
+        for name, (soft, free) in kinds().items()
     ]
 
 

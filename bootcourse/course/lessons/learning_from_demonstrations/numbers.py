@@ -1,40 +1,23 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-from functools import cache
-
 import numpy as np
 
 from bootcourse.course.lessons.learning_from_demonstrations import measures
+from bootcourse.course.lessons.learning_from_demonstrations.measures import kinds
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.research.results import Results
 from bootcourse.statistics import lost
-from tools.course.known import SETTINGS, by_rule, idle, shipped_experiment, shipped_results
-
-
-@cache
-def kinds() -> measures.Kinds:
-    """With the soft constraint and without it, by demonstrations: the study's ten agents first, then the ten others."""
-    return measures.kinds(shipped_results(), shipped_experiment("ablations"), shipped_experiment("stress"))
+from tools.course.known import SETTINGS, by_rule, idle
 
 
 def _with(name: str) -> tuple[list[Results], list[Results]]:
-    """One of `kinds`, by its last word: "c = 2", "c = 0" or "none".
-
-    Or the study's ten with the "margin".
-    """
-    if name == "margin":
-        return [shipped_results().of("margin_soft")], [shipped_results().of("margin")]
+    """One of `kinds`, by its last word: "c = 2", "c = 0" or "none"."""
     return kinds()["no demonstrations" if name == "none" else f"demonstrations, {name}"]
 
 
 def in_all(name: str) -> str:
     """ "16 of 20": how many agents with the soft constraint and these demonstrations escape."""
     return measures.escape(_with(name)[0])
-
-
-def of_the_study(name: str) -> str:
-    """How many of the study's ten agents with the soft constraint and these demonstrations escape."""
-    return measures.escape(_with(name)[0][:1])
 
 
 def alone(name: str) -> str:

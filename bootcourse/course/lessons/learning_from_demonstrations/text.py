@@ -46,7 +46,7 @@ progress("learning_from_demonstrations")
 # Now a learner also uses the rule's drives, the **demonstrations**. The paper adds a **bonus** c to the
 # reward of each demonstrated second.
 #
-# In which seconds is it worth less to go on with the rule than to stay behind? **Drag** c up to 2. What
+# In which seconds is the rest of the rule's drive worth less than staying behind? **Drag** c up to 2. What
 # changes?
 
 # %%
@@ -54,8 +54,8 @@ bc.panels.bonus_panel(c=0)
 
 # %% [markdown]
 # *In its first {{ (bonus_needed() > 0.005).sum() }} seconds the rest of the rule's drive is clearly worth
-# less than staying behind; a bonus of {{ bonus_needed().max() | .3f }} is enough to change that.* The paper
-# pays {{ SETTINGS.bonus | g }} for each demonstrated second. Paid in every second, this adds c / (1 − γ) =
+# less than staying behind; a bonus of {{ bonus_needed().max() | .3f }} is enough to change that.* The paper's
+# c = {{ SETTINGS.bonus | g }}, paid in every second, adds c / (1 − γ) =
 # {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} (γ = {{ SETTINGS.gamma }}), as much as an accident costs.
 # <!-- claim: discounted(by_rule(), SETTINGS.gamma) < discounted(idle(), SETTINGS.gamma) -->
 # <!-- claim: SETTINGS.bonus > 30 * bonus_needed().max() and (bonus_needed()[:10] > 0).all() and
@@ -69,15 +69,15 @@ bc.panels.bonus_panel(c=0)
 # %% [markdown]
 # ## Round 1: how do the rule's actions reach the policy?
 #
-# For each update a learner draws a batch of {{ SETTINGS.batch }} rows. Now a share β of these rows comes from
-# a table of the rule's drives.
+# For each update a learner draws a batch of {{ SETTINGS.batch }} rows. Now a share β of these comes from a
+# table of the rule's drives.
 
 # %%
 bc.show(figures.batches(bc.settings_for("bootstrapped"), (0, 500, 1000)))
 
 # %% [markdown]
-# > **Predict.** Leave out the soft constraint for now. The actor's loss does not contain a row's action. How,
-# > then, can the rule's *actions* change the policy?
+# > **Predict.** Leave out the soft constraint for now. The actor's loss uses a row's state, not its action. How
+# > can the rule's *actions* still change the policy?
 
 # %%
 choices = ["not at all: a term is missing", "through the critics' Q", "through the temperature α"]
@@ -137,12 +137,12 @@ own_code.load()
 own_code.compare()
 
 # %% [markdown]
-# If a part differs, mend it and run the cell again. Then train two agents with the soft constraint, one with
-# demonstrations and one without. Watch whose success rises first, and then how the one with demonstrations
-# drives.
+# If a part differs, mend it and run the cell again. Train two agents with the soft constraint, one with
+# demonstrations and one without. Both make equally many updates, so the one with longer episodes has fewer of
+# them. Watch whose success rises first.
 #
-# > **Predict.** Counted in its own episodes, does an agent find the way out sooner with demonstrations?
-# > After a whole training, do clearly more agents escape with them?
+# > **Predict.** Counted in its own episodes (not the rule's {{ SETTINGS.demonstration_episodes }}), does an
+# > agent find the way out sooner with demonstrations? Do clearly more agents escape in the end?
 
 # %%
 choices = ["sooner, and clearly more", "sooner, but not clearly more"]
@@ -152,35 +152,34 @@ predict("learning_from_demonstrations.2", "Do they find it sooner? Do more escap
 # %%
 predicted("learning_from_demonstrations.2")
 both = [bc.settings_for("bootstrapped"), bc.settings_for("soft")]
-yours = own_code.training(both, episodes=20_000).run(updates=2700).agents
+training, live = own_code.training(both, episodes=20_000), figures.LiveDemonstrations()
+yours = training.run(progress=False, callback=live, updates=2700).agents
+live.show(training)
 
 # %%
+# how the agent with demonstrations drives now
 drive = bc.record(yours[0].as_policy(), [10], label="bootstrapped")[0]
 bc.recording([shipped.beginning(drive, 60)], height=480)
 
 # %% [markdown]
-# The study has ten agents of each kind. Ten others have other seeds, another implementation and twice the
-# episodes:
+# The dots and the table show the study's ten agents of each kind, and ten *others*: other seeds, another
+# implementation, twice the episodes.
 # <!-- claim: others('soft').sizes[1] == 2 * of('soft').sizes[1] -->
 
 # %%
-changed, others = (shipped.shipped_experiment(name) for name in ("ablations", "stress"))
-kinds = measures.kinds(bc.shipped_results(), changed, others)
-table(measures.FOUND, measures.found_and_escaped(kinds))
+table(measures.ESCAPE, measures.escaped())
 
 # %% [markdown]
 # **See.** *With demonstrations and c = {{ SETTINGS.bonus | g }} agents find the way out sooner, counted in
-# their own episodes.* Each of the twenty found it before any of the twenty without demonstrations, in the
-# median about {{ sooner() | .0f }} episodes sooner. With the rule's {{ SETTINGS.demonstration_episodes }}
-# episodes counted as well, they found it later.
+# their own episodes.* In the picture each of their twenty dots lies left of all twenty without
+# demonstrations, in the median by about {{ sooner() | .0f }} episodes.
 # <!-- claim: len(found('c = 2')) == len(found('none')) == 20 and found('c = 2').max() < found('none').min() -->
-# <!-- claim: found('c = 2').min() + SETTINGS.demonstration_episodes > found('none').max() -->
 #
 # *No more of them escape in the end*: {{ in_all('none') }} do in each row. *Without the soft constraint fewer
 # escape* (last column).
 # <!-- claim: in_all('c = 2') == in_all('c = 0') == in_all('none') == '16 of 20' -->
 # <!-- claim: all(stats.mannwhitneyu(earned('none'), earned(name)).pvalue > 0.1 for name in
-#   ('c = 2', 'c = 0', 'margin')) -->
+#   ('c = 2', 'c = 0')) -->
 # <!-- claim: [measures.escape([each]) for name in ('c = 2', 'c = 0', 'none') for each in
 #   kinds()[{'none': 'no demonstrations'}.get(name, f'demonstrations, {name}')][0]] == ['7 of 10', '9
 #   of 10', '10 of 10', '6 of 10', '8 of 10', '8 of 10'] -->
@@ -207,8 +206,7 @@ predict("learning_from_demonstrations.3", "Which agents earn more near episode 4
 
 # %%
 predicted("learning_from_demonstrations.3")
-groups = measures.paid_and_not(bc.shipped_results(), changed)
-bc.show(figures.returns(groups))
+bc.show(figures.returns(measures.paid_and_not()))
 
 # %% [markdown]
 # **See.** *From episode 300 to 500 the return with c = {{ SETTINGS.bonus | g }} stays near the rule's: the
@@ -256,9 +254,9 @@ by_rule = bc.record(bc.rule_policy(bc.DEFAULT), [10], label="rule")[0]
 explorable.nine_values(yours[0], by_rule, seconds=20)
 
 # %% [markdown]
-# *In place of the bonus* the paper also tries a loss. It asks that the demonstrated action $a_E$ lead every
-# other action by a **margin** of {{ settings_for('margin').margin | .0f }} (the outlines). The loss is the
-# distance between the dashed lines. **Drag** the margin.
+# *In place of the bonus* the paper tries a loss. It asks that the demonstrated action $a_E$ lead every other
+# action by a **margin** of {{ settings_for('margin').margin | .0f }} (the outlines). The loss is the distance
+# between the dashed lines. **Drag** the margin.
 #
 # $$ J_E(Q) = \max_a \big[ Q(s,a) + l(a_E, a) \big] - Q(s,a_E), \qquad
 # l = 0 \text{ for } a_E, \text{ else } 1 $$
@@ -302,12 +300,7 @@ table(measures.PUSHED, measures.pushed(loss, yours[0], by_rule, seconds=20))
 
 # %% [markdown]
 # **See.** *It pushes where this action leads by less than 1.* The filter drops each state in which another
-# action has the largest Q. The study's agents escape as often with this loss as without it (c = 0): ten of
-# ten with the soft constraint, and none of ten otherwise.
-# <!-- claim: settings_for('margin_soft').bonus == 0 and settings_for('margin_soft').paper_q_filter
-#   and settings_for('margin_soft').xi_multiplier == settings_for('soft').xi_multiplier > 0 -->
-# <!-- claim: in_all('margin') == '10 of 10' == of_the_study('c = 0') and
-#   alone('margin') == '0 of 10' == alone('c = 0') -->
+# action has the largest Q.
 # <!-- claim: bootstrap.paper_q_filter(torch.tensor([[1, 2, 3]] * 3), torch.arange(3)).tolist()
 #   == [0, 0, 1] -->
 
@@ -327,11 +320,11 @@ compare_predictions(
 #
 # 1. A share β of each batch is the rule's, and falls to 0. Without the soft constraint its actions reach the
 #    policy only through the critics' Q.
-# 2. With demonstrations these agents found the way out after fewer episodes of their own. That more escape in
-#    the end is not shown.
-# 3. The bonus pays for what the rule does, its speed included. While it was paid often, agents with c =
-#    {{ SETTINGS.bonus | g }} earned about what the rule earns; as it ended, {{ losing_until(1100)[0] }} of
-#    the study's ten lost the way out, and {{ losing_until(1100)[1] }} of ten others.
+# 2. With demonstrations these agents found the way out after fewer episodes of their own. That more escape is
+#    not shown.
+# 3. The bonus pays for what the rule does, its speed included. From episode 300 to 500 agents with c =
+#    {{ SETTINGS.bonus | g }} earned about what the rule earns; as the bonus ended,
+#    {{ losing_until(1100)[0] }} of ten lost the way out, and {{ losing_until(1100)[1] }} of ten others.
 # <!-- claim: losing_until(900) == [0, 0] and min(losing_until(1250)) >= 5 -->
 # 4. The paper's filter drops the margin loss where another action has the largest Q.
 

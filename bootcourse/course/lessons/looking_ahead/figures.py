@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from bootcourse.colours import ALARM
+from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import Rollout
 from bootcourse.errors import BootcourseError
@@ -137,47 +138,42 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
 
 
 def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
-    """Accidents of agents in a model that they learned: means by what it learned from, and each agent in the last.
+    """Accidents of each agent in a model that it learned, a row for each kind of drives that the model learned from.
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
     title = "In a learned model most agents crash more with the look-ahead than alone"
     agents, base = learned_model.together(computed), learned_model.BASE
-    alone, colour = per_thousand(cells, Cell(base, "alone"))[: len(agents)], style(base).colour
-    drivers = {"the agent": agents}
-    drivers |= {
+    alone = per_thousand(cells, Cell(base, "alone"))[: len(agents)]
+    controls = {"the agent": agents}
+    controls |= {
         f"{100 * share:.0f} % of its actions random": learned_model.together(computed, share)
         for share in learned_model.RANDOM
     }
-    means = {name: learned_model.per_thousand(of, LEARNED_FORM, control=True).mean() for name, of in drivers.items()}
-    ahead = learned_model.per_thousand(agents, LEARNED_FORM)[:, -1]
-    last = "the agent, then the look-ahead"
-    means |= {last: ahead.mean(), "without a model, alone": alone.mean()}
-    figure, end = new_figure(3.25), 3.6  # inches: where the numbers end
-    height = figure.get_figheight()
-
-    def write(row: int, name: str, number: str = "", color: str = INK, weight: str = "normal"):
-        look = {"y": 1 - (0.75 + 0.3 * row) / height, "va": "center", "fontsize": TEXT, "color": color}
-        figure.text(0.012, s=name, **look)
-        figure.text(end / 7, s=number, ha="right", fontweight=weight, **look)
-
-    write(0, "accidents in 1,000 drives, mean of ten agents")
-    write(1, "the model learns from", "look-ahead", color=QUIET)
-    for row, (name, mean) in enumerate(means.items()):
-        write(row + 2, name, f"{mean:,.0f}", weight="bold" if name == last else "normal")
-    ax, worse = axes_at(figure, 4.6, 0.95, 1.9, 1.6), ahead > alone
-    for of, shade, width in ((~worse, colour, 1.1), (worse, INK, 2.2)):
-        ax.plot([0, 1], np.array([alone, ahead])[:, of], color=shade, linewidth=width, marker="o", ms=4, clip_on=False)
-    plain_axes(ax, "accidents in 1,000 drives")
-    ax.set(xlim=(-0.2, 1.2), ylim=(0, 1000))
-    ax.set_yticks([0, 500, 1000], ["0", "500", "1,000"])
-    ax.set_xticks([0, 1], ["alone", "look-ahead"])
-    words = "right: each agent, in the last of the four models; dark: it crashes more often than alone"
-    figure.text(0.012, 0.1 / height, words, fontsize=SMALL, color=INK)
-    by_row = "; ".join(f"{name} {mean:,.0f}" for name, mean in means.items())
-    each = "; ".join(f"{a:.0f}, {b:.0f}" for a, b in zip(alone, ahead, strict=True))
-    alt = f"Mean accidents in 1,000 drives with the look-ahead, by what the model learns from. {by_row}."
-    return finish(figure, title, f"{alt} Each agent alone, and with the look-ahead in the last model: {each}.")
+    rows = {name: learned_model.per_thousand(of, LEARNED_FORM, control=True).ravel() for name, of in controls.items()}
+    rows["the agent, then the look-ahead"] = learned_model.per_thousand(agents, LEARNED_FORM)[:, -1]
+    rows["(alone, without a model)"] = alone
+    row, alt_parts = 0.46, []
+    figure = new_figure(1.75 + row * len(rows))
+    ax = axes_at(figure, 2.3, 1.0, 2.9, row * len(rows))
+    for place, (name, values) in enumerate(rows.items()):
+        worse, mean, last = values > alone, f"{values.mean():,.0f}", values is alone
+        dots(ax, values, place, style(base).colour, worse, values.mean())
+        beside(ax, place, mean, "" if last else f"{worse.sum()} of {len(worse)}")
+        alt_parts.append(f"{name}: mean {mean}" + ("" if last else f", {worse.sum()} of {len(worse)} more than alone"))
+    beside(ax, -0.75, "mean", "more than alone", colour=QUIET)
+    name_rows(ax, list(rows), "accidents in 1,000 drives")
+    of = {"transform": ax.get_yaxis_transform(), "ha": "right", "va": "center", "fontsize": SMALL, "color": QUIET}
+    ax.text(-0.02, -0.75, "the model learns from", **of)
+    ax.set(xlim=(0, 1000))
+    ax.set_xticks([0, 500, 1000], ["0", "500", "1,000"])
+    words = "A dot for each agent; filled: it crashes more than alone. Bar: the mean. (Alone: 1,000 drives, else 100.)"
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
+    return finish(
+        figure,
+        title,
+        f"Accidents in 1,000 drives with the look-ahead, by what the model learns from. {'; '.join(alt_parts)}.",
+    )
 
 
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:

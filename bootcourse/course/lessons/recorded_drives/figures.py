@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import torch
 from IPython.display import Markdown
+from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
@@ -27,7 +28,7 @@ ROAD = 9  # of the held-out ones: chosen for GAIL's drive
 WITH = "with CQL's term"
 LABELS = {  # where a method's name stands in `estimates`: x, y, side
     "bc": (99, 0.1, "right"), "cql": (99, -0.2, "right"), "cql_sac": (60, 0.3, "left"),
-    "gail": (48, -0.35, "left"), "sac": (21, 1.25, "left"), "bootstrapped": (31, -0.55, "left"),
+    "gail": (48, -0.35, "left"), "sac": (21, 1.25, "left"), "bootstrapped": (26, -0.57, "left"),
 }  # fmt: skip
 METHODS_BY_NAME = {display_name(method): method for method in choosing.METHODS}
 
@@ -122,7 +123,7 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
 
 
 def estimates(names: Sequence[str], alike: np.ndarray, estimated: np.ndarray, truth: np.ndarray) -> Figure:
-    """How far estimates are off, for sets of agents, (sets, agents); filled: the largest estimate of its set.
+    """How far estimates are off, for sets of agents, (sets, agents); filled, with its number: the largest of its set.
 
     alike: how often each acts as the data do.
     """
@@ -131,7 +132,7 @@ def estimates(names: Sequence[str], alike: np.ndarray, estimated: np.ndarray, tr
     title = "How far is each estimate off?"
     if abs(off[alike > 0.8]).max() < 0.1 < 1 < abs(off[alike < 0.4]).max():
         title = "Estimates are nearest where an agent acts as the data do"
-    label = "agrees with the rule in so many of the recorded seconds · filled: largest estimate of its set"
+    label = "agrees with the rule in so many of the recorded seconds · filled: largest estimate of this set"
     figure, ax = one_axes(3.7, title, label, "estimate minus truth (above 0: too high)")
     ax.axhline(0, color=INK, linewidth=1)
     said = []
@@ -146,9 +147,24 @@ def estimates(names: Sequence[str], alike: np.ndarray, estimated: np.ndarray, tr
         said.append(
             f"{name}: {x.min():.0f}–{x.max():.0f} %, off {off[:, i].min():+.2f} to {off[:, i].max():+.2f}{often}"
         )
+    for place, i in enumerate(largest):
+        beside(ax, str(place + 1), 100 * alike[place, i], off[place, i], "right")
+    best = truth.argmax(1)
+    lowest = min(range(len(off)), key=lambda place: off[place, best[place]] if best[place] != largest[place] else 0)
+    if best[lowest] != largest[lowest]:
+        at = alike[lowest, best[lowest]], off[lowest, best[lowest]]
+        beside(ax, f"best of set {lowest + 1}", 100 * at[0], at[1], "left")
+        said.append(f"the best of set {lowest + 1}: {100 * at[0]:.0f} %, off {at[1]:+.2f}")
     ax.set_xlim(0, 100)
     ax.xaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")
     return finish(figure, title, f"A dot for each agent: {'; '.join(said)}.")
+
+
+def beside(ax: Axes, words: str, x: float, y: float, side: str) -> None:
+    """Write words beside a dot; side: which end of them lies at the dot."""
+    away = (-6, 0) if side == "right" else (6, -4)
+    look = {"textcoords": "offset points", "ha": side, "va": "center", "fontsize": TEXT, "color": INK}
+    ax.annotate(words, (x, y), away, **look)
 
 
 def chosen(study: Results, guesses: Sequence[float], truth: Sequence[float]) -> Markdown:

@@ -15,6 +15,7 @@ from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
 from bootcourse.learn.training import Training
 from bootcourse.policies import Policy
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import of, shipped_experiment
 
@@ -103,6 +104,13 @@ def updated(settings: Sequence[Settings], updates: int) -> SACLearner:
 def crashes(policy: Policy) -> int:
     """On how many of 100 roads a driver has an accident."""
     return sum(drive.accident > 0 for drive in record(policy, range(100)))
+
+
+def updates_in_the_study() -> int:
+    """How many updates a CQL agent of the study had, if no episode in its training ended early."""
+    trained, results = of("cql").agents[0], of("cql").curves["success"]
+    seconds = results.shape[1] * DEFAULT.clock.decisions // trained["envs_per_agent"]
+    return seconds * trained["updates"]
 
 
 def accidents_of_escapers() -> np.ndarray:

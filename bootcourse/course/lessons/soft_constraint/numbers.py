@@ -17,7 +17,7 @@ from bootcourse.research.results import Results
 from bootcourse.statistics import HAD as HAD
 from bootcourse.statistics import IN_A_ROW as IN_A_ROW
 from bootcourse.statistics import LOST as LOST
-from bootcourse.statistics import found_after, lost
+from bootcourse.statistics import lost
 from tools.course.known import RULE_P, of, others, shipped_experiment
 
 ALPHA = 0.01  # of the opening panel
@@ -42,11 +42,6 @@ def sooner_without() -> bool:
 def found(agents: Results) -> int:
     """How many agents have found the way out in training."""
     return int(agents.found_and_kept("soft")[0].sum())
-
-
-def finding(agents: Results) -> np.ndarray:
-    """The episodes after which these agents have found the way out, (agents,); 0 where they have not."""
-    return found_after(agents.of("soft").curves["success"])
 
 
 def kept(agents: Results) -> int:
@@ -86,11 +81,6 @@ def losing(agents: list[Results]) -> int:
     return sum(int(lost(each.of("soft").curves["success"]).sum()) for each in agents)
 
 
-def losers_that_escape(agents: Results) -> int:
-    """How many of the agents that lose the way out in their training escape after it."""
-    return int((lost(agents.of("soft").curves["success"]) & agents.found_and_kept("soft")[1]).sum())
-
-
 def crashes(agents: list[Results]) -> float:
     """The share of their drives that end in an accident."""
     return float(np.mean([each.of("soft").scores("accident") for each in agents]))
@@ -121,13 +111,6 @@ def same_until_the_floor() -> bool:
     return bool((at_the_floor | (stops["return"] == goes_on["return"])).all() and at_the_floor.any(1).all())
 
 
-def entropy_where_all_q_are_equal(alpha: float) -> float:
-    """The entropy (nats) of the best policy with ξ = 200 α, in a state where all nine Q are equal."""
-    log_rule = torch.tensor([[RULE_P] + [(1 - RULE_P) / 8] * 8]).log()
-    policy = regularised_policy(torch.zeros(1, 9), log_rule, alpha, 200 * alpha)
-    return float(-(policy * policy.log()).sum())
-
-
 def leaving_costs(xi: float) -> float:
     """What a second with another action than the rule's costs more than one with it, with this ξ."""
     return xi * math.log(8 * RULE_P / (1 - RULE_P))
@@ -141,3 +124,10 @@ def q_lead(alpha: float) -> float:
 def head_start() -> float:
     """How much larger the best policy's log π of the rule's action is where all Q are equal, with ξ = 200 α: nats."""
     return leaving_costs(200 / 201)
+
+
+def entropy_where_all_q_are_equal(alpha: float) -> float:
+    """The entropy (nats) of the best policy with ξ = 200 α, in a state where all nine Q are equal."""
+    log_rule = torch.tensor([[RULE_P] + [(1 - RULE_P) / 8] * 8]).log()
+    policy = regularised_policy(torch.zeros(1, 9), log_rule, alpha, 200 * alpha)
+    return float(-(policy * policy.log()).sum())

@@ -73,9 +73,9 @@ def escape_and_crash(kind: str) -> int:
     return int(((agents.scores("accident") > 0.5) & (agents.scores("success") >= ESCAPES)).sum())
 
 
-def ends(kind: str) -> tuple[int, ...]:
+def ends(kind: str) -> np.ndarray:
     """How many agents of a kind end in each way, see `figures.how_they_end`."""
-    return figures.how_they_end(easy(kind), easier.staying(kind))
+    return figures.how_they_end(easy(kind), easier.staying(kind))[0]
 
 
 @cache

@@ -99,12 +99,16 @@ def speeds_by_sight(far: Rollout, near: Rollout) -> Figure:
 
 
 def crash_over_time(drive: Rollout) -> Figure:
-    """Why a drive with a short sight crashes: how far ahead trap 1 is, and how much faster it is than trap 2."""
+    """Why a drive with a short sight crashes: how far ahead trap 1 is, and how much faster it is than trap 2.
+
+    Marked: where it begins a lane change, calls it off and changes lane in the end.
+    """
     scenario, green, steps = drive.scenario, style("rule").colour, drive.scenario.clock.steps
     ego, one, two = (drive.states[:, car] for car in (EGO, TRAP_1, TRAP_2))
     ahead, faster, sight = one[:, X] - ego[:, X], ego[:, SPEED] - two[:, SPEED], scenario.sight.distance
     given, (*_, safe) = drive.rule_reasons, long_enough(scenario.rule.t_safe)
-    lost, changed = int(np.argmax(given == Reason.FREE)), int(np.flatnonzero(given == Reason.CHANGE)[-1])
+    lost, changes = int(np.argmax(given == Reason.FREE)), np.flatnonzero(given == Reason.CHANGE)
+    began, changed = int(changes[0]), int(changes[-1])
     figure, last = new_figure(3.3), drive.times[-1]
 
     def panel(left: float, words: str, limits: tuple[float, float]) -> Axes:
@@ -116,10 +120,14 @@ def crash_over_time(drive: Rollout) -> Figure:
 
     ax = panel(0.4, "trap 1 ahead (m)", (12, 28))
     ax.plot(drive.times, ahead, color=green, linewidth=2.5)
-    ax.plot(drive.times, np.where(ahead > sight, ahead, np.nan), color=ALARM, linewidth=2.5)
+    unseen = (ahead > sight) & (drive.times >= lost)  # the rule looks once a second
+    ax.plot(drive.times, np.where(unseen, ahead, np.nan), color=ALARM, linewidth=2.5)
+    ax.plot(began, ahead[began * steps], "o", color=green, markersize=7)
+    begins = f"{began} s: begins to\nchange lane"
+    ax.text(began + 0.6, ahead[began * steps] - 0.6, begins, fontsize=TEXT, color=green, va="top")
     ax.axhline(sight, color=INK, linewidth=1.5, linestyle="--")
     ax.text(0.2, sight + 0.3, "sight", fontsize=TEXT, color=INK, va="bottom")
-    out = f"{lost} s: out of sight, so\nnobody ahead: speed up"
+    out = f"{lost} s: out of sight, so it\nstays and speeds up"
     ax.text(lost - 0.6, ahead.max() + 0.9, out, fontsize=TEXT, color=ALARM, va="bottom")
 
     ax = panel(3.35, "faster than trap 2 (m/s)", (-3, 4))
@@ -130,11 +138,12 @@ def crash_over_time(drive: Rollout) -> Figure:
     ax.plot(changed, then, "o", color=ALARM, markersize=7)
     says = f"{changed} s: changes lane"
     ax.text(changed - 0.5, then + 0.2, says, fontsize=TEXT, color=ALARM, ha="right", va="center")
-    title = f"It loses trap 1 at {lost} s, speeds up, and changes lane too fast at {changed} s"
+    title = f"It calls a lane change off at {lost} s, speeds up, and changes lane too fast at {changed} s"
     alt = (
         f"Trap 1 is {ahead[0]:.0f} m ahead at first and later up to {ahead.max():.0f} m, beyond the sight of "
-        f"{sight:g} m. At {changed} s it changes lane {then:.1f} m/s faster than trap 2; more than {safe:g} m/s is too "
-        f"fast to brake in the gap. At {last:g} s the drive ends in an accident."
+        f"{sight:g} m. At {began} s a lane change begins. At {lost} s trap 1 is out of sight, and the car stays in its "
+        f"lane and speeds up. At {changed} s it changes lane {then:.1f} m/s faster than trap 2; more than {safe:g} m/s "
+        f"is too fast to brake in the gap. At {last:g} s the drive ends in an accident."
     )
     return finish(figure, title, alt)
 

@@ -56,7 +56,7 @@ def plane(clone: tuple[float, float], trained: tuple[float, float]) -> Figure:
 def hinges(clip: float) -> Figure:
     """PPO's loss in two panels, for a decision that turned out well (A = 2) and one that turned out badly (A = −2)."""
     title = "A good decision pushes until its action is 20 % likelier, a bad one until it is 20 % rarer"
-    figure, colour, alt_parts = new_figure(3.7), style("ppo").colour, []
+    figure, colour, alt_parts = new_figure(3.4), style("ppo").colour, []
     for left, advantage in zip((0.5, 4.0), (2.0, -2.0), strict=True):
         ax = axes_at(figure, left, 1.0, 2.85, 1.9)
         losses = [clipped_loss(torch.tensor([r]), torch.tensor([advantage]), clip).item() for r in RATIOS]
@@ -77,8 +77,6 @@ def hinges(clip: float) -> Figure:
         plain_axes(ax, f"loss of a decision, A = {advantage:g}".replace("-", "−"))
         ax.set_xlabel("ratio ρ", fontsize=TEXT, color=INK)
         ax.margins(y=0.2)
-    words = "The ratio is above 1 where the action is likelier now than when it was taken."
-    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     return finish(figure, title, f"The loss against the ratio. {'; '.join(alt_parts)}.")
 
 

@@ -97,11 +97,9 @@ predicted("the_second_trap.2")
 explorable.sprints()
 
 # %% [markdown]
-# **See.** Changing between 5 and 15 m/s pays almost four times as much.
-#
-# A function whose slope never falls, like r_v up to 15 m/s, is **convex**: the mean of its values at several
-# speeds is at least its value at the mean speed (*Jensen's inequality*). How large is the difference in the
-# agent's drive?
+# **Explain.** A function whose slope never falls, like r_v up to 15 m/s, is **convex**: the mean of its
+# values at several speeds is at least its value at the mean speed (*Jensen's inequality*). How large is the
+# difference in the agent's drive?
 # <!-- claim: 3.5 < np.divide(*explorable.paid(speed_reward, 5)) < 4 -->
 # <!-- claim: (lambda r: all(r[i - 1] + r[i + 1] >= 2 * r[i] - 1e-12 for i in range(1, len(r) -
 #   1)))([speed_reward(v) for v in np.linspace(0, 15, 601)]) -->
@@ -177,8 +175,8 @@ bc.show(figures.gives_up(ppo_kinds.reference()["alone"]))
 # passes over random parts (*minibatches*), throws them away and drives again. The **advantage** A of an
 # action is what came of it, less what was expected.
 #
-# Suppose that PPO expects a steady 10 m/s, but the car falls back to 5 m/s for ten seconds and then sprints
-# at 15 for ten. A bar is the *surprise* of one second: what it pays, less what was expected. The first
+# Suppose that PPO expects a steady 10 m/s, but the car falls back to 5 and then sprints at 15 m/s, ten
+# seconds each. A bar is the *surprise* of one second: what it pays, less what was expected. The first
 # second's advantage A is the sum of the filled bars. The smaller λ is, the less the later seconds count.
 #
 # **Drag** λ down from PPO's {{ settings_for('ppo').gae_lambda }}: where does falling back stop looking good?
@@ -201,9 +199,9 @@ explorable.later()
 #
 # $$ A_t = \delta_t + \gamma\lambda\, \delta_{t+1} + (\gamma\lambda)^2 \delta_{t+2} + \dots $$
 #
-# PPO then fits V to A + V, as computed from its drives.
+# Then V is fitted to $A_t + V(s_t)$, both computed before the fit.
 #
-# **Two endings need care**:
+# **Endings need care**:
 #
 # | after decision t comes | next V in δ | the sum |
 # |---|---|---|
@@ -212,23 +210,21 @@ explorable.later()
 # | the end of the time | V of the last state | stops |
 # | the end of the data | V of the next state | stops |
 #
-# PPO's data end after {{ settings_for('ppo').horizon }} decisions, often before the sprint. What follows
-# counts in A only through V of the last state, so falling back then looks good only once V has learned that a
-# sprint follows.
+# PPO's data end after {{ settings_for('ppo').horizon }} decisions, often before the sprint. Of what follows,
+# A holds only V of the next state, so falling back then looks good only once V expects the sprint.
 # <!-- claim: np.mean([speed < 10 for i in range(ppo_agents()) for speed in ppo_speeds(seed=i)[31::32]]) > 0.4 -->
 # <!-- claim: ppo_kinds.settings_of('alone').horizon == settings_for('ppo').horizon == 32 -->
 #
-# **Exercise (15 min, ●●●).** Write the advantages, in torch. The data end with the last row.
+# **Exercise (15 min, ●●●).** Write the advantages, in torch.
 
 
 # %%
 def advantages(rewards, values, next_values, terminated, ended, gamma, lam):
     """A_t of each decision. The answer and all arguments but gamma and lam are (horizon, roads).
 
-    values: V(s_t). next_values: V(s_{t+1}), at an ending V of the episode's last state (yours to
-    set to 0 after an accident). terminated: 1 after an accident; ended: 1 after an accident or
-    when the time is over. For example rewards 1, 2, 4 of one road give 1.75, 3, 4 with V = 0
-    everywhere and γ = λ = ½.
+    values: V(s_t). next_values: the table's next V, after an accident not yet 0. terminated: 1
+    after an accident; ended: 1 after an accident or when the time is over. For example rewards
+    1, 2, 4 of one road give 1.75, 3, 4 with V = 0 everywhere and γ = λ = ½.
     """
     # solution
     delta = rewards + gamma * (1 - terminated) * next_values - values
@@ -280,9 +276,9 @@ def clipped_loss(ratio, advantage, clip):
 check.clipped_loss(clipped_loss)
 
 # %% [markdown] tags=["instructor"] minutes=7
-# The two endings are the hard part. Draw two rows, one that ends in an accident and one that runs out of
-# time, and fill in δ and the sum for both. Who thinks that clipping is a limit on the policy? It takes the
-# payment away, and other rows of the batch can push the policy further.
+# The endings are the hard part. Draw two rows, one that ends in an accident and one that runs out of time,
+# and fill in δ and the sum for both. Who thinks that clipping is a limit on the policy? It takes the payment
+# away, and other rows of the batch can push the policy further.
 
 # %% [markdown]
 # ## Round 5: start as a clone

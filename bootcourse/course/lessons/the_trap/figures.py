@@ -86,14 +86,15 @@ def bearable_risks(gammas: np.ndarray, risks: np.ndarray, early: float) -> Figur
 
     early: the share of roads on which the plan does crash early, dashed.
     """
-    at = {gamma: 100 * risks[np.argmin(abs(gammas - gamma))] for gamma in (0.8, 0.9, 1.0)}
+    at = {gamma: 100 * risks[np.argmin(abs(gammas - gamma))] for gamma in (0.8, 0.9)}
     title = f"The blind plan crashes early on {early:.0%} of the roads: ".replace("%", " %")
     title += "at γ = 0.8 that is too many, at γ = 0.9 it is not"
     figure, ax = one_axes(3.6, title, "γ, what a reward a second later is worth", "bearable risk of an early crash (%)")
     ax.axhline(100 * early, color=QUIET, linewidth=1, dashes=(4, 3))
     words = f"the blind plan crashes early: {100 * early:.0f} %"
     ax.text(gammas[0] + 0.003, 100 * early + 2, words, fontsize=TEXT, color=QUIET)
-    ways = (("the rule's way", style("rule").colour, (0.935, 4)), ("the blind plan bears", INK, (0.935, 45)))
+    slow = f"the rule's way: 0 below γ = {gammas[np.argmax(risks[:, 0] > 0)]:.2f}"
+    ways = ((slow, style("rule").colour, (0.935, 4)), ("the blind plan bears", INK, (0.935, 45)))
     for (name, colour, place), risk in zip(ways, 100 * risks.T, strict=True):
         ax.plot(gammas, risk, color=colour, linewidth=2, clip_on=False)
         ax.text(*place, name, ha="right", fontsize=TEXT, color=colour)
@@ -104,8 +105,9 @@ def bearable_risks(gammas: np.ndarray, risks: np.ndarray, early: float) -> Figur
                 ax.annotate(f"{value:.0f} %", (gamma, value), xytext=(-6, 4), textcoords="offset points", ha="right",
                             fontsize=TEXT, color=colour)  # fmt: skip
     ax.set(xlim=(gammas[0], gammas[-1]), ylim=(0, 85))
-    each = [f"at γ = {gamma:g} the rule's way {a:.0f} %, the blind plan {b:.0f} %" for gamma, (a, b) in at.items()]
-    alt = f"The bearable risk of an early crash grows with γ: {'; '.join(each)}. Dashed: {words}."
+    each = [f"at γ = {gamma:g} {b:.0f} %" for gamma, (_, b) in at.items()]
+    alt = f"The risk of an early crash that the blind plan bears grows with γ: {', '.join(each)}; {slow}. "
+    alt += f"Dashed: {words}."
     return finish(figure, title, alt)
 
 

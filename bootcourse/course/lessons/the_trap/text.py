@@ -153,11 +153,10 @@ for road in (7, ROAD, 1):  # all plans, on three roads
     print(f"road {road}: {out.sum()} of {len(all_plans):,} plans get out unhurt")
 
 # %% [markdown]
-# **Explain.** One can get out without braking, but few of these plans do, and none does on road 1.
-# <!-- claim: 70 < getting_out(7) < 150 and 0 < getting_out(ROAD) < 10 and getting_out(1) == 0 -->
-#
-# One of the {{ getting_out(ROAD) }} plans that get out on road {{ ROAD }} now drives {{ roads() | , }} other
-# roads: the **blind plan**, which looks at nothing.
+# **See.** You need not brake, at least not on roads 7 and {{ ROAD }}. One of the {{ getting_out(ROAD) }}
+# plans that get out on road {{ ROAD }} now drives {{ roads() | , }} other roads: the **blind plan**, which
+# looks at nothing.
+# <!-- claim: 70 < getting_out(7) < 150 and 0 < getting_out(ROAD) < 10 -->
 # <!-- claim: on_road(ROAD)(np.array([[5, 3, 3, 3, 3, 5, 5, 5]])).all() and ROAD not in
 #   held_out_seeds(1, roads()) -->
 
@@ -260,19 +259,17 @@ print(f"the rule's way out, 150 s: {driving.paid(pay, by_rule).sum():.4f}")
 # ## Round 3: what does a program learn?
 #
 # An **agent** is a program that learns from rewards, by trying: this is *reinforcement learning*. Once a
-# second it gets an **observation**, numbers that describe what it sees, and chooses an action. A second later
-# it gets the reward.
+# second it gets an **observation**, numbers about itself and the four nearest cars, and chooses an action. A
+# second later it gets the reward.
+# <!-- claim: DEFAULT.sight.neighbours == 4 and DEFAULT.observation_size == 26 -->
 
 # %%
 bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", reward="one number"))
 
 # %% [markdown]
-# The agent sees 26 numbers, of itself and of the four nearest cars.
-# <!-- claim: DEFAULT.sight.neighbours == 4 and DEFAULT.observation_size == 26 -->
-#
 # The agent's **policy**, π ("pi"), gives each action a probability. Each **update** compares what the agent
-# expected of some actions with what came of them, and corrects it. Then it makes the most promising actions a
-# little more probable.
+# expected of some actions with what came of them, and corrects its estimates. Then it makes the most
+# promising actions a little more probable.
 #
 # Four agents now learn for about 10 seconds by *soft actor-critic* (SAC). Two learn alone (*plain SAC*). Two
 # have the rule's help, which fades (*bootstrapped SAC*): they also learn from drives of the rule and are

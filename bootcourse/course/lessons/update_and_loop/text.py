@@ -44,7 +44,7 @@ progress("update_and_loop")
 # A cart carries a pole, and each push to the left or right pays 1. An episode ends when the pole falls (it
 # leans by more than {{ fallen_at() | .0f }}°, dashed, or the cart leaves its track), and at the latest after
 # 500 pushes. An untrained agent pushes one cart, and a rule written by hand pushes the other. **Drag** the
-# push. When does a pole fall?
+# push.
 
 # %%
 explorable.two_poles()
@@ -123,8 +123,8 @@ check.ReplayBuffer(ReplayBuffer)
 # > 7. **Steps.** Compute the three losses, then make a gradient step for each.
 # > 8. **Copies.** Q̄ₖ becomes Q̄ₖ + τ (Qₖ − Q̄ₖ), weight by weight.
 #
-# The functions are those of lesson [[discrete_sac]], which detach y, Q and H. `q_pair` is the Q of both
-# critics, (2, batch, 2), and `q` is the smaller of the two, `q_pair.amin(0)`. Detach α yourself:
+# The functions are those of lesson [[discrete_sac]], which detach y, Q and H. `q_pair` holds Q of both
+# critics, (critics, batch, pushes), and `q = q_pair.amin(0)` is the smaller of the two. Detach α yourself:
 # `agent.log_alpha.exp().detach()`.
 
 # %%
@@ -143,10 +143,11 @@ def update(agent, batch):
     """One update; returns nothing. agent: a by_hand.SAC. batch: a by_hand.Batch of n rows:
     states, next_states (n, 4), actions, rewards, terminated (n,).
 
-    step 3. soft_value(log_pi, q, alpha): agent.log_pi(next_states), agent.slow_q(next_states);
+    step 3. soft_value(log_pi, q, alpha): agent.log_pi(next_states) is (n, 2);
+            q from agent.slow_q(next_states), a q_pair
             critic_target(reward, terminated, next_value, gamma): agent.gamma
     step 4. critic_loss(q_pair, action, target): q_pair is agent.q(states)
-    step 5. actor_loss(log_pi, q, alpha): agent.log_pi(states), (n, 2), and agent.q(states)
+    step 5. actor_loss(log_pi, q, alpha): agent.log_pi(states); q from agent.q(states)
     step 6. temperature_loss(log_alpha, state_entropy, target_entropy): agent.log_alpha,
             sac.entropy(log_pi) of each state, agent.target_entropy
     step 7. zero_grad, backward, step: agent.optimisers (critics, actor, log α)
@@ -165,8 +166,8 @@ check.update(update)
 #   up. Reset the environment after a fall and when the time is up.
 # - `agent.draw(state, rng)` draws an action, and `by_hand.row(s, a, r, terminated, s')` makes a row.
 # - `by_hand.batch_of(buffer.sample(256, rng))` is a batch for `update`.
-# - A call begins with a reset. Count its pushes: no update before push 256, and from then on one at every
-#   fourth.
+# - Each call of `train` begins with a reset and counts its own pushes: it makes no update before push 256,
+#   and from then on one at every fourth.
 
 
 # %%
@@ -276,7 +277,7 @@ print(f"Entropy with the bug, pole upright: {entropy:.2f} nats")
 # this actor is sure of one side (its entropy is 0.00), and a pole that is always pushed to the same side
 # falls.
 #
-# Q is even above its limit (dotted) in all our agents with the bug, and in none without it.
+# Q is even *impossible*, above its limit (dotted), in all our agents with the bug, and in none without it.
 # <!-- claim: unmarked() == len(agents('unmarked')) == len(agents()) == 5 -->
 # <!-- claim: along_falls().max() < 1 / (1 - by_hand.SAC.gamma) -->
 
@@ -308,9 +309,6 @@ print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {t
 # last push, and one network gives both values, so the guess rose, too.
 # <!-- claim: possible('paid-0') == possible('paid-1') == 5 == len(agents('paid-1')) == len(agents('paid-0')) and
 #   after_a_block('paid-0').argmax() == 1 -->
-#
-# A low score shows that something is wrong. An impossible Q also says where to look: at the critics and their
-# rows.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # A belief to name: "without marks the critics would find the constant" of round 1. They approach it if rows
@@ -337,8 +335,7 @@ compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: compared, 4
 
 # %% [markdown]
 # **Three questions to think about**
-# - With `PAID = 1` a fallen pole is paid as much as a standing one. Which line of round 1 does Q resemble? Is
-#   Q possible, and does the pole stand?
+# - With `PAID = 1` a fallen pole is paid as much as a standing one. Which line of round 1 does Q resemble?
 # - Let `sample` give 256 rows that follow each other. What do you expect?
 # - Suppose that the end of the time counts as a fall. Which small world shows it?
 #

@@ -150,7 +150,7 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
     for side, all_q in enumerate(both):
         q, decisions = np.array(all_q), chain.EPISODE * np.arange(len(all_q))
         arrived = chain.arrivals(q)
-        ax = axes_at(figure, 0.4 + 3.35 * side, 0.95, 2.35, 1.6)
+        ax = axes_at(figure, 0.4 + 3.4 * side, 0.95, 2.5, 1.6)
         plain_axes(ax, f"{len(arrived)} of {len(q) - 1} walks reach the free road")
         for action, look in enumerate((OTHER, ON)):
             ax.plot(decisions, q[:, 0, action], color=look.colour, linestyle=look.line, linewidth=2)
@@ -164,7 +164,7 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
                 ax.plot([beaten] * 2, [-0.05, 1.85], color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
                 ax.text(beaten, 1.87, f"in {state}", **words)
         ends = [(q[-1, 0, 0], "Q(0, 0), stay once", OTHER.colour), (q[-1, 0, 1], "Q(0, 1), leave", ON.colour)]
-        label_ends(ax, ends)
+        label_ends(ax, ends, wrap=10)
         listed.append(
             f"{len(arrived)} walks reach the free road, the first after {decisions[arrived[0]]} decisions; "
             f"in the end Q(0, 0) is {q[-1, 0, 0]:.2f} and Q(0, 1) {q[-1, 0, 1]:.2f}"

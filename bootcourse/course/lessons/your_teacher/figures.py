@@ -4,13 +4,14 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from IPython.display import Markdown
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bootcourse.course import table
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.your_teacher import crashes, example_teachers, free_lane, taught_agents
 from bootcourse.methods import style
-from bootcourse.plots.figure import QUIET, axes_at, finish, new_figure
+from bootcourse.plots.figure import INK, QUIET, SMALL, axes_at, finish, new_figure
 from bootcourse.research.experiments.teacher_worth import Cells
 from bootcourse.research.results import Results
 from bootcourse.research.teachers import TEACHERS as STUDIED
@@ -86,13 +87,13 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], verdicts: Mapping[s
 
 
 def of_six_teachers(computed: Cells) -> Figure:
-    """The students' success in the experiment `teachers`; beside each row what its teacher's drives show."""
+    """The students' success in the experiment `teachers`; left of it what their teachers' drives show."""
     title = "All students of half random escape, though all its drives crash"
     groups = {words: scores(computed[name, "bootstrapped"]) for name, words in SIX.items()}
     shown = {words: free_lane.shown(name) for name, words in SIX.items()}
-    cells = {words: (f"{seconds:.0f}", f"{100 * crash:.3g}") for words, (seconds, crash) in shown.items()}
-    headings = "s in lane 0", "crash, %"
-    return in_rows(title, groups, ["bootstrapped"] * len(SIX), "success", left=1.5, of_drives=(headings, cells))
+    cells = {words: (f"{100 * crash:.3g}", f"{seconds:.0f}") for words, (seconds, crash) in shown.items()}
+    headings = "crash, %", "s in lane 0"
+    return in_rows(title, groups, ["bootstrapped"] * len(SIX), "success", left=2.9, of_drives=(headings, cells))
 
 
 def all_parts(computed: Mapping[str, Results]) -> Figure:
@@ -130,7 +131,8 @@ def in_rows(
     """A dot for each agent at its success (%) or return, a row for each group; beside it what the group reached.
 
     groups: {name: `scores`}; methods: of each group, for its colour; drawn: "success" or "returns"; left: inches;
-    of_drives: two headings, {name: cells} about the teacher's drives, in place of its students' return and accidents.
+    of_drives: two headings, {name: cells} about the teacher's drives, in place of its students' return and accidents
+    and left of the dots.
     """
     row, alt_parts, is_success = 0.42, [], drawn == "success"
     figure = new_figure(HEAD + row * len(groups) + FOOT)
@@ -143,18 +145,29 @@ def in_rows(
         escape, mean = f"{fills.sum()} of {len(fills)}", round(group["returns"].mean())
         accidents, found = f"{100 * group['accident'].mean():.0f}", (verdicts or {}).get(name, {})
         marks = [MARKS.get(found.get(score), "") for score in ("success", "returns")]
-        cells = f"{mean} {marks[1]}", accidents
+        cells = (f"{mean} {marks[1]}", accidents)
         about = f"return {mean}, accidents in {accidents} %"
         if of_drives:
-            cells = of_drives[1][name]
-            about = f"its drives {cells[0]} s in lane 0, crash in {cells[1]} %"
+            crash, seconds = of_drives[1][name]
+            about, cells = f"its drives crash in {crash} %, {seconds} s in lane 0", ()
+            before(ax, place, crash, seconds)
         beside(ax, place, f"{escape} {marks[0]}", *cells)
         words = "".join(f", {score}: {word}" for score, word in found.items() if word in MARKS)
         alt_parts.append(f"{name}: {escape} escape, {about}{words}")
-    beside(ax, -0.75, "escape", *(of_drives[0] if of_drives else ("return", "accidents, %")), colour=QUIET)
+    beside(ax, -0.75, "escape", *(() if of_drives else ("return", "accidents, %")), colour=QUIET)
     if of_drives:
-        beside(ax, -1.2, "", "its teacher's drives", colour=QUIET)
+        before(ax, -0.75, *of_drives[0], colour=QUIET)
     of_success = f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes"
     name_rows(ax, list(groups), of_success if is_success else "return of an agent after training; filled: it escapes")
+    if of_drives:
+        ax.tick_params(axis="y", pad=110)
     ax.set_xlim((-2, 102) if is_success else (0, None))
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
+
+
+def before(ax: Axes, place: float, *cells: str, colour: str = INK) -> None:
+    """Write two cells between a row's name and its dots."""
+    for words, left in zip(cells, (0.33, 0.07), strict=True):
+        at = -left, place
+        look = {"va": "center", "ha": "right", "fontsize": SMALL, "color": colour}
+        ax.annotate(words, at, xycoords=("axes fraction", "data"), **look)

@@ -200,8 +200,8 @@ choices = ["less than those alone", "about as much", "more"]
 predict("your_teacher.2", "What do the students of the racer earn?", choices)
 
 # %% [markdown]
-# ▲ marks a better score than that of the agents alone, ▼ a worse one, by rank tests (Holm at 5 %, lesson
-# [[how_many_seeds]]). Accidents and your two students are not tested.
+# ▲: better than the agents alone, ▼: worse (rank tests with Holm's correction at 5 %, lesson
+# [[how_many_seeds]]).
 
 # %%
 predicted("your_teacher.2")
@@ -263,9 +263,9 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # ## Round 4: the free lane, or its accidents?
 #
-# Two of half random's drives end ahead of trap 1, and are left out. Of the others, {{ reach_free_lane() }}
-# reach the free lane. Ten new agents for each row learn the parts marked ■ of these drives, and all of the
-# others:
+# Without the two of half random's drives that end ahead of trap 1, {{ len(crashes.crashed()) }} remain. All
+# agents learn from the {{ len(crashes.crashed()) - reach_free_lane() }} that never reach the free lane. From
+# the other {{ reach_free_lane() }}, the ten new agents of each row learn only the parts marked ■:
 #
 # | | before the free lane | from the free lane on | the accident |
 # |---|---|---|---|
@@ -287,8 +287,8 @@ choices = ["all of them", "those of only the free lane", "those of only the acci
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
-# **Exercise (5 min, ●○○).** Choose the decisions of *only the free lane*: of a drive that reaches lane 0 all
-# but the last one, of any other drive all.
+# **Exercise (5 min, ●○○).** Write which decisions *only the free lane* keeps: all, but not the last one of a
+# drive that reaches lane 0.
 
 
 # %%
@@ -320,7 +320,7 @@ bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
 # **Explain.** *Most students of half random escape if its drives show the free lane, with the accident there
-# or without it*. But the drives are not enough: from all of them without the bonus c,
+# or without it.* But the drives are not enough: from all of them without the bonus c,
 # {{ crash_escapes('no-bonus') }} of ten escape.
 # <!-- claim: crash_shown('no-bonus') and crash_escapes('no-bonus') < 5 < crash_escapes('all') -->
 
