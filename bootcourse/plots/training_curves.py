@@ -122,7 +122,8 @@ def training_curves(
     constants, paper, rows = constants or {}, paper or {}, -(-len(measures) // 2)
     head, row = 0.5 + 0.2 * len(wrapped(title).splitlines()), 2.7  # inches
     total = head + rows * row
-    figure, width = new_figure(total, 9.0), 2.88 if len(measures) > 1 else 7.05
+    across, width = (9.0, 2.88) if len(measures) > 1 else (7.0, 5.05)  # inches: lettering is as large as elsewhere
+    figure = new_figure(total, across)
     ends: dict[str, dict[str, float]] = {}
     for i, measure in enumerate(measures):
         ax = axes_at(figure, 0.45 + 4.41 * (i % 2), head + (i // 2) * row, width, row - 0.85)
@@ -134,9 +135,9 @@ def training_curves(
         points = {method: _points(curves, method, measure, window, updates) for method in curves}
         ends[measure] = _draw(ax, measure, points, looks, constants, paper)
     each = "each episode" if window == 1 else f"over the last {window} episodes"
-    few = all(len(np.atleast_2d(_values(curves, method, measures[0]))) < FEW for method in curves)
-    thick = "mean" if few else "interquartile mean with its 95 % interval"
-    words = f"Thin: agents. Thick: their {thick}. All {each}."
+    most = max(len(np.atleast_2d(_values(curves, method, measures[0]))) for method in curves)
+    thick = "mean" if most < FEW else "interquartile mean with its 95 % interval"
+    words = f"Thin: agents. Thick: their {thick}. All {each}." if most > 1 else f"A line for each agent, {each}."
     words += " Diamonds: the paper's test results." * bool(paper)
     figure.text(0.012, 0.1 / total, words, fontsize=SMALL, color=QUIET)
     return finish(figure, title, _alt(curves, ends, "episodes" if updates is None else "updates"))

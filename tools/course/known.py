@@ -167,12 +167,6 @@ def discounted(drive, gamma: float) -> float:
     return float(gamma ** np.arange(len(drive.rewards)) @ drive.rewards)
 
 
-@cache
-def rule_drives() -> list:
-    """The rule's drives on the 60 roads of the lesson on demonstrations."""
-    return record(rule_policy(DEFAULT), range(60))
-
-
 def in_training(method: str, first: int, last: int | None) -> np.ndarray:
     """Each agent's success in some of its training episodes, (agents,)."""
     return of(method).curves["success"][:, first:last].mean(axis=1)

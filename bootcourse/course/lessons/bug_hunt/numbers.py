@@ -24,13 +24,8 @@ def drives() -> list[Rollout]:
 
 @cache
 def agree(bug: str) -> np.ndarray:
-    """Where a learner's labels are the rule's action before the step, in the lesson's drive: (decisions,) bool."""
-    return bugs.labels(bug, labelled_drive()) == labelled_drive().rule_actions
-
-
-def labelled_drive() -> Rollout:
-    """The drive whose labels the lesson compares."""
-    return drives()[2]
+    """Where a learner's labels are the rule's action before the step, in these drives: (decisions,) bool."""
+    return np.concatenate([bugs.labels(bug, drive) == drive.rule_actions for drive in drives()])
 
 
 def ends(name: str) -> float:

@@ -91,7 +91,7 @@ def alone(agents: Sequence[Agent]) -> list[Rollout]:
 
 
 def accidents(drives: Sequence[Rollout], of_rule: Tensor) -> str:
-    """How many of the drives end in an accident, in which, and how many of these come left of the rule's rows."""
+    """How many of the drives end in an accident, in which, how many come left of the rule's rows, and the errors."""
     ended = Counter(Accident(each.accident) for each in drives if each.accident)
     left = sum(off_on_the_left(each) for each in drives)
     kinds = {
@@ -103,9 +103,11 @@ def accidents(drives: Sequence[Rollout], of_rule: Tensor) -> str:
     said = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count)
     crashed, furthest = [each for each in drives if each.accident], left_in(of_rule).max().item()
     beyond = sum(bool((metres_left(each) > furthest).any()) for each in crashed)
+    wrong = np.concatenate([each.actions != each.rule_actions for each in drives]).mean()
     return (
         f"{len(crashed)} of {len(drives)} drives end in an accident: {said}.\n"
-        f"In {beyond} of these the car comes left of all the rule's rows first."
+        f"In {beyond} of these the car comes left of all the rule's rows first.\n"
+        f"Of all decisions {100 * wrong:.0f} % are errors."
     )
 
 

@@ -45,7 +45,6 @@ ROAD = 10
 # %% [markdown]
 # Two others drive 60 roads: the rule, and the **stochastic rule**, which takes the rule's action with
 # probability p = {{ RULE_P }} and otherwise one of the other eight. Here are their first 30 seconds.
-# <!-- claim: round(1 / (1 - RULE_P)) == 10 -->
 
 # %% tags=["hide-input"]
 unsure = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0))
@@ -114,9 +113,8 @@ bc.show(figures.clones(measured))
 
 # %% [markdown]
 # **See.** *Agreement with its data does not say who drives well.* Our clones of one drive know it almost by
-# heart, and mostly crash. Nearly all drives of the stochastic rule crash, with one random decision in ten.
-# Its clones take their most probable action, so they leave the random ones out, and crash far less often.
-# <!-- claim: all(drive.accident == 0 for drive in rule_drives()) -->
+# heart, and mostly crash. The stochastic rule's clones take their most probable action, so they leave its
+# random ones out, and crash far less often than it does.
 # <!-- claim: UPDATES == 1500 -->
 # <!-- claim: of('bc').agents[0]['demonstration_episodes'] == 200 -->
 
@@ -131,7 +129,8 @@ bc.show(figures.clones(measured))
 # %% [markdown]
 # ## Round 2: how does one error lead to the next?
 #
-# A decision unlike the rule's counts as an **error** of a clone.
+# A decision unlike the rule's counts as an **error** of a clone. The rule's five clones now drive the first
+# picture's 60 roads.
 #
 # > **Predict.** Where do most accidents of the rule's clones happen?
 
@@ -146,15 +145,15 @@ print(cloning.accidents(alone, by_rule))
 bc.show(figures.off_the_road(alone, by_rule))
 
 # %% [markdown]
-# **See.** *The clone drifts off a free lane.* On the rule's path, too, nearly half of its decisions are
-# errors. In most of its accidents it comes left of all the rule's rows, where nearly every decision is an
-# error.
+# **See.** *The clone drifts off a free lane, into states in which it errs more.* In the lane's middle, too,
+# nearly half of its decisions are errors. In most of its accidents it comes left of all the rule's rows,
+# where nearly every decision is an error.
 #
-# Errors that lead to more errors are called **compounding errors**. If a clone errs in its teacher's states
-# with a small probability ε per second, a drive twice as long can have up to four times as many errors (Ross
-# and Bagnell 2010).
+# In the rule's states these clones err in about a fifth of the seconds (Round 1), in their own in more than
+# half. Errors that lead to states with more errors are called **compounding errors**.
 
 # %% [markdown] tags=["instructor"] minutes=7
+# Let a clone err in its teacher's states with a probability of at most ε per second (Ross and Bagnell 2010).
 # Draw both bounds on the errors in T decisions, ε T and ε T (T + 1) / 2: the first error comes at decision t
 # with a probability of at most ε, and T − t + 1 errors follow from it; add up over t. Our clones disagree
 # with a fifth of their data: with such an ε the bound allows an error in nearly every second. Then ask what
@@ -189,12 +188,17 @@ fed_crash = {name: cloning.measure(fed[name], by_rule[::10]) for name in fed}
 bc.show(figures.added(KINDS[0], measured[KINDS[0]], fed_crash))
 
 # %% [markdown]
-# **See.** *The rows from the edge prevent most accidents; as many other rows do not.* The states that a data
-# set holds are its **coverage**.
+# **See.** *The rows from the edge prevent most accidents; as many other rows do not.*
 #
-# Longer training on the rule's drives alone helps, too: with some {{ updates_of(of('bc')) / UPDATES | .0f }}
-# times as many updates the study's clones crash in {{ 100 * accidents('bc') | .1f }} % of their drives.
+# Longer training, without added rows, reverses the result of Round 1. With some
+# {{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates, the study's clones of the rule crash in
+# {{ 100 * accidents('bc') | .1f }} % of their drives. Its clones of the stochastic rule have twice as many,
+# and crash in {{ 100 * by_chance().scores('accident').mean() | .0f }} %.
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 -->
+# <!-- claim: by_chance().agents[0]['stochastic_demonstrations'] and len(by_chance()) == 10 and
+#   round(updates_of(by_chance()) / updates_of(of('bc')), 1) == 2 -->
+# <!-- claim: by_chance().agents[0]['demonstration_episodes'] == of('bc').agents[0]['demonstration_episodes'] -->
+# <!-- claim: of('bc').scores('accident').max() < by_chance().scores('accident').min() -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The rows from the edge suffice. Must it be these? A group can add the rows from 1 m left of the middle up to
@@ -245,9 +249,9 @@ trainings = [cloning.measure(each, by_rule[::10]) for each in zip(*drivers, stri
 bc.show(figures.taught(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
-# **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.*
-# DAgger adds the states that earlier clones came to, labelled by the rule. The number of updates is the same:
-# fewer of them are spent on the rule's states, more on the clones' own.
+# **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.* Each
+# clone has equally many updates. The more of its rows are from clones' drives, the fewer updates are left for
+# the rule's.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody must let a
@@ -277,8 +281,8 @@ compare_predictions(
 #    drives.
 # 2. It is trained on the teacher's states and drives in its own, where errors lead to more errors. Before
 #    most of our accidents it is at places where the rule's drives have no row.
-# 3. After a short training, a few rows from these places prevent most of the accidents. Longer training on
-#    the rule's drives helps, too.
+# 3. After a short training, a few rows from these places prevent most of the accidents. After a long one the
+#    rule's clones hardly crash.
 # 4. DAgger adds rows from the clone's own states: the clone drives, the teacher labels.
 #
 # **Three questions to think about**

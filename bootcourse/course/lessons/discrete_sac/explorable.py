@@ -27,7 +27,7 @@ def undecided() -> Explorable:
         q, temperature = torch.tensor([list(values.values())], dtype=torch.float64), torch.tensor([alpha])
         log_pi = sac.log_policy(q / alpha)
         entropy, value = float(sac.entropy(log_pi)), float(sac.soft_value(log_pi, q, temperature))
-        says = f"It is undecided by {entropy:.2f} nats, and the state is worth {value:.2f}."
+        says = f"Its entropy is {entropy:.2f} nats, and the state is worth {value:.2f}."
         return bars(
             says, AXES, ACTIONS, {"the best policy for these numbers": Curve(log_pi.exp()[0], style("sac").colour)}
         )

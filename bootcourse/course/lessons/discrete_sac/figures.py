@@ -44,7 +44,7 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) ->
         ax.barh(names, of.sum(axis=1), 0.72, left=before, color=colour, edgecolor=INK, linewidth=0.7, label=words)
         before += of.sum(axis=1)
         alt_parts.append(f"{words}: {', '.join(map(str, of.sum(axis=1)))}")
-    beside(ax, -0.75, "π(leave), chain known", colour=QUIET)
+    beside(ax, -0.75, "π(leave) if it knows the chain", colour=QUIET)
     known = [*knows, knows[0], knows[0]]  # each falling α ends at the first, or below it
     for place, each in enumerate(known):
         beside(ax, place, f"{each:.2f}")

@@ -57,9 +57,9 @@ def constant(decisions: int = 1000) -> Walked:
 
 
 @cache
-def falling(decisions: int = 1000, begin: float = 10) -> Walked:
-    """Learners whose α falls to a thousandth of where it begins, by equal factors."""
-    alphas = np.geomspace(begin, begin / 1000, decisions)
+def falling(decisions: int = 1000, begin: float = 10, end: float = 0.01) -> Walked:
+    """Learners whose α falls by equal factors."""
+    alphas = np.geomspace(begin, end, decisions)
     return walked(sac.soft_value, sac.critic_target, torch.tensor(alphas)[:, None])
 
 

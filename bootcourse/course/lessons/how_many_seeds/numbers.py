@@ -6,19 +6,10 @@ from itertools import combinations, combinations_with_replacement
 from math import factorial, prod
 
 import numpy as np
-import scipy
 
 from bootcourse.course.lessons.how_many_seeds import counts, explorable  # noqa: F401 (for the expressions)
-from bootcourse.statistics import Estimate, interval, power, rate
+from bootcourse.statistics import Estimate, interval, power, rate  # noqa: F401 (the text names rate)
 from tools.course.known import of
-
-
-def rarest_cover(n: int) -> float:
-    """How often the exact interval of n agents contains the true rate, at the rate where it does so least."""
-    _, low, high = np.transpose([rate(np.arange(n) < k) for k in range(n + 1)])
-    true = np.linspace(0, 1, 1001)[:, None]
-    chances = scipy.stats.binom.pmf(np.arange(n + 1), n, true)
-    return float((chances * ((low <= true) & (true <= high))).sum(axis=1).min())
 
 
 def fitting(mean: float, sd: float) -> list[tuple[int, int]]:
@@ -52,9 +43,14 @@ def halves() -> list[Estimate]:
 
 @cache
 def splits() -> list[tuple[int, Estimate]]:
-    """All splits of our ten bootstrapped agents, five against five: how many of the three worst are in the first."""
+    """All splits of our ten bootstrapped agents, five against five: how many of the four worst are in the first."""
     returns = np.sort(of("bootstrapped").scores("returns"))
     first = [list(half) for half in combinations(range(10), 5)]
     return [
-        (sum(i < 3 for i in half), counts.exact_difference(returns[half], np.delete(returns, half))) for half in first
+        (sum(i < 4 for i in half), counts.exact_difference(returns[half], np.delete(returns, half))) for half in first
     ]
+
+
+def one_half_has_the_lowest_four(effect: Estimate) -> bool:
+    """Is this difference that of a split in which the four lowest returns came into one half?"""
+    return any(low in (0, 4) and np.isclose(effect.value, each.value) for low, each in splits())

@@ -58,7 +58,7 @@ class LiveDemonstrations(LiveWayOut):
 
 def returns(groups: dict[str, Results]) -> Figure:
     """The mean return of groups of ten agents in their first training episodes, and below how often they succeed."""
-    title = "With the bonus agents stay longer with the rule; success falls as it ends"
+    title = "With the bonus agents stay longer with the rule, and success falls later"
     figure, rule, said, ends = new_figure(5.0), evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value, [], []
     above, below = (axes_at(figure, 0.5, top, 4.9, tall) for top, tall in ((0.95, 2.0), (3.3, 1.1)))
     plain_axes(above, f"return, no bonus counted: mean of ten agents and {WINDOW} episodes")

@@ -7,17 +7,27 @@ from bootcourse.course.lessons.learning_from_demonstrations.measures import kind
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.research.results import Results
 from bootcourse.statistics import lost
-from tools.course.known import SETTINGS, by_rule, idle
+from tools.course.known import SETTINGS, by_rule, idle, shipped_results
 
 
 def _with(name: str) -> tuple[list[Results], list[Results]]:
-    """One of `kinds`, by its last word: "c = 2", "c = 0" or "none"."""
+    """One of `kinds`, by its last word: "c = 2", "c = 0" or "none".
+
+    Or the study's ten with the "margin".
+    """
+    if name == "margin":
+        return [shipped_results().of("margin_soft")], [shipped_results().of("margin")]
     return kinds()["no demonstrations" if name == "none" else f"demonstrations, {name}"]
 
 
 def in_all(name: str) -> str:
     """ "16 of 20": how many agents with the soft constraint and these demonstrations escape."""
     return measures.escape(_with(name)[0])
+
+
+def of_the_study(name: str) -> str:
+    """How many of the study's ten agents with the soft constraint and these demonstrations escape."""
+    return measures.escape(_with(name)[0][:1])
 
 
 def alone(name: str) -> str:
@@ -52,9 +62,9 @@ def fall(name: str) -> np.ndarray:
     return training(name, "return", 800, 900) - training(name, "return", 1000, 1100)
 
 
-def losing_until(episode: int) -> list[int]:
-    """How many agents with c = 2 have lost the way out by this training episode: of the study's ten, and the others."""
-    return [int(lost(each.curves["success"][:, :episode]).sum()) for each in _with("c = 2")[0]]
+def losing_until(name: str, episode: int) -> int:
+    """How many of the twenty agents with the soft constraint have lost the way out by this training episode."""
+    return sum(int(lost(each.curves["success"][:, :episode]).sum()) for each in _with(name)[0])
 
 
 def bonus_needed() -> np.ndarray:

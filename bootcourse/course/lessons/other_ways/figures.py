@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, OTHER, Style
@@ -156,7 +157,7 @@ def learning_curve(results: Results, count: str) -> np.ndarray:
 
 
 def two_counts(computed: Mapping[str, Results], rule: float) -> Figure:
-    """The learning curves of all methods over the seconds that they computed, and over their decisions.
+    """The learning curves of the five over the seconds that they computed, and over their decisions.
 
     computed: see `equal_decisions.by_method`; rule: what the rule earns, the green line.
     """
@@ -174,19 +175,20 @@ def two_counts(computed: Mapping[str, Results], rule: float) -> Figure:
         ax.set_xticks(np.linspace(0, LONGEST[count] / unit, 4).round())
         ax.tick_params(axis="y", labelleft=not by_decisions)
         x = np.linspace(0, LONGEST[count] / unit, POINTS + 1)[1:]
-        for method in reversed([one for one in computed if by_decisions or one not in equal_decisions.UNTIMED]):
+        for method in reversed([one for one in computed if one in TAKES]):
             look, values = style(method), learning_curve(computed[method], count)
             ax.plot(x, values, color=look.colour, linewidth=look.width, linestyle=look.line)
             if by_decisions:
-                name = display_name(method) + ", no teacher" * (method not in TAKES)
-                ends.append((values[np.isfinite(values)][-1], name, look.colour))
+                ends.append((values[np.isfinite(values)][-1], display_name(method), look.colour))
         earned = {display_name(one): iqm(in_training(computed[one], mark, count)) for one in TAKES}
         order[count] = dict(sorted(earned.items(), key=lambda one: -one[1]))
-    label_ends(ax, ends)
+    places, (low, high), colours = label_ends(ax, ends, gap=0.1), ax.get_ylim(), [colour for *_, colour in ends]
+    leads = [[(1.01, (y - low) / (high - low)), (1.085, place)] for (y, *_), place in zip(ends, places, strict=True)]
+    ax.add_collection(LineCollection(leads, colors=colours, linewidths=0.9, transform=ax.transAxes, clip_on=False))
     best, least = next(iter(order[SECONDS])), [*order[DECISIONS]][-1]
     title = f"By seconds of computing {best} earns the most of the five, by decisions"
     title += f"{'' if best == least else ' ' + least} the least"
-    words = f"interquartile mean of ten agents' last {WINDOW} episodes; not counted: PPO's cloning, plain SAC's seconds"
+    words = f"interquartile mean of ten agents' last {WINDOW} episodes; not counted: PPO's cloning"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     each = {count: ", ".join(f"{name} {of:.0f}" for name, of in by.items()) for count, by in order.items()}
     alt = f"Return in training after {MARKED[SECONDS]} s of computing: {each[SECONDS]}."

@@ -8,16 +8,15 @@ import numpy as np
 from bootcourse.course.lessons.other_ways import figures, measures
 from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.learn.settings import settings_for
 from bootcourse.methods import METHODS  # noqa: F401 (for the expressions)
-from bootcourse.policies import PolicyOutput, rule_policy
+from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, TRAP_1, X
-from bootcourse.scenario import DEFAULT, N_ACTIONS
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, holm, interval
 from tools.course.known import shipped_experiment
 
@@ -25,7 +24,6 @@ FIRST, SECOND, LONGEST = BUDGETS
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
 FIVE_SECONDS = (equal_decisions.SECONDS, measures.SECONDS)  # what a training spends, in each of two counts
 ON_ROAD = (FIRST, measures.DECISIONS)
-ONE_IN_TWENTY = 0.05
 
 
 @cache
@@ -49,23 +47,6 @@ def rule_is_ahead() -> float:
     """The median of the decisions after which the rule is ahead of trap 1, on 20 roads."""
     cars = [drive.cars for drive in record(rule_policy(DEFAULT), range(20))]
     return float(np.median([(each[:, EGO, X] > each[:, TRAP_1, X]).argmax() for each in cars]))
-
-
-class _Disturbed:
-    """The rule; each of its actions is replaced by a random one with a probability."""
-
-    def __init__(self, probability: float):
-        self.probability, self.rng, self.rule = probability, np.random.default_rng(0), rule_policy(DEFAULT)
-
-    def __call__(self, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-        by_rule, random = self.rule(observations, cars).actions, self.rng.integers(0, N_ACTIONS, len(cars))
-        return PolicyOutput(np.where(self.rng.random(len(cars)) < self.probability, random, by_rule))
-
-
-@cache
-def random_ends() -> int:
-    """How many of 80 drives by the rule end in an accident if one action in twenty is a random one."""
-    return int((drive_episodes(_Disturbed(ONE_IN_TWENTY), held_out_seeds(1, 80)).accident > 0).sum())
 
 
 def score_at(method: str, budget: int = FIRST) -> Estimate:

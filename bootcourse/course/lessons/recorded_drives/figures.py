@@ -168,15 +168,16 @@ def beside(ax: Axes, words: str, x: float, y: float, side: str) -> None:
 
 
 def chosen(study: Results, guesses: Sequence[float], truth: Sequence[float]) -> Markdown:
-    """A table of whom the largest estimate takes in each set of six agents, who is truly worth most, and earns most.
+    """A table, a row for each set of six agents: whom the largest estimate takes, who is worth most, who earns most.
 
     guesses, truth: of each agent, one set after the other.
     """
     earned = np.transpose([study.of(method).scores("returns") for method in choosing.METHODS])
     guessed, worth = choosing.by_set(guesses), choosing.by_set(truth)
-    first = zip(*(values.argmax(axis=1) for values in (guessed, worth, earned[: len(worth)])), strict=True)
-    rows = [
-        [place + 1, *(f"{display_name(choosing.METHODS[one])}, {earned[place, one]:.0f}" for one in each)]
-        for place, each in enumerate(first)
-    ]
-    return table(["set", "largest estimate, its return", "truly worth most, its return", "highest return"], rows)
+    rows = []
+    for place, (guess, truly, get) in enumerate(zip(guessed, worth, earned, strict=False)):
+        most = [f"{display_name(choosing.METHODS[each.argmax()])}, {each.max():.2f}" for each in (guess, truly)]
+        best = f"{display_name(choosing.METHODS[get.argmax()])}, {get.max():.0f}"
+        taken = guess.argmax()
+        rows.append([place + 1, most[0], f"{truly[taken]:.2f}", f"{get[taken]:.0f}", most[1], best])
+    return table(["set", "largest estimate", "its true worth", "its return", "worth most", "highest return"], rows)

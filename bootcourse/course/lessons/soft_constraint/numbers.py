@@ -1,7 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 import math
-import re
 from collections.abc import Callable
 from functools import cache
 
@@ -97,11 +96,6 @@ def ways_of_the_panel(xi: float) -> dict[str, Way]:
 def way(xi: float, whose: str = CHOSEN) -> str:
     """How far one of the panel's three ways gets: "402 m in 40 s"."""
     return ways_of_the_panel(xi)[whose].words
-
-
-def metres(xi: float) -> str:
-    """How far the panel's compromise gets in its 40 s."""
-    return re.fullmatch(r"(\d+) m in 40 s", way(xi))[1]
 
 
 def same_until_the_floor() -> bool:

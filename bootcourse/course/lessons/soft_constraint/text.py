@@ -47,8 +47,8 @@ progress("soft_constraint")
 # <!-- claim: of('rule').scores('success').min() >= ESCAPES -->
 #
 # Look at the road alone; Rounds 1 and 2 explain the table. The thick line is a car that compromises between a
-# trained agent's Q and the rule, red where the car crashes. The thin lines are the agent's way and, under the
-# thick line at first, the rule's.
+# trained agent's Q and the rule, red where the car crashes. The thin blue line is the agent's way. The
+# rule's, thin and green, lies under the thick one at ξ = 1.
 #
 # **Drag** ξ down from 1, then type 0. How far does the car get in 40 s?
 
@@ -59,9 +59,8 @@ its_drive = bc.record(helped.as_policy(with_q=True), [ROAD], label="soft")[0]
 bc.panels.policy_panel(its_drive, agent=helped, xi=1.0)
 
 # %% [markdown]
-# **See.** *With a strong pull the car is as slow as the rule.* With ξ = 1 it gets {{ metres(1) }} m, like the
-# rule, and with ξ = 0 {{ metres(0) }} m, like the agent.
-# <!-- claim: way(1) == way(1, "the rule's way") and way(0) == way(0, "the agent's way") -->
+# **See.** *With a strong pull the car is as slow as the rule.*
+# <!-- claim: way(1) == way(1, "the rule's way") -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Collect ways to combine the bars of π and π̃ (mix them, multiply them, add a loss). Keep the list for Round
@@ -252,9 +251,9 @@ check.constrained_target(constrained_target)
 #
 # </details>
 #
-# > **Predict.** An agent follows trap 1 for ever, is sure of each action, and gets
-# > {{ idle().rewards.mean() | .2f }} each second. The rule would always do something else. With γ = 0.8 and
-# > ξ = 2, what is following worth without the value penalty, and what with it? A crash pays −10.
+# > **Predict.** A crash pays −10. An agent follows trap 1 for ever: it gets {{ idle().rewards.mean() | .2f }}
+# > each second, and is sure of an action that is never the rule's. With γ = 0.8 and ξ = 2, is following worth
+# > more than a crash without the value penalty, and with it?
 # <!-- claim: not (idle().rule_actions == idle().actions).any() -->
 
 # %%
@@ -345,9 +344,9 @@ bc.show(figures.courses(kinds))
 # <!-- claim: same_until_the_floor() -->
 #
 # In a fourth kind ξ falls to 0.1 and no further (`bc.settings_for("soft", xi_min=0.1)`). A second at 15 m/s
-# pays {{ second_pays(15) - second_pays(12) | .1f }} more than one at 12, the rule's speed. To leave the rule
-# for that second costs ξ times the difference of the two prices: {{ leaving_costs(2) | .1f }} with ξ = 2, but
-# {{ leaving_costs(0.1) | .1f }} with 0.1.
+# pays {{ second_pays(15) - second_pays(12) | .1f }} more than one at 12, the rule's speed. An action that is
+# not the rule's has a price {{ leaving_costs(1) | .2f }} nats higher. Times ξ, this is
+# {{ leaving_costs(2) | .1f }} with ξ = 2, but {{ leaving_costs(0.1) | .1f }} with 0.1.
 # <!-- claim: abs(of('rule').scores('speed').mean() - 12) < 0.5 -->
 # <!-- claim: leaving_costs(0.1) < second_pays(15) - second_pays(12) < leaving_costs(2) -->
 #

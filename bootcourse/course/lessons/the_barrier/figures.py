@@ -77,8 +77,8 @@ def how_they_drive(agents: Sequence, tests: Sequence):
         accidents = test.collision.value + test.road_departure.value + test.stoppage.value
         shares = [f"{100 * share:.0f}" for share in (test.success.value, accidents)]
         rows.append([settings.gamma, *shares, f"{test.returns.value:.1f}"])
-    below = "A curve above is a mean of the last 50 drives, with actions drawn from the policy; here each agent takes "
-    below += "its most probable actions."
+    below = "These returns may differ from the curves: in training actions are drawn from the policy; here each agent "
+    below += "takes its most probable ones."
     return table(["γ", "ends ahead, %", "accidents, %", "return"], rows, below=below)
 
 

@@ -63,7 +63,7 @@ def when_to_change(drive: Rollout) -> Figure:
 
 def speed_over_time(drive: Rollout) -> Figure:
     """The rule's speed over a drive, with the traps' speed, and the time from which it is ahead of trap 1."""
-    title = "The rule falls back, gets out, and then slows down again and again"
+    title = "The rule falls back, keeps the traps' speed, then slows down again and again"
     ahead, traps = overtaken(drive), drive.states[0, TRAP_1, SPEED]
     figure, ax = one_axes(2.4, title, "time (s)", "the rule's speed (m/s)")
     ax.plot(drive.times, drive.states[:, EGO, SPEED], color=style("rule").colour, linewidth=1.8)

@@ -13,7 +13,7 @@ from bootcourse.learn.teachers import teacher_policy
 from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD, by_rule, discounted, idle, shipped_teachers
+from tools.course.known import ROAD, discounted, idle, shipped_teachers
 
 
 def ppo(kind: str) -> dict:
@@ -59,7 +59,6 @@ def worth(driver: str, gamma: float) -> float:
     """The discounted return of a drive on road 10."""
     drives = {
         "keeping straight": idle,
-        "the rule": by_rule,
         "this agent": ppo_drive,
         "careful": lambda: record(teacher_policy(example_teachers.careful), [ROAD])[0],
     }
@@ -67,12 +66,12 @@ def worth(driver: str, gamma: float) -> float:
 
 
 def worth_table() -> str:
-    """What four drives are worth with SAC's γ and with PPO's, as Markdown."""
+    """What three drives are worth with SAC's γ and with PPO's, as Markdown."""
     gammas = {method: settings_for(method).gamma for method in ("sac", "ppo")}
     names = {"careful": f"`careful` (lesson {number('your_teacher')})"}
     rows = [
         [names.get(driver, driver), f"{worth(driver, gammas['sac']):.1f}", f"{worth(driver, gammas['ppo']):.0f}"]
-        for driver in ("keeping straight", "the rule", "this agent", "careful")
+        for driver in ("keeping straight", "this agent", "careful")
     ]
     return markdown(["", f"SAC's γ = {gammas['sac']}", f"PPO's γ = {gammas['ppo']}"], rows)
 

@@ -105,7 +105,7 @@ bc.show(figures.nine_actions(decoded, seconds=2))
 # %% [markdown]
 # A drive of at most {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s is an **episode**. An
 # **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive that ends ahead of
-# trap 1 *gets out*: it is a **success**, even if an accident ended it. A drive without an accident is
+# trap 1 *gets out*: it is a **success**, even if an accident ended it. Without an accident it gets out
 # *unhurt*.
 # <!-- claim: len(KINDS) == 3 -->
 #
@@ -238,8 +238,8 @@ check.reward(reward)
 predicted("the_trap.2")
 pay = own_code.yours_or_ours("reward", doing="Paying")
 print(f"doing nothing, a second: {pay(10, 0, 0, 0):.5f}")
-print(f"doing nothing, 150 s: {driving.paid(pay, idle).sum():.4f}")
-print(f"the rule's way out, 150 s: {driving.paid(pay, by_rule).sum():.4f}")
+print(f"doing nothing, 150 s: {driving.paid(pay, idle).sum():.1f}")
+print(f"the rule's way out, 150 s: {driving.paid(pay, by_rule).sum():.1f}")
 
 # %% [markdown]
 # **Explain.** The rule's way out returns about twice as much as staying behind trap 1. An accident costs
@@ -284,8 +284,9 @@ learned = training.run(progress=False, callback=live, updates=1500)
 live.show(training)
 
 # %% [markdown]
-# **See.** Plain SAC's return rises, but hardly any of its drives succeed. With the rule's help success rises,
-# too.
+# **See.** All returns begin near −10, an accident at once, and rise. With the rule's help success rises, too;
+# without it hardly any drive succeeds. So far both kinds earn less than the {{ idle().rewards.sum() | .0f }}
+# of doing nothing.
 #
 # In our study {{ len(of('sac')) }} agents of each kind learned for
 # {{ of('sac').curves['success'].shape[1] | , }} drives each. Agents of one kind differ only in their
@@ -331,13 +332,12 @@ bc.show(figures.what_they_learned(study, blind))
 # %% [markdown]
 # ## Round 4: when does an attempt pay?
 #
-# The agents of Round 3 **discount** rewards: a reward that comes t seconds later counts γᵗ times what it
-# pays. At γ ("gamma") = {{ SETTINGS.gamma }}, the paper's choice, a reward of 1 in ten seconds counts
-# {{ 0.8 ** 10 | .2f }} now.
+# The agents of Round 3 **discount** rewards: what is paid t seconds later is multiplied by γᵗ. At γ ("gamma") =
+# {{ SETTINGS.gamma }}, the paper's choice, a reward of 1 in ten seconds counts {{ 0.8 ** 10 | .2f }} now.
 # <!-- claim: SETTINGS.gamma == 0.8 -->
 #
 # > **Predict.** On road {{ ROAD }} the rule drives at 8 to 10 m/s until second 33, and then at 11 to
-# > 15 m/s. Undiscounted this returns about twice as much as staying. What is it worth at γ = 0.8?
+# > 15 m/s. What is this way out worth at γ = 0.8?
 # <!-- claim: (lambda v: 8 == v[:34].min() < v[:34].max() == 10 and 11 == v[34:].min() < v[34:].max()
 #   == 15)(by_rule().states[::2, EGO, SPEED].round(6)) -->
 
@@ -392,10 +392,9 @@ for gamma in gammas:
 bc.show(figures.bearable_risks(gammas, np.array(risks), early))
 
 # %% [markdown]
-# **Explain.** At γ = 0.8 neither *of these two* pays, though a quick and safe way out would: the rule's is
-# worth less than staying even without any risk, and the blind plan bears an early crash on
-# {{ 100 * borne(0.8) | .0f }} % of the roads, but has one on {{ 100 * crashed_early().mean() | .0f }} %
-# (dashed).
+# **Explain.** At γ = 0.8 neither way pays. The rule's way is worth less than staying even without any risk.
+# The blind plan bears an early crash on {{ 100 * borne(0.8) | .0f }} % of the roads, but has one on
+# {{ 100 * crashed_early().mean() | .0f }} % (dashed).
 # <!-- claim: discounted(idle(), 0.8) > max(worth_of_plan(), discounted(by_rule(), 0.8)) -->
 # <!-- claim: borne(0.8) < crashed_early().mean() < borne(0.9) -->
 # <!-- claim: crashed_early().mean() == np.mean((blind_plan().accident > 0) & (blind_plan().distance < 50)) -->

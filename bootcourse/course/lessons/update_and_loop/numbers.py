@@ -6,7 +6,7 @@ import numpy as np
 
 from bootcourse.course.lessons.update_and_loop import by_hand  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.update_and_loop.pole import BLOCK, SOLVED
-from bootcourse.course.lessons.update_and_loop.worlds import BEFORE, GAMMA  # noqa: F401 (the text names γ)
+from bootcourse.course.lessons.update_and_loop.worlds import BEFORE, GAMMA, to_one_side  # noqa: F401 (the text names γ)
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.research.problems import cartpole
 from bootcourse.research.results import Results
@@ -38,6 +38,11 @@ def along_falls(kind: str = "marked") -> np.ndarray:
     return agents(kind).notes["q"][:, : BEFORE + 1]
 
 
+def pushed_to_one_side() -> float:
+    """After how many pushes a pole falls that is pushed to one side only, mean of 40."""
+    return float(np.mean([len(states) - 1 for states in to_one_side()]))
+
+
 def solved() -> int:
     """How many solved the pole: two tests in a row reach the mark, and so does the mean of 100 episodes."""
     lasting = agents().measured["after"]
@@ -57,7 +62,7 @@ def fell_at_once() -> int:
 def unmarked() -> int:
     """How many of those without marks have a Q above all that is possible, most for a fallen pole, and fall at once."""
     q, most = along_falls("unmarked"), agents("unmarked").measured["most"]
-    return int(((q.min(1) > most) & (q[:, -1] > q[:, 0]) & (after_a_block("unmarked") < 10)).sum())
+    return int(((q.min(1) > most) & (q.argmax(1) == BEFORE) & (after_a_block("unmarked") < 10)).sum())
 
 
 def possible(kind: str) -> int:

@@ -107,7 +107,7 @@ def _values(title: str, rows: Mapping[str, tuple[np.ndarray, np.ndarray]], digit
 
 def who_leaves(found: Mapping[str, Sequence[np.ndarray]]) -> Figure:
     """A square for each learner, a row for each kind: how far it got, by the Q (5, 2) that it ends with."""
-    title = "Chance alone or a replayed demonstration teaches all thirty to leave, a longer view alone none"
+    title = "All thirty learn to leave by acting at random or from a demonstration, none with a longer view alone"
     most = max(map(len, found.values()))
     size, height, top = min(0.19, 4.4 / most), 0.29 * len(found), 0.34 + 0.2 * len(wrapped(title).splitlines())
     figure, listed = new_figure(top + height + 0.2 + 0.19 * len(SHADES)), []
@@ -161,8 +161,8 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
             words = {"fontsize": SMALL, "color": QUIET, "ha": "center", "va": "bottom"}
             for state in (3, 2, 1):
                 beaten = decisions[goes_on_from(q, state)]
-                ax.plot([beaten] * 2, [-0.05, 1.85], color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
-                ax.text(beaten, 1.87, f"in {state}", **words)
+                ax.plot([beaten] * 2, [-0.05, 1.75], color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
+                ax.text(beaten, 1.77, f"{state}: go on", **words)
         ends = [(q[-1, 0, 0], "Q(0, 0), stay once", OTHER.colour), (q[-1, 0, 1], "Q(0, 1), leave", ON.colour)]
         label_ends(ax, ends, wrap=10)
         listed.append(

@@ -184,8 +184,8 @@ learn_chain = exercise(
         ((np.array([0]), 0.8, 1.0, ((4, 1), (3, 1))), np.array([[0.16, 0], [0, 0], [0, 0], [0, 0.8], [0, 1.0]])),
     ],
     hints=(
-        "One loop over `chances`. Start again in state 0 where `t % chain.EPISODE == 0`; choose a; update; move on to "
-        "`chain.NEXT[s, a]`.",
+        "One loop over `chances`. Start again in state 0 where `t % chain.EPISODE == 0`; choose a; update, after the "
+        "last decision of a walk, too; move on to `chain.NEXT[s, a]`.",
         "The same update for your own decision and for each (s, a) in `taught`: the target is `chain.REWARD[s, a] + "
         "gamma * q[chain.NEXT[s, a]].max()`.",
     ),

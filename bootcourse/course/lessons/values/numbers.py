@@ -13,20 +13,32 @@ def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
     return sum(map(chain.has_been_free, chain.learned(explore, gamma, walks=walks)))
 
 
-def with_ties(walks: int = 30) -> int:
-    """How many of the chain's learners with A's ε and γ leave, if they take action 1 of two equal ones."""
-    return sum(map(_leaves, range(walks)))
+@cache
+def with_draws(walks: int = 30) -> list[np.ndarray]:
+    """Q of each of the chain's learners with A's ε and γ, if they draw one of two equal actions at random."""
+    return [_drawing(seed)[-1] for seed in range(walks)]
 
 
-def _leaves(seed: int) -> bool:
-    """Does A's learner of this seed leave, if it treats two equal actions so?"""
-    q, s = np.zeros((chain.STATES, 2)), 0
+@cache
+def drawn_arrivals(walks: int = 30) -> list[int]:
+    """On how many walks each of those that reach the free road does so."""
+    counts = (len(chain.arrivals(np.array(_drawing(seed)))) for seed in range(walks))
+    return [count for count in counts if count]
+
+
+@cache
+def _drawing(seed: int) -> list[np.ndarray]:
+    """A's learner of this seed that draws so: its Q before the first walk and after each."""
+    rng, q, s, found = np.random.default_rng(1000 + seed), np.zeros((chain.STATES, 2)), 0, []
     for t, chance in enumerate(chain.chances(0.1, 1000, seed)):
-        s = 0 if t % chain.EPISODE == 0 else s
-        a = int(q[s, 1] >= q[s, 0]) if chance < 0 else chance
+        if t % chain.EPISODE == 0:
+            s = 0
+            found.append(q.copy())
+        greedy = rng.integers(2) if q[s, 0] == q[s, 1] else q[s].argmax()
+        a = int(greedy) if chance < 0 else chance
         q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
         s = chain.NEXT[s, a]
-    return chain.leaves(q)
+    return [*found, q]
 
 
 def sweeps(times: int, gamma: float) -> np.ndarray:

@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Rectangle
-from matplotlib.ticker import NullLocator
 
 from bootcourse.colours import ALARM, Style
 from bootcourse.course import charts
@@ -14,7 +13,7 @@ from bootcourse.course.lessons.your_own_problem import loops
 from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, cells
 from bootcourse.learn.agent import Agent
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
+from bootcourse.plots.figure import INK, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.problems import PROBLEMS
 
 
@@ -97,36 +96,6 @@ def beside_teachers(rows: Mapping[str, tuple[str, str]], title: str) -> Figure:
         figure.text(x, 0.8, words, fontsize=TEXT, color=colour, fontweight="bold")
     figure.text(0.58, 0.04, "return", ha="center", fontsize=TEXT, color=INK)
     return finish(figure, title, " ".join(alt))
-
-
-def spread(seen: np.ndarray, taught: np.ndarray, cloned: np.ndarray, good: np.ndarray) -> Figure:
-    """How many labels each state has: where the teacher errs, dark; where its clone errs, crossed.
-
-    As `loops.labels` returns them: the states, the teacher's actions, its clone's, the good teacher's, n of each.
-    """
-    _, first, labels = np.unique(seen, axis=0, return_index=True, return_counts=True)
-    order = np.lexsort((taught[first] == good[first], -labels))
-    labels, wrong, errs = labels[order], (taught != good)[first][order], (cloned != good)[first][order]
-    share, spread_to = 100 * labels[wrong].sum() / labels.sum(), (errs & ~wrong).sum()
-    title = (
-        f"The teacher errs in {wrong.sum()} states with {share:.0f} % of the labels; the clone errs in {spread_to} more"
-    )
-    figure, at = new_figure(3.5), np.arange(len(labels))
-    ax = axes_at(figure, 0.65, 1.05, 6.1, 1.8)
-    for of, look in ((wrong, {"color": ALARM}), (~wrong, {"color": "white", "edgecolor": QUIET})):
-        ax.bar(at[of], labels[of], width=0.8, **look)
-    ax.scatter(at[errs], 1.35 * labels[errs], marker="x", s=16, color=INK, linewidths=1.2, zorder=3)
-    plain_axes(ax, "labels of the state (logarithmic)")
-    ax.set_yscale("log")
-    ax.set(xlim=(-0.7, len(labels) - 0.3), ylim=(0.7, 2.5 * labels.max()), xticks=[])
-    ax.set_yticks([1, 10, 100, 1000], ["1", "10", "100", "1,000"])
-    ax.yaxis.set_minor_locator(NullLocator())
-    ax.set_xlabel(f"the {len(labels)} states of the drives, most labels first", fontsize=TEXT, color=INK)
-    keys = {"filled: the teacher errs": ALARM, "open: the teacher is right": QUIET, "×: the clone errs": INK}
-    for place, (words, colour) in zip((0.86, 0.74, 0.62), keys.items(), strict=True):
-        ax.text(0.98, place, words, ha="right", transform=ax.transAxes, fontsize=TEXT, color=colour)
-    alt = f"A bar for each state. The clone errs in {(errs & wrong).sum()} of the {wrong.sum()} wrong states"
-    return finish(figure, title, f"{alt} and in {(errs & ~wrong).sum()} of the {(~wrong).sum()} right ones.")
 
 
 def bonuses() -> Figure:

@@ -173,6 +173,20 @@ def labels(problem: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray
     return seen, drives.actions, np.asarray(clone.probabilities(seen)).argmax(-1), good(seen)
 
 
+def errors(
+    seen: np.ndarray, taught: np.ndarray, cloned: np.ndarray, good: np.ndarray
+) -> tuple[list[str], list[list[str]]]:
+    """(headings, rows): where the teacher is right and where it is wrong, how many states, and where its clone errs.
+
+    As `labels` returns them.
+    """
+    rows = []
+    for name, of in (("right", taught == good), ("wrong", taught != good)):
+        share, errs = f"{100 * of.mean():.0f} %", of & (cloned != good)
+        rows.append([name, str(states(seen[of])), share, str(states(seen[errs]))])
+    return ["the teacher is", "states", "of the labels", "states in which the clone is wrong"], rows
+
+
 def states(seen: np.ndarray) -> int:
     """How many different states there are among these, (n, observation)."""
     return len(np.unique(seen, axis=0))

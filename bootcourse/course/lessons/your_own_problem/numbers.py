@@ -4,7 +4,6 @@ from functools import cache
 
 import gymnasium as gym
 import numpy as np
-import torch
 from gymnasium.vector import VectorEnv
 
 from bootcourse.course.lessons import registry
@@ -41,9 +40,9 @@ def speed_rule_earns() -> float:
     return loops.earns(lambda seen: int(seen[2] + seen[3] > 0), pole)
 
 
-def by_bonus(teacher: str) -> np.ndarray:
-    """The success of both aids on DoorKey with each bonus that the table shows, by drawn actions."""
-    return np.array([score("doorkey", teacher, name, "drawn_success") for name in BONUSES.values()])
+def by_bonus(teacher: str, measure: str = "drawn_success") -> np.ndarray:
+    """The success of both aids on DoorKey with each bonus of the figure, by drawn actions or, "success", not."""
+    return np.array([score("doorkey", teacher, name, measure) for name in BONUSES.values()])
 
 
 def without_loops() -> float:
@@ -57,18 +56,18 @@ def alone(bonus: str) -> float:
 
 
 def loops_table() -> str:
-    """How many drives of DoorKey reach the goal, by drawn actions, as Markdown."""
+    """How many drives of DoorKey reach the goal, by drawn actions and by most probable ones, as Markdown."""
     kinds = [
         ("all drives of the random teacher", "yes", "random", "both"),
         ("only those of them that reach the goal", "no", "random", elsewhere.WITHOUT_LOOPS),
         ("all drives of the good teacher", "no", "good", "both"),
+        ("none: plain SAC", "–", "none", "SAC"),
     ]
-
     rows = [
-        [name, loops_, f"{100 * score('doorkey', teacher, how, 'drawn_success'):.0f}"]
+        [name, loops_, *(f"{100 * score('doorkey', teacher, how, of):.0f}" for of in ("drawn_success", "success"))]
         for name, loops_, teacher, how in kinds
     ]
-    return markdown(["the demonstrations", "loops", "goals"], rows)
+    return markdown(["the demonstrations", "loops", "drawn actions", "most probable actions"], rows)
 
 
 def entry_scores() -> list[float]:
@@ -89,15 +88,6 @@ def drowning_bonus(*arguments: float) -> float:
 
 
 labels = cache(loops.labels)
-
-
-@cache
-def shown_once() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """`labels` of DoorKey, each state once; the clone has learned from these alone."""
-    seen, taught, _, good = labels("doorkey")
-    first = np.unique(seen, axis=0, return_index=True)[1]
-    clone = loops.cloned("doorkey", loops.shown("doorkey").rows()[torch.as_tensor(first)])
-    return seen[first], taught[first], np.asarray(clone.probabilities(seen[first])).argmax(-1), good[first]
 
 
 def doorkey_errors() -> tuple[int, float]:
