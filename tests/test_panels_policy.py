@@ -76,6 +76,11 @@ def test_every_control_moves_its_own_numbers_and_the_picture_and_refuses_nonsens
         at_its_ends(panel, number)
 
 
+def inside(widget) -> list:
+    """A widget, and all that it holds."""
+    return [widget, *(each for child in getattr(widget, "children", ()) for each in inside(child))]
+
+
 def test_the_car_drives_on_by_the_compromise_between_the_agent_s_way_and_the_rule_s():
     agent = shipped_agents("soft")[0]
     [drive] = record(agent.as_policy(with_q=True), [10], label="soft")
@@ -89,6 +94,10 @@ def test_the_car_drives_on_by_the_compromise_between_the_agent_s_way_and_the_rul
         assert abs(int(own) - driven) < 1, "its own way is the recorded one"
         assert words(panel).endswith(f"this compromise: {chosen} m in 40 s. "), "below the picture, where it wraps"
     assert abs(metres[0] - int(own)) < 10 and metres[1] == int(rule) < int(own) - 100
+    alone = policy_panel(drive, agent=agent, t=6.0, xi=10.0, table=False)
+    assert f"this compromise: {metres[1]} m in 40 s" in alone.svg.alt, "the road alone says the same"
+    assert "brake left" not in alone.svg and "nats" not in alone.svg.alt
+    assert alone.xi.slider in inside(alone) and alone.p.slider not in inside(alone)
     [by_rule] = record(compromise(agent, DEFAULT, 0.9, 1e6, 0.01), [10])
     assert np.array_equal(by_rule.actions, record(rule_policy(DEFAULT), [10])[0].actions), "a large ξ is the rule"
     with pytest.raises(BootcourseError, match="This agent has no Q"):
@@ -145,7 +154,7 @@ def test_at_the_crossing_both_are_worth_the_same_and_every_control_moves_the_pic
         crossed = bonus_numbers(panel.demonstration, panel.trapped, settings)
         assert crossed.augmented[k] == pytest.approx(crossed.trapped[k], abs=1e-9)
     before = panel.svg
-    assert "A bonus of 2 adds 10 to it" in before.alt
+    assert "The bonus adds c / (1 − γ) = 10." in before.alt
     from_page(panel.c.slider, value=1.95)
     assert np.allclose(panel.seen.augmented, seen.plain + 5 * 1.95) and panel.view.value == panel.svg != before
     for number in (panel.c, panel.gamma):

@@ -125,9 +125,10 @@ class BonusPanel(Panel):
     def _sentences(self, c: float) -> tuple[str, str]:
         """What the numbers say about the whole drive, and what the bonus adds to it."""
         highest, added = float(self.seen.crossing.max()), c * self.seen.weight[0]
-        leads = f"From c = {highest:.2g} on" if highest > 0 else "Even without a bonus"
-        title = f"{leads} the rule's drive is worth more in each second."
-        return title, f"A bonus of {c:g} adds {added:.3g} to it, c / (1 − γ)."
+        title = "Even without a bonus the rule's drive is worth more in each second."
+        if highest > 0:
+            title = f"Only from c = {highest:.2g} on is the rule's drive worth more in each second."
+        return title, f"The bonus adds c / (1 − γ) = {added:.3g}."
 
 
 def bonus_panel(c: float = Settings().bonus) -> BonusPanel:

@@ -42,8 +42,9 @@ class PolicyPanel(Panel):
 
     def __init__(
         self, rollout: Rollout, p: float, xi: float, alpha: float, futures: Policy | None = None,
-        agent: Agent | None = None, t: float = 0.0,
+        agent: Agent | None = None, t: float = 0.0, table: bool = True,
     ):  # fmt: skip
+        self.table = table
         self.ways = None if agent is None else compromise.Ways(rollout, agent)
         self.rollout, self.rate = rollout, rollout.scenario.clock.decision_rate
         self.imagined = None if futures is None else nine_drives(rollout.cars, futures, rollout.scenario)
@@ -53,8 +54,9 @@ class PolicyPanel(Panel):
         self.xi = Number("ξ", xi, 0.001, 10, 0.1, "Weight of the KL, which pulls π to the rule; 0 may be typed.",
                          check=lambda xi: check_weights(xi, alpha), logarithmic=True)  # fmt: skip
         self.alpha, self.view, self.under = alpha, widgets.HTML(), widgets.HTML()
-        numbers = (self.moment, self.p, self.xi)
-        super().__init__("What the rule's pull does to each action", beside(*numbers), self.view, self.under)
+        numbers = (self.moment, self.p, self.xi) if table else (self.moment, self.xi)
+        title = "What the rule's pull does to each action" if table else "What the rule's pull does to the drive"
+        super().__init__(title, beside(*numbers), self.view, self.under)
         self.update_with(*numbers)
         self.say(missing(rollout))
 
@@ -84,19 +86,22 @@ class PolicyPanel(Panel):
         if self.imagined is not None:
             ahead = trails(self.imagined, int(self.rollout.actions[k]), k)
         road, _ = road_svg(self.rollout.cars[k], scenario, colour, self.width, scale, trails=ahead)
-        table = action_table(self.seen, p, xi, alpha, display_name(self.rollout.label), colour)
-        if self.imagined is not None:
+        table = []
+        if self.table:
+            table = action_table(self.seen, p, xi, alpha, display_name(self.rollout.label), colour)
+            table += self._marks(k, colour)
+        if self.table and self.imagined is not None:
             table += rollout_bars(self.imagined.values[k], self.imagined.accidents[k] > 0)
-        inner = ['<g transform="translate(8 0)">', *road, *self._head(k), *table, *self._marks(k, colour), "</g>"]
+        inner = ['<g transform="translate(8 0)">', *road, *self._head(k), *table, "</g>"]
         alt = f"{self._alt(k)} {compromise.in_words(ways) if ways else ''}".strip()
-        self.svg = self.view.value = drawing(self.width + 16, BOTTOM + 50, inner, alt)
+        self.svg = self.view.value = drawing(self.width + 16, BOTTOM + 50 if self.table else ROAD + 50, inner, alt)
 
     def _head(self, k: int) -> list[str]:
         """The time, the car's speed, and why the rule does what it does."""
         why = SENTENCES[Reason(int(self.rollout.rule_reasons[k]))]
         lane, speed = self.rollout.rule_lanes[k], self.rollout.rule_speeds[k]
         aim = f"It aims at lane {lane} (0 is the leftmost) and {speed:g} m/s."
-        kl = "" if self.seen.kl is None else f"KL(π‖π̃) = {self.seen.kl:.2f} nats"
+        kl = "" if self.seen.kl is None or not self.table else f"KL(π‖π̃) = {self.seen.kl:.2f} nats"
         return [
             text(0, ROAD + 22, f"{k / self.rate:g} s", bold=True, size=15),
             text(64, ROAD + 22, f"{self.rollout.cars[k, EGO, SPEED]:.1f} m/s", size=13),
@@ -125,9 +130,9 @@ class PolicyPanel(Panel):
             f"{k / self.rate:g} s into the drive of the {display_name(self.rollout.label)}.",
             f"The rule says {by_rule}; {driven} is driven.",
         ]
-        if seen.kl is not None:
+        if self.table and seen.kl is not None:
             sentences.append(f"The KL from the rule with p = {self.p.value:g} is {seen.kl:.2f} nats.")
-        if seen.optimum is not None:
+        if self.table and seen.optimum is not None:
             best = int(seen.optimum.argmax())
             sentences.append(
                 f"With ξ = {self.xi.value:g} and α = {self.alpha:g} the best compromise gives "
@@ -217,6 +222,7 @@ def policy_panel(
     futures: Policy | None = None,
     agent: Agent | None = None,
     t: float = 0.0,
+    table: bool = True,
 ) -> PolicyPanel:
     """See π, π̃ and their best compromise at each decision of a drive, while you move p and ξ.
 
@@ -224,6 +230,7 @@ def policy_panel(
     `rule_p` if None. alpha: the paper's start value, 0.01, if None. xi: the paper's 200 α, 2. futures: the base policy
     of nine imagined drives at each decision, which are drawn on the road with their values. agent: the driver, with
     critics: the car drives on by the compromise, beside the agent's own way and the rule's. t: the decision's time (s).
+    table: False shows the road alone, without the nine actions and p.
     Raises BootcourseError for anything but a recorded drive, and for values out of range.
     """
     if not isinstance(rollout, Rollout):
@@ -235,4 +242,4 @@ def policy_panel(
     check_weights(xi, alpha)
     if agent is not None:
         require(bool(agent.critics), "This agent has no Q to compromise with: give one of SAC.")
-    return PolicyPanel(rollout, p, xi, alpha, futures, agent, t)
+    return PolicyPanel(rollout, p, xi, alpha, futures, agent, t, table)

@@ -61,16 +61,16 @@ bc.recording(figures.two_drives(hunt), height=360)
 # %% [markdown]
 # ## Round 1: which agents would you suspect?
 #
-# The curves show the return in training, without the bonus.
+# The curves show the return in training, without the bonus. An agent with short drives has more episodes.
 
 # %%
 bc.show(figures.returns(hunt))
 
 # %% [markdown]
 # **See.** *A curve can look right although the code is wrong.* A, C and D end about where the healthy agent
-# ends. B and F look ill, but their curves do not say why. E, the second driver above, earns far *more*, but
-# its two seeds have accidents in {{ late('E', 'accident')[0] }} and {{ late('E', 'accident')[1] }} of their
-# last 30 episodes. The healthy agent has none.
+# ends. B and F look ill. E, the second driver above, earns far *more*, but its two seeds have accidents in
+# {{ late('E', 'accident')[0] }} and {{ late('E', 'accident')[1] }} of their last 30 episodes. The healthy
+# agent has none.
 # <!-- claim: late('healthy', 'accident') == [0, 0] and
 #   max(h for n in 'ABCDF' for h in
 #   hunt().at_the_end('return')[n]) < min(hunt().at_the_end('return')['E']) -->
@@ -114,7 +114,7 @@ def end_error(q, actions, rewards, terminated):
 check.end_error(end_error)
 
 # %% [markdown]
-# The picture shows Q of both seeds at the agents' *own* accidents.
+# This is Q at the agents' *own* accidents:
 
 # %%
 predicted("bug_hunt.1")
@@ -162,12 +162,8 @@ bc.show(figures.promises(hunt))
 # %% [markdown]
 # **Explain.** With a bonus in every second the limit is (1 + c) / (1 − γ) =
 # {{ (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}; without any it is {{ 1 / (1 - SETTINGS.gamma) | .0f }}.
-# The healthy agents, whose demonstrations carry the bonus, end a little above that.
-# <!-- claim: (lambda end: 1 / (1 - SETTINGS.gamma) < end.min() and end.max() < 1.1 / (1 - SETTINGS.gamma))(
-#   hunt().probe('healthy', 'promise')[:, -1]) -->
 #
-# One agent leaves the picture, up to {{ hunt().probe('F', 'promise').max() | .0f }}. Which bug lets the
-# actor's loss raise Q?
+# One agent leaves the picture. Which bug lets the actor's loss raise Q?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} and
 #   hunt().probe('E', 'promise').max() < 15 and (hunt().probe('F', 'promise').max(axis=1) >
 #   20).all() and (hunt().probe('F', 'promise')[:, -1] < 20).all() and
@@ -203,8 +199,9 @@ bc.show(figures.rarest(hunt))
 # **Explain.** With the right KL it costs little to drop such an action. The flipped KL grows without bound as
 # the action's probability goes to zero, so the policy drops the action more slowly.
 #
-# *Two* agents' rarest action stays far likelier to the end. With `sampled` the Q of the drawn action has no
-# gradient, and that of α log π is 0 on average. So only the KL teaches this actor: what will it earn?
+# *Two* agents' rarest action stays far likelier to the end. In the right loss π multiplies Q, so the actor
+# learns from Q. In `sampled` Q stands alone: no change of π changes it. The gradient of α log π is 0 on
+# average, so only the KL teaches this actor: what will it earn?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'rarest')[:, -1].min() > -20} == {'A', 'B'}
 #   and (hunt().probe('healthy', 'rarest')[:, -1] < -30).all() -->
 
@@ -215,19 +212,20 @@ bc.show(figures.rarest(hunt))
 # %% [markdown]
 # ## The verdict
 #
-# This is where the lines of the four rounds *end*:
+# Here the lines of the four rounds *end*:
 
 # %%
 bc.show(figures.line_ends(hunt))
 
 # %% [markdown]
-# **Exercise (8 min, ●●○).** Name the bug of each agent. Grey is only two seeds, so begin with agents *far*
-# from it in just one column.
+# **Exercise (8 min, ●●○).** Name the bug of each agent. Round 2 asked about `no_end` and `bonus_for_all`,
+# Round 3 about `bonus_for_all` and `no_stop`, Round 4 about `flipped_kl` and `sampled`. Begin with agents
+# *far* from grey in just one column.
 
 
 # %%
 def diagnose(agent):
-    """The bug of an agent, "A" to "F": flipped_kl, no_end, sampled, no_stop, bonus_for_all, ..."""
+    """The bug of an agent, "A" to "F", by its name in the first table."""
     # solution: the exercise's own
 
 
@@ -248,14 +246,17 @@ check.diagnose(diagnose)
 # - **B**: the KL alone teaches the actor, towards the stochastic rule, which crashes in {{ ended().sum() }}
 #   of 50 drives.
 # - **C** learns late. A fourth probe shows it, but only while it learns: at updates 1,000 to 5,000 its
-#   likeliest action is the rule's in {{ 100 * alike('C', 1000, 5000) | .0f }} % of the seconds, the healthy
-#   agent's in {{ 100 * alike('healthy', 1000, 5000) | .0f }} %.
+#   likeliest action is the rule's in {{ 100 * alike('C', 1000, 5000) | .0f }} % of the seconds (healthy:
+#   {{ 100 * alike('healthy', 1000, 5000) | .0f }} %).
 # - **D** adds γ times the value of a car that has just crashed, which no row teaches: here it is far below 0.
-# - **E** promises less than 15, the limit with bonuses.
+# - **E** promises {{ hunt().probe('E', 'promise')[:, -1].mean() | .0f }}, between the two limits of Round 3.
 # - **F**: the actor's loss changes the critic, and raises the Q of what the policy likes. Both promises pass
 #   15, and one comes back.
 #
 # </details>
+# <!-- claim: (lambda end: 2 / (1 - SETTINGS.gamma) < end.min() and
+#   end.max() < (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma))(hunt().probe('E', 'promise')[:, -1]) and
+#   all(hunt().probe(n, 'promise').max() < 7 for n in ('healthy', *'ABCD')) -->
 # <!-- claim: after_the_end('D') < DEFAULT.reward.accident -->
 # <!-- claim: all(b[:, -1].max() < 1.5 and b.max(axis=1).min() > 4 and a[:, -1].min() > 5 for a, b in
 #   [[hunt().probe(n, 'promise') for n in 'AB']]) -->
@@ -280,13 +281,11 @@ check.diagnose(diagnose)
 #
 # **The labels.** In each row, ask the rule in s and compare its answer with the label.
 #
-# **The target.** This line has two of the six bugs:
+# **The target.** This line has two of the six bugs, `no_end` and `bonus_for_all`:
 #
 # ```python
 # target = reward + bonus + gamma * next_value
 # ```
-#
-# The bonus belongs to demonstrations alone, and after an accident there is no next value.
 #
 # **Exercise (15 min, ●●●).** Write the test of the target; you may call the function, not read it. `bonus`
 # and `gamma` are floats, the rest arrays (batch,) of your choice; `demo` and `end` hold 1 or 0. Four
@@ -302,7 +301,7 @@ def unmasks(target):
 check.unmasks(unmasks)
 
 # %% [markdown]
-# Now test the seven untrained learners, with labels from Round 2's drives:
+# Test the seven untrained learners, with labels from Round 2's drives:
 
 # %%
 test = own_code.yours_or_ours("unmasks", doing="Testing")

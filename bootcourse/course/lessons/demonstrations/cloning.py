@@ -106,7 +106,7 @@ def accidents(drives: Sequence[Rollout], of_rule: Tensor) -> str:
     wrong = np.concatenate([each.actions != each.rule_actions for each in drives]).mean()
     return (
         f"{len(crashed)} of {len(drives)} drives end in an accident: {said}.\n"
-        f"In {beyond} of these the car comes left of all the rule's rows first.\n"
+        f"In {beyond} of the {len(crashed)} the car is at some time farther left than any of the rule's rows.\n"
         f"Of all decisions {100 * wrong:.0f} % are errors."
     )
 

@@ -94,7 +94,7 @@ def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title:
 
 
 STEPS_LEFT = np.array([-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0])  # m, the bars of `off_the_road`
-PLACES = "2 m right", "1 m right", "lane's middle", "1 m left", "2 m left:\nthe road's edge"
+PLACES = "2 m right", "1 m right", "left lane's\nmiddle", "1 m left", "2 m left:\nthe road's edge"
 
 
 def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:

@@ -99,7 +99,7 @@ def overestimated() -> Explorable:
         return curves(says.replace("-", "−"), axes, counts, named, mark=actions)
 
     numbers = {
-        "actions": Number("actions", 2, 1, MOST, 1, "How many actions there are; all are worth 0."),
+        "actions": Number("actions", 9, 1, MOST, 1, "How many actions there are; all are worth 0."),
         "error": Number("error", 1, 0, 2, 0.1, "How much an estimate errs: the standard deviation."),
     }
     return Explorable("How good does the best-looking action seem to be?", draw, **numbers)

@@ -25,32 +25,37 @@ def descents(ends: Mapping[str, Descent]):
     return table([f"after {STEPS} steps", "π(straight)", "Q(straight)", "loss"], rows)
 
 
-def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked) -> Figure:
+def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked, unpaid: Walked) -> Figure:
     """What α does in the chain's trap: how many learners find the way out, and how many then surely take it.
 
     knows: π(leave | trap) of an agent that knows the whole chain; walked: the learners at each temperature, and last
-    those whose temperature falls, from the largest and from the smallest of these.
+    those whose temperature falls, from the largest and from the smallest of these; unpaid: one kind whose temperature
+    falls from the largest, and whose target holds no pay.
     """
     names = [*(f"α = {alpha:g}" for alpha in alphas), *(f"α falls from {alpha:g}" for alpha in reversed(alphas))]
+    names.append(f"from {alphas[-1]:g}, no pay in target")
+    leaves, found = np.vstack([walked.leaves, unpaid.leaves]), np.vstack([walked.found, unpaid.found])
     parts = {
-        "found it, and sure of leaving": (walked.leaves > SURE, style("sac").colour),
-        "found it, not sure": (walked.found & (walked.leaves <= SURE), PALE),
-        "never found it": (~walked.found, "white"),
+        "found it, and sure of leaving": (leaves > SURE, style("sac").colour),
+        "found it, not sure": (found & (leaves <= SURE), PALE),
+        "never found it": (~found, "white"),
     }
     row, before, alt_parts = 0.36, np.zeros(len(names)), []
     figure = new_figure(1.15 + row * len(names) + 0.6)
-    ax = axes_at(figure, 1.35, 1.15, 3.6, row * len(names))
+    ax = axes_at(figure, 1.6, 1.15, 3.35, row * len(names))
     for words, (of, colour) in parts.items():
         ax.barh(names, of.sum(axis=1), 0.72, left=before, color=colour, edgecolor=INK, linewidth=0.7, label=words)
         before += of.sum(axis=1)
         alt_parts.append(f"{words}: {', '.join(map(str, of.sum(axis=1)))}")
     beside(ax, -0.75, "π(leave) if it knows the chain", colour=QUIET)
-    known = [*knows, knows[0], knows[0]]  # each falling α ends at the first, or below it
+    known = [*knows, *[knows[0]] * 3]  # each falling α ends at the first, or below it
     for place, each in enumerate(known):
         beside(ax, place, f"{each:.2f}")
     name_rows(ax, names, f"of {walked.leaves.shape[1]} learners")
     ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=3, fontsize=SMALL, frameon=False, columnspacing=1.2)
     alt = f"A bar for each kind of learner: {', '.join(names)}. Of each kind, in this order, {'; '.join(alt_parts)}. "
     alt += f"To the right, π(leave) of an agent that knows the chain: {', '.join(f'{each:.2f}' for each in known)}."
-    title = "With a small α few find the free road, with a large one none is sure; falling from 10, nearly half do both"
+    title = (
+        "Few find the way with a small α, none is sure with 10; falling from 10 does both, best with the target unpaid"
+    )
     return finish(figure, title, alt)

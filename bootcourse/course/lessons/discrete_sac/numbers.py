@@ -10,7 +10,7 @@ import torch
 
 from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START, highest_estimates
 from bootcourse.course.lessons.discrete_sac.own_parts import LEARNERS as LEARNERS
-from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, soft_sweeps, walked
+from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, soft_sweeps, unpaid, walked
 from bootcourse.learn import sac
 from bootcourse.statistics import ESCAPES
 from tools.course.known import shipped_experiment
@@ -61,6 +61,12 @@ def falling(decisions: int = 1000, begin: float = 10, end: float = 0.01) -> Walk
     """Learners whose α falls by equal factors."""
     alphas = np.geomspace(begin, end, decisions)
     return walked(sac.soft_value, sac.critic_target, torch.tensor(alphas)[:, None])
+
+
+@cache
+def falling_unpaid() -> Walked:
+    """Learners whose α falls from 10 to 0.01, and whose target holds no pay."""
+    return walked(unpaid, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, 1000))[:, None])
 
 
 def sure(of: Walked) -> np.ndarray:

@@ -75,6 +75,11 @@ class Walked(NamedTuple):
         return self.walks > 0
 
 
+def unpaid(log_pi: Tensor, q: Tensor, alpha: Tensor) -> Tensor:
+    """V(s) without the pay, to put in the place of `soft_value`: the mean of Q under the policy, (batch,)."""
+    return (log_pi.exp() * q).sum(-1)
+
+
 def walked(value: Callable, target: Callable, alphas: Tensor) -> Walked:
     """Learners that act by softmax(Q / α) and move Q to the soft target; alphas: (decisions, kinds).
 

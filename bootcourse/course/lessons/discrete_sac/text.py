@@ -76,9 +76,10 @@ predicted("discrete_sac.1")
 explorable.undecided()
 
 # %% [markdown]
-# **Explain.** More than 1. Always going straight is worth 1; going left now and then costs little and is
-# paid. At α = {{ ALPHA | g }} the best policy's mean Q is only {{ BY_Q | .2f }}, but the pay adds
-# {{ ALPHA | g }} · {{ (WORTH - BY_Q) / ALPHA | .2f }} = {{ WORTH - BY_Q | .2f }}.
+# **Explain.** More than 1. Always going straight is worth 1. Going left now and then costs
+# {{ q[1] - q[0] | .1f }} each time, and the pay is more. At α = {{ ALPHA | g }} the best policy's mean Q is
+# only {{ BY_Q | .2f }}, but the pay adds {{ ALPHA | g }} · {{ (WORTH - BY_Q) / ALPHA | .2f }} = {{ WORTH - BY_Q |
+# .2f }}.
 # <!-- claim: max(q) == q[1] == 1 < WORTH -->
 
 # %% [markdown]
@@ -123,8 +124,8 @@ check.soft_value(soft_value)
 # target. By the Bellman equation of lesson [[values]] this is r + γ max Q(s', a'), the *plain* target. In
 # SAC's *soft* target, r + γ V(s'), the soft value of s' replaces the largest Q.
 #
-# > **Predict.** In s' the critic expects 1 of going left and 3 of going right. The policy there is even, so its
-# > entropy is log 2 = 0.69 nats. With r = 1, γ = 0.9 and α = 1, which target is higher?
+# > **Predict.** In s' Q(left) = 1 and Q(right) = 3. The policy there is even: its entropy is log 2 = 0.69 nats.
+# > With r = 1, γ = 0.9 and α = 1, which target is higher?
 
 # %%
 targets = ["plain, with max Q", "soft, with V", "the same"]
@@ -202,7 +203,7 @@ places = ["below 0", "at 0", "above 0"]
 predict("discrete_sac.3", "Where is the highest estimate?", places)
 
 # %% [markdown]
-# **Drag** the number of actions to nine. Does the smaller of two estimates help?
+# **Drag** the number of actions. Does the smaller of two estimates help?
 
 # %%
 predicted("discrete_sac.3")
@@ -212,8 +213,9 @@ explorable.overestimated()
 # **Explain.** Above 0: at {{ highest(9)[0] | .2f }}, if the errors' standard deviation is 1. The actor makes
 # the highest estimates most probable, so V(s') is too high, too.
 #
-# If each action has the smaller of two estimates, the highest is at {{ highest(9)[1] | .2f }}, nearer to 0.
-# So SAC has **two critics** and takes the smaller value, in V(s') and in the actor's loss.
+# Give each action the smaller of two critics' estimates: the highest of the nine is then at
+# {{ highest(9)[1] | .2f }}, nearer to 0. So SAC has **two critics** and takes the smaller value, in V(s') and
+# in the actor's loss.
 # <!-- claim: too_high() > 0.2 and abs(highest(9)[1]) < highest(9)[0] -->
 
 # %% [markdown]
@@ -250,7 +252,7 @@ figures.descents({"your loss": own_parts.descended(loss), "Q not detached": bare
 
 # %% [markdown]
 # **See.** Your loss finds the softmax of Round 1. Without `detach` Q(straight) rises to {{ wished() | .0f }},
-# although going straight is no better than before.
+# although it is no better than before.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask what an actor would do that may also raise Q. (With continuous actions it needs the gradient through Q
@@ -279,16 +281,17 @@ value, target = own_code.yours_or_ours("soft_value", "critic_target", doing="Wal
 constant = torch.tensor([0.01, 10], dtype=torch.float64)
 falling = [torch.logspace(start, start - 3, 1000, dtype=torch.float64) for start in (1, -2)]
 walked = own_parts.walked(value, target, torch.stack([*constant.expand(1000, -1).T, *falling], 1))
+unpaid = own_parts.walked(own_parts.unpaid, target, falling[0][:, None])  # V without the pay
 knows = own_parts.would_leave(value, target, constant)
-bc.show(figures.two_jobs(constant.tolist(), knows, walked))
+bc.show(figures.two_jobs(constant.tolist(), knows, walked, unpaid))
 
 # %% [markdown]
 # **Explain.** The one that falls. **α does two jobs.** It decides how much a learner *tries*: with a small α
-# few find the free road, most of them only once, which is too seldom (lesson [[values]]). And it decides how
-# surely a learner *takes* what is better: with α = 10 nearly all find the free road, but even an agent that
-# knows the whole chain leaves with a probability of {{ leave(10) | .2f }} (right column). With α falling from
-# 10 nearly half of the learners do both, one after the other. From {{ SETTINGS.alpha_init }}, where it begins
-# on our road, none does.
+# few find the free road, most of them only once, too seldom (lesson [[values]]). And it decides how surely a
+# learner *takes* what is better: with α = 10 nearly all find the free road, but even an agent that knows the
+# whole chain leaves with a probability of {{ leave(10) | .2f }} (right column). With α falling from 10 nearly
+# half do both, one after the other. From {{ SETTINGS.alpha_init }}, where it begins on our road, none does.
+# In the last row α still sets how randomly they act, but the target holds no pay: all do both.
 # <!-- claim: sure(constant()).max() < LEARNERS / 8 < 0.45 * LEARNERS < sure(falling())[0] < LEARNERS / 2 and
 #   sure(falling(begin=0.01, end=1e-5))[0] == 0 and SETTINGS.alpha_init == 0.01 -->
 # <!-- claim: np.mean(constant().walks[0][constant().found[0]] == 1) > 0.8 -->
@@ -318,10 +321,10 @@ explorable.thermostat()
 # can come to rest if η is between 0 and log 9 = {{ math.log(9) | .3f }}; if η is larger, α rises for ever.
 # <!-- claim: SETTINGS.target_entropy < 0 -->
 #
-# **Does the pay lead out of the trap, then?** On the chain it leads nearly half of the learners out if α
-# falls from 10 to 0.01, and fewer from 1 or 100. On our road α begins small, and few agents of plain SAC get
-# out: with η = −1 one of ten escapes, and with η = 0.3 and η = 1, which can be reached, none of six.
-# <!-- claim: max(sure(falling(begin=1))[0], sure(falling(begin=100))[0]) < 0.7 * sure(falling())[0] -->
+# **Does the pay lead out of the trap, then?** Only in part. On the chain it makes the learners act at random,
+# which leads out if α falls; in the target it keeps more than half of them in. On our road one of ten agents
+# of plain SAC escapes, and with η = 0.3 and η = 1, which can be reached, none of six.
+# <!-- claim: sure(falling_unpaid())[0] == LEARNERS > 2 * sure(falling())[0] -->
 # <!-- claim: len(of('sac')) == 10 and escaped('sac') == 1 -->
 # <!-- claim: len(reachable()) == 6 and not reachable().any() -->
 
@@ -370,9 +373,8 @@ check.temperature_loss(temperature_loss)
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed.
 # 3. The highest of many estimates is too high, so SAC uses the smaller of two critics.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
-# 5. On the chain the pay leads nearly half of the learners out if α falls from 10 to 0.01. With a small α few
-#    find the free road, and with a large one none is sure of leaving. A thermostat can rest if η is between 0
-#    and log n.
+# 5. On the chain acting at random leads out if α falls; the pay in the target keeps more than half in. A
+#    thermostat can rest if η is between 0 and log n.
 
 # %% [markdown]
 # **Three questions to think about**

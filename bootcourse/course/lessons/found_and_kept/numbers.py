@@ -1,6 +1,7 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 from functools import cache
+from math import prod
 from typing import NamedTuple
 
 import numpy as np
@@ -9,11 +10,12 @@ from bootcourse.course.lessons.found_and_kept.explorable import groups
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.research.cells import VARIED
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
 from bootcourse.research.tables import markdown
 from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, lost  # noqa: F401 (the text names HAD and LOST)
-from tools.course.known import SETTINGS, clocks, in_training, pattern, shipped_experiment, shipped_results
+from tools.course.known import SETTINGS, clocks, in_training, others, pattern, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
 STUDY = shipped_results().curves["success"].shape[1]  # training episodes of the study's agents
@@ -48,9 +50,9 @@ def way(results: Results, method: str) -> Counted:
 
 @cache
 def group(words: str) -> Group:
-    """Of round 2: see `groups`; or "others: never", of the ten others, where β never ends; "others: ends", …"""
+    """Of round 2: see `groups`; or of the ten others: "others: never", "others: ends", "others: ends, no bonus"."""
     if words.startswith("others: "):
-        cell = {"ends": "", "never": ", β for ever"}[words.removeprefix("others: ")]
+        cell = {"ends": "", "never": ", β for ever", "ends, no bonus": ", c = 0"}[words.removeprefix("others: ")]
         agents = shipped_experiment("stress")[f"bootstrapped{cell}"]
     else:
         agents = groups()[words]
@@ -75,14 +77,10 @@ def lost_least_if_both(low: int, high: int) -> bool:
     return all(lost(both, at).sum() < min(lost(each, at).sum() for each in success.values()) for at in limits)
 
 
-def earns_less(both: Group, *others: Group) -> bool:
-    """Does each agent of the first group earn less than each of the others that keeps the way out?"""
-    return all(bool(both.earned.max() < each.earned[each.keep].min()) for each in others)
-
-
-def row_reads(method: str) -> float:
-    """The chance that one row of the picture of round 3 reads as the paper's."""
-    return float(study_clocks.as_printed(clocks()["2", "π̃"].of(method).scores("success"), method).mean())
+def others_read() -> float:
+    """The chance that single agents of the ten others of each method read as the paper's table."""
+    rows = [study_clocks.as_printed(others(method).scores("success"), method) for method in VARIED]
+    return prod(float(row.mean()) for row in rows)
 
 
 def endless_demonstrations() -> Results:
@@ -93,18 +91,18 @@ def endless_demonstrations() -> Results:
 def explanations() -> str:
     """What could explain the paper's table, and what was seen of it, as Markdown."""
     ours, lasting = way(of_all(), "demos"), way(endless_demonstrations(), "demos")
-    chance, alone = ([f"{100 * part:.0f}" for part in pattern(each)] for each in (clocks()["2", "π̃"], of_all()))
+    chance, alone = [f"{100 * part:.0f}" for part in pattern(clocks()["2", "π̃"])], pattern(of_all())
     rows = [
         ["1. agents lose the way out",
          f"demonstrations alone: {ours.found} of 10 find it, {ours.kept or 'none'} keeps it; where β never ends "
          f"{lasting.found} of 10 find it, {lasting.kept} keep it",
-         "possible for this row, if the paper's training stopped before β did"],
+         "possible for this row: the paper may have stopped while agents still had demonstrations"],
         ["2. single agents",
-         f"Round 1's agents give the paper's four rates in {alone[0]} % of the draws",
+         f"Round 1's ten of each row give the paper's four rates in {'no draw' if alone.value == 0 else 'some draws'}, "
+         f"the ten others in {100 * others_read():.0f} %",
          "seldom, taken alone"],
         ["3. another training",
-         f"with 2 updates and π̃ (chosen after we had seen all {len(clocks())}) they come in {chance[0]} % (bar: "
-         f"{chance[1]} to {chance[2]} %)",
+         f"with 2 updates and π̃ they come in {chance[0]} % (bar: {chance[1]} to {chance[2]} %)",
          "possible for the rates, together with 2"],
         ["4. other traffic", "not tested", "*open*"],
     ]  # fmt: skip

@@ -17,6 +17,7 @@ SHARE, MOST = 0.8, 60  # of the trained agents so many escape; at most so many a
 PLAIN = "#B8BEC6"  # of what does not count
 STUDIES, DRAWS = 100, 2000  # that are shown, and of each study's bootstrap
 RARE = 2.5  # %: the blue part at the ends of an interval
+DRAWN = 10.0  # %: up to here the blue part at each true rate is drawn
 RESOLUTION = 400  # studies are drawn for each that is shown
 
 
@@ -28,7 +29,7 @@ def blue_part(true: np.ndarray | float, k: int, n: int) -> np.ndarray:
 
 def certainty() -> Explorable:
     """How many agents escape at a true rate, above how rare so many are at each, while rate and agents move."""
-    colour, everywhere = style("soft").colour, np.linspace(0, 100, 401)
+    colour, everywhere = style("soft").colour, np.linspace(0, 100, 2001)
 
     def draw(true: float, agents: float) -> Drawing:
         n, k = int(agents), round(SHARE * agents)
@@ -44,12 +45,13 @@ def certainty() -> Explorable:
             counts.fill(sides, [0, 0, chance, chance], colour if inside else PLAIN)
         for count in ticks(0, n, 10):
             counts.parts.append(text(counts.at(count, 0)[0], 191, f"{count:g}", "middle", QUIET, 10.5))
-        below = SvgAxes(52, 232, 690, 120, (0.0, 100.0), (0.0, 100.0))
-        below.scale(f"the blue part at each true rate (%); dashed: {RARE:g}; shaded: it is larger", 4)
-        below.fill([low, high, high, low], [0, 0, 100, 100], colour, 0.15)
+        below = SvgAxes(52, 232, 690, 120, (0.0, 100.0), (0.0, DRAWN))
+        heading = f"the blue part at each true rate (%, drawn up to {DRAWN:g}); dashed: {RARE:g}; shaded: it is larger"
+        below.scale(heading, 4)
+        below.fill([low, high, high, low], [0, 0, DRAWN, DRAWN], colour, 0.15)
         below.line([0, 100], [RARE, RARE], INK, 1, "--")
-        below.line(everywhere, curve, colour, 2)
-        below.line([true, true], [0, 100], QUIET, 0.8, "--")
+        below.line(everywhere, np.where(curve <= DRAWN, curve, np.nan), colour, 2)
+        below.line([true, true], [0, DRAWN], QUIET, 0.8, "--")
         below.dot(true, blue, INK)
         for tick in ticks(0, 100, 10):
             below.parts.append(text(below.at(tick, 0)[0], 367, f"{tick:g}", "middle", QUIET, 10.5))

@@ -96,9 +96,9 @@ predicted("how_many_seeds.1")
 explorable.certainty()
 
 # %% [markdown]
-# **See.** From 44 to 97 % the curve is above 2.5 %: eight of ten may mean any of these true rates, the
-# **exact 95 % interval** of 8 out of 10. (Above 80 % eight is few, so there the blue part is *eight or
-# fewer*.)
+# **See.** Below a true rate of 44 % *eight or more* come in under 2.5 % of studies, above 97 % *eight or
+# fewer* do. The two ends together make 5 %. So eight of ten may mean any true rate between them: the **exact
+# 95 % interval** of 8 out of 10.
 # <!-- claim: [round(100 * each) for each in
 #   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
@@ -137,9 +137,9 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # ## Round 2: how many agents does it take?
 #
 # With the soft constraint alone eight of ten agents escape, with both aids seven. Do the methods differ?
-# Suppose that they are alike. How often would luck alone deal these fifteen escapes to the two groups as
-# unevenly as eight to seven, or more so? That is the **p value**. *Fisher's exact test* computes it, and
-# below 0.05 we speak of a difference. Here p is {{ fisher(8, 7) | .0f }}.
+# Suppose that they are alike. Then chance alone splits these fifteen escapes. How often is the split at least
+# as uneven as eight to seven? That is the **p value**. *Fisher's exact test* computes it, and below 0.05 we
+# speak of a difference. Here p is {{ fisher(8, 7) | .0f }}.
 # <!-- claim: escaped('soft') == 8 and escaped('bootstrapped') == 7 -->
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
@@ -205,7 +205,7 @@ print(f"{', '.join(f'{each:.0f}' for each in returns)}; mean {returns.mean():.0f
 #
 # > **Predict.** Suppose that each training yields one of these ten agents, each with the same chance. A
 # > study trains three, and computes their bootstrap interval. In how many of 100 such studies does it contain
-# > the mean of all?
+# > {{ of('bootstrapped').scores('returns').mean() | .0f }}, the mean of all ten?
 
 # %%
 predict(
@@ -254,7 +254,7 @@ check.bootstrap_interval(bootstrap_interval)
 #
 # The score of a group is its **interquartile mean** (IQM), because one outlier moves it less than the mean:
 # sort, leave out a quarter, rounded down, at each end, and take the mean. Of five agents the middle three
-# count. Lesson [[other_ways]] and the challenge (lesson [[your_own_problem]]) compare returns by it.
+# count.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each resample
 # draws both groups anew.
@@ -301,14 +301,10 @@ bc.show(figures.nothing_changed(study))
 # <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
 # <!-- claim: [one_half_has_the_lowest_four(each) for each in halves()] == [True] * 2 + [False] * 18 -->
 # <!-- claim: all(counts.leaves_out_0(effect) for low, effect in splits() if low in (0, 4)) -->
-# <!-- claim: np.mean([counts.leaves_out_0(effect) for _, effect in splits()]) > 0.05 -->
 #
-# Of all {{ len(splits()) }} splits
-# {{ 100 * np.mean([counts.leaves_out_0(effect) for _, effect in splits()]) | .0f }} % give an interval that
-# leaves out 0, not 5 %: intervals of five seeds miss too often. And even at 5 %, at least one of twenty
-# independent comparisons would leave out 0 in {{ 100 * (1 - 0.95**20) | .0f }} % of cases. This is
-# **multiplicity**. So say beforehand which comparison counts, or multiply each p by the number of comparisons
-# (*Bonferroni*).
+# If each of twenty independent comparisons leaves out 0 by luck in 5 % of cases, at least one of them does so
+# in {{ 100 * (1 - 0.95**20) | .0f }} %. This is **multiplicity**. So say beforehand which comparison counts,
+# or multiply each p by the number of comparisons (*Bonferroni*).
 #
 # With both aids 7 of 10 agents escape, with plain SAC 1 of 10, and Fisher's p is {{ fisher(7, 1) | .3f }}.
 # Four methods make six pairs: as one of six it would not count, because six times p is {{ 6 * fisher(7, 1) | .2f }}.
@@ -344,8 +340,8 @@ compare_predictions(
 #   for m in ('sac', 'soft', 'demos', 'bootstrapped')) -->
 # 3. Compute the power before you train, for the smallest effect of interest.
 # 4. A short interval from three seeds may be luck: resampling knows these three alone.
-# 5. Five against five may differ by luck, the best of many comparisons most of all. Name beforehand the one
-#    that counts, or correct each p.
+# 5. Five against five may differ by luck, and among twenty comparisons one probably does. Name beforehand the
+#    one that counts, or correct each p.
 #
 # **Three questions to think about**
 # - Can 20 drives of each show that two *agents* differ? That two *methods* do?

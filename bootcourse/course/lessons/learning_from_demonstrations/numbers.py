@@ -40,11 +40,9 @@ def found(name: str) -> np.ndarray:
     return measures.found(_with(name)[0])
 
 
-def sooner() -> float:
-    """By how many of their own episodes agents with c = 2 find the way out sooner than without demonstrations: medians,
-    to the next ten.
-    """
-    return round(np.median(found("none")) - np.median(found("c = 2")), -1)
+def median_found(name: str) -> int:
+    """The median of `found`, a half rounded up."""
+    return int(np.median(found(name)) + 0.5)
 
 
 def earned(name: str) -> np.ndarray:
@@ -65,6 +63,14 @@ def fall(name: str) -> np.ndarray:
 def losing_until(name: str, episode: int) -> int:
     """How many of the twenty agents with the soft constraint have lost the way out by this training episode."""
     return sum(int(lost(each.curves["success"][:, :episode]).sum()) for each in _with(name)[0])
+
+
+def losing_and_back(name: str, episode: int) -> int:
+    """How many of these escape after training."""
+    return sum(
+        int((lost(each.curves["success"][:, :episode]) & each.found_and_kept(each.methods[0])[1]).sum())
+        for each in _with(name)[0]
+    )
 
 
 def bonus_needed() -> np.ndarray:

@@ -23,6 +23,7 @@ from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, axes_at, fini
 from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import CLOSELY, Cell
 from bootcourse.research.results import Results
+from bootcourse.road.state import Accident
 from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
 MEANINGS = {  # of the wrong models that the lesson shows, for readers
@@ -35,6 +36,7 @@ MEANINGS = {  # of the wrong models that the lesson shows, for readers
 }
 ERRORS = [f"{name}: {meaning}" for name, meaning in MEANINGS.items()]  # to choose from
 LEARNED_FORM = "mean of five"  # of the look-ahead in a learned model, as the lesson shows it
+COLUMNS = 166, 192  # where the numbers beside the bars of the learned model end
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
 NAMES = {"rollouts": "look-ahead", "shield": "shield"}  # as the lesson calls the forms
 
@@ -69,12 +71,17 @@ def per_thousand(cells: dict[str, Results], cell: Cell) -> np.ndarray:
 
 
 def each_agent(cells: dict[str, Results], base: str) -> Figure:
-    """Each agent's success and accidents, alone and with the look-ahead; dark: who then crashes more often."""
+    """Success and accidents, alone and with the look-ahead, of each agent that stays behind alone.
+
+    Dark: who crashes more often with the look-ahead.
+    """
     title = "With the look-ahead some agents leave the trap, and some crash more often than alone"
     pair, figure = [Cell(base, form) for form in ("alone", "rollouts")], new_figure(3.2)
+    success = np.array([100 * cells[cell.name].measured["success"] for cell in pair])
+    stays, hurt = success[0] < 1, np.array([per_thousand(cells, cell) for cell in pair])
     panels = {
-        "ahead of trap 1 (%)": np.array([100 * cells[cell.name].measured["success"] for cell in pair]),
-        "accidents in 1,000 drives (logarithmic above 1)": np.array([per_thousand(cells, cell) for cell in pair]),
+        "ahead of trap 1 (%)": success[:, stays],
+        "accidents in 1,000 drives (logarithmic above 1)": hurt[:, stays],
     }
     alone, ahead = [*panels.values()][1]
     worse, alt_parts = ahead > alone, []
@@ -88,19 +95,21 @@ def each_agent(cells: dict[str, Results], base: str) -> Figure:
         each = ", ".join(f"{before:.0f} to {after:.0f}" for before, after in values.T)
         alt_parts.append(f"{words}: {each}")
     _accident_axis(ax, "y")
-    words = f"a line for each agent of {display_name(base)}; dark: it crashes more often with the look-ahead"
+    words = f"a line for each of the {stays.sum()} agents of {display_name(base)} that stay behind; "
+    words += "dark: it crashes more often with the look-ahead"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
-    return finish(figure, title, f"A line for each agent, from alone to with the look-ahead. {'; '.join(alt_parts)}.")
+    alt = f"A line for each of these agents, from alone to with the look-ahead. {'; '.join(alt_parts)}."
+    return finish(figure, title, alt)
 
 
 def judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """At each decision of a drive: Q̂ in a model, Q̂ on the true road, and whether the true drive ends in an accident.
+    """At each decision of a drive: Q̂ in a model, Q̂ on the true road, and the true drive's accident, if not 0.
 
     Each (decisions, 9).
     """
     values = ImaginedAhead(agent, model)(drive.observations[: len(drive.actions)], drive.cars).q_values
     true = nine_drives(drive.cars, agent.as_policy(), drive.scenario)
-    return values, true.values, true.accidents > 0
+    return values, true.values, true.accidents
 
 
 def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
@@ -111,7 +120,7 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
     """
     values, true, hurt = judged(agent, model, drive)
     taken = values.argmax(1)
-    misled = hurt[np.arange(len(taken)), taken] & ~hurt.all(1)
+    misled = (hurt[np.arange(len(taken)), taken] > 0) & (hurt == 0).any(1)
     now = int(misled.argmax())
     title = f"The model promises {values[now, taken[now]]:.0f}; the true drive ends in an accident"
     if not misled.any():
@@ -122,16 +131,22 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
     ax.barh(at - 0.19, values[now], 0.34, facecolor="white", edgecolor=INK, linewidth=0.9)
     ax.barh(at + 0.19, true[now], 0.34, color=colours)
     for row, name in enumerate(ACTION_NAMES):
-        pair = f"{values[now, row]:.0f} and {true[now, row]:.0f}".replace("-", "−")
-        words, bold = f"{pair}{'   ← taken' if row == best else ''}", "bold" if row == best else "normal"
-        ax.text(158, row, words, va="center", fontsize=TEXT, color=ALARM if ends[row] else INK, fontweight=bold)
-        alt_parts.append(f"{name}: {pair}{', taken' if row == best else ''}")
+        pair = [f"{of[now, row]:.0f}".replace("-", "−") for of in (values, true)]
+        look = {"color": ALARM if ends[row] else INK, "fontweight": "bold" if row == best else "normal"}
+        for x, words in zip(COLUMNS, pair, strict=True):
+            ax.text(x, row, words, va="center", ha="right", fontsize=TEXT, **look)
+        if row == best:
+            ax.text(COLUMNS[1] + 5, row, "← taken", va="center", fontsize=TEXT, **look)
+        alt_parts.append(f"{name}: {' and '.join(pair)}{', taken' if row == best else ''}")
+    for x, words in zip(COLUMNS, ("model", "true road"), strict=True):
+        ax.text(x, -0.75, words, va="center", ha="right", fontsize=SMALL, color=QUIET)
     plain_axes(ax, "", grid="x")
     ax.set(ylim=(N_ACTIONS - 0.5, -0.5), xlim=(-14, 155), xticks=[0, 50, 100, 150])
     ax.set_yticks(at, ACTION_NAMES, fontsize=TEXT, color=INK)
     ax.axvline(0, color=QUIET, linewidth=0.8)
     ax.set_xlabel(f"Q̂ at decision {now + 1}", fontsize=TEXT, color=INK)
-    words = "One decision of Round 1's drive. White: in the model; filled: on the true road, red with an accident."
+    red = "leaves the road" if set(ends[ends > 0]) == {Accident.ROAD_DEPARTURE} else "ends in an accident"
+    words = f"White: model; filled: true road; red: {red}."
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     alt = f"Decision {now + 1}, Q̂ in the model and on the true road. {'; '.join(alt_parts)}."
     return finish(figure, title, alt)

@@ -8,19 +8,20 @@ from bootcourse.course import shipped as course
 from bootcourse.course.lessons.looking_ahead import explorable, figures, imagined_road
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.lookahead import nine_drives
-from bootcourse.episodes.record import record
+from bootcourse.episodes.record import Rollout, record
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import Cell, shipped_actors
 from bootcourse.research.paper import earned_at  # noqa: F401 (for the claims)
 from bootcourse.research.results import Results
 from bootcourse.research.tables import markdown
-from bootcourse.road.state import EGO, TRAP_1, Accident, X
-from bootcourse.scenario import DEFAULT, IDLE, N_ACTIONS
+from bootcourse.road.state import EGO, TRAP_1, Accident, X, Y
+from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS
 from tools.course.known import shipped_experiment
 
 LATE = "everything a second late"
 WRONG = list(figures.MEANINGS)  # of the study's models
+TO_THE_RIGHT = [i for i, name in enumerate(ACTION_NAMES) if name.endswith("right")]
 
 
 @cache
@@ -183,9 +184,37 @@ def five_accidents() -> list[int]:
     return [int((ends > 0).sum()) for ends in how_five_end()]
 
 
+def first_agent() -> Policy:
+    """The lesson's agent."""
+    return course.shipped_agents("bootstrapped")[0].as_policy()
+
+
+@cache
+def first_collision() -> Rollout:
+    """Its first collision, which the lesson shows."""
+    return record(first_agent(), [held_out_seeds(15, 40)[int((how_five_end()[0] == Accident.COLLISION).argmax())]])[0]
+
+
 @cache
 def ways_out() -> list[int]:
-    """In the first agent's first collision, for each decision: how many of its nine futures have no accident."""
-    agent, roads = course.shipped_agents("bootstrapped")[0].as_policy(), held_out_seeds(15, 40)
-    drive = record(agent, [roads[int((how_five_end()[0] == Accident.COLLISION).argmax())]])[0]
-    return explorable.ways_out(drive, agent).tolist()
+    """In this drive, for each decision: how many of its nine futures have no accident."""
+    return explorable.ways_out(first_collision(), first_agent()).tolist()
+
+
+def in_right_lane(drive: Rollout) -> np.ndarray:
+    """At which decisions of a drive the car is in the right lane, (decisions,)."""
+    return drive.cars[: len(drive.actions), EGO, Y] > (DEFAULT.road.lanes - 1.5) * DEFAULT.road.lane_width
+
+
+@cache
+def right_lane() -> tuple[int, int]:
+    """How many decisions the agent makes in the right lane in the 200 drives of Round 4, and how many to the right."""
+    drives = record(first_agent(), held_out_seeds(41, 200))
+    actions = np.concatenate([drive.actions[in_right_lane(drive)] for drive in drives])
+    return len(actions), int(np.isin(actions, TO_THE_RIGHT).sum())
+
+
+def steered_off_the_road() -> np.ndarray:
+    """At which decisions of the first collision "keep right" and "accelerate right" both leave the road."""
+    ends = nine_drives(first_collision().cars, first_agent(), DEFAULT).accidents
+    return (ends[:, TO_THE_RIGHT[1:]] == Accident.ROAD_DEPARTURE).all(axis=1)

@@ -188,7 +188,7 @@ def two_counts(computed: Mapping[str, Results], rule: float) -> Figure:
     best, least = next(iter(order[SECONDS])), [*order[DECISIONS]][-1]
     title = f"By seconds of computing {best} earns the most of the five, by decisions"
     title += f"{'' if best == least else ' ' + least} the least"
-    words = f"interquartile mean of ten agents' last {WINDOW} episodes; not counted: PPO's cloning"
+    words = f"interquartile mean of ten agents' last {WINDOW} episodes; without the seconds of PPO's cloning"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     each = {count: ", ".join(f"{name} {of:.0f}" for name, of in by.items()) for count, by in order.items()}
     alt = f"Return in training after {MARKED[SECONDS]} s of computing: {each[SECONDS]}."

@@ -1,5 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from dataclasses import fields
 from functools import cache
 from itertools import combinations
 
@@ -9,7 +10,7 @@ from bootcourse.course.lessons.other_ways import figures, measures
 from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
 from bootcourse.episodes.record import record
-from bootcourse.learn.settings import settings_for
+from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.methods import METHODS  # noqa: F401 (for the expressions)
 from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
@@ -20,7 +21,7 @@ from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, holm, interval
 from tools.course.known import shipped_experiment
 
-FIRST, SECOND, LONGEST = BUDGETS
+FIRST = BUDGETS[0]
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
 FIVE_SECONDS = (equal_decisions.SECONDS, measures.SECONDS)  # what a training spends, in each of two counts
 ON_ROAD = (FIRST, measures.DECISIONS)
@@ -74,7 +75,7 @@ def search(method: str) -> dict[str, float]:
 
 def drives_before(method: str) -> int:
     """How many drives of the rule these agents have before they begin: demonstrations, or what a clone learns from."""
-    settings = settings_for(method, **equal_decisions.COMMON[method])
+    settings = trained_with(method)
     return settings.demonstration_episodes if settings.needs_demonstrations else 0
 
 
@@ -83,10 +84,25 @@ def hours_before(method: str) -> float:
     return drives_before(method) * DEFAULT.clock.decisions / 3600
 
 
+def trained_with(method: str) -> Settings:
+    """What its agents have in common."""
+    return settings_for(method, **equal_decisions.COMMON[method])
+
+
+def asks(method: str) -> bool:
+    """Whether the rule acts in training, or is asked in the states that the agent reaches."""
+    return trained_with(method).asks_teacher
+
+
 def by_hand() -> dict[str, set[str]]:
-    """{method with a teacher: which of c and β's episodes were chosen by hand}, if any."""
-    common = {method: equal_decisions.COMMON[method].keys() & {"bonus", "beta_episodes"} for method in TAUGHT}
-    return {method: set(names) for method, names in common.items() if names}
+    """{method with a teacher: settings that it alone has, or has otherwise than IBRL, and that no try changes}."""
+    shared, names = {field.name for field in fields(Settings)}, {}
+    for method in TAUGHT:
+        settings, common = trained_with(method), equal_decisions.COMMON[method]
+        own = {field.name for field in fields(settings)} - shared
+        own |= {name for name in common if common[name] != getattr(trained_with("ibrl"), name)}
+        names[method] = own - set().union(*equal_decisions.TRIES[method])
+    return names
 
 
 def accident_shares() -> np.ndarray:

@@ -168,16 +168,40 @@ def beside(ax: Axes, words: str, x: float, y: float, side: str) -> None:
 
 
 def chosen(study: Results, guesses: Sequence[float], truth: Sequence[float]) -> Markdown:
-    """A table, a row for each set of six agents: whom the largest estimate takes, who is worth most, who earns most.
+    """A table, a row for each set of six agents: whom the largest estimate takes, and what is wrong with that choice.
 
     guesses, truth: of each agent, one set after the other.
     """
-    earned = np.transpose([study.of(method).scores("returns") for method in choosing.METHODS])
-    guessed, worth = choosing.by_set(guesses), choosing.by_set(truth)
-    rows = []
-    for place, (guess, truly, get) in enumerate(zip(guessed, worth, earned, strict=False)):
-        most = [f"{display_name(choosing.METHODS[each.argmax()])}, {each.max():.2f}" for each in (guess, truly)]
-        best = f"{display_name(choosing.METHODS[get.argmax()])}, {get.max():.0f}"
-        taken = guess.argmax()
-        rows.append([place + 1, most[0], f"{truly[taken]:.2f}", f"{get[taken]:.0f}", most[1], best])
-    return table(["set", "largest estimate", "its true worth", "its return", "worth most", "highest return"], rows)
+    score = {
+        name: np.transpose([study.of(method).scores(name) for method in choosing.METHODS])
+        for name in ("returns", "success", "accident")
+    }
+    guessed, worth, rows = choosing.by_set(guesses), choosing.by_set(truth), []
+    for place, (guess, truly) in enumerate(zip(guessed, worth, strict=True)):
+        get, taken = score["returns"][place], guess.argmax()
+        name = display_name(choosing.METHODS[taken])
+        so = "right: the highest return"
+        if taken != get.argmax():
+            does = _does(score["success"][place, taken], score["accident"][place, taken])
+            so = does + _why(guess - truly, taken, truly.argmax(), get)
+        rows.append([place + 1, f"{name}, {guess[taken]:.2f}", f"{truly[taken]:.2f}", f"{get[taken]:.0f}", so])
+    return table(["set", "largest estimate", "its true worth", "its return", "so"], rows)
+
+
+def _does(success: float, accident: float) -> str:
+    """What an agent does on the road, by the shares of its drives."""
+    if accident > 0.5:
+        return f"crashes on {100 * accident:.0f} % of the roads"
+    return "gets out" if success > 0.5 else "stays behind trap 1"
+
+
+def _why(off: np.ndarray, taken: int, best: int, returns: np.ndarray) -> str:
+    """Why this agent was taken: the best's estimate was too low, or its own too high; and who earns most."""
+    most = returns.argmax()
+    earns = f"; {display_name(choosing.METHODS[most])} returns {returns[most]:.0f}"
+    if taken == best:
+        return f", but is worth most{earns}"
+    if off[taken] > -off[best]:
+        return f"; estimated {off[taken]:.1f} too high{earns}"
+    low = f"estimated {-off[best]:.1f} too low"
+    return f"{earns}, but was {low}" if best == most else f"; {display_name(choosing.METHODS[best])} was {low}{earns}"

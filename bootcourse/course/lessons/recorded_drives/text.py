@@ -67,8 +67,8 @@ bc.recording(figures.three_drives(), height=480)
 #   of('gail').agents[0]['beta_start'] < 1 -->
 #
 # BC and CQL learn **offline**: recorded drives are all they have. CQL learns Q and takes the action whose Q
-# is highest. A second network judges whether a drive is the rule's; the more it takes GAIL's for the rule's,
-# the more GAIL is paid.
+# is highest. A second network judges whether a decision is the rule's; the more it takes GAIL's for the
+# rule's, the more GAIL is paid.
 #
 # > **Predict.** The rule's return on the held-out roads is
 # > {{ of('rule').scores('returns').mean() | .0f }}. Which of the three earn more than that?
@@ -109,8 +109,7 @@ bc.show(figures.returns(study))
 # ## Round 2: Q-learning without driving
 #
 # Two new agents learn by Q-learning from the recorded drives alone, and then take the action whose Q is
-# highest. Their target is r + γ Q(s', a'), where a' is the action with the *highest* Q at s'. A slow target
-# critic values a' (*double* Q-learning); there are two of these, and the smaller value counts. A recorded
+# highest. Their target is r + γ Q(s', a'), where a' is the action with the *highest* Q at s'. A recorded
 # second shows what *one* of nine actions led to.
 #
 # > **Predict.** What will the two do?
@@ -171,9 +170,9 @@ check.conservative_loss(conservative_loss)
 # <!-- claim: bool(torch.isclose(conservative_loss(torch.eye(9)[2:3], torch.tensor([4])),
 #   torch.nn.functional.cross_entropy(torch.eye(9)[2:3], torch.tensor([4])))) -->
 #
-# **Exercise (20 min, ●●●).** Write the whole loss of CQL's critic. The target y is that of the two agents
-# above; `next_target` is already the smaller of two target critics. Which part must have no gradient? What is
-# y after an accident?
+# **Exercise (20 min, ●●●).** Write the whole loss of CQL's critic. In the target y, `next_q` chooses a', and
+# `next_target`, already the smaller of two slow target critics, values it (*double* Q-learning). Which part
+# must have no gradient? What is y after an accident?
 
 
 # %%
@@ -196,8 +195,8 @@ with_term = learn(own_code.training(bc.with_seeds(bc.settings_for("cql"), 2)))
 bc.show(figures.would_do({"with CQL's term": with_term}))
 
 # %% [markdown]
-# **See.** *With the term the two crash on few roads, not on all*. A promise can still be too high. The two
-# had 1,000 updates; Round 1's CQL agents, with about {{ updates_in_the_study() | , }}, crash on under 3 %.
+# **See.** *With the term the two crash on few roads, not on all*. The two had 1,000 updates; Round 1's CQL
+# agents, with about {{ updates_in_the_study() | , }}, crash on under 3 %.
 # <!-- claim: max(short(1.0).crashes) < 30 and max(short(1.0).accelerate) < 0.5 and
 #   of('cql').scores('accident').max() < 0.03 -->
 
@@ -240,12 +239,11 @@ truth = [choosing.worth(agent, range(100), gamma=0.8) for agent in agents]
 bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, truth))))
 
 # %% [markdown]
-# **See.** *The less an agent acts as the data do, the further off its estimate can be.* Clones and CQL, on
-# the right, are worth under 0.6, and their estimates are less than 0.1 off. On the left one estimate is more
-# than 1 too high.
-# <!-- claim: abs(off()[:, :2]).max() < 0.1 and overlaps()[:, :2].min() > 0.85 and truth()[:, :2].max() < 0.6 -->
+# **See.** *The less an agent acts as the data do, the further off its estimate can be.* On the right (clones,
+# CQL) each estimate is less than 0.1 off, on the left some are more than 0.4 off.
+# <!-- claim: abs(off()[:, :, :2]).max() < 0.1 and overlaps()[:, :2].min() > 0.85 -->
 # <!-- claim: overlaps()[:, 2:].max() < 0.7 -->
-# <!-- claim: off()[overlaps() < 0.4].min() < -0.4 and off()[overlaps() < 0.4].max() > 1 -->
+# <!-- claim: ((abs(off()) > 0.4) & (overlaps() < 0.4)).sum((1, 2)).min() > 1 -->
 #
 # **Best of N** takes from each set the agent with the largest estimate (in the picture filled, with the set's
 # number):
@@ -254,17 +252,15 @@ bc.show(figures.estimates([*sets[0]], *map(choosing.by_set, (alike, guesses, tru
 figures.chosen(study, guesses, truth)
 
 # %% [markdown]
-# **See.** *Three sets go wrong, each in its way*, and take an agent that stays in the trap:
-# - **Set 3**: plain SAC's estimate, more than 1 too high, is the largest.
-# - **Set 5**: the best agent's estimate is too low, so another is taken.
-# - **Set 1**: the agent that is worth most is taken. But at γ = 0.8 the first seconds count: staying in the
-#   trap is worth about 0.8, and getting out as CQL does under 0.6.
-# <!-- claim: off()[2, 4] > 1 and estimated()[2].argmax() == 4 != truth()[2].argmax() -->
-# <!-- claim: estimated()[4].argmax() == 2 and truth()[4].argmax() == 5 and
-#   -off()[4, 5] / truth()[4, 5] > 0.15 -->
-# <!-- claim: estimated()[0].argmax() == truth()[0].argmax() == 4 -->
-# <!-- claim: successes()[0, 4] == successes()[2, 4] == successes()[4, 2] == 0 -->
+# **See.** *The choice can go wrong in two ways.* An estimate can be too high or too low. And even the true
+# worth can mislead (set 1), because at γ = 0.8 the first seconds count: staying in the trap is worth about
+# 0.8, getting out as CQL does under 0.6. CQL with an actor crashes in set 5, but after a minute that hardly
+# counts.
+# <!-- claim: truth()[0].argmax() == 4 and successes()[0, 4] == 0 -->
+# <!-- claim: off().min((1, 2)).max() < -0.4 and off().max((1, 2)).min() > 0.1 -->
+# <!-- claim: (successes()[0, estimated()[:, 0].argmax(1)] == 0).all() -->
 # <!-- claim: abs(truth()[successes() == 0] - 0.8).max() < 0.1 and truth()[:, 1].max() < 0.6 -->
+# <!-- claim: of('cql_sac').scores('accident')[4] == 1 and lasts('cql_sac', 4) > 60 -->
 
 # %% [markdown] tags=["instructor"] minutes=6
 # Ask who would let the agent with the largest estimate drive, and who CQL. Then ask for a second look that
@@ -278,8 +274,8 @@ figures.chosen(study, guesses, truth)
 #
 # $$ r(s,a) = -\log (1 - D(s,a)) $$
 #
-# > **Predict.** Another reward, log D, also grows with D. If D = ½ at every second, with
-# > which reward is a drive of 150 s worth more than a crash after 5 s?
+# > **Predict.** Another reward, log D, also grows with D. Let D = ½ at every second. Which
+# > reward makes a drive of 150 s worth more than one that crashes after 5 s?
 
 # %%
 predict(
@@ -338,9 +334,9 @@ compare_predictions(
 # 1. BC and CQL learn without driving, GAIL by driving. BC and GAIL do not use the road's reward.
 # 2. A success rate that counts who is ahead hides accidents.
 # 3. Without driving, Q of an action that the data lack is a guess. Two agents of plain Q-learning crashed on
-#    every road; with CQL's term, the cloning loss of softmax(Q), two crashed on few.
-# 4. FQE's estimates were close for agents that act as the recorded drives do; for others they can be far too
-#    high or too low. And worth at γ = 0.8 is not escape.
+#    every road; with CQL's term two crashed on few.
+# 4. FQE's estimates were close for agents that act as the recorded drives do; for others some were far off.
+#    And worth at γ = 0.8 is not escape.
 # 5. *Further:* GAIL is paid by its discriminator; with a reward above 0 it pays to go on.
 #
 # **Three questions to think about**

@@ -102,11 +102,11 @@ KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the set
     BOTH: (costing(1.0, MidLaneStart), {}),
 }
 
-SHOWN = {  # the kinds whose agents the lesson shows, in its words
-    "neither": "as it is",
-    "accidents cost 1": CHEAP,
-    "a start in the free lane": MIDDLE,
-    "both": BOTH,
+SHOWN = {  # the kinds whose agents the lesson shows, by start and price, in its words
+    ("start in the trap", "an accident costs 10"): "as it is",
+    ("start in the trap", "an accident costs 1"): CHEAP,
+    ("start in the free lane", "an accident costs 10"): MIDDLE,
+    ("start in the free lane", "an accident costs 1"): BOTH,
 }
 
 

@@ -33,39 +33,43 @@ def how_they_end(agents: Results, staying: float) -> np.ndarray:
     return np.array([each.sum(axis=1), (each & crashing).sum(axis=1)])
 
 
-def escapes(trained: Mapping[str, Results], shown: Mapping[str, str]) -> Figure:
-    """A square for each agent, coloured by how it ends, with a cross if it crashes on most roads; a row for each kind.
+def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]) -> Figure:
+    """A square for each agent, coloured by how it ends, crossed if it crashes on most roads: a block for each kind.
 
-    shown: {the row's words: the kind}.
+    shown: {(the row's words, the column's words): the kind}, row by row.
     """
     found = {words: how_they_end(trained[kind], easier.staying(kind)) for words, kind in shown.items()}
-    ends, crashes = ({words: each[k] for words, each in found.items()} for k in (0, 1))
-    tall, many = 0.36, max(map(sum, ends.values()))
-    figure = new_figure(0.8 + tall * len(ends) + 0.95)
-    ax = axes_at(figure, 1.75, 0.8, 0.2 * many, tall * len(ends))
-    ax.set(xlim=(-0.5, many - 0.5), ylim=(len(ends) - 0.5, -0.5))
+    rows, columns = (list(dict.fromkeys(words[k] for words in shown)) for k in (0, 1))
+    figure = new_figure(3.55)
+    ax = axes_at(figure, 0, 0.7, figure.get_figwidth(), 2.85)  # in inches
+    ax.set(xlim=(0, figure.get_figwidth()), ylim=(2.85, 0))
     ax.axis("off")
     look = {"marker": "s", "edgecolors": INK, "linewidths": 0.8}
-    for row, (words, counts) in enumerate(ends.items()):
-        colours = [colour for colour, count in zip(ENDS.values(), counts, strict=True) for _ in range(count)]
-        ax.scatter(range(len(colours)), [row] * len(colours), s=125, c=colours, **look)
-        firsts = np.cumsum((0, *counts[:-1]))
-        crossed = [first + k for first, of in zip(firsts, crashes[words], strict=True) for k in range(of)]
-        ax.scatter(crossed, [row] * len(crossed), s=42, **CRASHES)
-        ax.text(-1, row, words, ha="right", va="center", fontsize=TEXT, color=INK)
-        escaping = f"{sum(counts[:2])} escape{'s' * int(sum(counts[:2]) == 1)}"
-        ax.text(many, row, escaping, va="center", fontsize=TEXT, color=INK, fontweight="bold")
+    for column, words in enumerate(columns):
+        ax.text(1.75 + 2.7 * column, 0.12, words, va="center", fontsize=TEXT, color=INK)
+    for row, words in enumerate(rows):
+        ax.text(0.1, 0.8 + 0.95 * row, words, va="center", fontsize=TEXT, color=INK)
+    for (row, column), (ends, crashes) in found.items():
+        x, y = 1.75 + 2.7 * columns.index(column), 0.4 + 0.95 * rows.index(row)
+        place = np.arange(sum(ends))
+        across, down = x + 0.09 + 0.2 * (place % 10), y + 0.3 + 0.2 * (place // 10)
+        ax.scatter(across, down, s=125, c=np.repeat([*ENDS.values()], ends), **look)
+        firsts = np.cumsum((0, *ends[:-1]))
+        crossed = [first + k for first, of in zip(firsts, crashes, strict=True) for k in range(of)]
+        ax.scatter(across[crossed], down[crossed], s=42, **CRASHES)
+        escaping = f"{sum(ends[:2])} of {sum(ends)} escape{'s' * int(sum(ends[:2]) == 1)}"
+        ax.text(x, y + 0.06, escaping, va="center", fontsize=TEXT, color=INK, fontweight="bold")
     keys = {words: look | {"c": [colour]} for words, colour in [*ENDS.items()][:2]}
     keys |= {"does not escape": look | {"c": ["white"]}, "crashes on most roads": CRASHES}
     for place, (words, key) in enumerate(keys.items()):
-        at = 0.5 + 11.5 * (place % 2), len(ends) + 0.1 + 0.65 * (place // 2)
-        ax.scatter(*at, s=50, clip_on=False, **key)
-        ax.text(at[0] + 0.8, at[1], words, va="center", fontsize=SMALL, color=INK)
-    both = ends[[*ends][-1]]
+        at = 1.84 + 2.7 * (place % 2), 2.4 + 0.22 * (place // 2)
+        ax.scatter(*at, s=50, **key)
+        ax.text(at[0] + 0.16, at[1], words, va="center", fontsize=SMALL, color=INK)
+    both, _ = found[rows[-1], columns[-1]]
     title = f"Cheap accidents and the free lane together: {sum(both[:2])} of {sum(both)} escape, "
     title += f"{both[0]} earn more than by staying"
-    listed = "; ".join(f"{words}: {', '.join(map(str, counts))}" for words, counts in ends.items())
-    crossed = "; ".join(f"{words}: {sum(counts)}" for words, counts in crashes.items())
+    listed = "; ".join(f"{', '.join(words)}: {', '.join(map(str, ends))}" for words, (ends, _) in found.items())
+    crossed = "; ".join(f"{', '.join(words)}: {sum(counts)}" for words, (_, counts) in found.items())
     alt = f"A square for each agent. {', '.join(ENDS)}: {listed}. A cross: crashes on most roads: {crossed}."
     return finish(figure, title, alt)
 

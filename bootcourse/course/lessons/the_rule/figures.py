@@ -81,21 +81,42 @@ def speed_over_time(drive: Rollout) -> Figure:
 
 
 def speeds_by_sight(far: Rollout, near: Rollout) -> Figure:
-    """The rule's speed on one road: as it is, and with a shorter sight."""
-    title = "With a sight of 30 m the rule no longer brakes for cars far ahead"
-    figure, ax = one_axes(2.6, title, "time (s)", "the rule's speed (m/s)")
-    rule = style("rule").colour
+    """Over one time axis: how far ahead the car is that the rule follows, and its speed, with a shorter sight, too."""
+    title = "A slow car almost 200 m ahead holds the rule back"
+    rule, steps, sight = style("rule").colour, far.scenario.clock.steps, far.scenario.sight.distance
+    begins = int(np.argmax(far.rule_reasons == Reason.LEFTMOST)) * steps  # it follows one car from here on
+    lane = (far.states[begins, :, LANE] == far.states[begins, EGO, LANE]) & (np.arange(far.states.shape[1]) != EGO)
+    gaps = np.where(lane, far.states[begins, :, X] - far.states[begins, EGO, X], np.inf)
+    followed = int(np.where(gaps > 0, gaps, np.inf).argmin())
+    times, ahead = far.times[begins:], (far.states[:, followed, X] - far.states[:, EGO, X])[begins:]
+    figure = new_figure(4.0)
+    upper, lower = (axes_at(figure, 0.6, top, 6.2, height) for top, height in ((0.75, 1.1), (2.2, 1.3)))
+    plain_axes(upper, "car that the rule follows, ahead by (m)")
+    plain_axes(lower, "the rule's speed (m/s)")
+    upper.plot(times, ahead, color=INK, linewidth=1.5)
+    upper.plot(times, np.where(ahead > sight, ahead, np.nan), color=ALARM, linewidth=2.5)
+    upper.axhline(sight, color=INK, linewidth=1.2, linestyle="--")
+    upper.text(1, sight + 2, f"sight {sight:g} m", fontsize=TEXT, color=INK, va="bottom")
+    upper.text(62, 216, "out of sight", fontsize=TEXT, color=ALARM, va="center", ha="center")
+    upper.set(xlim=(0, 110), ylim=(140, 220), yticks=(150, 200), xticklabels=[])
     for drive, colour, width in ((far, QUIET, 1.3), (near, rule, 2.6)):
-        ax.plot(drive.times, drive.states[:, EGO, SPEED], color=colour, linewidth=width)
-    ax.set(xlim=(0, 110), ylim=(7, 16.6), yticks=(8, 10, 12, 14))
-    ax.text(23, 9.3, "sight 200 m", fontsize=TEXT, color=QUIET, va="center")
-    ax.text(17, 15.8, "sight 30 m", fontsize=TEXT, color=rule, va="center")
+        lower.plot(drive.times, drive.states[:, EGO, SPEED], color=colour, linewidth=width)
+    lower.set(xlim=(0, 110), ylim=(7, 17), yticks=(8, 10, 12, 14))
+    lower.set_xlabel("time (s)", fontsize=TEXT, color=INK)
+    lower.text(23, 9.0, "sight 200 m", fontsize=TEXT, color=QUIET, va="center")
+    lower.text(17, 16.0, "sight 30 m", fontsize=TEXT, color=rule, va="center")
+    out = np.flatnonzero(np.diff((ahead > sight).astype(int)) == 1)
     said = (
         f"{name}: ahead of trap 1 after {overtaken(drive):.0f} s, then {speeds.min():g} to {speeds.max():g} m/s"
         for name, drive in (("200 m", far), ("30 m", near))
         for speeds in [drive.states[drive.times > overtaken(drive), EGO, SPEED]]
     )
-    return finish(figure, title, f"Two drives on one road. {'; '.join(said)}.")
+    alt = (
+        f"Two drives on one road. The rule follows a car {ahead[0]:.0f} m ahead at {times[0]:g} s. From "
+        f"{times[out[0] + 1]:g} s on this car leaves the sight of {sight:g} m again and again, and each time the speed "
+        f"rises. {'; '.join(said)}."
+    )
+    return finish(figure, title, alt)
 
 
 def crash_over_time(drive: Rollout) -> Figure:

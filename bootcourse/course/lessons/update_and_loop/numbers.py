@@ -33,6 +33,12 @@ def after_a_block(kind: str = "marked") -> np.ndarray:
     return agents(kind).notes["tests"][:, 1]
 
 
+def spread(kind: str) -> str:
+    """The least and the most of these pushes, in words; one number if they round to the same."""
+    pushes = after_a_block(kind)
+    return " to ".join(dict.fromkeys(f"{each:.0f}" for each in (pushes.min(), pushes.max())))
+
+
 def along_falls(kind: str = "marked") -> np.ndarray:
     """What each agent of a kind expects along a fall after its first block, (agents, 9): see `worlds.along_falls`."""
     return agents(kind).notes["q"][:, : BEFORE + 1]

@@ -70,8 +70,7 @@ explorable.the_end()
 # That works because a row says only what the *world* did, and the target asks the *present* policy what it
 # would do in s'.
 #
-# **Exercise (4 min, ●○○).** Write `sample`, with the generator `rng`. Training calls it thousands of times,
-# so do not copy the whole buffer.
+# **Exercise (4 min, ●○○).** Write `sample`, with the generator `rng`. Do not copy the whole buffer.
 
 
 # %%
@@ -123,8 +122,8 @@ check.ReplayBuffer(ReplayBuffer)
 # > 7. **Steps.** Compute the three losses, then make a gradient step for each.
 # > 8. **Copies.** Q̄ₖ becomes Q̄ₖ + τ (Qₖ − Q̄ₖ), weight by weight.
 #
-# The functions are those of lesson [[discrete_sac]], which detach y, Q and H. `q_pair` holds Q of both
-# critics, (critics, batch, pushes). Detach α yourself: `agent.log_alpha.exp().detach()`.
+# The functions are those of lesson [[discrete_sac]], which detach y, Q and H. `q_pair`, (2, n, 2), holds Q of
+# both critics for each row and each push. Detach α yourself: `agent.log_alpha.exp().detach()`.
 
 # %%
 own_code.load()
@@ -133,8 +132,8 @@ soft_value, critic_target, critic_loss, actor_loss, temperature_loss = own_code.
 )
 
 # %% [markdown]
-# **Exercise (20 min, ●●●).** Write steps 3 to 8. The docstring says which function a step calls, and where
-# its arguments come from. Check early: the message names the networks that differ from ours.
+# **Exercise (20 min, ●●●).** Write steps 3 to 8. Check early: the message names the networks that differ from
+# ours.
 
 
 # %%
@@ -166,8 +165,8 @@ check.update(update)
 #   up. Reset the environment after a fall and when the time is up.
 # - `agent.draw(state, rng)` draws an action, and `by_hand.row(s, a, r, terminated, s')` makes a row.
 # - `by_hand.batch_of(buffer.sample(256, rng))` is a batch for `update`.
-# - Each call of `train` begins with a reset and counts its own pushes: it makes an update after push 256,
-#   260, 264, and so on.
+# - Each call of `train` begins with a reset and counts its own pushes, even if the buffer already holds rows:
+#   it makes an update after push 256, 260, 264, and so on.
 
 
 # %%
@@ -255,9 +254,9 @@ explorable.trained_poles(agent, unmarked)
 # %% [markdown]
 # ## Round 4: why does it fall?
 #
-# The actor hears of rewards only from its critics, so look at their Q. It has a **limit**: even if the pole
-# stood for ever, each push would pay 1, and at most α log 2 for its entropy. So with γ =
-# {{ by_hand.SAC.gamma }} no right Q is above {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2).
+# The actor hears of rewards only from its critics, so look at their Q. Q has a **limit**: a pole that stands
+# for ever earns 1 a push, and at most α log 2 for the entropy. So with γ = {{ by_hand.SAC.gamma }} no right Q
+# is above {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2).
 #
 # > **Predict.** What do the critics with the bug expect of a fallen pole, compared with a standing one?
 
@@ -298,16 +297,20 @@ stands = by_hand.balanced(added)
 print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {tests[1]:.0f}.")
 
 # %% [markdown]
-# **Explain.** With these rows Q is possible in all five agents that we trained, it drops towards the fall,
-# and they balance the pole for {{ after_a_block('paid-0').min() | .0f }} to
-# {{ after_a_block('paid-0').max() | .0f }} pushes. With `PAID = 1` Q is possible in all five, too, but flat:
-# a fallen pole is worth as much as a standing one, and they balance it for
-# {{ after_a_block('paid-1').max() | .0f }} pushes. So a possible Q may still be wrong.
+# **Explain.** We trained five agents of each kind, all with the bug:
+#
+# | rows of fallen poles | Q towards the fall | pushes balanced |
+# | --- | --- | --- |
+# | none | rises, above its limit | {{ spread('unmarked') }} |
+# | they pay 0 (true) | drops | {{ spread('paid-0') }} |
+# | they pay 1 (false) | is flat | {{ spread('paid-1') }} |
+#
+# *A critic learns what its rows say, true or false, and makes up the rest.*
 # <!-- claim: np.abs(along_falls('paid-1') / along_falls('paid-1')[:, :1] - 1).max() < 0.1 and
 #   (along_falls('paid-0')[:, -1] < along_falls('paid-0')[:, 0] / 4).all() -->
 #
-# We think that without these rows Q fed itself: a high guess for the fallen pole raised the target of the
-# last push, and because one network gives both values, the guess rose again.
+# We think that without rows of fallen poles Q fed itself: a high guess for the fallen pole raised the target
+# of the last push, and because one network gives both values, the guess rose again.
 # <!-- claim: possible('paid-0') == possible('paid-1') == 5 == len(agents('paid-1')) == len(agents('paid-0')) and
 #   after_a_block('paid-0').argmax() == 1 -->
 
@@ -332,12 +335,12 @@ compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: compared, 4
 # 1. A batch holds mostly rows of earlier policies: SAC learns off-policy.
 # 2. `terminated` says that nothing more is earned. A time limit does not say so.
 # 3. In a small world you can work out Q and the right push, so a bug can show as a wrong number.
-# 4. A critic makes up what no row tells it. A Q above its limit gives that away. A Q below it may still be
-#    wrong (`PAID = 1`).
+# 4. A critic makes up what no row tells it, and a Q above its limit gives that away. It learns what its rows
+#    say, even where they are false (`PAID = 1`).
 
 # %% [markdown]
 # **Three questions to think about**
-# - What do you expect with `PAID = -1`? Try it.
+# - What do you expect with `PAID = -1`?
 # - Let `sample` give 256 rows that follow each other. What do you expect?
 # - Suppose that the end of the time counts as a fall. Which small world shows it?
 #

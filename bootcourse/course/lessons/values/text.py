@@ -101,8 +101,6 @@ print(f"γ = {min(better):.2f}")
 #
 # $$ Q(s, a) = r(s, a) + \gamma \max_{a'} Q(s', a') $$
 #
-# Where chance decides, Q is the mean of the right side.
-#
 # To find Q, begin with Q = 0 everywhere. One **sweep** computes the right side for all ten pairs (s, a) at
 # once; the next sweep begins with the new Q.
 #
@@ -201,8 +199,8 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 
 # %% [markdown]
 # **Explain.** On the first walk the learner learns in the states 0 to 3 before the free road has paid, so
-# only the value in state 4 rises. In the last row it learns in reverse order, so each next state already has
-# its value.
+# only the value in state 4 rises. In the last row it learns from the same five decisions, the last one first,
+# so each next state already has its value.
 # <!-- claim: walked(1) == [False] * 4 + [True] and all(walked(1, backwards=True)) -->
 # <!-- claim: not walked(4)[0] and walked(5)[0] -->
 
@@ -242,8 +240,8 @@ predict("values.4", "In which kinds do more than half learn to leave? Letters, a
 def learn_chain(chances, gamma, step, taught):
     """Q (5, 2) after len(chances) decisions, from zeros.
 
-    chances: at each decision -1 for the greedy action (of two equal ones action 0), or the action
-    that is tried. taught: pairs (s, a) of a demonstrator, replayed in this order after each of your
+    chances: one number a decision: -1, act greedily (action 0 if both Q are equal); 0 or 1, take
+    this action. taught: pairs (s, a) of a demonstrator, replayed in this order after each of your
     own decisions; they pay chain.REWARD[s, a].
     """
     # solution
@@ -277,15 +275,14 @@ bc.show(diagrams.who_leaves(found))
 
 # %% [markdown]
 # **Explain.** In A none learns to leave, although leaving is worth more. On the way out you lose the trap's
-# pay, and only the end pays: this is a **barrier**. A longer view alone (B) does not help. By chance the four
-# steps out come in a row once in {{ 20**4 | ,.0f }} tries, and no learner of A or B reached the free road, so
-# none knows its value.
+# pay, and only the end pays: this is a **barrier**. A longer view alone (B) does not help. No learner of A or
+# B reached the free road, so none knows its value.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
 #
-# More exploration helps: all of D, which act at random, learn to leave. So does a demonstration (E):
-# Q-learning can learn from decisions that the learner did not make. It is **off-policy**, and so is the
+# More exploration helps: D's learners act at random, and all thirty learn to leave. So does a demonstration
+# (E): Q-learning can learn from decisions that the learner did not make. It is **off-policy**, and so is the
 # method of the next lessons.
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
 #
@@ -296,13 +293,13 @@ bc.show(diagrams.who_leaves(found))
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** Staying is worth {{ 0.16 / 0.2 | .2f }}. For hundreds of decisions both learners know nothing
-# better in state 1 than to turn back, which is worth 0.8 · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }}.
-# So they value leaving at 0.8 · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}. The free
-# road's value passes a state only once going on is worth more there than turning back: first in 3, then in 2,
-# then in 1 (dashed). Then leaving gains, and so does *staying once* (purple), because one can leave after it.
-# Two walks (left) are too few: those of C that learned to leave needed {{ min(needed_walks()) }} to {{
-# max(needed_walks()) }}.
+# **Explain.** A state passes back only its *larger* Q. In state 1 turning back leads to the trap, where
+# staying is worth {{ 0.16 / 0.2 | .2f }}: it is worth 0.8 · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }}.
+# As long as going on is worth less, nothing of the free road's value reaches the trap, and leaving is worth
+# 0.8 · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}. Walks to the free road raise going on
+# until it wins, in 3, then in 2, then in 1 (dashed). Only then does leaving gain, and with it *staying once*
+# (purple), because one can leave after it. Two walks (left) are too few: those of C that learned to leave
+# needed {{ min(needed_walks()) }} to {{ max(needed_walks()) }}.
 # <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] and not chain.leaves(walks(29)[-1]) -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 and q[1, 1] < q[1, 0] and abs(q[1, 0] - 0.8 * 0.16 / 0.2)
@@ -326,10 +323,9 @@ compare_predictions(
 # ## What you now know
 #
 # 1. The discounted return is the sum of the rewards from now on, each × γ to the power of its delay.
-# 2. The Bellman equation: an action is worth its reward plus γ times the larger Q of the next state. Sweeps
-#    of it find Q.
+# 2. The Bellman equation: an action is worth its reward plus γ times the larger Q of the next state.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves Q(s, a) by a
-#    part of this difference, and needs no map.
+#    part of this difference.
 # 4. Learned forwards, a walk straight out carries a value one state back. The value passes a state only once
 #    going on is worth more there than turning back.
 # 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and so does a

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse.colours import ALARM, INK, QUIET
+from bootcourse.colours import INK, QUIET
 from bootcourse.methods import style
 from bootcourse.panels.explorable import WIDTH, Explorable
 from bootcourse.panels.number import Number, whole_number
@@ -14,7 +14,7 @@ from bootcourse.research.problems import PROBLEMS
 SIDE = 36  # squares of the map in each direction: position 0.1 and speed 0 are at edges of squares
 POSITIONS, SPEEDS = (-1.2, 0.6), (-0.07, 0.07)
 FLAG, LONGEST, STARTS = 0.5, 200, np.linspace(-0.6, -0.4, 20)
-PUSHES = {"left": "#9DB8D9", "none": "#FFFFFF", "right": "#F2C48D"}  # by their actions, 0 to 2
+SQUARES = {"as the good teacher": "#E3E8EE", "an error": "#D9604F"}  # the second is darker in grey print, too
 GAMMA = PROBLEMS["doorkey"].gamma
 
 
@@ -71,9 +71,9 @@ def votes() -> Explorable:
             way, spent = drives(actions)
             correct = 100 * (actions == taught["good"]).mean()
             chart = SvgAxes(52 + 350 * place, 84, 300, 160, POSITIONS, SPEEDS)
-            parts += squares(chart, actions)
+            parts += squares(chart, actions != taught["good"])
             chart.line(*way[:, :, len(STARTS) // 2].T, INK, 1.1)
-            chart.line([FLAG, FLAG], SPEEDS, ALARM, 1.2, "--")
+            chart.line([FLAG, FLAG], SPEEDS, INK, 1.2, "--")
             up = int((way[-1, 0] >= FLAG).sum())
             parts += [
                 text(chart.left, 56, f"{teacher} teacher: right in {correct:.0f} % of the squares", bold=True),
@@ -83,10 +83,9 @@ def votes() -> Explorable:
             ]
             said.append(f"{teacher}: right in {correct:.0f} %, {up} of 20 up in {spent.mean():.0f} decisions")
         parts += [text(46, y, words, "end", QUIET, 11) for y, words in ((94, "speed"), (168, "0"))]
-        for place, (push, colour) in enumerate(PUSHES.items()):
-            words = "no push" if push == "none" else f"push {push}"
-            parts += [rect(52 + 110 * place, 276, 14, 14, colour, f'stroke="{QUIET}"')]
-            parts += [text(72 + 110 * place, 288, words)]
+        for place, (words, colour) in enumerate(SQUARES.items()):
+            parts += [rect(52 + 170 * place, 276, 14, 14, colour, f'stroke="{QUIET}"')]
+            parts += [text(72 + 170 * place, 288, words)]
         says = "Each square does what its teacher says of it." if count == 1 else f"Each square asks {count}."
         return drawing(WIDTH, 300, [text(4, 20, says, size=14, bold=True), *parts], f"{says} {'; '.join(said)}.")
 
@@ -98,19 +97,18 @@ def votes() -> Explorable:
     return Explorable("What do alike states say together?", draw, **numbers)
 
 
-def squares(chart: SvgAxes, actions: np.ndarray) -> list[str]:
-    """A map: a path for each push, made of its runs of squares in a row."""
+def squares(chart: SvgAxes, wrong: np.ndarray) -> list[str]:
+    """A map in a frame: a path for the errors, made of their runs of squares in a row, on the colour of the others."""
     across, up = chart.width / SIDE, chart.height / SIDE
-    paths = []
-    for action, colour in enumerate(PUSHES.values()):
-        d = ""
-        for row, here in enumerate(actions == action):
-            edges = np.flatnonzero(np.diff(np.concatenate([[0], here.astype(int), [0]])))
-            for begin, end in zip(edges[::2], edges[1::2], strict=True):
-                x, y = chart.left + begin * across, chart.top + (SIDE - 1 - row) * up
-                d += f"M{x:.1f} {y:.1f}h{(end - begin) * across:.1f}v{up:.1f}H{x:.1f}Z"
-        paths.append(f'<path d="{d}" fill="{colour}"/>' if d else "")
-    return paths
+    right, error = SQUARES.values()
+    d = ""
+    for row, here in enumerate(wrong):
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], here.astype(int), [0]])))
+        for begin, end in zip(edges[::2], edges[1::2], strict=True):
+            x, y = chart.left + begin * across, chart.top + (SIDE - 1 - row) * up
+            d += f"M{x:.1f} {y:.1f}h{(end - begin) * across:.1f}v{up:.1f}H{x:.1f}Z"
+    frame = rect(chart.left, chart.top, chart.width, chart.height, right, f'stroke="{QUIET}" stroke-width="0.8"')
+    return [frame, f'<path d="{d}" fill="{error}" shape-rendering="crispEdges"/>']
 
 
 def worths(bonus: float, decisions: int, gamma: float = GAMMA) -> tuple[float, float, float]:

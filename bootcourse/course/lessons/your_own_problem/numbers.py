@@ -50,11 +50,6 @@ def without_loops() -> float:
     return score("doorkey", "random", elsewhere.WITHOUT_LOOPS, "drawn_success")
 
 
-def alone(bonus: str) -> float:
-    """The success on DoorKey of agents that have the good teacher's demonstrations and no more, by drawn actions."""
-    return score("doorkey", "good", f"demonstrations{bonus}", "drawn_success")
-
-
 def loops_table() -> str:
     """How many drives of DoorKey reach the goal, by drawn actions and by most probable ones, as Markdown."""
     kinds = [

@@ -50,7 +50,7 @@ bc.show(figures.climbs())
 # %% [markdown]
 # **See.** The car has to drive *away* from the flag for a while, and the reward does not say so.
 #
-# Each round asks one question, which you then ask of your own problem.
+# Each round asks one question; all but the third you then ask of your own problem.
 # <!-- claim: loops.climbed(lambda position, speed: 2).max() < 0 -->
 # <!-- claim: loops.climbed(lambda position, speed: 2 if speed >= 0 else 0)[-1] >= 0.5 -->
 
@@ -84,8 +84,8 @@ car, teacher = PROBLEMS["mountain-car"].make_env, loops.teacher(climb)
 bc.compare(methods, decisions=1_000, make_env=car, teacher=teacher, **how)
 
 # %% [markdown]
-# **See.** (Yours will differ.) Without a teacher no drive reaches the flag; with your rule most do. But the
-# clone earns more than the soft constraint.
+# **See.** (Yours will differ.) Without a teacher no drive reaches the flag; with your rule most do. The soft
+# constraint reaches it more often here, but the clone earns more: when it gets there, it is there sooner.
 # <!-- claim: score('mountain-car', 'good', 'SAC') == 0 and min(score('mountain-car', 'good', m) for
 #   m in ('cloning', 'soft')) > 0.9 -->
 #
@@ -135,9 +135,9 @@ bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0))
 
 # %% [markdown]
 # **See.** The teacher's line is upright: for it only the angle counts. At first the agents' lines are nearly
-# level: the speeds are larger numbers than the angles, so they count first. On the way from there to upright
-# they pass the dashes, where both count alike; a rule with that line earns {{ speed_rule_earns() | .0f }}.
-# After 3,000 decisions the agents copy their teacher better and earn less: *one budget can mislead.*
+# level: for them the speed counts most. On the way from there to upright they pass the dashes, where both
+# count alike; a rule with that line earns {{ speed_rule_earns() | .0f }}. After 3,000 decisions the agents
+# copy their teacher better and earn less: *one budget can mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
 # The same with the reward:
@@ -154,8 +154,7 @@ for pays, gamma in ((0, 0), (1, 0.99)):  # on yours
 # ## Round 3: which errors does the teacher make?
 #
 # A **random** teacher errs in states scattered at random, always the same ones. A **systematic** teacher errs
-# everywhere in one region. The **good** teacher makes neither error. (In lunar lander, below, a craft has to
-# land.)
+# everywhere in one region. The **good** teacher makes neither error.
 #
 # > **Predict.** On MountainCar the good teacher earns {{ earned('good') | .0f }}. The random teacher is right in
 # > {{ 100 * elsewhere_claims.PROBLEMS['mountain-car'].right | .0f }} % of the states and earns
@@ -242,7 +241,7 @@ table(*loops.errors(seen, taught, cloned, good))  # of DoorKey
 #   map(labels, ('mountain-car', 'doorkey'))] == [(True, True, False), (False, False, True)] -->
 
 # %% tags=["nbval-ignore-output"]
-# On yours: do the states of your rule come back?
+# On yours: do the states of your rule come back? If the two numbers are equal, never.
 seen = bc.demonstrate(50, None, teacher=own_rule, make_env=my_env).observations
 print(f"{len(seen):,} labels, {loops.states(seen):,} states")
 
@@ -253,7 +252,7 @@ print(f"{len(seen):,} labels, {loops.states(seen):,} states")
 # %% [markdown]
 # ## Round 5: what pays in a loop?
 #
-# The bonus does: each decision in a demonstration earns c, so a loop in it earns c in every round.
+# The bonus does: each decision of a demonstration earns c, so a loop in it earns c again and again.
 #
 # > **Predict.** Agents learn from DoorKey's random teacher by both aids, soft constraint and
 # > demonstrations, with the paper's c = 2. Do they reach the goal more often than plain SAC?
@@ -305,13 +304,11 @@ check.drowning_bonus(drowning_bonus)
 #
 # {{ loops_table() }}
 #
-# By drawn actions most of the harm is gone without the drives that loop. But two things stay *open*: by most
-# probable actions the random teacher's agents reach fewer goals than plain SAC with each c of the figure, and
-# with demonstrations alone c = 2 ruins the good teacher's agents, too.
+# Without the drives that loop most of the harm is gone, as long as actions are drawn. But one thing stays
+# *open*: by most probable actions the random teacher's agents reach fewer goals than plain SAC with each c of
+# the figure.
 # <!-- claim: by_bonus('random', 'success').max() < score('doorkey', 'none', 'SAC') - 0.1 -->
-# <!-- claim: without_loops() > 0.8 and score('doorkey', 'random', 'both', 'drawn_success') == 0 and
-#   alone('') < 0.01 < 0.5 < alone(', c = 0') and
-#   score('doorkey', 'good', 'the teacher') == 1 -->
+# <!-- claim: without_loops() > 0.8 and score('doorkey', 'random', 'both', 'drawn_success') == 0 -->
 
 # %%
 # On yours: which loop is there, and what is its threshold? Put in your numbers:

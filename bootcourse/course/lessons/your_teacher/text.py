@@ -72,8 +72,8 @@ bc.recording([beginning(drive, 30) for drive in drives], height=480)
 figures.exam_of_all()
 
 # %% [markdown]
-# **See.** The racer gets out on each of these roads, but earns *less* than `timid` on each: the reward pays
-# next to nothing for 20 m/s.
+# **See.** The racer gets out on each of these roads, and on each it earns *less* than `timid`, which never
+# gets out: the reward pays next to nothing for 20 m/s.
 # <!-- claim: speed_reward(17) < 0.02 -->
 # <!-- claim: all(teacher_exam(n).success.all() for n in ('careful', 'racer')) -->
 # <!-- claim: not teacher_exam('timid').success.any() -->
@@ -111,8 +111,8 @@ figures.cars_in_rows(cars)
 source("bootcourse.course.lessons.your_teacher.example_teachers", "racer")
 
 # %% [markdown]
-# > **Predict.** A blind rule steers to the next lane on the left, always at one speed. At the best speed
-# > (8, 9, …, 15 m/s), on how many of 100 roads does it get out?
+# > **Predict.** A blind rule looks at no car: it always steers one lane left, at one speed. You may choose that
+# > speed, from 8 to 15 m/s. On how many of 100 roads does it get out?
 
 # %%
 predict("your_teacher.1", "At its best speed it gets out on ...", ["none", "about half", "all"])
@@ -177,7 +177,6 @@ print(example_teachers.examine(mine))
 # a batch, for the KL. `Training(..., teacher=my_rule)` swaps both.
 #
 # Two agents learn from your rule with the paper's method, for {{ taught_agents.UPDATES | , }} updates.
-# **Yours will differ** with your processor.
 
 # %% tags=["nbval-ignore-output"]
 settings = bc.with_seeds(bc.settings_for("bootstrapped"), 2)
@@ -241,8 +240,11 @@ taught = shipped_teachers()
 bc.show(figures.of_six_teachers(taught))
 
 # %% [markdown]
-# **See.** All ten escape. Where a teacher's drives reach the free lane, most of its students do; where they
-# do not, none does.
+# **See.** All ten escape. If a teacher's drives reach the free lane, most of its students escape; if not,
+# none does. The rule's students all escaped in Round 2; in this longer training
+# {{ 10 - escape_of(['rule']) }} found the way out, but did not keep it (lesson [[found_and_kept]]).
+# <!-- claim: student_escapes('the rule') == 10 and
+#   worth()['rule', 'bootstrapped'].found_and_kept('bootstrapped')[0].all() -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 -->
 # <!-- claim: escape_of(['timid', 'mirrored']) == 0 and min(escape_of([name]) for name in ('rule',
 #   'late', 'random-25', 'random-50')) > 5 -->
@@ -256,18 +258,20 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # ## Round 4: the free lane, or its accidents?
 #
-# Without the two of half random's drives that end ahead of trap 1, {{ len(crashes.crashed()) }} remain. The
-# {{ len(crashes.crashed()) - reach_free_lane() }} that never reach the free lane count as *before the free
-# lane*, accident and all. The ten new agents of each row learn only the parts marked ■:
+# Which part of such a drive teaches the way out? {{ len(crashes.crashed()) }} of the
+# {{ len(demonstrated('random-50')) }} end behind trap 1. Of these, {{ reach_free_lane() }} reach the free
+# lane and crash later; {{ len(crashes.crashed()) - reach_free_lane() }} never reach it. Ten new agents of
+# each row learn the latter whole, and of the others only the parts marked ■:
 #
-# | | before the free lane | from the free lane on | the accident |
+# | | before the free lane | from the free lane on | its accident |
 # |---|---|---|---|
 # | **both** | ◪ | ■ | ■ |
 # | **only the free lane** | ■ | ■ | □ |
 # | **only the accident** | ■ | □ | ■ |
 # | **neither** | ■ | □ | □ |
 #
-# ◪: a part, drawn at random, so that *both* has no more decisions than *neither*.
+# But *both* leaves out some decisions (◪), drawn at random from all {{ len(crashes.crashed()) }} drives, so
+# that it has no more than *neither*.
 # <!-- claim: crashes.is_kept('cut').sum() == crashes.is_kept('as-many').sum() -->
 # <!-- claim: not any(drive.success for drive in crashes.crashed()) and
 #   gets_ahead('random-50') == 2 == len(demonstrated('random-50')) - len(crashes.crashed()) -->
@@ -280,8 +284,8 @@ choices = ["all of them", "those of only the free lane", "those of only the acci
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
-# **Exercise (5 min, ●○○).** Mark the decisions that *only the free lane* keeps: all of a drive, but for the
-# last one if the drive reaches lane 0.
+# **Exercise (5 min, ●○○).** Mark the decisions that *only the free lane* keeps: if the drive reaches lane 0,
+# all but the last; if not, all.
 
 
 # %%
@@ -313,8 +317,8 @@ bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
 # **Explain.** *Most students of half random escape if its drives show the free lane, with the accident there
-# or without it.* But the drives are not enough: from all of them, {{ crash_escapes('all') }} of ten escape
-# with the bonus c, and {{ crash_escapes('no-bonus') }} without.
+# or without it.* But the drives are not enough: from all {{ len(crashes.crashed()) }},
+# {{ crash_escapes('all') }} of ten escape with the bonus c, and {{ crash_escapes('no-bonus') }} without.
 # <!-- claim: crash_shown('no-bonus') and crash_escapes('no-bonus') < 5 < crash_escapes('all') -->
 
 # %% [markdown] tags=["instructor"] minutes=1
@@ -364,8 +368,8 @@ check.watchful_rule(watchful_rule)
 # %% [markdown]
 # ## Further: ask only when unsure
 #
-# Your worse student drives, and asks your rule whenever your two students disagree. In the last row it asks
-# about as often, but at random. Compare the accidents (one student: an example).
+# Your worse student drives, and asks your rule whenever your two students disagree. Compare the accidents
+# (one student: an example).
 
 # %% tags=["nbval-ignore-output"]
 worse_first = [students[place] for place in learned["success"].argsort()]
