@@ -1,7 +1,7 @@
 """A training as it happens: the curves of its agents over their updates, drawn again and again in one place."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -82,13 +82,13 @@ class LiveCurves:
 class LiveWayOut(LiveCurves):
     """Of the last 50 episodes, how many two agents end ahead, while they learn; below, when trained ones found the way.
 
-    names: what tells the two apart, for the title and the rows of dots; looks: their colours. found: for each of the
-    two, the episodes after which agents trained like it found the way out, (agents,); a_dot: which agents these are.
+    looks: {what tells one of the two from the other: its colour}. trained: a row of dots for each kind of agents that
+    trained, {its name: (colour, the episodes after which they found the way out, (agents,))}; a_dot: who they are.
     """
 
-    def __init__(self, names: Sequence[str], looks: Sequence[str], found: Sequence[np.ndarray], a_dot: str):
+    def __init__(self, looks: Mapping[str, str], trained: Mapping[str, tuple[str, np.ndarray]], a_dot: str):
         super().__init__()
-        self.names, self.looks, self.found, self.a_dot = names, looks, found, a_dot
+        self.looks, self.trained, self.a_dot = looks, trained, a_dot
 
     def show(self, training: Training) -> None:
         if training.curves.finished.min() >= 2:  # a line has two points
@@ -99,23 +99,24 @@ class LiveWayOut(LiveCurves):
         success = training.curves.values["success"]
         lines = [_ahead(each[:count]) for each, count in zip(success, done, strict=True)]
         title = f"Ahead in the last {min(*done, IN_A_ROW)} episodes: "
-        title += ", ".join(f"{line[-1]:.0f} {name}" for line, name in zip(lines, self.names, strict=True))
-        figure, most = new_figure(4.2), 400  # episodes: by then the agents that trained have found it
-        ax, below = axes_at(figure, 1.6, 0.9, 3.7, 1.4), axes_at(figure, 1.6, 2.65, 3.7, 0.9)
+        title += ", ".join(f"{line[-1]:.0f} {name}" for line, name in zip(lines, self.looks, strict=True))
+        tall, most = 0.45 * len(self.trained), 400  # inches; episodes: by then the agents that trained have found it
+        figure = new_figure(3.3 + tall)
+        ax, below = axes_at(figure, 1.6, 0.9, 3.7, 1.4), axes_at(figure, 1.6, 2.65, 3.7, tall)
         plain_axes(ax, f"of the last {IN_A_ROW} training episodes, ended ahead: one agent each")
-        for line, colour in zip(lines, self.looks, strict=True):
+        for line, colour in zip(lines, self.looks.values(), strict=True):
             ax.plot(np.arange(1, len(line) + 1), line, color=colour, linewidth=2)
             ax.plot(len(line), line[-1], "o", color=colour, markersize=5, clip_on=False)
         ax.axhline(IN_A_ROW / 2, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
         ax.set(xlim=(0, most), ylim=(0, IN_A_ROW))
-        ends = [(line[-1], name, colour) for line, name, colour in zip(lines, self.names, self.looks, strict=True)]
+        ends = [(line[-1], *look) for line, look in zip(lines, self.looks.items(), strict=True)]
         label_ends(ax, [*ends, (IN_A_ROW / 2, "above: it finds the way out", QUIET)])
-        for place, (episodes, colour) in enumerate(zip(self.found, self.looks, strict=True)):
+        for place, (colour, episodes) in enumerate(self.trained.values()):
             dots(below, episodes, place, colour)
-        name_rows(below, self.names, f"episode; a dot: {self.a_dot} finds the way out")
+        name_rows(below, list(self.trained), f"episode; a dot: {self.a_dot} finds the way out")
         below.set_xlim(0, most)
-        said = (f"{name}, after {each.min():.0f} to {each.max():.0f} episodes"
-                for name, each in zip(self.names, self.found, strict=True))  # fmt: skip
+        said = (f"{name}, after {episodes.min():.0f} to {episodes.max():.0f} episodes"
+                for name, (_, episodes) in self.trained.items())  # fmt: skip
         alt = f"Lines over {done[0]} and {done[1]} episodes. A dot: {self.a_dot} finds the way out: {'; '.join(said)}."
         return finish(figure, title, alt)
 

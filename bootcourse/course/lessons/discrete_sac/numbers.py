@@ -3,6 +3,7 @@ estimates and the actor that may move them of Round 3, and the chain and our age
 """
 
 import math
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -10,7 +11,8 @@ import torch
 
 from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START, highest_estimates
 from bootcourse.course.lessons.discrete_sac.own_parts import LEARNERS as LEARNERS
-from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, soft_sweeps, unpaid, walked
+from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, soft_sweeps, walked
+from bootcourse.course.lessons.discrete_sac.own_parts import unpaid as unpaid
 from bootcourse.learn import sac
 from bootcourse.statistics import ESCAPES
 from tools.course.known import shipped_experiment
@@ -57,16 +59,10 @@ def constant(decisions: int = 1000) -> Walked:
 
 
 @cache
-def falling(decisions: int = 1000, begin: float = 10, end: float = 0.01) -> Walked:
-    """Learners whose α falls by equal factors."""
+def falling(decisions: int = 1000, begin: float = 10, end: float = 0.01, value: Callable = sac.soft_value) -> Walked:
+    """Learners whose α falls by equal factors. value: V(s) in their target, see `unpaid`."""
     alphas = np.geomspace(begin, end, decisions)
-    return walked(sac.soft_value, sac.critic_target, torch.tensor(alphas)[:, None])
-
-
-@cache
-def falling_unpaid() -> Walked:
-    """Learners whose α falls from 10 to 0.01, and whose target holds no pay."""
-    return walked(unpaid, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, 1000))[:, None])
+    return walked(value, sac.critic_target, torch.tensor(alphas)[:, None])
 
 
 def sure(of: Walked) -> np.ndarray:

@@ -324,7 +324,7 @@ explorable.thermostat()
 # **Does the pay lead out of the trap, then?** Only in part. On the chain it makes the learners act at random,
 # which leads out if α falls; in the target it keeps more than half of them in. On our road one of ten agents
 # of plain SAC escapes, and with η = 0.3 and η = 1, which can be reached, none of six.
-# <!-- claim: sure(falling_unpaid())[0] == LEARNERS > 2 * sure(falling())[0] -->
+# <!-- claim: sure(falling(value=unpaid))[0] == LEARNERS > 2 * sure(falling())[0] -->
 # <!-- claim: len(of('sac')) == 10 and escaped('sac') == 1 -->
 # <!-- claim: len(reachable()) == 6 and not reachable().any() -->
 

@@ -7,13 +7,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from bootcourse.colours import INK, QUIET
-from bootcourse.course.dots import dots, name_rows
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.course.live_curves import LiveWayOut
 from bootcourse.episodes.evaluate import evaluate
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import Settings
-from bootcourse.learn.training import Training
 from bootcourse.methods import style
 from bootcourse.plots.figure import SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
 from bootcourse.policies import rule_policy
@@ -53,23 +51,10 @@ class LiveDemonstrations(LiveWayOut):
     """
 
     def __init__(self):
-        kinds = (measures.kinds()[name][0] for name in ("demonstrations, c = 2", "no demonstrations"))
-        looks = [style(method).colour for method in ("bootstrapped", "soft")]
-        names = "with demonstrations", "without"
-        super().__init__(names, looks, list(map(measures.found, kinds)), "one of twenty agents")
-
-    def draw(self, training: Training) -> Figure:
-        figure = super().draw(training)
-        below, unpaid = figure.axes[1], measures.found(measures.kinds()["demonstrations, c = 0"][0])
-        ends, words = below.get_xlim(), below.get_xlabel()
-        below.clear()
-        rows = zip((self.found[0], unpaid, self.found[1]), (self.looks[0], NO_BONUS, self.looks[1]), strict=True)
-        for place, (episodes, colour) in enumerate(rows):
-            dots(below, episodes, place, colour, size=14)
-        name_rows(below, ("demonstrations, c = 2", "demonstrations, c = 0", "without"), words)
-        below.set_xlim(ends)
-        figure.alt += f" With demonstrations and c = 0, after {unpaid.min():.0f} to {unpaid.max():.0f} episodes."
-        return figure
+        helped, alone = (style(method).colour for method in ("bootstrapped", "soft"))
+        rows = {"demonstrations, c = 2": helped, "demonstrations, c = 0": NO_BONUS, "no demonstrations": alone}
+        trained = {name: (colour, measures.found(measures.kinds()[name][0])) for name, colour in rows.items()}
+        super().__init__({"with demonstrations": helped, "without": alone}, trained, "one of twenty agents")
 
 
 def returns(groups: dict[str, Results]) -> Figure:

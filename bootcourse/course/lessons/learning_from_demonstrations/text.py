@@ -250,8 +250,8 @@ bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)
 # %% [markdown]
 # ## Round 4: where can a margin teach?
 #
-# A demonstration shows *one* action. If no row tells of the other eight, their Q is a guess, and the error of
-# this guess is the **extrapolation error**.
+# A demonstration shows *one* action. If no row shows one of the other eight, its Q is a guess. The error of
+# such a guess is an **extrapolation error**.
 #
 # **Drag** through the rule's drive. In which seconds does your agent's critic give another action the largest
 # Q?

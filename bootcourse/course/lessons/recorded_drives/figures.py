@@ -148,19 +148,19 @@ def estimates(names: Sequence[str], alike: np.ndarray, estimated: np.ndarray, tr
             f"{name}: {x.min():.0f}–{x.max():.0f} %, off {off[:, i].min():+.2f} to {off[:, i].max():+.2f}{often}"
         )
     for place, i in enumerate(largest):
-        beside(ax, str(place + 1), 100 * alike[place, i], off[place, i], "right")
+        name_dot(ax, str(place + 1), 100 * alike[place, i], off[place, i], "right")
     best = truth.argmax(1)
     lowest = min(range(len(off)), key=lambda place: off[place, best[place]] if best[place] != largest[place] else 0)
     if best[lowest] != largest[lowest]:
         at = alike[lowest, best[lowest]], off[lowest, best[lowest]]
-        beside(ax, f"best of set {lowest + 1}", 100 * at[0], at[1], "left")
+        name_dot(ax, f"best of set {lowest + 1}", 100 * at[0], at[1], "left")
         said.append(f"the best of set {lowest + 1}: {100 * at[0]:.0f} %, off {at[1]:+.2f}")
     ax.set_xlim(0, 100)
     ax.xaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")
     return finish(figure, title, f"A dot for each agent: {'; '.join(said)}.")
 
 
-def beside(ax: Axes, words: str, x: float, y: float, side: str) -> None:
+def name_dot(ax: Axes, words: str, x: float, y: float, side: str) -> None:
     """Write words beside a dot; side: which end of them lies at the dot."""
     away = (-6, 0) if side == "right" else (6, -4)
     look = {"textcoords": "offset points", "ha": side, "va": "center", "fontsize": TEXT, "color": INK}

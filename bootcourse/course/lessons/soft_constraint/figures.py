@@ -33,7 +33,9 @@ class LivePenalty(LiveWayOut):
     """Two agents while they learn, the first with the value penalty; below, when the study's found the way out."""
 
     def __init__(self):
-        super().__init__(PENALTY, (style("soft").colour, INK), ways_out(), "one of the study's ten agents")
+        looks = dict(zip(PENALTY, (style("soft").colour, INK), strict=True))
+        trained = dict(zip(PENALTY, zip(looks.values(), ways_out(), strict=True), strict=True))
+        super().__init__(looks, trained, "one of the study's ten agents")
 
 
 FADING = "ξ falls towards 0"  # the study's own agents with the soft constraint; the other kinds have one change

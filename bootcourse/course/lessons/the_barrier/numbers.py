@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
+from bootcourse.course.lessons.the_barrier.exercises import luck
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.policies import PlanPolicy, random_policy
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
@@ -35,7 +36,7 @@ def lucky(gamma: float = 1.0) -> np.ndarray:
 
 def by_luck(good: int) -> float:
     """How many of 5,000 random drives would end ahead if so many actions were right at each of the 8 decisions."""
-    return 5000 * (good / 9) ** easier.LATER
+    return 5000 * luck(good, easier.LATER, 1)
 
 
 hill = explorable.hill

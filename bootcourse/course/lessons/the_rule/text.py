@@ -127,8 +127,8 @@ table(["speeds", "target behind the traps", "gets out, of 200 roads"], rows)
 # 4. The car behind you in the new lane is too close: wait.
 # 5. Else: change to the new lane.
 #
-# Cases 1 to 4 keep the lane. In case 1 the target speed is that of your own lane: 15 m/s with nobody ahead.
-# Behind the traps the target is below their speed, so you fall back.
+# Cases 1 to 4 keep the lane. In case 1 only the car ahead in your own lane sets the target speed; with nobody
+# there it is 15 m/s. Behind the traps the target is below their speed, so you fall back.
 #
 # How long must the gap of case 3 be? Suppose that the car ahead in the new lane is slower than you. The rule
 # asks for a gap of t_safe ({{ DEFAULT.rule.t_safe }} s, §) times the difference in speed, but never less than

@@ -279,8 +279,8 @@ check.clipped_loss(clipped_loss)
 
 # %% [markdown] tags=["instructor"] minutes=7
 # The endings are the hard part. Draw two rows, one that ends in an accident and one that runs out of time,
-# and fill in δ and the sum for both. Who thinks that clipping is a limit on the policy? It takes the payment
-# away, and other rows of the batch can push the policy further.
+# and fill in δ and the sum for both. Then ask who thinks that clipping limits the policy. It only takes the
+# payment away: other rows of the batch can push the policy further.
 
 # %% [markdown]
 # ## Round 5: start as a clone

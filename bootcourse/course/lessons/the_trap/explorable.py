@@ -25,8 +25,7 @@ def discount() -> Explorable:
     times = np.arange(len(by_rule))
 
     def draw(gamma: float) -> Drawing:
-        all_sums = (np.cumsum(gamma**times * rewards) for rewards in (helped, sooner, by_rule, stay))
-        agents, quick, out, behind = all_sums
+        agents, quick, out, behind = (np.cumsum(gamma**times * each) for each in (helped, sooner, by_rule, stay))
         named = {
             f"agent with help: {agents[-1]:.2f}": Curve(agents[:SECONDS], style("bootstrapped").colour),
             f"blind plan: {quick[-1]:.2f}": Curve(quick[:SECONDS], INK),
@@ -38,11 +37,8 @@ def discount() -> Explorable:
         axes = Axes("second of the drive, the first 60 of 150", what, (0.0, top))
         ends = {"an agent's way out": agents[-1], "the blind plan": quick[-1], "staying": behind[-1]}
         best = max(ends, key=ends.get)
-        says = f"γ = {gamma:g}: {best} is worth most"
-        if best != "staying":
-            says += f", and {'staying more than the rule' if behind[-1] > out[-1] else 'the rule'}'s"
-            says += " more than staying" * bool(out[-1] >= behind[-1])
-        says += "."
+        second = "staying more than the rule's" if behind[-1] > out[-1] else "the rule's more than staying"
+        says = f"γ = {gamma:g}: {best} is worth most{'' if best == 'staying' else f', and {second}'}."
         return curves(says, axes, times[:SECONDS], named)
 
     gamma = Number("γ", 0.8, 0.5, 1, 0.01, "What a reward one second later is worth, as a share of one now.")
