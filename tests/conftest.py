@@ -19,6 +19,9 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # a shell ignores Ctrl-C 
 os.environ["BOOTCOURSE_NO_ANSWERS"] = "1"
 
 
+gc.disable()  # until all tests are known: what is loaded stays, and the garbage collector would look at it in vain
+
+
 def pytest_configure(config):
     """The kernels of notebooks come from one warm process, begun before the workers."""
     if sys.platform != "linux":
@@ -38,6 +41,7 @@ def pytest_collection_finish(session):
     gc.collect()
     gc.freeze()
     gc.set_threshold(20_000, 50, 100)
+    gc.enable()
 
 
 @pytest.hookimpl(wrapper=True, optionalhook=True)

@@ -58,10 +58,10 @@ class DriveView:
     yaw: np.ndarray  # (n,) rad
     lamps: tuple[str, ...]  # (n,) "brake", "power" or "off"
     marked: np.ndarray  # (n,) bool: in an accident
-    crumbs: np.ndarray  # (CRUMBS, 4): x along the road (not around the anchor), y, z, yaw
     labels: dict[int, str]  # car -> text above it
     ended: bool
     decision: int  # that is being carried out
+    step: int  # of the simulation, the last that is over: the path on the road changes with it
 
 
 def timelines_of(rollouts: Rollout | Sequence[Rollout], futures: Policy | None = None) -> list[Timeline]:
@@ -114,17 +114,19 @@ def view(timeline: Timeline, t: float) -> DriveView:
         yaw=to_yaw(cars[:, HEADING]),
         lamps=tuple("brake" if a < BRAKES else "power" if a > PUSHES else "off" for a in cars[:, ACCELERATION]),
         marked=marked,
-        crumbs=crumbs(timeline, t),
         labels=_labels(timeline, cars, ended),
         ended=ended,
         decision=timeline.decision(t),
+        step=timeline.step(t),
     )
 
 
 def crumbs(timeline: Timeline, t: float) -> np.ndarray:
-    """The ego's last places, one per simulation step up to time t, newest last: (CRUMBS, 4) x, y, z, yaw."""
-    states = timeline.rollout.states
-    newest = min(int(t / timeline.dt + 1e-9), len(states) - 1)
+    """The ego's last places, one per simulation step up to time t, newest last: (CRUMBS, 4) x, y, z, yaw.
+
+    x runs along the road (not around the anchor).
+    """
+    states, newest = timeline.rollout.states, timeline.step(t)
     rows = np.arange(newest - CRUMBS + 1, newest + 1)
     ego = states[np.clip(rows, 0, None), EGO]
     x, y = to_world(ego[:, X], ego[:, Y])

@@ -37,6 +37,7 @@ class Drive:
     crumbs: object = None
     futures: list = field(default_factory=list)  # nine ribbons on the road
     decision: int = -1  # whose imagined drives they are; -1: none
+    step: int = -1  # to which the path reaches; -1: it has to be sent
 
 
 class Stage:
@@ -63,7 +64,7 @@ class Stage:
         """Move everything to time t, in one batch."""
         with self.server.atomic():
             for drive, timeline in zip(self.drives, self.timelines, strict=True):
-                self._move(drive, timeline, scene.view(timeline, t))
+                self._move(drive, timeline, t)
 
     def unsettle(self) -> None:
         """Change every property that `show` sets, so that the next `show` sends them all.
@@ -79,7 +80,7 @@ class Stage:
                     node.text = "…"
                 for node in drive.futures:
                     node.color, node.vertices = (1, 2, 3), node.vertices + 1.0
-                drive.decision = -1
+                drive.decision = drive.step = -1
                 for node in (*drive.rings.values(), *drive.labels.values(), *drive.futures):
                     node.visible = not node.visible
                 drive.crumbs.vertices = drive.crumbs.vertices + 1.0
@@ -146,14 +147,16 @@ class Stage:
         _mesh(api, f"{name}/shadow", parts["shadow"], "#000000", opacity=0.28)
         drive.rings[car] = _mesh(api, f"{name}/ring", ring(0.11), ALARM, visible=False)
 
-    def _move(self, drive: Drive, timeline: Timeline, view: scene.DriveView) -> None:
+    def _move(self, drive: Drive, timeline: Timeline, t: float) -> None:
+        view = scene.view(timeline, t)
         self._set(drive.road, position=tidy(-view.anchor, 0.0, 0.0), wxyz=(1.0, 0.0, 0.0, 0.0))
         for car, frame in drive.cars.items():
             turned = tuple(round(q * 65536) / 65536 for q in scene.quaternion(view.yaw[car]))
             self._set(frame, position=tidy(view.x[car], view.y[car], 0.0), wxyz=turned)
             self._set(drive.lamps[car], color=rgb(LAMPS[view.lamps[car]]))
             self._set(drive.rings[car], visible=bool(view.marked[car]))
-        drive.crumbs.vertices = _crumb_mesh(view.crumbs).vertices
+        if drive.step != view.step:
+            drive.step, drive.crumbs.vertices = view.step, _crumb_mesh(scene.crumbs(timeline, t)).vertices
         names = {EGO: drive.name} if len(self.timelines) > 1 else {}
         for car, label in drive.labels.items():
             words = ": ".join(part for part in (names.get(car), view.labels.get(car)) if part)

@@ -40,6 +40,10 @@ class Timeline:
         cars[:, ACCELERATION] = states[min(before + 1, len(states) - 1), :, ACCELERATION]
         return cars
 
+    def step(self, t: float) -> int:
+        """Number of simulation steps that are over at time t, 0 .. states - 1."""
+        return min(int(t / self.dt + 1e-9), len(self.rollout.states) - 1)
+
     def decision(self, t: float) -> int:
         """Index of the decision that is being carried out at time t, 0 .. decisions - 1."""
         return min(self.earned(t), len(self.rollout.actions) - 1)
