@@ -113,12 +113,11 @@ class BonusPanel(Panel):
         worth.line(times, trapped, other, 1.4)
         worth.line(times, augmented, own, 2)
 
-        crossing = np.maximum(crossing, -0.05)  # below 0 none is needed, whatever the number
-        needed = SvgAxes(*NEEDED, worth.x, span([*crossing, 0.05], 0.1))
-        needed.frame("smallest c with which the rule's drive is worth more (below 0: none needed)", "time (s)", 3)
-        base = max(needed.y[0], 0.0)
-        needed.fill([*times, times[-1], times[0]], [*np.maximum(crossing, base), base, base], other, 0.15)
-        needed.line(times, crossing, INK, 1.2)
+        crossing = np.maximum(crossing, 0.0)  # where it is below 0 the drive is worth more without a bonus
+        needed = SvgAxes(*NEEDED, worth.x, (0.0, 1.1 * max(0.05, crossing.max())))
+        needed.frame("the c that the rule's drive needs to be worth more (no line: none)", "time (s)", 3)
+        needed.fill([*times, times[-1], times[0]], [*crossing, 0.0, 0.0], other, 0.15)
+        needed.line(times, np.where(crossing > 0, crossing, np.nan), INK, 1.2)
         needed.line([0, times[-1]], [0, 0], QUIET, 0.8)
         return worth, needed
 

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons.bug_hunt import bugs
+from bootcourse.course.lessons.bug_hunt import bugs, figures
 from bootcourse.course.lessons.bug_hunt.exercises import end_error
 from bootcourse.course.lessons.bug_hunt.target_probe import unmasks
 from bootcourse.episodes.record import record
@@ -59,6 +59,11 @@ def asked(name: str) -> float:
     """What the student's probe says of an agent."""
     q = hunt().agent(name).q_values(seen().states)
     return float(end_error(q, seen().actions, seen().rewards, seen().terminated))
+
+
+def promised(name: str) -> np.ndarray:
+    """What the critic of each of an agent's two seeds promises where its line ends, (2,)."""
+    return figures.last(hunt(), "promise")[name]
 
 
 def after_the_end(name: str) -> float:

@@ -39,17 +39,6 @@ progress("bug_hunt")
 # and prints nothing.
 # <!-- claim: len(bugs.LEARNERS) == 7 and bugs.SEEDS == 2 -->
 #
-# | bug | where | right | with the bug |
-# |---|---|---|---|
-# | `no_end` | target | γ · next value only if no accident ended it | always |
-# | `bonus_for_all` | target | a bonus c for each demonstration | for each row |
-# | `no_stop` | actor's loss | takes Q detached | its gradient reaches the critic |
-# | `sampled` | target, actor's loss | Σ π (Q − α log π) | Q − α log π of one drawn action, without π |
-# | `flipped_kl` | target, actor's loss | Σ π (log π − log rule) | Σ rule (log rule − log π) |
-# | `shifted_labels` | actor's loss | the label of s in the KL: rule(s) | rule(s') |
-#
-# <!-- claim: settings_for('bootstrapped').kl_in_target -->
-#
 # A healthy agent and one with a bug drive here on the same road. Which has the bug?
 
 # %% tags=["nbval-ignore-output"]
@@ -76,6 +65,19 @@ bc.show(figures.returns(hunt))
 #   hunt().at_the_end('return')[n]) < min(hunt().at_the_end('return')['E']) -->
 # <!-- claim: all(0.9 < ends(name) < 1.1 for name in 'ACD') and ends('E') > 1.5 -->
 # <!-- claim: max(ends('B'), ends('F')) < 0.1 -->
+#
+# Which agent has which of the six bugs?
+#
+# | bug | where | right | with the bug |
+# |---|---|---|---|
+# | `no_end` | target | γ · next value only if no accident ended it | always |
+# | `bonus_for_all` | target | a bonus c for each demonstration | for each row |
+# | `no_stop` | actor's loss | Q is detached | Q is not detached: the loss trains the critic, too |
+# | `sampled` | target, actor's loss | Σ π (Q − α log π) | Q − α log π of one drawn action, without π |
+# | `flipped_kl` | target, actor's loss | Σ π (log π − log rule) | Σ rule (log rule − log π) |
+# | `shifted_labels` | actor's loss | the label of s in the KL: rule(s) | rule(s') |
+#
+# <!-- claim: settings_for('bootstrapped').kl_in_target -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Ask which agent they would have published. Then let each say of one bug what it could do to a curve.
@@ -112,9 +114,6 @@ def end_error(q, actions, rewards, terminated):
 
 
 check.end_error(end_error)
-
-# %% [markdown]
-# This is Q at the agents' *own* accidents:
 
 # %%
 predicted("bug_hunt.1")
@@ -161,7 +160,8 @@ bc.show(figures.promises(hunt))
 
 # %% [markdown]
 # **Explain.** With a bonus in every second the limit is (1 + c) / (1 − γ) =
-# {{ (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}; without any it is {{ 1 / (1 - SETTINGS.gamma) | .0f }}.
+# {{ (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}; without any, {{ 1 / (1 - SETTINGS.gamma) | .0f }}.
+# The healthy agent, paid it for demonstrations, ends at {{ promised('healthy').mean() | .1f }}.
 #
 # One agent leaves the picture. Which bug lets the actor's loss raise Q?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'promise').max() > 10} == {'E', 'F'} and
@@ -199,9 +199,9 @@ bc.show(figures.rarest(hunt))
 # **Explain.** With the right KL it costs little to drop such an action. The flipped KL grows without bound as
 # the action's probability goes to zero, so the policy drops the action more slowly.
 #
-# *Two* agents' rarest action stays far likelier to the end. In the right loss π multiplies Q, so the actor
-# learns from Q. In `sampled` Q stands alone: no change of π changes it. The gradient of α log π is 0 on
-# average, so only the KL teaches this actor: what will it earn?
+# *Two* agents' rarest action stays far likelier to the end. In the right loss π multiplies Q: raising π of a
+# good action lowers the loss. In `sampled` Q of the drawn action is a mere number, which π cannot change. On
+# average only the KL teaches this actor: what will it earn?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'rarest')[:, -1].min() > -20} == {'A', 'B'}
 #   and (hunt().probe('healthy', 'rarest')[:, -1] < -30).all() -->
 
@@ -211,8 +211,6 @@ bc.show(figures.rarest(hunt))
 
 # %% [markdown]
 # ## The verdict
-#
-# Here the lines of the four rounds *end*:
 
 # %%
 bc.show(figures.line_ends(hunt))
@@ -225,7 +223,7 @@ bc.show(figures.line_ends(hunt))
 
 # %%
 def diagnose(agent):
-    """The bug of an agent, "A" to "F", by its name in the first table."""
+    """The bug of an agent, "A" to "F", by its name in Round 1's table."""
     # solution: the exercise's own
 
 
@@ -249,13 +247,14 @@ check.diagnose(diagnose)
 #   likeliest action is the rule's in {{ 100 * alike('C', 1000, 5000) | .0f }} % of the seconds (healthy:
 #   {{ 100 * alike('healthy', 1000, 5000) | .0f }} %).
 # - **D** adds γ times the value of a car that has just crashed, which no row teaches: here it is far below 0.
-# - **E** promises {{ hunt().probe('E', 'promise')[:, -1].mean() | .0f }}, between the two limits of Round 3.
+# - **E** promises {{ promised('E').mean() | .0f }}, over twice what the healthy agent does, and stays below {{
+#   (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) | .0f }}.
 # - **F**: the actor's loss changes the critic, and raises the Q of what the policy likes. Both promises pass
 #   15, and one comes back.
 #
 # </details>
-# <!-- claim: (lambda end: 2 / (1 - SETTINGS.gamma) < end.min() and
-#   end.max() < (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma))(hunt().probe('E', 'promise')[:, -1]) and
+# <!-- claim: promised('E').min() > 2 * promised('healthy').max() and
+#   hunt().probe('E', 'promise').max() < (1 + SETTINGS.bonus) / (1 - SETTINGS.gamma) and
 #   all(hunt().probe(n, 'promise').max() < 7 for n in ('healthy', *'ABCD')) -->
 # <!-- claim: after_the_end('D') < DEFAULT.reward.accident -->
 # <!-- claim: all(b[:, -1].max() < 1.5 and b.max(axis=1).min() > 4 and a[:, -1].min() > 5 for a, b in
@@ -305,20 +304,20 @@ check.unmasks(unmasks)
 
 # %%
 test = own_code.yours_or_ours("unmasks", doing="Testing")
-print("right labels, sum in the target:")
+print(f"{'bug':14} labels right  target")
 for bug in bugs.LEARNERS:
     right = np.concatenate([bugs.labels(bug, drive) == drive.rule_actions for drive in drives])
-    print(f"{bug:14} {right.mean():5.0%}  {'WRONG' if test(bugs.target_of(bug)) else 'right'}")
+    print(f"{bug:14} {right.mean():12.0%}  {'WRONG' if test(bugs.target_of(bug)) else 'right'}")
 
 # %% [markdown]
-# **See.** *Before any training, two tests find three of the six bugs.* In the target, `sampled` and
-# `flipped_kl` act inside `next_value`, which the test makes up.
+# **See.** *Before any training, two tests find three of the six bugs.*
 # <!-- claim: all(agree(bug).all() == (bug != 'shifted_labels') for bug in bugs.LEARNERS) -->
 # <!-- claim: found() == {'no_end', 'bonus_for_all'} -->
 
 # %% [markdown] tags=["instructor"] minutes=1
 # Ask which of the six their own programs test for today, and in which drive the test of the labels would miss
-# its bug: one in which the rule's answer stays the same.
+# its bug: one in which the rule's answer stays the same. In the target, `sampled` and `flipped_kl` act inside
+# `next_value`, which the test makes up, so it cannot find them; keep that for the second question below.
 
 # %%
 limit = round(figures.most(), 1)

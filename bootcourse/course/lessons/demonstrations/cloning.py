@@ -90,8 +90,8 @@ def alone(agents: Sequence[Agent]) -> list[Rollout]:
     return record(all_at_once(agents), [*range(60)] * len(agents))
 
 
-def accidents(drives: Sequence[Rollout], of_rule: Tensor) -> str:
-    """How many of the drives end in an accident, in which, how many come left of the rule's rows, and the errors."""
+def accidents(drives: Sequence[Rollout]) -> str:
+    """How many of the drives end in an accident, in which, and how many decisions are errors, at the lane's edges."""
     ended = Counter(Accident(each.accident) for each in drives if each.accident)
     left = sum(off_on_the_left(each) for each in drives)
     kinds = {
@@ -101,13 +101,13 @@ def accidents(drives: Sequence[Rollout], of_rule: Tensor) -> str:
         "into another car": ended[Accident.COLLISION],
     }
     said = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count)
-    crashed, furthest = [each for each in drives if each.accident], left_in(of_rule).max().item()
-    beyond = sum(bool((metres_left(each) > furthest).any()) for each in crashed)
-    wrong = np.concatenate([each.actions != each.rule_actions for each in drives]).mean()
+    wrong = np.concatenate([each.actions != each.rule_actions for each in drives])
+    place = np.concatenate([metres_left(each) for each in drives])
+    edges = [100 * wrong[(at - 0.25 < place) & (place < at + 0.25)].mean() for at in (1.75, -1.75)]
     return (
-        f"{len(crashed)} of {len(drives)} drives end in an accident: {said}.\n"
-        f"In {beyond} of the {len(crashed)} the car is at some time farther left than any of the rule's rows.\n"
-        f"Of all decisions {100 * wrong:.0f} % are errors."
+        f"{sum(ended.values())} of {len(drives)} drives end in an accident: {said}.\n"
+        f"Of all decisions {100 * wrong.mean():.0f} % are errors; of those within 0.5 m of the left lane's left edge "
+        f"{edges[0]:.0f} %, of its right edge {edges[1]:.0f} %."
     )
 
 

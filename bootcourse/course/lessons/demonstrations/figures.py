@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from torch import Tensor
 
+from bootcourse.colours import ALARM
 from bootcourse.course.lessons.demonstrations import cloning
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.methods import style
@@ -61,13 +62,13 @@ def clones(measured: dict[str, np.ndarray]) -> Figure:
 def added(name: str, alone: np.ndarray, fed: dict[str, np.ndarray]) -> Figure:
     """What rows added to the rule's change: as `clones`, with the agreement with the rule in the clones' own states.
 
-    alone: of the rule's drives, which are called so; fed: of these with other rows, and with those of the edge.
+    alone: of the rule's drives, which are called so; fed: of these with others' rows, and last with those of the edge.
     """
-    others, edge = fed.items()
+    *others, edge = (values[:, 2].mean() for values in fed.values())
     title = "Accidents, with rows added to the rule's"
-    if edge[1][:, 2].mean() < min(alone[:, 2].mean(), others[1][:, 2].mean()) / 2:
+    if edge < min(alone[:, 2].mean(), others[0]) / 2:
         title = "Rows from the edge prevent most of the accidents"
-    rows = {name: alone} | {f"{name}, {more}": values for more, values in (others, edge)}
+    rows = {name: alone} | {f"{name}, {more}": values for more, values in fed.items()}
     return _two_panels(rows, {1: "agree in their own states (%)", 2: "have an accident (%)"}, title)
 
 
@@ -93,41 +94,50 @@ def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title:
     return finish(figure, title, f"Clones' means, by data. {words}.")
 
 
-STEPS_LEFT = np.array([-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0])  # m, the bars of `off_the_road`
-PLACES = "2 m right", "1 m right", "left lane's\nmiddle", "1 m left", "2 m left:\nthe road's edge"
+BEFORE = 15  # s before an accident that `off_the_road` shows
+PLACES = {-1.0: "1 m right", 0.0: "left lane's\nmiddle", 1.0: "1 m left"}
 
 
 def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
-    """How many rows the rule has at each place across the left lane, and how often the clones err there."""
-    left = np.concatenate([cloning.metres_left(drive) for drive in own])
-    wrong = np.concatenate([drive.actions != drive.rule_actions for drive in own])
-    each = np.digitize(left, STEPS_LEFT) - 1
-    shares = np.array([100 * wrong[each == k].mean() for k in range(len(STEPS_LEFT) - 1)])
-    rows = np.histogram(cloning.left_in(of_rule).numpy(), STEPS_LEFT)[0]
-    few = rows < rows.max() / 10
-    title = "The rule's rows and the clones' errors, across the left lane"
-    if shares[few].min() > shares[~few].max():
-        title = "Where the rule has few rows, the clones err most"
-    figure, middles = new_figure(3.9), (STEPS_LEFT[:-1] + STEPS_LEFT[1:]) / 2
-    panels = (
-        (0.155, "rows of the rule there", rows, style("rule").colour, "{:,}"),
-        (0.585, "errors there, all drives (%)", shares, style("bc").colour, "{:.0f}"),
-    )
-    for k, (place, label, values, colour, form) in enumerate(panels):
-        ax = figure.add_axes((place, 0.04, 0.385, 0.8))
-        ax.barh(middles, values, height=0.42, color=colour, alpha=0.8)
-        for middle, value in zip(middles, values, strict=True):
-            ax.text(value + 0.015 * max(values), middle, form.format(value), fontsize=TEXT, color=INK, va="center")
-        plain_axes(ax, label, grid="")
-        ax.spines["bottom"].set_visible(False)
-        ax.axhline(STEPS_LEFT[-1], color=INK, linewidth=1.5)
-        ax.set(xlim=(0, 1.15 * max(values)), ylim=(-2, 2.02), xticks=[])
-        ax.set_yticks(STEPS_LEFT[::2], [""] * len(PLACES) if k else PLACES)
+    """Where the clones' cars were in the last seconds before they left the road on the left, and where they erred."""
+    ended = [drive for drive in own if cloning.off_on_the_left(drive)]
+    left = cloning.left_in(of_rule)
+    rows = left[left.abs() < 2]  # in the left lane
+    low, high = rows.min().item(), rows.max().item()
+    figure = new_figure(3.9)
+    ax = figure.add_axes((0.125, 0.14, 0.85, 0.71))
+    ax.axhspan(low, high, color=style("rule").colour, alpha=0.16, linewidth=0)
+    wrong, beyond = [], []
+    for drive in ended:
+        clock = drive.scenario.clock
+        at = np.arange(len(drive.actions)) - (len(drive.states) - 1) * clock.dt
+        ax.plot(
+            (np.arange(len(drive.states)) - len(drive.states) + 1) * clock.dt, -drive.states[:, EGO, Y],
+            color=style("bc").colour, linewidth=0.7, alpha=0.25,
+        )  # fmt: skip
+        place, errs = cloning.metres_left(drive), drive.actions != drive.rule_actions
+        ax.plot(at[errs], place[errs], "o", color=ALARM, markersize=3.2, alpha=0.45, markeredgewidth=0)
+        wrong.append(errs)
+        beyond.append(place > high)
+    wrong, beyond = np.concatenate(wrong), np.concatenate(beyond)
+    ax.axhline(2, color=INK, linewidth=1.5)
+    plain_axes(ax, "", grid="")
+    words = {"fontsize": TEXT, "ha": "left"}
+    ax.text(-BEFORE + 0.2, 2.06, "the road's edge", color=INK, va="bottom", **words)
+    ax.text(-BEFORE + 0.2, low + 0.06, "where the rule has rows", color=style("rule").colour, va="bottom", **words)
+    ax.set(xlim=(-BEFORE, 0.2), ylim=(-2, 2.35))
+    ax.set_yticks(list(PLACES), list(PLACES.values()))
+    ax.text(-BEFORE + 0.2, -1.94, "red: an error", color=ALARM, va="bottom", **words)
+    ax.set_xlabel("time before the car is off the road (s)", fontsize=TEXT, color=INK)
+    title = "The clones' cars before they leave the road, and their errors"
+    if wrong[beyond].mean() > 0.9 and wrong.mean() > 0.5:
+        title = "Error after error, the clones drift off the road"
     return finish(
         figure, title,
-        f"From 2 m right of the left lane's middle to 2 m left, by half metres, the rule's drives have "
-        f"{', '.join(map(str, rows))} rows, and {len(own)} drives of clones err in "
-        f"{', '.join(f'{share:.0f}' for share in shares)} % of their decisions.",
+        f"The last {BEFORE} s of {len(ended)} drives that leave the road on the left. In the left lane the rule's rows "
+        f"reach from {-low:.1f} m right of its middle to {high:.1f} m left. Left of them "
+        f"{100 * wrong[beyond].mean():.0f} % of these drives' decisions are errors, elsewhere "
+        f"{100 * wrong[~beyond].mean():.0f} %.",
     )  # fmt: skip
 
 

@@ -1,13 +1,7 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-from functools import cache
-
-import numpy as np
-
 from bootcourse.course.lessons.demonstrations.cloning import UPDATES as UPDATES
-from bootcourse.course.lessons.demonstrations.cloning import measure
-from bootcourse.course.shipped import shipped_agents, shipped_results
-from bootcourse.learn.demonstrations import collect
+from bootcourse.course.shipped import shipped_results
 from bootcourse.research.results import Results
 
 
@@ -21,9 +15,3 @@ def updates_of(results: Results) -> float:
     agent, curves = results.agents[0], results.curves
     decisions = (curves["distance"] / curves["speed"]).sum(axis=1)  # one a second
     return float(((decisions - agent["learning_starts"]) * agent["updates"] / agent["envs_per_agent"]).mean())
-
-
-@cache
-def study_agrees() -> np.ndarray:
-    """How often the shipped five of the study's clones agree with the rule, in its states and in their own: shares."""
-    return measure(shipped_agents("bc"), collect(200)[::10]).mean(0)[:2]

@@ -56,6 +56,7 @@ def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked, un
     alt = f"A bar for each kind of learner: {', '.join(names)}. Of each kind, in this order, {'; '.join(alt_parts)}. "
     alt += f"To the right, π(leave) of an agent that knows the chain: {', '.join(f'{each:.2f}' for each in known)}."
     title = (
-        "Few find the way with a small α, none is sure with 10; falling from 10 does both, best with the target unpaid"
+        "A small α seldom finds the way, a large one is never sure; "
+        "one that falls from 10 does both, best with no pay in the target"
     )
     return finish(figure, title, alt)

@@ -1,5 +1,5 @@
 """Numbers that the lesson's text prints: the panel of Round 1 as it opens, the best policy of Round 2, the highest
-estimates and the actor that may move them of Round 3, and the chain and our agents of Round 4.
+estimates and the actor that may move them of Round 3, and the chain of Round 4.
 """
 
 import math
@@ -14,8 +14,6 @@ from bootcourse.course.lessons.discrete_sac.own_parts import LEARNERS as LEARNER
 from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, soft_sweeps, walked
 from bootcourse.course.lessons.discrete_sac.own_parts import unpaid as unpaid
 from bootcourse.learn import sac
-from bootcourse.statistics import ESCAPES
-from tools.course.known import shipped_experiment
 
 q = np.array(START)
 pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
@@ -65,12 +63,12 @@ def falling(decisions: int = 1000, begin: float = 10, end: float = 0.01, value: 
     return walked(value, sac.critic_target, torch.tensor(alphas)[:, None])
 
 
+@cache
+def begun(value: Callable = sac.soft_value) -> Walked:
+    """The learners whose α falls from 10 to 0.01 in 1,000 decisions, after the first 100."""
+    return walked(value, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, 1000)[:100, None]))
+
+
 def sure(of: Walked) -> np.ndarray:
     """How many learners are sure of leaving in the end, (kinds,)."""
     return (of.leaves > SURE).sum(axis=1)
-
-
-def reachable() -> np.ndarray:
-    """Which agents of plain SAC with a target entropy of 0.3 or 1 escape on the road."""
-    of_two = (shipped_experiment("sensitivity")[f"target entropy {eta}"].of("sac") for eta in (0.3, 1))
-    return np.concatenate([agents.scores("success") for agents in of_two]) >= ESCAPES

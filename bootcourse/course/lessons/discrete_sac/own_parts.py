@@ -61,13 +61,12 @@ SURE = 0.9  # a learner that leaves with a higher probability is sure of it
 
 
 class Walked(NamedTuple):
-    """How probable leaving is for each learner in the end, and on how many walks it was on the free road.
-
-    Both are (kinds, LEARNERS).
-    """
+    """How probable leaving is for each learner in the end, (kinds, LEARNERS), and how it got there."""
 
     leaves: np.ndarray
-    walks: np.ndarray
+    walks: np.ndarray  # on how many it was on the free road, (kinds, LEARNERS)
+    decided: np.ndarray  # how often in each state, (kinds, LEARNERS, 5)
+    q: np.ndarray  # in the end, (kinds, LEARNERS, 5, 2)
 
     @property
     def found(self) -> np.ndarray:
@@ -91,16 +90,18 @@ def walked(value: Callable, target: Callable, alphas: Tensor) -> Walked:
     alphas, one = alphas.repeat_interleave(LEARNERS, dim=1)[..., None], torch.ones((), dtype=torch.float64)
     each, goes_on = torch.arange(kinds * LEARNERS), torch.zeros(kinds * LEARNERS)
     q, walks = torch.zeros(len(each), *reward.shape, dtype=torch.float64), torch.zeros_like(each)
+    decided = torch.zeros(len(each), chain.STATES)
     for t, alpha in enumerate(alphas):
         if t % chain.EPISODE == 0:
             s, was_free = torch.zeros_like(each), torch.zeros_like(each, dtype=torch.bool)
         a = (drawn[t] < (q[each, s] / alpha).softmax(-1)[:, 1]).long()
         is_free = s == chain.STATES - 1
         walks += is_free & ~was_free
+        decided[each, s] += 1
         s_next = following[s, a]
         scaled = q[each, s_next] / alpha  # V of Q at α is α times V of Q / α at 1: one call for all kinds
         v = alpha[:, 0] * value(scaled.log_softmax(-1), scaled, one)
         q[each, s, a] += STEP * (target(reward[s, a], goes_on, v, GAMMA) - q[each, s, a])
         s, was_free = s_next, is_free
     leaves = (q[:, 0] / alpha).softmax(-1)[:, 1]
-    return Walked(*(of.reshape(kinds, LEARNERS).numpy() for of in (leaves, walks)))
+    return Walked(*(of.reshape(kinds, LEARNERS, *of.shape[1:]).numpy() for of in (leaves, walks, decided, q)))

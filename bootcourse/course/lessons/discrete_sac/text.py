@@ -61,8 +61,8 @@ bc.show(diagrams.sac_diagram())
 # {{ q[0] | g }} and right {{ q[2] | g }}. Early estimates are poor, so the agent should **explore**. SAC pays
 # it α times its **entropy**, which says how undecided it is.
 #
-# > **Predict.** The agent chooses the probabilities that are best for it, pay included. What is the
-# > state worth to it now?
+# > **Predict.** The agent chooses the probabilities for which the mean of Q, plus the pay, is largest. The state is
+# > worth this sum: how much?
 
 # %%
 choices = ["less than 1", "1", "more than 1"]
@@ -146,12 +146,11 @@ explorable.backup()
 # %% [markdown]
 # $$ Q(s, a) = \mathbb{E}\big[\, r + \gamma V(s') \big] $$
 #
-# This is the **soft Bellman equation**; $\mathbb{E}$ is the mean over what may follow. One transition gives
-# one sample of the right side: the target y.
+# This is the **soft Bellman equation**; $\mathbb{E}$ is the mean over what may follow.
 #
-# If the *world* ends, `terminated` is 1: nothing follows, and y is r alone. On the road an accident ends it.
-# If only the {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s are up, `terminated` is 0, because
-# the car would go on earning.
+# If the *world* ends, `terminated` is 1: nothing follows. On the road an accident ends it. If only the
+# {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s are up, `terminated` is 0, because the car
+# would go on earning. The target y, from one transition:
 #
 # $$ y = r + \gamma\, (1 - \text{terminated})\, V(s') $$
 #
@@ -169,8 +168,8 @@ def critic_target(reward, terminated, next_value, gamma):
 check.critic_target(critic_target)
 
 # %% [markdown]
-# V(s') is computed with the target critics (*target networks*). Each update moves their weights by a small
-# share τ ("tau") towards the critics', so that the critics do not chase a target that moves with them.
+# V(s') is computed with the target critics (*target networks*). Each update moves their weights only a small
+# share τ ("tau") of the way to the critics', so that the target moves more slowly than they do.
 #
 # **Exercise (6 min, ●●○).** Write the loss of both critics: for each the mean over the batch of
 # $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action taken. Hold y fixed: no gradient may run
@@ -224,8 +223,8 @@ explorable.overestimated()
 # $$ L_\text{actor} = -\,\text{mean over } s \text{ of } \sum_a \pi(a|s)\,
 # \big(Q(s,a) - \alpha \log \pi(a|s)\big) $$
 #
-# A better policy lowers this loss. Raising Q lowers it, too, but makes no action better. So only the policy
-# may move: Q is **detached** (`q.detach()`), and no gradient runs into it.
+# A better policy lowers this loss. A higher estimate Q lowers it, too, but makes no action better. So only
+# the policy may move: Q is **detached** (`q.detach()`), and no gradient runs into it.
 #
 # **Exercise (5 min, ●●○).** Write the actor's loss.
 
@@ -266,7 +265,7 @@ figures.descents({"your loss": own_parts.descended(loss), "Q not detached": bare
 # actions from softmax(Q / α), and moves Q(s, a) by 0.3 of the way to the soft target. This is *soft
 # Q-learning*.
 #
-# A learner must first *find* the free road, and then *take* the way to it.
+# A learner must *find* the free road, and then *take* the way to it.
 #
 # > **Predict.** Take a small α (0.01), a large one (10), and one that falls from 10 to 0.01. With which of
 # > the three do the most learners end *sure of leaving* the trap (π above {{ SURE }})?
@@ -288,15 +287,22 @@ bc.show(figures.two_jobs(constant.tolist(), knows, walked, unpaid))
 # %% [markdown]
 # **Explain.** The one that falls. **α does two jobs.** It decides how much a learner *tries*: with a small α
 # few find the free road, most of them only once, too seldom (lesson [[values]]). And it decides how surely a
-# learner *takes* what is better: with α = 10 nearly all find the free road, but even an agent that knows the
-# whole chain leaves with a probability of {{ leave(10) | .2f }} (right column). With α falling from 10 nearly
-# half do both, one after the other. From {{ SETTINGS.alpha_init }}, where it begins on our road, none does.
-# In the last row α still sets how randomly they act, but the target holds no pay: all do both.
+# learner *takes* what is better: with α = 10 nearly all find the free road, but even one that knows the whole
+# chain leaves with probability {{ leave(10) | .2f }} (right column). With α falling from 10 nearly half do
+# both; from {{ SETTINGS.alpha_init }}, where it begins on our road, none does.
 # <!-- claim: sure(constant()).max() < LEARNERS / 8 < 0.45 * LEARNERS < sure(falling())[0] < LEARNERS / 2 and
 #   sure(falling(begin=0.01, end=1e-5))[0] == 0 and SETTINGS.alpha_init == 0.01 -->
 # <!-- claim: np.mean(constant().walks[0][constant().found[0]] == 1) > 0.8 -->
 # <!-- claim: sure(constant(4000)).max() < sure(falling(4000))[0] / 2 -->
 # <!-- claim: 0.5 < leave(1) < 0.55 and max(abs(leave(a) - 0.5) for a in (2, 3, 5, 7, 10)) < 0.01 -->
+#
+# **Why not all? The pay counts in the trap, too.** At first learners decide mostly there, so the trap's value
+# gets the pay first: after 100 decisions staying seems worth {{ begun().q[..., 0, 0].mean() | .0f }} on
+# average, and the free road {{ begun().q[..., 4, :].mean() | .0f }}. Where the target holds no pay (last
+# row), all do both.
+# <!-- claim: begun().decided[..., 0].mean() > 50 > 3 * begun().decided[..., 4].mean() -->
+# <!-- claim: begun().q[begun().found, 0, 0].mean() > begun().q[begun().found, 4].max(axis=-1).mean() -->
+# <!-- claim: begun(unpaid).q[..., 0, 0].mean() < begun(unpaid).q[..., 4, :].mean() / 5 -->
 
 # %% [markdown]
 # SAC adjusts α like a thermostat, by a **target entropy** η ("eta"): while the policy's entropy is above η, α
@@ -317,16 +323,15 @@ predicted("discrete_sac.5")
 explorable.thermostat()
 
 # %% [markdown]
-# **Explain.** α falls for ever, because the entropy is never negative, and so it is always above η = −1. α
-# can come to rest if η is between 0 and log 9 = {{ math.log(9) | .3f }}; if η is larger, α rises for ever.
+# **Explain.** α falls for ever, because the entropy is never negative and so always above η = −1. α can come
+# to rest if η is between 0 and log 9 = {{ math.log(9) | .3f }}; if η is larger, α rises for ever.
 # <!-- claim: SETTINGS.target_entropy < 0 -->
 #
 # **Does the pay lead out of the trap, then?** Only in part. On the chain it makes the learners act at random,
-# which leads out if α falls; in the target it keeps more than half of them in. On our road one of ten agents
-# of plain SAC escapes, and with η = 0.3 and η = 1, which can be reached, none of six.
+# which leads out if α falls; in the target it makes the trap look good, and leaves more than half unsure. On
+# our road one of ten agents of plain SAC escapes.
 # <!-- claim: sure(falling(value=unpaid))[0] == LEARNERS > 2 * sure(falling())[0] -->
 # <!-- claim: len(of('sac')) == 10 and escaped('sac') == 1 -->
-# <!-- claim: len(reachable()) == 6 and not reachable().any() -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # D of lesson [[values]] drove at random, too, but its target held the max, so its Q put leaving above
@@ -373,13 +378,13 @@ check.temperature_loss(temperature_loss)
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed.
 # 3. The highest of many estimates is too high, so SAC uses the smaller of two critics.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
-# 5. On the chain acting at random leads out if α falls; the pay in the target keeps more than half in. A
+# 5. On the chain acting at random leads out if α falls; the pay in the target leaves more than half unsure. A
 #    thermostat can rest if η is between 0 and log n.
 
 # %% [markdown]
 # **Three questions to think about**
 # - What would η = log 9 do to an agent on the road?
-# - The target holds V(s'), an estimate. If it is ten times too high at first, does the error stay?
+# - An agent estimates one action too high and another too low. Which error do its own tries correct sooner?
 # - On the road α begins at {{ SETTINGS.alpha_init }}. Would you let it begin higher? What could it cost?
 #
 # **Read on**: Haarnoja et al., SAC (arXiv 1801.01290) and its thermostat (arXiv 1812.05905); Fujimoto et al.,
@@ -389,11 +394,10 @@ check.temperature_loss(temperature_loss)
 # %% [markdown] tags=["instructor"] minutes=4
 # *Answers to the three questions.* **η = log 9** is the largest entropy of nine actions. While the policy is
 # not even, H < η and α rises, until entropy outweighs the differences in Q and the agent drives almost at
-# random. **Ten times too high:** with exact values for each state the error shrinks by γ at each step from
-# target to estimate, since y holds γ V(s'); rewards set the rest. With a network and old rows this is not
-# certain: the next lesson shows a case. **A higher start:** on the chain it finds the free road. On the road
-# an even choice of nine actions also has accidents, which end the drive, so more trying need not reach
-# further; lesson [[the_barrier]] measures what trying costs.
+# random. **Too high or too low:** the softmax takes an action more often if its estimate is too high, so new
+# rows correct it soon. One that is too low is seldom taken, the more so if α is small. **A higher start:** on
+# the chain it finds the free road. On the road an even choice of nine actions also has accidents, which end
+# the drive, so more trying need not reach further; lesson [[the_barrier]] measures what trying costs.
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** Q(s, a) = r + γ V(s'), with V written out below it; a dashed line through each place where

@@ -1,7 +1,9 @@
-"""For the lesson's table: the paper's rows beside ours."""
+"""For the lesson: the paper's rows beside ours, and the agents of round 3."""
 
+from bootcourse.course.shipped import shipped_experiment
 from bootcourse.methods import display_name
 from bootcourse.research.cells import VARIED
+from bootcourse.research.experiments import clocks
 from bootcourse.research.paper import PRINTED
 from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
@@ -19,3 +21,9 @@ def both_tables(study: Results) -> list[list[str]]:
     rows = [(m, rate, PRINTED[m]["returns"].mean) for m, rate in printed().items()]
     ours = {m: f"{study.of(m).scores('returns').mean():.0f}" for m in VARIED}
     return [[display_name(m), f"{rate:.0f} %", f"{earned:.0f}", escaped(study, m), ours[m]] for m, rate, earned in rows]
+
+
+def by_updates(driver: str) -> dict[str, Results]:
+    """The four methods' agents of round 3 whose demonstrations this driver gave: {updates for a decision: results}."""
+    settings = clocks.choices(shipped_experiment("clocks")).items()
+    return {updates: agents for (updates, by), agents in settings if by == driver}

@@ -15,7 +15,7 @@ from bootcourse.research.experiments import clocks
 from bootcourse.research.results import Results
 from bootcourse.statistics import IN_A_ROW, rolling_means
 
-DRAWN_FROM = "2", "π̃"  # the setting that the lesson's picture shows: updates for a decision, driver
+DRAWN_FROM = "2"  # the updates for a decision of the agents that the lesson shows
 
 
 def one_agent(results: Results, which: int, title: str) -> Figure:
@@ -78,42 +78,36 @@ def found_and_kept(results: Results, printed: Mapping[str, float] | None = None)
     return finish(figure, f"With demonstrations alone {counted['demos']}", f"{alt}.")
 
 
-def chances(cells: Mapping[tuple[str, str], Results], counted: Mapping[tuple[str, str], float]) -> Figure:
-    """How often single agents read as the paper's four rows, in %, over the updates, of each driver.
+def chances(cells: Mapping[str, Results], counted: Mapping[str, float]) -> Figure:
+    """How often single agents read as the paper's four rows, in %, over the updates.
 
-    counted: the chance of each of the settings `cells`, drawn as a dot; the bar is the interval over seeds, see
-    `clocks.pattern`.
+    counted: the chance of each of the settings `cells`, by the updates, drawn as a dot; the bar is the interval over
+    seeds, see `clocks.pattern`.
     """
-    updates, colour, alt_parts = list(dict.fromkeys(each for each, _ in cells)), style("rule").colour, []
+    updates, colour, at = list(cells), style("rule").colour, range(len(cells))
     figure = new_figure(3.7)
     ax = axes_at(figure, 0.5, 0.8, 5.2, 2.1)
     plain_axes(ax, "% of the draws with all four rates as the paper's; bar: 95 % over seeds")
-    for driver, aside, fill in (("μ", -0.05, "white"), ("π̃", 0.05, colour)):
-        at = np.arange(len(updates)) + aside
-        values = [100 * counted[each, driver] for each in updates]
-        bars = [[100 * part for part in clocks.pattern(cells[each, driver])[1:]] for each in updates]
-        ax.vlines(at, *np.transpose(bars), color=colour, linewidth=2, alpha=0.5)
-        ax.plot(at, values, "o", ms=7, mfc=fill, mec=colour, mew=1.6, zorder=3)
-        ax.text(at[-1] + 0.16 - aside, values[-1], f"driven by {driver}", fontsize=TEXT, color=INK, va="center")
-        each = zip(updates, values, bars, strict=True)
-        alt_parts.append(f"{driver}: " + ", ".join(f"{u} {v:.0f} % [{a:.0f}, {b:.0f}]" for u, v, (a, b) in each))
-    at, value = updates.index(DRAWN_FROM[0]), 100 * counted[DRAWN_FROM]
-    ax.text(at + 0.12, value, f"{value:.0f} %", fontsize=TEXT, fontweight="bold", color=INK, va="center")
-    for place, each in enumerate(updates):
-        sizes = sorted({len(cells[cell].of(method)) for cell in cells if cell[0] == each for method in VARIED})
+    values = [100 * counted[each] for each in updates]
+    bars = [[100 * part for part in clocks.pattern(cells[each])[1:]] for each in updates]
+    ax.vlines(at, *np.transpose(bars), color=colour, linewidth=2, alpha=0.5)
+    ax.plot(at, values, "o", ms=7, color=colour, zorder=3)
+    for place, (each, value) in enumerate(zip(updates, values, strict=True)):
+        bold = "bold" if each == DRAWN_FROM else "normal"
+        ax.text(place + 0.08, value, f"{value:.0f} %", fontsize=TEXT, fontweight=bold, color=INK, va="center")
+        sizes = sorted({len(cells[each].of(method)) for method in VARIED})
         agents = f"{sizes[0]} agents" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]} agents"
         ax.text(place, -0.125, agents, transform=ax.get_xaxis_transform(), fontsize=TEXT, color=QUIET,
                 ha="center", va="top")  # fmt: skip
     ax.axvline(0.5, color=QUIET, linewidth=0.8)
     for x, side, words in ((0.44, "right", "four roads"), (0.56, "left", "one road")):
         ax.text(x, 98, words, fontsize=TEXT, color=QUIET, ha=side, va="top")
-    ax.set(xlim=(-0.35, len(updates) - 0.8), ylim=(0, 100))
-    ax.set_xticks(range(len(updates)), [each.replace("1/4", "¼") for each in updates], fontsize=TEXT, color=INK)
+    ax.set(xlim=(-0.5, len(updates) - 0.5), ylim=(0, 100))
+    ax.set_xticks(at, [each.replace("1/4", "¼") for each in updates], fontsize=TEXT, color=INK)
     ax.set_xlabel(
         "updates for a decision; in grey: how many agents stand in a row", fontsize=TEXT, color=INK, labelpad=20
     )
-    few, many = (f"{100 * each(counted.values()):.0f}" for each in (min, max))
+    few, many = (f"{each(values):.0f}" for each in (min, max))
     title = f"The paper's four rates come in {few} to {many} % of the draws, and the bars are wide"
-    return finish(
-        figure, title, f"For each number of updates, chance [95 %]. Driven by {'; driven by '.join(alt_parts)}."
-    )
+    chance = "; ".join(f"{u} {v:.0f} % [{a:.0f}, {b:.0f}]" for u, v, (a, b) in zip(updates, values, bars, strict=True))
+    return finish(figure, title, f"For each number of updates, chance [95 %]: {chance}.")

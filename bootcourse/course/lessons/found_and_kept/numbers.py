@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.course.lessons.found_and_kept import counts
 from bootcourse.course.lessons.found_and_kept.explorable import groups
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
@@ -14,7 +15,7 @@ from bootcourse.research.cells import VARIED
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.results import Results
 from bootcourse.research.tables import markdown
-from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, lost  # noqa: F401 (the text names HAD and LOST)
+from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, Estimate, lost  # noqa: F401 (for the text)
 from tools.course.known import SETTINGS, clocks, in_training, others, pattern, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
@@ -63,6 +64,11 @@ def _group(agents: Results, method: str) -> Group:
     return Group(lost(agents.curves["success"]), agents.scores("returns"), agents.found_and_kept(method)[1])
 
 
+def earn(words: str) -> float:
+    """The mean return of a group's agents that escape."""
+    return float(group(words).earned[group(words).keep].mean())
+
+
 @cache
 def endless() -> Group:
     """Of the agents with demonstrations alone, for whom β never ends."""
@@ -83,6 +89,12 @@ def others_read() -> float:
     return prod(float(row.mean()) for row in rows)
 
 
+@cache
+def given(driver: str) -> list[Estimate]:
+    """How often single agents give the paper's four rates, in each setting of round 3 with this driver."""
+    return [pattern(agents) for agents in counts.by_updates(driver).values()]
+
+
 def endless_demonstrations() -> Results:
     """Ten agents with demonstrations alone, for whom β never ends."""
     return shipped_experiment("ablations")["β for ever"].of("demos")
@@ -98,8 +110,8 @@ def explanations() -> str:
          f"{lasting.found} of 10 find it, {lasting.kept} keep it",
          "possible for this row: the paper may have stopped while agents still had demonstrations"],
         ["2. single agents",
-         f"Round 1's ten of each row give the paper's four rates in {'no draw' if alone.value == 0 else 'some draws'}, "
-         f"the ten others in {100 * others_read():.0f} %",
+         f"single agents of Round 1: {'never' if alone.value == 0 else 'sometimes'} the paper's four "
+         f"rates; of the ten others: in {100 * others_read():.0f} %",
          "seldom, taken alone"],
         ["3. another training",
          f"with 2 updates and π̃ they come in {chance[0]} % (bar: {chance[1]} to {chance[2]} %)",
@@ -110,7 +122,7 @@ def explanations() -> str:
 
 
 def least_earned() -> float:
-    """The lowest return of an agent with demonstrations that escapes, in the settings of round 3."""
+    """The lowest return of an agent with demonstrations that escapes, in the settings of round 3, both drivers."""
     helped = [results.of(method) for results in clocks().values() for method in ("demos", "bootstrapped")]
     return min(float(each.scores("returns")[each.scores("success") >= ESCAPES].min()) for each in helped)
 

@@ -10,14 +10,14 @@ from bootcourse.course.shipped import shipped_results
 from bootcourse.methods import style
 from bootcourse.panels.explorable import CHART, WIDTH, Explorable
 from bootcourse.panels.number import Number, whole_number
-from bootcourse.plots.svg import Drawing, SvgAxes, drawing, rect, text, ticks
+from bootcourse.plots.svg import Drawing, SvgAxes, drawing, over, rect, text, ticks
 from bootcourse.statistics import rate, significant
 
 SHARE, MOST = 0.8, 60  # of the trained agents so many escape; at most so many are trained
 PLAIN = "#B8BEC6"  # of what does not count
 STUDIES, DRAWS = 100, 2000  # that are shown, and of each study's bootstrap
-RARE = 2.5  # %: the blue part at the ends of an interval
-DRAWN = 10.0  # %: up to here the blue part at each true rate is drawn
+RARE = 2.5  # %: so rare is what was seen, or more extreme, at the ends of an interval
+DRAWN = 10.0  # %: up to here the two curves over the true rate are drawn
 RESOLUTION = 400  # studies are drawn for each that is shown
 
 
@@ -46,12 +46,14 @@ def certainty() -> Explorable:
         for count in ticks(0, n, 10):
             counts.parts.append(text(counts.at(count, 0)[0], 191, f"{count:g}", "middle", QUIET, 10.5))
         below = SvgAxes(52, 232, 690, 120, (0.0, 100.0), (0.0, DRAWN))
-        heading = f"the blue part at each true rate (%, drawn up to {DRAWN:g}); dashed: {RARE:g}; shaded: it is larger"
+        heading = f"how often, at each true rate (%, drawn up to {DRAWN:g}); dashed: {RARE:g}; shaded: both above it"
         below.scale(heading, 4)
         below.fill([low, high, high, low], [0, 0, DRAWN, DRAWN], colour, 0.15)
         below.line([0, 100], [RARE, RARE], INK, 1, "--")
         below.line(everywhere, np.where(curve <= DRAWN, curve, np.nan), colour, 2)
         below.line([true, true], [0, DRAWN], QUIET, 0.8, "--")
+        for end, words in ((low - 3, f"{k} or more"), (high - 4, f"{k} or fewer")):  # left of the rise, of the fall
+            below.parts.append(over(text(*below.at(end, 6), words, "end", colour, 11, bold=True)))
         below.dot(true, blue, INK)
         for tick in ticks(0, 100, 10):
             below.parts.append(text(below.at(tick, 0)[0], 367, f"{tick:g}", "middle", QUIET, 10.5))
@@ -60,7 +62,8 @@ def certainty() -> Explorable:
             text(52, 54, f"how often so many of {n} escape (blue: {k} or {'more' if more else 'fewer'})", bold=True),
             text(397, 384, "true rate (%); the dot: yours", "middle", QUIET, 11),
         ]
-        alt = f"{says} The blue part is above 2.5 % at true rates of {low:.0f} to {high:.0f} %."
+        alt = f"{says} At true rates of {low:.0f} to {high:.0f} % both {k} or more and {k} or fewer come in over "
+        alt += f"{RARE:g} % of studies."
         return drawing(WIDTH, 390, [*words, *counts.parts, *below.parts], alt)
 
     numbers = {

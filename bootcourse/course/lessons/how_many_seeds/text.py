@@ -96,9 +96,9 @@ predicted("how_many_seeds.1")
 explorable.certainty()
 
 # %% [markdown]
-# **See.** Below a true rate of 44 % *eight or more* come in under 2.5 % of studies, above 97 % *eight or
-# fewer* do. The two ends together make 5 %. So eight of ten may mean any true rate between them: the **exact
-# 95 % interval** of 8 out of 10.
+# **See.** Left of the shaded part, below 44 %, *eight or more* come in under 2.5 % of studies; right of it,
+# above 97 %, *eight or fewer* do. So eight of ten may mean any true rate between: the **exact 95 % interval**
+# of 8 out of 10.
 # <!-- claim: [round(100 * each) for each in
 #   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
@@ -137,9 +137,9 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # ## Round 2: how many agents does it take?
 #
 # With the soft constraint alone eight of ten agents escape, with both aids seven. Do the methods differ?
-# Suppose that they are alike. Then chance alone splits these fifteen escapes. How often is the split at least
-# as uneven as eight to seven? That is the **p value**. *Fisher's exact test* computes it, and below 0.05 we
-# speak of a difference. Here p is {{ fisher(8, 7) | .0f }}.
+# Suppose that they are alike. Then chance alone decides how the fifteen escapes fall on the two methods. How
+# often do they fall at least as unevenly as eight to seven? That is the **p value**. *Fisher's exact test*
+# computes it, and below 0.05 we speak of a difference. Here p is {{ fisher(8, 7) | .0f }}.
 # <!-- claim: escaped('soft') == 8 and escaped('bootstrapped') == 7 -->
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
@@ -252,9 +252,10 @@ check.bootstrap_interval(bootstrap_interval)
 # learns the way out early. `bonus=0.0` pays no bonus for demonstrated seconds. The score is an agent's
 # success on 200 roads after 150 episodes.
 #
-# The score of a group is its **interquartile mean** (IQM), because one outlier moves it less than the mean:
-# sort, leave out a quarter, rounded down, at each end, and take the mean. Of five agents the middle three
-# count.
+# The score of a group is its **interquartile mean** (IQM): sort, leave out a quarter, rounded down, at each
+# end, and take the mean. Of five agents the middle three count. The IQM can hide a failing agent, so print
+# them all.
+# <!-- claim: iqm(np.array([0, 1, 1, 1, 1])) == 1 -->
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each resample
 # draws both groups anew.
@@ -285,7 +286,7 @@ table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
 # **Explain.** If the interval contains 0, five seeds do not say which group learns earlier, nor that both
-# learn alike. For an answer train a *new* set, large enough for your smallest effect of interest.
+# learn alike. For an answer train *new* agents, as many as your smallest effect of interest needs.
 
 # %% [markdown]
 # ### If you try many changes
@@ -302,15 +303,14 @@ bc.show(figures.nothing_changed(study))
 # <!-- claim: [one_half_has_the_lowest_four(each) for each in halves()] == [True] * 2 + [False] * 18 -->
 # <!-- claim: all(counts.leaves_out_0(effect) for low, effect in splits() if low in (0, 4)) -->
 #
-# If each of twenty independent comparisons leaves out 0 by luck in 5 % of cases, at least one of them does so
-# in {{ 100 * (1 - 0.95**20) | .0f }} %. This is **multiplicity**. So say beforehand which comparison counts,
-# or multiply each p by the number of comparisons (*Bonferroni*).
+# Suppose that a comparison leaves out 0 by luck in 5 % of cases. Of twenty independent ones, at least one
+# then does so in {{ 100 * (1 - 0.95**20) | .0f }} %. This is **multiplicity**. So say beforehand which
+# comparison counts, or multiply each p by the number of comparisons (*Bonferroni*).
 #
 # With both aids 7 of 10 agents escape, with plain SAC 1 of 10, and Fisher's p is {{ fisher(7, 1) | .3f }}.
 # Four methods make six pairs: as one of six it would not count, because six times p is {{ 6 * fisher(7, 1) | .2f }}.
-# Ten others of each, trained in another way (another implementation, twice the episodes), agree:
-# {{ escapers(others('bootstrapped'), 'bootstrapped') }} escape with both aids and
-# {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
+# Ten others of each, trained in another way, agree: {{ escapers(others('bootstrapped'), 'bootstrapped') }}
+# escape with both aids and {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
 # <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 # <!-- claim: fisher(7, 1) < 0.05 < 6 * fisher(7, 1) -->

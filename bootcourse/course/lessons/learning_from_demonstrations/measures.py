@@ -47,15 +47,18 @@ def paid_and_not() -> dict[str, Results]:
     return {name: kinds()[f"demonstrations, {name}"][0][0] for name in ("c = 2", "c = 0")}
 
 
-ESCAPE = ["escape (study + others)", "with the soft constraint", "without it"]
+ESCAPE = ["escape: all (study + others)", "with the soft constraint", "without it"]
 
 
 def escaped() -> list[list[str]]:
-    """A row for each kind of demonstrations, below `ESCAPE`."""
-    return [
-        [name, *(" + ".join(escape([each]) for each in some) for some in (soft, free))]
-        for name, (soft, free) in kinds().items()
-    ]
+    """A row for each kind of demonstrations, below `ESCAPE`: "16 of 20 (7 + 9)"."""
+    return [[name, _all_and_parts(soft), _all_and_parts(free)] for name, (soft, free) in kinds().items()]
+
+
+def _all_and_parts(agents: Sequence[Results]) -> str:
+    """How many of these agents escape, and how many in each part."""
+    parts = " + ".join(f"{each.escapers(each.methods[0])}" for each in agents)
+    return f"**{escape(agents)}** ({parts})" if len(agents) > 1 else f"**{escape(agents)}**"
 
 
 PUSHED = ["the demonstrated action", "states", "loss above 0", "counted by the filter"]

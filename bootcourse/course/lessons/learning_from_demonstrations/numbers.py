@@ -30,6 +30,11 @@ def of_the_study(name: str) -> str:
     return measures.escape(_with(name)[0][:1])
 
 
+def of_the_paper(method: str) -> str:
+    """How many of the ten agents of a method escape that were trained in the setting nearest the paper's."""
+    return measures.escape([shipped_results("paper").of(method)])
+
+
 def alone(name: str) -> str:
     """How many agents escape with these demonstrations and without the soft constraint."""
     return measures.escape(_with(name)[1])
@@ -43,6 +48,11 @@ def found(name: str) -> np.ndarray:
 def median_found(name: str) -> int:
     """The median of `found`, a half rounded up."""
     return int(np.median(found(name)) + 0.5)
+
+
+def saved() -> float:
+    """About how many training episodes fewer the agents with demonstrations and c = 2 need to find the way out."""
+    return float(round(np.median(found("none")) - np.median(found("c = 2")), -1))
 
 
 def earned(name: str) -> np.ndarray:
@@ -63,14 +73,6 @@ def fall(name: str) -> np.ndarray:
 def losing_until(name: str, episode: int) -> int:
     """How many of the twenty agents with the soft constraint have lost the way out by this training episode."""
     return sum(int(lost(each.curves["success"][:, :episode]).sum()) for each in _with(name)[0])
-
-
-def losing_and_back(name: str, episode: int) -> int:
-    """How many of these escape after training."""
-    return sum(
-        int((lost(each.curves["success"][:, :episode]) & each.found_and_kept(each.methods[0])[1]).sum())
-        for each in _with(name)[0]
-    )
 
 
 def bonus_needed() -> np.ndarray:

@@ -168,18 +168,24 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
     rows = {name: learned_model.per_thousand(of, LEARNED_FORM, control=True).ravel() for name, of in controls.items()}
     rows["the agent, then the look-ahead"] = learned_model.per_thousand(agents, LEARNED_FORM)[:, -1]
     rows["(alone, without a model)"] = alone
+    learned_from = [of.measured["rows"] for of in controls.values()] + [agents.notes["rows"][:, -1]]
+    thousands = [f"{of.mean() / 1000:.0f}" for of in learned_from] + ["–"]
     row, alt_parts = 0.46, []
     figure = new_figure(1.75 + row * len(rows))
-    ax = axes_at(figure, 2.3, 1.0, 2.9, row * len(rows))
-    for place, (name, values) in enumerate(rows.items()):
+    ax = axes_at(figure, 3.05, 1.0, 2.3, row * len(rows))
+    on_the_left = {"transform": ax.get_yaxis_transform(), "ha": "right", "va": "center", "fontsize": SMALL}
+    for place, ((name, values), rows_of) in enumerate(zip(rows.items(), thousands, strict=True)):
         worse, mean, last = values > alone, f"{values.mean():,.0f}", values is alone
         dots(ax, values, place, style(base).colour, worse, values.mean())
         beside(ax, place, mean, "" if last else f"{worse.sum()} of {len(worse)}")
-        alt_parts.append(f"{name}: mean {mean}" + ("" if last else f", {worse.sum()} of {len(worse)} more than alone"))
+        ax.text(-0.1, place, rows_of, color=INK, **on_the_left)
+        more = "" if last else f", {worse.sum()} of {len(worse)} more than alone"
+        alt_parts.append(f"{name}{'' if last else f', {rows_of} thousand decisions'}: mean {mean}{more}")
     beside(ax, -0.75, "mean", "more than alone", colour=QUIET)
     name_rows(ax, list(rows), "accidents in 1,000 drives")
-    of = {"transform": ax.get_yaxis_transform(), "ha": "right", "va": "center", "fontsize": SMALL, "color": QUIET}
-    ax.text(-0.02, -0.75, "the model learns from", **of)
+    ax.tick_params(axis="y", pad=48)
+    for x, words in ((-0.02, "decisions\n(thousand)"), (-0.32, "the model learns from")):
+        ax.text(x, -0.75, words, color=QUIET, **on_the_left)
     ax.set(xlim=(0, 1000))
     ax.set_xticks([0, 500, 1000], ["0", "500", "1,000"])
     words = "A dot for each agent; filled: it crashes more than alone. Bar: the mean. (Alone: 1,000 drives, else 100.)"

@@ -134,7 +134,8 @@ def in_the_test(computed: Mapping[str, Results], rule: float) -> Figure:
     figure = new_figure(1.3 + row * len(computed))
     ax = axes_at(figure, 1.75, 0.75, 3.3, row * len(computed))
     ax.axvline(rule, color=green, linewidth=2, zorder=1.5)
-    for place, (method, results) in enumerate(computed.items()):
+    for place, method in enumerate([*TAKES, *(one for one in computed if one not in TAKES)]):
+        results = computed[method]
         returns, accident = (equal_decisions.at(results, name, equal_decisions.BUDGETS[0]) for name in MEASURED)
         taught, earned, accidents = method in TAKES, iqm(returns), f"{100 * accident.mean():.0f}"
         names.append(display_name(method) + ", no teacher" * (not taught))

@@ -105,6 +105,13 @@ def by_hand() -> dict[str, set[str]]:
     return names
 
 
+def ppo_round() -> tuple[int, int]:
+    """After so many decisions an agent of PPO after cloning makes updates, and how many."""
+    of = later("ppo_cloned").agents[0]
+    decisions = of["envs_per_agent"] * of["horizon"]
+    return decisions, of["epochs"] * decisions // of["batch"]
+
+
 def accident_shares() -> np.ndarray:
     """In how many % of the test's drives the agents of each method with a teacher have an accident, (methods,)."""
     return 100 * np.array([at(method, "accident").mean() for method in TAUGHT])

@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import torch
 from IPython.display import Markdown
-from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
@@ -28,7 +27,7 @@ ROAD = 9  # of the held-out ones: chosen for GAIL's drive
 WITH = "with CQL's term"
 LABELS = {  # where a method's name stands in `estimates`: x, y, side
     "bc": (99, 0.1, "right"), "cql": (99, -0.2, "right"), "cql_sac": (60, 0.3, "left"),
-    "gail": (48, -0.35, "left"), "sac": (21, 1.25, "left"), "bootstrapped": (26, -0.57, "left"),
+    "gail": (39, -0.35, "left"), "sac": (21, 1.25, "left"), "bootstrapped": (26, -0.57, "left"),
 }  # fmt: skip
 METHODS_BY_NAME = {display_name(method): method for method in choosing.METHODS}
 
@@ -123,48 +122,25 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
 
 
 def estimates(names: Sequence[str], alike: np.ndarray, estimated: np.ndarray, truth: np.ndarray) -> Figure:
-    """How far estimates are off, for sets of agents, (sets, agents); filled, with its number: the largest of its set.
-
-    alike: how often each acts as the data do.
-    """
-    off, largest = estimated - truth, estimated.argmax(1)
-    is_taken = largest[:, None] == np.arange(len(names))
+    """How far estimates are off, for sets of agents, (sets, agents); alike: how often each acts as the data do."""
+    off = estimated - truth
     title = "How far is each estimate off?"
     if abs(off[alike > 0.8]).max() < 0.1 < 1 < abs(off[alike < 0.4]).max():
         title = "Estimates are nearest where an agent acts as the data do"
-    label = "agrees with the rule in so many of the recorded seconds · filled: largest estimate of this set"
+    label = "agrees with the rule in so many of the recorded seconds"
     figure, ax = one_axes(3.7, title, label, "estimate minus truth (above 0: too high)")
     ax.axhline(0, color=INK, linewidth=1)
     said = []
     for i, name in enumerate(names):
         look = style(METHODS_BY_NAME[name])
-        fills = np.where(is_taken[:, i], look.colour, "white")
         x = 100 * alike[:, i]
-        ax.scatter(x, off[:, i], s=34, c=fills, edgecolors=look.colour, linewidths=1.3, zorder=3)
+        ax.scatter(x, off[:, i], s=34, color=look.colour, zorder=3)
         dx, dy, side = LABELS[METHODS_BY_NAME[name]]
         ax.text(dx, dy, name, fontsize=TEXT, color=look.colour, ha=side)
-        often = f", largest in {is_taken[:, i].sum()}" if is_taken[:, i].any() else ""
-        said.append(
-            f"{name}: {x.min():.0f}–{x.max():.0f} %, off {off[:, i].min():+.2f} to {off[:, i].max():+.2f}{often}"
-        )
-    for place, i in enumerate(largest):
-        name_dot(ax, str(place + 1), 100 * alike[place, i], off[place, i], "right")
-    best = truth.argmax(1)
-    lowest = min(range(len(off)), key=lambda place: off[place, best[place]] if best[place] != largest[place] else 0)
-    if best[lowest] != largest[lowest]:
-        at = alike[lowest, best[lowest]], off[lowest, best[lowest]]
-        name_dot(ax, f"best of set {lowest + 1}", 100 * at[0], at[1], "left")
-        said.append(f"the best of set {lowest + 1}: {100 * at[0]:.0f} %, off {at[1]:+.2f}")
+        said.append(f"{name}: {x.min():.0f}–{x.max():.0f} %, off {off[:, i].min():+.2f} to {off[:, i].max():+.2f}")
     ax.set_xlim(0, 100)
     ax.xaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")
     return finish(figure, title, f"A dot for each agent: {'; '.join(said)}.")
-
-
-def name_dot(ax: Axes, words: str, x: float, y: float, side: str) -> None:
-    """Write words beside a dot; side: which end of them lies at the dot."""
-    away = (-6, 0) if side == "right" else (6, -4)
-    look = {"textcoords": "offset points", "ha": side, "va": "center", "fontsize": TEXT, "color": INK}
-    ax.annotate(words, (x, y), away, **look)
 
 
 def chosen(study: Results, guesses: Sequence[float], truth: Sequence[float]) -> Markdown:

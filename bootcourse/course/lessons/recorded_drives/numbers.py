@@ -10,7 +10,6 @@ import torch
 from bootcourse.course.lessons.recorded_drives import choosing
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
-from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.settings import Settings, settings_for, with_seeds
@@ -59,12 +58,6 @@ def off() -> np.ndarray:
 def successes() -> np.ndarray:
     """In which share of its drives each gets ahead of trap 1, (sets, agents)."""
     return np.array([of(method).scores("success")[:SETS] for method in choosing.METHODS]).T
-
-
-def lasts(method: str, which: int) -> int:
-    """The seconds of the shortest of an agent's drives on 20 roads."""
-    drives = record(shipped_agents(method)[which].as_policy(), range(20))
-    return min(len(drive.rewards) for drive in drives)
 
 
 def accelerates(actions: torch.Tensor) -> float:

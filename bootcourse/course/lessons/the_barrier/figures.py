@@ -1,4 +1,4 @@
-"""Figures of the barrier, and a table: when agents ended ahead while they learned, and how they drive in the end."""
+"""Figures of the barrier, and a table: when agents got out while they learned, and how they drive in the end."""
 
 from collections.abc import Mapping, Sequence
 
@@ -57,10 +57,12 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
         firsts = np.cumsum((0, *ends[:-1]))
         crossed = [first + k for first, of in zip(firsts, crashes, strict=True) for k in range(of)]
         ax.scatter(across[crossed], down[crossed], s=42, **CRASHES)
-        escaping = f"{sum(ends[:2])} of {sum(ends)} escape{'s' * int(sum(ends[:2]) == 1)}"
-        ax.text(x, y + 0.06, escaping, va="center", fontsize=TEXT, color=INK, fontweight="bold")
+        verbs = ("escape", "escapes"), ("crash", "crashes"), ("stay", "stays")
+        counts = sum(ends[:2]), *ends[2:]
+        says = ", ".join(f"{n} {verb[int(n == 1)]}" for n, verb in zip(counts, verbs, strict=True))
+        ax.text(x, y + 0.06, says, va="center", fontsize=TEXT, color=INK, fontweight="bold")
     keys = {words: look | {"c": [colour]} for words, colour in [*ENDS.items()][:2]}
-    keys |= {"does not escape": look | {"c": ["white"]}, "crashes on most roads": CRASHES}
+    keys |= {"stays behind": look | {"c": ["white"]}, "crashes on most roads": CRASHES}
     for place, (words, key) in enumerate(keys.items()):
         at = 1.84 + 2.7 * (place % 2), 2.4 + 0.22 * (place // 2)
         ax.scatter(*at, s=50, **key)
@@ -83,24 +85,24 @@ def how_they_drive(agents: Sequence, tests: Sequence):
         rows.append([settings.gamma, *shares, f"{test.returns.value:.1f}"])
     below = "These returns may differ from the curves: in training actions are drawn from the policy; here each agent "
     below += "takes its most probable ones."
-    return table(["γ", "ends ahead, %", "accidents, %", "return"], rows, below=below)
+    return table(["γ", "gets out, %", "accidents, %", "return"], rows, below=below)
 
 
 def times_ahead(results: Results) -> np.ndarray:
-    """How many drives each agent ended ahead while it learned, (agents,)."""
+    """In how many drives each agent got out while it learned, (agents,)."""
     return (results.curves["success"] > 0).sum(axis=1)
 
 
 def while_they_learned(results: Results, chance: float) -> Figure:
-    """When each agent ended a drive ahead while it learned: a row for each agent, a mark for each such drive.
+    """When each agent got out while it learned: a row for each agent, a mark for each such drive.
 
-    At a row's end stands how the agent then drives on the test roads, if it ends ahead on 10 % or more.
+    At a row's end stands how the agent then drives on the test roads, if it gets out on 10 % or more.
 
     chance: that an agent would at least once, if all its actions were random.
     """
     times, ahead = times_ahead(results), results.scores("success")
     escaping, crashing = ahead >= ESCAPES, results.scores("accident") > 0.5
-    title = f"{(times > 0).sum()} of {len(times)} agents ended ahead while they learned, "
+    title = f"{(times > 0).sum()} of {len(times)} agents got out while they learned, "
     title += f"{(times == 1).sum()} of them once; {escaping.sum()} escapes"
     figure = new_figure(4.25)
     ax = axes_at(figure, 0.2, 0.75, 6.5, 2.85)
@@ -114,12 +116,12 @@ def while_they_learned(results: Results, chance: float) -> Figure:
         listed.append(f"{times[k]}")
         if ahead[k] >= 0.1:
             ends = ", escapes" * int(escaping[k]) + ", crashes" * int(crashing[k])
-            label = f"tested: {100 * ahead[k]:.0f} % ahead{ends}"
+            label = f"tested: gets out on {100 * ahead[k]:.0f} %{ends}"
             ax.text(np.isfinite(drives).sum() + 12, row, label, fontsize=TEXT, color=INK, va="center")
             listed[-1] += f" ({label})"
     ax.set(ylim=(len(times) - 0.3, -0.8), yticks=[])
     ax.set_xlim(left=0)
-    words = f"A mark: a drive that ended ahead. If all actions were random, {len(times) * chance:.0f} of {len(times)} "
+    words = f"A mark: a drive that got out. If all actions were random, {len(times) * chance:.0f} of {len(times)} "
     words += "agents would have one in 400 drives."
     figure.text(0.012, 0.015, words, fontsize=SMALL, color=QUIET)
-    return finish(figure, title, f"{words}\nThe agents' drives that ended ahead: {', '.join(listed)}.")
+    return finish(figure, title, f"{words}\nThe agents' drives that got out: {', '.join(listed)}.")

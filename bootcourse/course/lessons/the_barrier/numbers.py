@@ -29,13 +29,13 @@ def by_chance() -> list[attempts.Outcome]:
 
 
 def lucky(gamma: float = 1.0) -> np.ndarray:
-    """What those of them are worth that end ahead; all of them crash."""
+    """What those of them are worth that get out; all of them crash."""
     assert all(each.accident.all() for each in by_chance())
     return np.concatenate([each.values(gamma)[each.ahead] for each in by_chance()])
 
 
 def by_luck(good: int) -> float:
-    """How many of 5,000 random drives would end ahead if so many actions were right at each of the 8 decisions."""
+    """How many of 5,000 random drives would get out if so many actions were right at each of the 8 decisions."""
     return 5000 * luck(good, easier.LATER, 1)
 
 
@@ -63,7 +63,7 @@ stressed = easier.stressed
 
 
 def stay(kind: str) -> int:
-    """How many agents of a kind end ahead on hardly any road, and do not crash on most: they stay behind."""
+    """How many agents of a kind get out on hardly any road, and do not crash on most: they stay behind."""
     agents = easy(kind)
     return int(((agents.scores("success") < 0.01) & (agents.scores("accident") <= 0.5)).sum())
 
@@ -105,9 +105,9 @@ def only_accelerate() -> int:
     return int(np.isclose(agents, drives.values(1.0), atol=1e-3).all(axis=1).sum())
 
 
-def one_that_pays() -> float:
-    """The chance that one of 400 random drives ends ahead and is worth more than staying, at γ = 0.8."""
-    pays = (lucky(0.8) > discounted(idle(), 0.8)).mean() * len(lucky()) / 5000
+def one_that_pays(gamma: float) -> float:
+    """The chance that one of 400 random drives gets out and is worth more than staying."""
+    pays = (lucky(gamma) > discounted(idle(), gamma)).sum() / 5000
     return 1 - (1 - pays) ** 400
 
 
@@ -123,7 +123,7 @@ def driven() -> np.ndarray:
 
 
 def times_ahead() -> np.ndarray:
-    """How many drives each of the twenty ended ahead while it learned."""
+    """How many drives each of the twenty got out while it learned."""
     return figures.times_ahead(easy("as it is"))
 
 

@@ -10,8 +10,8 @@ from bootcourse.plots.svg import Drawing
 from bootcourse.rule import safety_distance
 from bootcourse.scenario import DEFAULT
 
-SPEEDS = np.linspace(0, 8, 161)  # m/s by which the ego is faster than the car ahead
-AXES = Axes("faster than the car in the new lane by (m/s)", "gap (m)", (0.0, 35.0))
+SPEEDS = np.linspace(0, 4, 81)  # m/s by which the ego is faster than the car ahead
+AXES = Axes("faster than the car in the new lane by (m/s)", "gap (m)", (0.0, 10.0))
 
 
 def long_enough(t_safe: float) -> tuple[np.ndarray, np.ndarray, float]:
@@ -38,5 +38,5 @@ def gap() -> Explorable:
         says = f"t_safe = {t_safe:g} s: up to {safe:.1f} m/s the gap is long enough to brake in it."
         return curves(says, AXES, SPEEDS, named, mark=safe)
 
-    t_safe = Number("t_safe", DEFAULT.rule.t_safe, 0.5, 4, 0.1, "The time for which the gap must last.", "s")
+    t_safe = Number("t_safe", DEFAULT.rule.t_safe, 0.5, 2, 0.1, "The time for which the gap must last.", "s")
     return Explorable("How large a gap is large enough?", draw, t_safe=t_safe)

@@ -100,11 +100,11 @@ def change() -> tuple[float, float, int]:
 
 
 def slower_in_change() -> float:
-    """By how much the rule (sight 30 m) is slower than trap 1 (m/s) in the seconds of `change`, at the least."""
+    """By how much the rule (sight 30 m) is slower than trap 1 (m/s) in the seconds of `change`, at the most."""
     reasons, _, cars, _ = decided(30.0)
     began, roads = (reasons == Reason.CHANGE).argmax(0), np.arange(len(ROADS))
     slower = cars[:, :, TRAP_1, SPEED] - cars[:, :, EGO, SPEED]
-    return min(slower[began + k, roads].min() for k in range(change()[2] + 1))
+    return max(slower[began + k, roads].max() for k in range(change()[2] + 1))
 
 
 class Followed(NamedTuple):

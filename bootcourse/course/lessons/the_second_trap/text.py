@@ -138,9 +138,6 @@ print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {s
 # %% [markdown]
 # ## Round 2: when does it give up leaving?
 #
-# For a while in training some drives got ahead of trap 1; in the end none does, and all ten agents sprint.
-# <!-- claim: all(ppo_speeds(seed=i).max() > 14 and ppo_speeds(seed=i).min() < 4 for i in range(ppo_agents())) -->
-#
 # > **Predict.** Which comes first: no drive gets ahead any more, or the agent earns more than by keeping
 # > straight?
 
@@ -158,8 +155,9 @@ bc.show(figures.gives_up(ppo_kinds.reference()["alone"]))
 
 # %% [markdown]
 # **See.** At 200,000 decisions up to {{ 100 * ppo('alone')['escapes'][:, 3].max() | .0f }} % of an agent's
-# drives get ahead, at 300,000 none, and later hardly any. At 300,000 all ten agents still earn less than by
-# keeping straight: they gave up leaving *before* they earned more than that.
+# drives get ahead, at 300,000 none, and later hardly any. At 300,000 all ten agents still earn less than a
+# car that keeps straight, so they gave up leaving *before* sprinting paid.
+# <!-- claim: all(ppo_speeds(seed=i).max() > 14 and ppo_speeds(seed=i).min() < 4 for i in range(ppo_agents())) -->
 # <!-- claim: all(abs(at[3] - 200_000) < 500 and abs(at[5] - 300_000) < 500 for at in ppo('alone')['at']) and
 #   ppo('alone')['escapes'][:, 5].max() == 0 and ppo('alone')['curve'][:, :6].max() < idle().rewards.sum() -->
 # <!-- claim: ppo('alone')['curve'][:, 9:].max(axis=1).min() > idle().rewards.sum() + 5 and
@@ -172,16 +170,14 @@ bc.show(figures.gives_up(ppo_kinds.reference()["alone"]))
 # %% [markdown]
 # ## Round 3: how does PPO see pay that comes late?
 #
-# PPO drives {{ ppo_kinds.settings_of('alone').horizon }} decisions on each of
-# {{ ppo_kinds.settings_of('alone').envs_per_agent }} roads, learns from them in a few passes over random
-# parts (*minibatches*), throws them away and drives again. The policy that drove is π_old.
+# Falling back costs something now; the sprint pays many seconds later. So PPO must credit an action with what
+# comes long after it.
 #
 # The **advantage** A of an action is what came of it, less what PPO's critic V expected. It is a sum of
 # *surprises*, one for each second from the action on. λ, from 0 to 1, says how much the late ones count.
 #
-# Suppose that V expects a steady 10 m/s, but the car falls back to 5 and then sprints at 15 m/s. A bar is the
-# surprise of a second, and its filled part is how much of it counts. The filled parts add up to A of the
-# first second.
+# V expects a steady 10 m/s here, but the car falls back to 5 and then sprints at 15 m/s. Each bar is one
+# second's surprise, and its filled part is what counts. The filled parts add up to A of the first second.
 #
 # **Drag** λ down from PPO's {{ settings_for('ppo').gae_lambda }}: where does falling back stop looking good?
 
@@ -189,8 +185,9 @@ bc.show(figures.gives_up(ppo_kinds.reference()["alone"]))
 explorable.later()
 
 # %% [markdown]
-# **See.** In *this* drive falling back looks bad at λ = 0.8, but good at 0.85. Round 1's drive falls back for
-# longer: there A is about 0 at 0.95, and below 0 at 0.9.
+# **See.** In *this* drive falling back looks bad at λ = 0.8, but good at 0.85. The real drive of Round 1
+# falls back for longer: at PPO's {{ settings_for('ppo').gae_lambda }} it just breaks even (A ≈ 0), and at 0.9
+# it looks bad.
 # <!-- claim: abs(drive_advantage(0.95)) < 0.1 and drive_advantage(0.9) < -0.5 and
 #   (ppo_speeds()[:28] <= 10).all() -->
 # <!-- claim: all(ppo_kinds.settings_of(kind).gae_lambda == settings_for('ppo').gae_lambda > 0 for
@@ -206,9 +203,7 @@ explorable.later()
 #
 # $$ A_t = \delta_t + \gamma\lambda\, \delta_{t+1} + (\gamma\lambda)^2 \delta_{t+2} + \dots $$
 #
-# V is then fitted to $A_t + V(s_t)$, computed beforehand.
-#
-# **Endings need care**:
+# **Endings need care.** The data hold {{ ppo_kinds.settings_of('alone').horizon }} decisions of each road:
 #
 # | after decision t comes | `terminated` | `ended` | next V in δ | the sum |
 # |---|---|---|---|---|
@@ -222,11 +217,11 @@ explorable.later()
 
 # %%
 def advantages(rewards, values, next_values, terminated, ended, gamma, lam):
-    """A_t of each decision. The answer and all arguments but gamma and lam are (horizon, roads).
+    """A_t of each decision. The answer and all arguments but gamma and lam are (decisions, roads).
 
-    values: V(s_t). next_values: V of the state after decision t; you set it to 0 after an
-    accident. For example rewards 1, 2, 4 of one road give 1.75, 3, 4 with V = 0 everywhere and
-    γ = λ = ½.
+    values: V(s_t). next_values: V of the state after decision t, also after an accident: there,
+    you set it to 0. For example rewards 1, 2, 4 of one road give 1.75, 3, 4 with V = 0 everywhere
+    and γ = λ = ½.
     """
     # solution
     delta = rewards + gamma * (1 - terminated) * next_values - values
@@ -241,6 +236,10 @@ check.advantages(advantages)
 
 # %% [markdown]
 # ## Round 4: how far may one decision push?
+#
+# PPO drives {{ ppo_kinds.settings_of('alone').horizon }} decisions on each of
+# {{ ppo_kinds.settings_of('alone').envs_per_agent }} roads, learns from them in a few passes over random
+# parts (*minibatches*), throws them away and drives again. The policy that drove is π_old.
 #
 # The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since it
 # was taken. At first ρ = 1. A good decision (A > 0) pushes ρ up, a bad one pushes it down, and ε =
@@ -346,7 +345,7 @@ compare_predictions(
 # ## What you now know
 #
 # 1. Ten agents of PPO alone earn twice what keeping straight earns, and none gets out. They gave up leaving
-#    before they earned more than by keeping straight: look at success, and at a drive.
+#    before sprinting paid: look at success, and at a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one.
 # 3. After cloning the rule, all ten escape.
 #

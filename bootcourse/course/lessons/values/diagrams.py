@@ -72,7 +72,8 @@ def sweeps(found: Sequence[np.ndarray]) -> Figure:
     shown = [*range(1, 6), len(found) - 1]
     rows = {f"sweep {k}": (found[k][:, 1], ~np.isclose(found[k], without[k])[:, 1]) for k in shown}
     title = "Each sweep carries the free road's value one state back; the fifth brings it to the trap"
-    return _values(title, rows, 2, "Blue: contains a part of the free road's reward.")
+    key = "Blue: holds a part of the free road's reward. White, above 0: only the trap's pay, by turning back."
+    return _values(title, rows, 2, key)
 
 
 def walks(forwards: Sequence[np.ndarray], backwards: np.ndarray) -> Figure:
@@ -146,11 +147,11 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
 
     A tick: a walk in which the learner decided on the free road.
     """
-    figure, listed = new_figure(3.1), []
+    figure, listed = new_figure(2.89), []
     for side, all_q in enumerate(both):
         q, decisions = np.array(all_q), chain.EPISODE * np.arange(len(all_q))
         arrived = chain.arrivals(q)
-        ax = axes_at(figure, 0.4 + 3.4 * side, 0.95, 2.5, 1.6)
+        ax = axes_at(figure, 0.4 + 3.4 * side, 0.74, 2.5, 1.6)
         plain_axes(ax, f"{len(arrived)} of {len(q) - 1} walks reach the free road")
         for action, look in enumerate((OTHER, ON)):
             ax.plot(decisions, q[:, 0, action], color=look.colour, linestyle=look.line, linewidth=2)
@@ -173,5 +174,5 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
         )
     key = "A tick: a walk that reaches the free road. Dashed: from here on going on beats turning back in that state."
     figure.text(0.012, 0.02, key, fontsize=SMALL, color=QUIET)
-    title = "Going on must win in state 3, then 2, then 1, before leaving wins: two walks do not do it"
+    title = "Leaving wins only after going on has won in state 3, then 2, then 1"
     return finish(figure, title, f"The trap's two values over 1,000 decisions. {'; '.join(listed)}. {key}")

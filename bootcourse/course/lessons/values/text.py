@@ -49,8 +49,8 @@ explorable.worths()
 # %% [markdown]
 # ## Round 1: the discounted return
 #
-# The **discounted return** is the sum of all rewards from now on, each times γ to the power of its delay, in
-# decisions:
+# The **discounted return** is the sum of all rewards from now on; one that comes t decisions later is
+# multiplied by γᵗ:
 #
 # $$ G = r_0 + \gamma\, r_1 + \gamma^2\, r_2 + \dots $$
 #
@@ -154,8 +154,7 @@ bc.show(diagrams.sweeps(found))
 #
 # $$ \delta = r + \gamma \max_{a'} Q(s', a') - Q(s, a) $$
 #
-# The part before the minus is the **target**; it contains the learner's own estimate of the next state.
-# **Q-learning** moves Q(s, a) a part of the way to the target,
+# The part before the minus is the **target**. **Q-learning** moves Q(s, a) a part of the way to the target,
 # $Q(s, a) \leftarrow Q(s, a) + \text{step} \cdot \delta$. The **step**, also called *learning rate*, is 0.3
 # here.
 #
@@ -222,9 +221,9 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 # - *C* and *D*: as A, with ε = 0.5 and with ε = 1;
 # - *E*: as A, with a demonstration of the way out, replayed after each decision.
 #
-# > **Predict.** At first all Q are equal, and the greedy action, 0, leads to the trap. Getting through
-# > takes four random decisions in a row, each right with probability ε / 2. In which kinds do more than half learn to
-# > leave?
+# > **Predict.** At first all Q are equal, and the greedy action is 0, which leads to the trap. So a learner gets
+# > through only if it draws action 1 four times in a row, each time with probability ε / 2. In which kinds do more
+# > than half learn to leave?
 
 # %%
 predict("values.4", "In which kinds do more than half learn to leave? Letters, as in: A, C")
@@ -293,14 +292,19 @@ bc.show(diagrams.who_leaves(found))
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** A state passes back only its *larger* Q. In state 1 turning back leads to the trap, where
-# staying is worth {{ 0.16 / 0.2 | .2f }}: it is worth 0.8 · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }}.
-# As long as going on is worth less, nothing of the free road's value reaches the trap, and leaving is worth
-# 0.8 · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}. Walks to the free road raise going on
-# until it wins, in 3, then in 2, then in 1 (dashed). Only then does leaving gain, and with it *staying once*
-# (purple), because one can leave after it. Two walks (left) are too few: those of C that learned to leave
-# needed {{ min(needed_walks()) }} to {{ max(needed_walks()) }}.
-# <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] and not chain.leaves(walks(29)[-1]) -->
+# **Explain.** A state passes back only its *larger* Q.
+#
+# 1. *Blocked.* In the trap staying is worth {{ 0.16 / 0.2 | .2f }}, so in state 1 turning back is worth 0.8 ·
+#    {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }}. As long as going on is worth less there, leaving
+#    the trap is worth 0.8 · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}.
+# 2. *Opened.* Walks to the free road raise the value of going on until it wins, in 3, then in 2, then in 1
+#    (dashed).
+# 3. *Through.* Only then does leaving gain (blue), and with it *staying once* (purple), because one can leave
+#    after it.
+#
+# Two walks (left) are too few. Those of C that learned to leave needed {{ min(needed_walks()) }} to {{
+# max(needed_walks()) }}.
+# <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 and q[1, 1] < q[1, 0] and abs(q[1, 0] - 0.8 * 0.16 / 0.2)
 #   < 0.01 for seed in (1, 16) for q in chain.over_walks(0.5, 0.8, seed)[12:36]) -->
@@ -322,24 +326,23 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. The discounted return is the sum of the rewards from now on, each × γ to the power of its delay.
+# 1. The discounted return is the sum of the rewards from now on, one after t decisions × γᵗ.
 # 2. The Bellman equation: an action is worth its reward plus γ times the larger Q of the next state.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves Q(s, a) by a
 #    part of this difference.
-# 4. Learned forwards, a walk straight out carries a value one state back. The value passes a state only once
+# 4. Learned forwards, a walk straight out carries a value one state back. It gets past a state only when
 #    going on is worth more there than turning back.
 # 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and so does a
 #    demonstration.
 #
 # **Three questions to think about**
-# - One of C's learners reached the free road on {{ len(arrivals(29)) }} walks and did not learn to leave. How
-#   can that be?
+# - With γ = 0.6, how many of D's thirty would learn to leave, and should they?
 # - If your learner draws one of two equal actions at random, {{ len(drawn_arrivals()) }} of A's thirty reach
 #   the free road, but none learns to leave. Why?
 # - Your car sees 26 numbers. What replaces the chain's table of ten values, and what can then go wrong with a
 #   demonstration?
 # <!-- claim: not any(map(chain.leaves, with_draws())) and 0 < max(drawn_arrivals()) < min(needed_walks()) -->
-# <!-- claim: not chain.leaves(walks(29)[-1]) and diagrams.goes_on_from(walks(29), 1) > 45 -->
+# <!-- claim: leaving(1.0, 0.6) == 0 and 0.6**4 < 0.16 -->
 #
 # **Read on**: [](discrete_sac.ipynb), with networks in place of the table. Sutton and Barto, *Reinforcement
 # Learning*, chapters 3, 4 and 6.
@@ -347,8 +350,8 @@ compare_predictions(
 # %% [markdown] tags=["instructor"] minutes=2
 # **Model answers.**
 #
-# - *Eleven walks.* It came to the free road late. Going on won in state 1 a few walks before the end, and
-#   Q(0, 1) was still rising when the decisions were used up.
+# - *γ = 0.6.* None, and rightly: 0.6⁴ = {{ 0.6**4 | .2f }} is below 0.16, so staying is worth more (Round 1).
+#   They explore as much as before; whether it is a trap depends on γ.
 # - *Equal actions.* At first all values are equal, so some learners reach the free road by chance, on
 #   {{ max(drawn_arrivals()) }} walks at most. As in the last figure, these are too few to carry its value
 #   back to the trap.

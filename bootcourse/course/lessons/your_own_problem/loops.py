@@ -166,25 +166,28 @@ def cloned(problem: str, rows: Tensor, decisions: int = 2_000) -> Agent:
     return clone
 
 
-def labels(problem: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(the states in 50 drives of the random teacher, its actions there, its clone's, the good one's), n of each."""
+def labels(problem: str, decisions: int = 2_000) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """(the states in 50 drives of the random teacher, its actions there, its clone's, the good one's), n of each.
+
+    decisions: that the clone learns for.
+    """
     drives, good = shown(problem), PROBLEMS[problem].teachers()["good"]
-    seen, clone = drives.observations, cloned(problem, drives.rows())
+    seen, clone = drives.observations, cloned(problem, drives.rows(), decisions)
     return seen, drives.actions, np.asarray(clone.probabilities(seen)).argmax(-1), good(seen)
 
 
 def errors(
-    seen: np.ndarray, taught: np.ndarray, cloned: np.ndarray, good: np.ndarray
+    seen: np.ndarray, taught: np.ndarray, good: np.ndarray, cloned: np.ndarray, longer: np.ndarray
 ) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): where the teacher is right and where it is wrong, how many states, and where its clone errs.
+    """(headings, rows): where the teacher is right and where it is wrong, how many states, and where its clones err.
 
-    As `labels` returns them.
+    As `labels` returns them; longer: of the clone that was trained longer.
     """
     rows = []
     for name, of in (("right", taught == good), ("wrong", taught != good)):
-        share, errs = f"{100 * of.mean():.0f} %", of & (cloned != good)
-        rows.append([name, str(states(seen[of])), share, str(states(seen[errs]))])
-    return ["the teacher is", "states", "of the labels", "states in which the clone is wrong"], rows
+        errs = [str(states(seen[of & (clone != good)])) for clone in (cloned, longer)]
+        rows.append([name, str(states(seen[of])), f"{100 * of.mean():.0f} %", *errs])
+    return ["the teacher is", "states", "of the labels", "the clone is wrong in", "after four times the training"], rows
 
 
 def states(seen: np.ndarray) -> int:

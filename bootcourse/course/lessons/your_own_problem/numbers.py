@@ -51,7 +51,7 @@ def without_loops() -> float:
 
 
 def loops_table() -> str:
-    """How many drives of DoorKey reach the goal, by drawn actions and by most probable ones, as Markdown."""
+    """How many drives of DoorKey reach the goal, by drawn actions, as Markdown."""
     kinds = [
         ("all drives of the random teacher", "yes", "random", "both"),
         ("only those of them that reach the goal", "no", "random", elsewhere.WITHOUT_LOOPS),
@@ -59,10 +59,10 @@ def loops_table() -> str:
         ("none: plain SAC", "–", "none", "SAC"),
     ]
     rows = [
-        [name, loops_, *(f"{100 * score('doorkey', teacher, how, of):.0f}" for of in ("drawn_success", "success"))]
+        [name, loops_, f"{100 * score('doorkey', teacher, how, 'drawn_success'):.0f}"]
         for name, loops_, teacher, how in kinds
     ]
-    return markdown(["the demonstrations", "loops", "drawn actions", "most probable actions"], rows)
+    return markdown(["the demonstrations", "loops", "goals in 100 drives (drawn actions)"], rows)
 
 
 def entry_scores() -> list[float]:
@@ -85,13 +85,19 @@ def drowning_bonus(*arguments: float) -> float:
 labels = cache(loops.labels)
 
 
-def doorkey_errors() -> tuple[int, float]:
-    """In how many states of the lesson's drives DoorKey's random teacher is right, and the share of wrong labels."""
-    seen, taught, _, good = labels("doorkey")
-    return loops.states(seen[taught == good]), float((taught != good).mean())
+def wrong_labels() -> float:
+    """The share of wrong labels in the lesson's drives of DoorKey's random teacher."""
+    _, taught, _, good = labels("doorkey")
+    return float((taught != good).mean())
 
 
-def clone_errs_more() -> int:
-    """In how many states the clone errs in which its teacher is right."""
-    seen, taught, cloned, good = labels("doorkey")
+def outvoted(*of: str | int) -> np.ndarray:
+    """For each wrong label of a problem's random teacher: is its clone right there? of: as for `loops.labels`."""
+    _, taught, cloned, good = labels(*of)
+    return (cloned == good)[taught != good]
+
+
+def own_errors(decisions: int) -> int:
+    """In how many states of DoorKey the clone errs, after so much training, in which its teacher is right."""
+    seen, taught, cloned, good = labels("doorkey", decisions)
     return loops.states(seen[(taught == good) & (cloned != good)])

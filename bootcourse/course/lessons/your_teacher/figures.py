@@ -29,7 +29,7 @@ SIX = {  # teacher of the experiment `teachers`: the name of its row
     "mirrored": "mirrored",
 }
 PARTS = {  # as the lesson lists them: what they learn from, of a drive's three parts
-    "as-many": ("both", "◪■■"),
+    "all": ("all", "■■■"),
     "lane": ("only the free lane", "■■□"),
     "accident": ("only the accident", "■□■"),
     "cut": ("neither", "■□□"),
