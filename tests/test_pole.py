@@ -34,11 +34,11 @@ def test_the_agents_that_ship_train_until_two_tests_in_a_row_reach_the_mark():
 
 def test_after_a_fall_two_rows_say_that_the_pole_stays_fallen_and_none_is_marked():
     buffer, state = exercises.ReplayBuffer.solution(10), np.arange(4)
-    rows = worlds.Lying(buffer, paid=0.5)
+    rows = worlds.WithFallen(buffer, paid=0.5)
     rows.add(by_hand.row(state, 1, 1.0, False, state + 1))
     rows.add(by_hand.row(state + 1, 0, 1.0, True, state + 2))
-    lying = [by_hand.row(state + 2, push, 0.5, False, state + 2) for push in (0, 1)]
-    assert len(buffer.rows) == 4 and torch.equal(torch.stack(buffer.rows[2:]), torch.stack(lying))
+    fallen = [by_hand.row(state + 2, push, 0.5, False, state + 2) for push in (0, 1)]
+    assert len(buffer.rows) == 4 and torch.equal(torch.stack(buffer.rows[2:]), torch.stack(fallen))
     assert not any(row[6] for row in buffer.rows)
 
 

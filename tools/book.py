@@ -33,8 +33,6 @@ LEARNED = {
     "learning_from_demonstrations": {
         "c = 2": "learn=bootstrapped&agents=2&drives=600&c=2",
         "c = 0": "learn=bootstrapped&agents=2&drives=600&c=0",
-        "β = 0.3": "learn=bootstrapped&agents=2&drives=600&beta=0.3",
-        "without the soft constraint": "learn=demos&agents=2&drives=600",
     },
 }
 AFTER = {"soft_constraint": "figures.twenty("}  # lesson -> in the code of the cell below which it trains

@@ -91,7 +91,7 @@ def alone(agents: Sequence[Agent]) -> list[Rollout]:
 
 
 def accidents(drives: Sequence[Rollout]) -> str:
-    """How many of the drives end in an accident, in which, and how many decisions are errors, at the lane's edges."""
+    """How many of the drives end in an accident, in which, and how many decisions are errors."""
     ended = Counter(Accident(each.accident) for each in drives if each.accident)
     left = sum(off_on_the_left(each) for each in drives)
     kinds = {
@@ -102,12 +102,9 @@ def accidents(drives: Sequence[Rollout]) -> str:
     }
     said = ", ".join(f"{count} {kind}" for kind, count in kinds.items() if count)
     wrong = np.concatenate([each.actions != each.rule_actions for each in drives])
-    place = np.concatenate([metres_left(each) for each in drives])
-    edges = [100 * wrong[(at - 0.25 < place) & (place < at + 0.25)].mean() for at in (1.75, -1.75)]
     return (
         f"{sum(ended.values())} of {len(drives)} drives end in an accident: {said}.\n"
-        f"Of all decisions {100 * wrong.mean():.0f} % are errors; of those within 0.5 m of the left lane's left edge "
-        f"{edges[0]:.0f} %, of its right edge {edges[1]:.0f} %."
+        f"Of all decisions {100 * wrong.mean():.0f} % are errors."
     )
 
 

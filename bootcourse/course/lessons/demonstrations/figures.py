@@ -68,8 +68,7 @@ def added(name: str, alone: np.ndarray, fed: dict[str, np.ndarray]) -> Figure:
     title = "Accidents, with rows added to the rule's"
     if edge < min(alone[:, 2].mean(), others[0]) / 2:
         title = "Rows from the edge prevent most of the accidents"
-    rows = {name: alone} | {f"{name}, {more}": values for more, values in fed.items()}
-    return _two_panels(rows, {1: "agree in their own states (%)", 2: "have an accident (%)"}, title)
+    return _two_panels({name: alone} | fed, {1: "agree in their own states (%)", 2: "have an accident (%)"}, title)
 
 
 def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str) -> Figure:

@@ -1,8 +1,34 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from functools import cache
+
+import numpy as np
+from torch import Tensor
+
 from bootcourse.course.lessons.demonstrations.cloning import UPDATES as UPDATES
+from bootcourse.course.lessons.demonstrations.cloning import left_in
 from bootcourse.course.shipped import shipped_results
+from bootcourse.learn.demonstrations import collect
+from bootcourse.policies import stochastic_rule_policy
 from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
+
+
+@cache
+def rows() -> dict[str, Tensor]:
+    """The rows of 200 drives of the rule, and of 200 of the stochastic rule."""
+    unsure = stochastic_rule_policy(DEFAULT, np.random.default_rng(0))
+    return {"the rule": collect(200), "the stochastic rule": collect(200, policy=unsure)}
+
+
+def beyond_the_band() -> int:
+    """How many of the stochastic rule's rows are farther left than all of the rule's."""
+    return int((left_in(rows()["the stochastic rule"]) > left_in(rows()["the rule"]).max()).sum())
+
+
+def near_the_edge() -> float:
+    """The share of the rule's rows that are at least 1 m left of the left lane's middle."""
+    return float((left_in(rows()["the rule"]) > 1).float().mean())
 
 
 def by_chance() -> Results:

@@ -44,7 +44,8 @@ ROAD = 10
 
 # %% [markdown]
 # Two others drive 60 roads: the rule, and the **stochastic rule**, which takes the rule's action with
-# probability p = {{ RULE_P }} and otherwise one of the other eight. Here are their first 30 seconds.
+# probability p = {{ RULE_P }} and otherwise one of the other eight. In the first 30 seconds each of the
+# rule's drives begins in lane 2, falls back, and changes to lane 0.
 
 # %% tags=["hide-input"]
 unsure = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0))
@@ -89,9 +90,10 @@ check.cloning_loss(cloning_loss)
 
 # %% [markdown]
 # Train five clones on each of three data sets: your drives, {{ SETTINGS.demonstration_episodes }} drives of
-# the rule, and as many of the stochastic rule. Each clone then drives 100 new roads and takes its most
-# probable action. Its **agreement** is the share of its training rows in which it chooses the demonstrator's
-# action.
+# the rule ({{ len(rows()['the rule']) | , }} rows), and as many drives of the stochastic rule
+# ({{ len(rows()['the stochastic rule']) | , }} rows, because most end early). Each clone then drives 100 new
+# roads and takes its most probable action. Its **agreement** is the share of its training rows in which it
+# chooses the demonstrator's action.
 #
 # > **Predict.** Which have more accidents, clones of the rule or clones of the stochastic rule?
 
@@ -112,9 +114,9 @@ measured = {name: cloning.measure(clones[name], rows) for name, rows in data.ite
 bc.show(figures.clones(measured))
 
 # %% [markdown]
-# **See.** *A clone that agrees more with its own data need not crash less.* Our clones of one drive know it
-# almost by heart, and mostly crash. The stochastic rule's clones take their most probable action, so they
-# drop its random ones and crash far less often than the stochastic rule.
+# **See.** *High agreement with its data does not make a clone safe.* Our clones of one drive know it almost
+# by heart, and mostly crash. The stochastic rule's clones take their most probable action, so they drop its
+# random ones and crash far less often than the stochastic rule.
 # <!-- claim: UPDATES == 1500 -->
 # <!-- claim: of('bc').agents[0]['demonstration_episodes'] == 200 -->
 
@@ -163,10 +165,13 @@ bc.show(figures.off_the_road(alone, by_rule))
 # %% [markdown]
 # ## Round 3: which rows are missing?
 #
-# The stochastic rule's drives hold a few states farther left than any of the rule's. We label these states
-# with the rule's actions and add them to the rule's drives, five times each. Other clones get, instead, as
-# many other rows of the stochastic rule, with the same kind of labels, or as many from near the edge: from 1
-# m left of the lane's middle up to where the rule has rows, too.
+# Left of the green band the rule has no row, the stochastic rule {{ beyond_the_band() }}. Do these help? To
+# the rule's rows we add {{ beyond_the_band() }} of the stochastic rule's, five times each, labelled with the
+# rule's actions. They are of one of three kinds:
+#
+# - **from the edge**: left of the band;
+# - **near the edge**: in the band, at least 1 m left;
+# - **others**: from anywhere but left of the band.
 #
 # > **Predict.** How many of the accidents remain with the rows from the edge?
 
@@ -189,12 +194,12 @@ fed_crash = {name: cloning.measure(fed[name], by_rule[::10]) for name in fed}
 bc.show(figures.added(KINDS[0], measured[KINDS[0]], fed_crash))
 
 # %% [markdown]
-# **See.** *The rows from the edge prevent most accidents; as many other rows do not.* But it need not be
-# places where the rule has *no* row: the rows from near the edge help, too.
+# **See.** *The rows from the edge prevent most accidents; as many other rows do not.* The rows from near the
+# edge help, too: of the rule's own rows only {{ 100 * near_the_edge() | .0f }} % are there.
 #
-# *A longer training turns the order of Round 1.* With about {{ updates_of(of('bc')) / UPDATES | .0f }} times
-# as many updates, the study's clones of the rule crash in {{ 100 * accidents('bc') | .1f }} % of their
-# drives. Its clones of the stochastic rule had twice as many again, and crash in
+# *A longer training reverses the order of Round 1*: with {{ updates_of(of('bc')) / UPDATES | .0f }} times as
+# many updates the study's clones of the rule crash in {{ 100 * accidents('bc') | .1f }} % of their drives.
+# Its clones of the stochastic rule had twice as many as these, and crash in
 # {{ 100 * by_chance().scores('accident').mean() | .0f }} %.
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 -->
 # <!-- claim: by_chance().agents[0]['stochastic_demonstrations'] and len(by_chance()) == 10 and
@@ -250,9 +255,7 @@ trainings = [cloning.measure(each, by_rule[::10]) for each in zip(*drivers, stri
 bc.show(figures.taught(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
-# **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.* A
-# likely reason for the first: the more rows are from clones' drives, the fewer of the updates are left for
-# the rule's.
+# **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.*
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody must let a
@@ -281,12 +284,11 @@ compare_predictions(
 # 1. A clone learns to predict the demonstrator's action. Judge it by how it drives.
 # 2. It is trained on the teacher's states and drives in its own, where errors lead to more errors.
 # 3. After a short training, a few rows from the road's edge prevent most of the accidents of the rule's
-#    clones. So does a long training without them.
+#    clones.
 # 4. DAgger adds rows from the clone's own states: the clone drives, the teacher labels.
 #
 # **Three questions to think about**
-# - At the right edge of the left lane, too, nearly all decisions are errors (Round 2). Why do the clones
-#   seldom crash there?
+# - Why do the rule's clones leave the road on the left far more often than on the right (Round 2)?
 # - The teacher is a person, who watches and says "left now". What becomes hard in DAgger?
 # - A demonstrator crashes at the end of each drive. Which of its rows would you keep?
 #
@@ -297,9 +299,9 @@ compare_predictions(
 # %% [markdown] tags=["instructor"] minutes=4
 # **Model answers.**
 #
-# - *Errors on the right?* There are two more lanes, so the car has time to come back, and the edge is near on
-#   the left alone. What an error costs is a property of the road, too. (Other cars are there: a collision is
-#   possible, but it is rare in these drives.)
+# - *Why on the left?* The rule passes in the left lane, so the road's edge is near on the left alone. On the
+#   right there are two more lanes, and the car has time to come back. What an error costs is a property of
+#   the road, too. (Other cars are there: a collision is possible, but it is rare in these drives.)
 # - *A person as the teacher?* A person corrects what happens and does not answer a question about a state:
 #   labels come late by a reaction time, and without the feedback of one's own steering they get worse. That
 #   is why variants let the person take over the wheel for a while.

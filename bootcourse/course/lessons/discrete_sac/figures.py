@@ -5,13 +5,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import INK, PALE
+from bootcourse.colours import INK, OTHER, PALE
 from bootcourse.course import table
-from bootcourse.course.dots import beside, name_rows
+from bootcourse.course.dots import name_rows
 from bootcourse.course.lessons.discrete_sac.explorable import ACTIONS, ALPHA, START
 from bootcourse.course.lessons.discrete_sac.own_parts import STEPS, SURE, Descent, Walked
 from bootcourse.methods import style
-from bootcourse.plots.figure import QUIET, SMALL, axes_at, finish, new_figure
+from bootcourse.plots.figure import SMALL, axes_at, finish, new_figure
 
 
 def descents(ends: Mapping[str, Descent]):
@@ -25,38 +25,34 @@ def descents(ends: Mapping[str, Descent]):
     return table([f"after {STEPS} steps", "π(straight)", "Q(straight)", "loss"], rows)
 
 
-def two_jobs(alphas: Sequence[float], knows: Sequence[float], walked: Walked, unpaid: Walked) -> Figure:
-    """What α does in the chain's trap: how many learners find the way out, and how many then surely take it.
+def two_jobs(alphas: Sequence[float], walked: Walked, unpaid: Walked) -> Figure:
+    """What α does in the chain's trap: how many learners find the way out, and how sure these then are of taking it.
 
-    knows: π(leave | trap) of an agent that knows the whole chain; walked: the learners at each temperature, and last
-    those whose temperature falls, from the largest and from the smallest of these; unpaid: one kind whose temperature
-    falls from the largest, and whose target holds no pay.
+    walked: the learners at each temperature, and last those whose temperature falls from the largest of these;
+    unpaid: the same with a target that holds no pay.
     """
-    names = [*(f"α = {alpha:g}" for alpha in alphas), *(f"α falls from {alpha:g}" for alpha in reversed(alphas))]
+    names = [*(f"α = {alpha:g}" for alpha in alphas), f"α falls from {alphas[-1]:g}"]
     names.append(f"from {alphas[-1]:g}, no pay in target")
     leaves, found = np.vstack([walked.leaves, unpaid.leaves]), np.vstack([walked.found, unpaid.found])
     parts = {
-        "found it, and sure of leaving": (leaves > SURE, style("sac").colour),
-        "found it, not sure": (found & (leaves <= SURE), PALE),
+        "found it, sure of leaving": (found & (leaves > SURE), style("sac").colour),
+        "found it, undecided": (found & (leaves <= SURE) & (leaves >= 1 - SURE), PALE),
+        "found it, sure of staying": (found & (leaves < 1 - SURE), OTHER.colour),
         "never found it": (~found, "white"),
     }
     row, before, alt_parts = 0.36, np.zeros(len(names)), []
     figure = new_figure(1.15 + row * len(names) + 0.6)
-    ax = axes_at(figure, 1.6, 1.15, 3.35, row * len(names))
+    ax = axes_at(figure, 1.6, 1.15, 4.9, row * len(names))
     for words, (of, colour) in parts.items():
-        ax.barh(names, of.sum(axis=1), 0.72, left=before, color=colour, edgecolor=INK, linewidth=0.7, label=words)
+        look = {"color": colour, "edgecolor": INK, "linewidth": 0.7, "clip_on": False}
+        ax.barh(names, of.sum(axis=1), 0.72, left=before, label=words, **look)
         before += of.sum(axis=1)
         alt_parts.append(f"{words}: {', '.join(map(str, of.sum(axis=1)))}")
-    beside(ax, -0.75, "π(leave) if it knows the chain", colour=QUIET)
-    known = [*knows, *[knows[0]] * 3]  # each falling α ends at the first, or below it
-    for place, each in enumerate(known):
-        beside(ax, place, f"{each:.2f}")
     name_rows(ax, names, f"of {walked.leaves.shape[1]} learners")
-    ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=3, fontsize=SMALL, frameon=False, columnspacing=1.2)
+    ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=2, fontsize=SMALL, frameon=False, columnspacing=1.2)
     alt = f"A bar for each kind of learner: {', '.join(names)}. Of each kind, in this order, {'; '.join(alt_parts)}. "
-    alt += f"To the right, π(leave) of an agent that knows the chain: {', '.join(f'{each:.2f}' for each in known)}."
     title = (
-        "A small α seldom finds the way, a large one is never sure; "
-        "one that falls from 10 does both, best with no pay in the target"
+        "With a small α none leaves, with a large one none decides; "
+        "with one that falls from 10 many leave, and all with no pay in the target"
     )
     return finish(figure, title, alt)

@@ -57,10 +57,9 @@ def constant(decisions: int = 1000) -> Walked:
 
 
 @cache
-def falling(decisions: int = 1000, begin: float = 10, end: float = 0.01, value: Callable = sac.soft_value) -> Walked:
-    """Learners whose α falls by equal factors. value: V(s) in their target, see `unpaid`."""
-    alphas = np.geomspace(begin, end, decisions)
-    return walked(value, sac.critic_target, torch.tensor(alphas)[:, None])
+def falling(decisions: int = 1000, value: Callable = sac.soft_value) -> Walked:
+    """Learners whose α falls by equal factors from 10 to 0.01. value: V(s) in their target, see `unpaid`."""
+    return walked(value, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, decisions))[:, None])
 
 
 @cache

@@ -52,11 +52,6 @@ def soft_sweeps(value: Callable, target: Callable, alpha: float) -> Tensor:
     return q
 
 
-def would_leave(value: Callable, target: Callable, alphas: Tensor) -> list[float]:
-    """How probable leaving the trap is for an agent that knows the whole chain, at each temperature."""
-    return [(soft_sweeps(value, target, alpha)[0] / alpha).softmax(-1)[1].item() for alpha in alphas]
-
-
 SURE = 0.9  # a learner that leaves with a higher probability is sure of it
 
 

@@ -47,8 +47,6 @@ bc.show(diagrams.sac_diagram())
 # - The **temperature** α sets how much the actor is paid for being undecided.
 # - The **replay buffer** keeps one row for each decision: state s, action a, reward r, next state s', and
 #   whether the world ended. An update learns from a **batch** of rows.
-#
-# On the evening route this picture is enough: go on to [the barrier](the_barrier.ipynb).
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Follow one row of the buffer through the picture: who made it, and which three parts learn from it? Leave
@@ -76,10 +74,10 @@ predicted("discrete_sac.1")
 explorable.undecided()
 
 # %% [markdown]
-# **Explain.** More than 1. Always going straight is worth 1. Going left now and then costs
-# {{ q[1] - q[0] | .1f }} each time, and the pay is more. At α = {{ ALPHA | g }} the best policy's mean Q is
-# only {{ BY_Q | .2f }}, but the pay adds {{ ALPHA | g }} · {{ (WORTH - BY_Q) / ALPHA | .2f }} = {{ WORTH - BY_Q |
-# .2f }}.
+# **Explain.** More than 1. Always going straight is worth 1. Going left now and then costs a little
+# ({{ q[1] - q[0] | .1f }} each time), and the pay for it is larger. At α = {{ ALPHA | g }} the best policy's
+# mean Q is only {{ BY_Q | .2f }}, but the pay adds {{ ALPHA | g }} · {{ (WORTH - BY_Q) / ALPHA | .2f }} = {{
+# WORTH - BY_Q | .2f }}.
 # <!-- claim: max(q) == q[1] == 1 < WORTH -->
 
 # %% [markdown]
@@ -168,8 +166,8 @@ def critic_target(reward, terminated, next_value, gamma):
 check.critic_target(critic_target)
 
 # %% [markdown]
-# V(s') is computed with the target critics (*target networks*). Each update moves their weights only a small
-# share τ ("tau") of the way to the critics', so that the target moves more slowly than they do.
+# V(s') is computed with the target critics (*target networks*). Each update moves their weights a small share
+# τ ("tau") of the way to the critics' weights, so that the target moves more slowly than the critics.
 #
 # **Exercise (6 min, ●●○).** Write the loss of both critics: for each the mean over the batch of
 # $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action taken. Hold y fixed: no gradient may run
@@ -212,9 +210,8 @@ explorable.overestimated()
 # **Explain.** Above 0: at {{ highest(9)[0] | .2f }}, if the errors' standard deviation is 1. The actor makes
 # the highest estimates most probable, so V(s') is too high, too.
 #
-# Give each action the smaller of two critics' estimates: the highest of the nine is then at
-# {{ highest(9)[1] | .2f }}, nearer to 0. So SAC has **two critics** and takes the smaller value, in V(s') and
-# in the actor's loss.
+# The smaller of two estimates is nearer to 0, so SAC has **two critics** and takes the smaller one for each
+# action, in V(s') and in the actor's loss.
 # <!-- claim: too_high() > 0.2 and abs(highest(9)[1]) < highest(9)[0] -->
 
 # %% [markdown]
@@ -223,8 +220,8 @@ explorable.overestimated()
 # $$ L_\text{actor} = -\,\text{mean over } s \text{ of } \sum_a \pi(a|s)\,
 # \big(Q(s,a) - \alpha \log \pi(a|s)\big) $$
 #
-# A better policy lowers this loss. A higher estimate Q lowers it, too, but makes no action better. So only
-# the policy may move: Q is **detached** (`q.detach()`), and no gradient runs into it.
+# A better policy lowers this loss. So does a higher Q, although no action gets better by it. So Q is
+# **detached** (`q.detach()`): no gradient runs into it, and only the policy moves.
 #
 # **Exercise (5 min, ●●○).** Write the actor's loss.
 
@@ -278,31 +275,37 @@ predict("discrete_sac.4", "With which α do the most learners end sure of leavin
 predicted("discrete_sac.4")
 value, target = own_code.yours_or_ours("soft_value", "critic_target", doing="Walking")
 constant = torch.tensor([0.01, 10], dtype=torch.float64)
-falling = [torch.logspace(start, start - 3, 1000, dtype=torch.float64) for start in (1, -2)]
-walked = own_parts.walked(value, target, torch.stack([*constant.expand(1000, -1).T, *falling], 1))
-unpaid = own_parts.walked(own_parts.unpaid, target, falling[0][:, None])  # V without the pay
-knows = own_parts.would_leave(value, target, constant)
-bc.show(figures.two_jobs(constant.tolist(), knows, walked, unpaid))
+falling = torch.logspace(1, -2, 1000, dtype=torch.float64)[:, None]
+alphas = torch.cat([constant.expand(1000, -1), falling], 1)  # a column for each kind of learner
+walked = own_parts.walked(value, target, alphas)
+unpaid = own_parts.walked(own_parts.unpaid, target, falling)  # V without the pay
+bc.show(figures.two_jobs(constant.tolist(), walked, unpaid))
 
 # %% [markdown]
 # **Explain.** The one that falls. **α does two jobs.** It decides how much a learner *tries*: with a small α
-# few find the free road, most of them only once, too seldom (lesson [[values]]). And it decides how surely a
+# few find the free road, most of these only once, and all end sure of *staying*. And it decides how surely a
 # learner *takes* what is better: with α = 10 nearly all find the free road, but even one that knows the whole
-# chain leaves with probability {{ leave(10) | .2f }} (right column). With α falling from 10 nearly half do
-# both; from {{ SETTINGS.alpha_init }}, where it begins on our road, none does.
+# chain leaves with probability {{ leave(10) | .2f }}. With α falling from 10 nearly half do both.
 # <!-- claim: sure(constant()).max() < LEARNERS / 8 < 0.45 * LEARNERS < sure(falling())[0] < LEARNERS / 2 and
-#   sure(falling(begin=0.01, end=1e-5))[0] == 0 and SETTINGS.alpha_init == 0.01 -->
+#   constant().leaves[0].max() < 1 - SURE -->
 # <!-- claim: np.mean(constant().walks[0][constant().found[0]] == 1) > 0.8 -->
 # <!-- claim: sure(constant(4000)).max() < sure(falling(4000))[0] / 2 -->
 # <!-- claim: 0.5 < leave(1) < 0.55 and max(abs(leave(a) - 0.5) for a in (2, 3, 5, 7, 10)) < 0.01 -->
 #
-# **Why not all? The pay counts in the trap, too.** At first learners decide mostly there, so the trap's value
-# gets the pay first: after 100 decisions staying seems worth {{ begun().q[..., 0, 0].mean() | .0f }} on
-# average, and the free road {{ begun().q[..., 4, :].mean() | .0f }}. Where the target holds no pay (last
-# row), all do both.
+# **Why not all? The pay counts in the trap, too, and Q keeps it.** After 100 decisions staying seems worth
+# {{ begun().q[..., 0, 0].mean() | .0f }} on average, and the free road {{ begun().q[..., 4, :].mean() | .0f }}.
+# Then α falls faster than the old pay leaves Q: if α falls in three times as many decisions,
+# {{ sure(falling(3000))[0] }} of {{ LEARNERS }} end sure of leaving. Where the target holds no pay (last
+# row), all do.
 # <!-- claim: begun().decided[..., 0].mean() > 50 > 3 * begun().decided[..., 4].mean() -->
 # <!-- claim: begun().q[begun().found, 0, 0].mean() > begun().q[begun().found, 4].max(axis=-1).mean() -->
 # <!-- claim: begun(unpaid).q[..., 0, 0].mean() < begun(unpaid).q[..., 4, :].mean() / 5 -->
+#
+# **Does the pay lead out of the trap, then?** Only in part. On the chain it makes the learners act at random,
+# which leads out if α falls; in the target it makes the trap look good, and more than half do not end sure of
+# leaving. On our road one of ten agents of plain SAC escapes.
+# <!-- claim: sure(falling(value=unpaid))[0] == LEARNERS > 2 * sure(falling())[0] -->
+# <!-- claim: len(of('sac')) == 10 and escaped('sac') == 1 -->
 
 # %% [markdown]
 # SAC adjusts α like a thermostat, by a **target entropy** η ("eta"): while the policy's entropy is above η, α
@@ -326,12 +329,6 @@ explorable.thermostat()
 # **Explain.** α falls for ever, because the entropy is never negative and so always above η = −1. α can come
 # to rest if η is between 0 and log 9 = {{ math.log(9) | .3f }}; if η is larger, α rises for ever.
 # <!-- claim: SETTINGS.target_entropy < 0 -->
-#
-# **Does the pay lead out of the trap, then?** Only in part. On the chain it makes the learners act at random,
-# which leads out if α falls; in the target it makes the trap look good, and leaves more than half unsure. On
-# our road one of ten agents of plain SAC escapes.
-# <!-- claim: sure(falling(value=unpaid))[0] == LEARNERS > 2 * sure(falling())[0] -->
-# <!-- claim: len(of('sac')) == 10 and escaped('sac') == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # D of lesson [[values]] drove at random, too, but its target held the max, so its Q put leaving above
@@ -378,8 +375,8 @@ check.temperature_loss(temperature_loss)
 # 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed.
 # 3. The highest of many estimates is too high, so SAC uses the smaller of two critics.
 # 4. The actor's loss is minus the soft value, with Q held fixed.
-# 5. On the chain acting at random leads out if α falls; the pay in the target leaves more than half unsure. A
-#    thermostat can rest if η is between 0 and log n.
+# 5. On the chain acting at random leads out if α falls, but with the pay in the target more than half do not
+#    end sure of leaving. A thermostat can rest if η is between 0 and log n.
 
 # %% [markdown]
 # **Three questions to think about**

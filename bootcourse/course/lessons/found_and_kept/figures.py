@@ -104,9 +104,7 @@ def chances(cells: Mapping[str, Results], counted: Mapping[str, float]) -> Figur
         ax.text(x, 98, words, fontsize=TEXT, color=QUIET, ha=side, va="top")
     ax.set(xlim=(-0.5, len(updates) - 0.5), ylim=(0, 100))
     ax.set_xticks(at, [each.replace("1/4", "¼") for each in updates], fontsize=TEXT, color=INK)
-    ax.set_xlabel(
-        "updates for a decision; in grey: how many agents stand in a row", fontsize=TEXT, color=INK, labelpad=20
-    )
+    ax.set_xlabel("updates for a decision; grey: agents of each method", fontsize=TEXT, color=INK, labelpad=20)
     few, many = (f"{each(values):.0f}" for each in (min, max))
     title = f"The paper's four rates come in {few} to {many} % of the draws, and the bars are wide"
     chance = "; ".join(f"{u} {v:.0f} % [{a:.0f}, {b:.0f}]" for u, v, (a, b) in zip(updates, values, bars, strict=True))

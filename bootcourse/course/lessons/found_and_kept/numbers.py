@@ -95,6 +95,12 @@ def given(driver: str) -> list[Estimate]:
     return [pattern(agents) for agents in counts.by_updates(driver).values()]
 
 
+def in_percent(chance: Estimate) -> str:
+    """A chance with its bar, as the text says it."""
+    value, low, high = (f"{100 * part:.0f}" for part in chance)
+    return f"{value} % (bar: {low} to {high} %)"
+
+
 def endless_demonstrations() -> Results:
     """Ten agents with demonstrations alone, for whom β never ends."""
     return shipped_experiment("ablations")["β for ever"].of("demos")
@@ -103,18 +109,17 @@ def endless_demonstrations() -> Results:
 def explanations() -> str:
     """What could explain the paper's table, and what was seen of it, as Markdown."""
     ours, lasting = way(of_all(), "demos"), way(endless_demonstrations(), "demos")
-    chance, alone = [f"{100 * part:.0f}" for part in pattern(clocks()["2", "π̃"])], pattern(of_all())
     rows = [
         ["1. agents lose the way out",
-         f"demonstrations alone: {ours.found} of 10 find it, {ours.kept or 'none'} keeps it; where β never ends "
-         f"{lasting.found} of 10 find it, {lasting.kept} keep it",
-         "possible for this row: the paper may have stopped while agents still had demonstrations"],
+         f"demonstrations alone: of 10 agents {ours.kept or 'none'} keeps it if β ends, "
+         f"{lasting.kept} if it never ends",
+         "possible for this row, if the paper stopped before β ended"],
         ["2. single agents",
-         f"single agents of Round 1: {'never' if alone.value == 0 else 'sometimes'} the paper's four "
-         f"rates; of the ten others: in {100 * others_read():.0f} %",
+         f"single agents of Round 1 give the paper's four rates in {in_percent(pattern(of_all()))}; of the ten "
+         f"others: in {100 * others_read():.0f} %",
          "seldom, taken alone"],
         ["3. another training",
-         f"with 2 updates and π̃ they come in {chance[0]} % (bar: {chance[1]} to {chance[2]} %)",
+         f"with 2 updates and π̃ the four rates come in {in_percent(pattern(clocks()['2', 'π̃']))}",
          "possible for the rates, together with 2"],
         ["4. other traffic", "not tested", "*open*"],
     ]  # fmt: skip

@@ -46,7 +46,7 @@ def certainty() -> Explorable:
         for count in ticks(0, n, 10):
             counts.parts.append(text(counts.at(count, 0)[0], 191, f"{count:g}", "middle", QUIET, 10.5))
         below = SvgAxes(52, 232, 690, 120, (0.0, 100.0), (0.0, DRAWN))
-        heading = f"how often, at each true rate (%, drawn up to {DRAWN:g}); dashed: {RARE:g}; shaded: both above it"
+        heading = f"% of studies, at each true rate; shaded: believable, both over {RARE:g} %"
         below.scale(heading, 4)
         below.fill([low, high, high, low], [0, 0, DRAWN, DRAWN], colour, 0.15)
         below.line([0, 100], [RARE, RARE], INK, 1, "--")

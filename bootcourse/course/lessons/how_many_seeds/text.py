@@ -55,8 +55,8 @@ for seed in (0, 3):
 bc.recording(drives, height=360)
 
 # %% [markdown]
-# Had you trained the second one alone, you would write that plain SAC leaves the trap. None of our other nine
-# got out on any of the {{ roads() | , }} held-out roads.
+# Had you trained the second one alone, you would write that plain SAC leaves the trap. Our other nine got out
+# on none of the {{ roads() | , }} held-out roads.
 # <!-- claim: np.sort(of('sac').scores('success'))[:-1].max() == 0 and escaped('sac') == 1 -->
 #
 # Here are all ten, and ten more with the soft constraint, ten with demonstrations, ten with both. This is an
@@ -74,12 +74,13 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # ## Round 1: what does eight of ten say?
 #
 # With the soft constraint alone, eight of ten agents escape. If you trained thousands, the share that escapes
-# would be the *true rate*.
+# would be the *true rate*. Which true rates are believable? A rate is too low if, with it, hardly any study
+# (under 2.5 %) would see eight or more escape.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
-# > **Predict.** Suppose that many studies train ten agents each. The lower the true rate, the fewer of these
-# > studies see eight or more escape. At 50 %, as with ten fair coins,
-# > {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of them do. At which true rate do 2.5 %?
+# > **Predict.** Many studies train ten agents each. At a true rate of 50 %, as with ten fair coins, eight or
+# > more escape in {{ 100 * stats.binom.sf(7, 10, 0.5) | .1f }} % of the studies. How low must the true rate be
+# > for 2.5 %?
 
 # %%
 predict(
@@ -97,17 +98,16 @@ explorable.certainty()
 
 # %% [markdown]
 # **See.** Left of the shaded part, below 44 %, *eight or more* come in under 2.5 % of studies; right of it,
-# above 97 %, *eight or fewer* do. So eight of ten may mean any true rate between: the **exact 95 % interval**
-# of 8 out of 10.
+# above 97 %, *eight or fewer* do. The rates between are believable: the **exact 95 % interval** of 8 out of 10.
 # <!-- claim: [round(100 * each) for each in
 #   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
 # For demonstrations alone the paper prints a success of 100 %, but of our ten agents none escapes. The paper
-# says neither how many agents drove nor how often.
+# does not say how many agents drove.
 # <!-- claim: PRINTED['demos']['success'].mean == 100 and escaped('demos') == 0 -->
 # <!-- claim: fitting(*PRINTED['gail']['collision']) == [(1, EPISODES)] -->
 #
-# > **Predict.** Suppose that *one* agent made {{ EPISODES }} drives, and got out in each. Where does the exact
+# > **Predict.** Suppose that *one* agent got out in all {{ EPISODES }} drives. Where does the exact
 # > interval of the *method's* true rate begin?
 
 # %%
@@ -136,10 +136,11 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # %% [markdown]
 # ## Round 2: how many agents does it take?
 #
-# With the soft constraint alone eight of ten agents escape, with both aids seven. Do the methods differ?
-# Suppose that they are alike. Then chance alone decides how the fifteen escapes fall on the two methods. How
-# often do they fall at least as unevenly as eight to seven? That is the **p value**. *Fisher's exact test*
-# computes it, and below 0.05 we speak of a difference. Here p is {{ fisher(8, 7) | .0f }}.
+# With the soft constraint alone eight of ten agents escape, with both aids seven. Do the methods differ? If
+# they are alike, chance alone decides how the fifteen escapes fall on the two methods. How often do they fall
+# at least as unevenly as eight to seven? That is the **p value**. *Fisher's exact test* computes it, and
+# below 0.05 we speak of a difference. Here p is {{ fisher(8, 7) | .0f }}, because fifteen cannot fall more
+# evenly.
 # <!-- claim: escaped('soft') == 8 and escaped('bootstrapped') == 7 -->
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
@@ -223,9 +224,9 @@ explorable.intervals()
 
 # %% [markdown]
 # **See.** *Of 100 intervals {{ explorable.holding(3) }} contain the mean, not 95.* In
-# {{ 100 * 0.7**3 | .0f }} of 100 studies all three agents do well. Resampling knows these three alone, so the
-# interval is short and lies above the mean of all: *the shortest intervals miss.* So print the returns
-# themselves.
+# {{ 100 * 0.7**3 | .0f }} of 100 studies all three agents do well. Resampling cannot know that other agents
+# fail, so the interval is short and lies above the mean of all: *the shortest intervals miss.* So print the
+# returns themselves.
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
 #   of('bootstrapped').scores('returns').mean()).sum() == round(100 * 0.7**3) == 34)(
@@ -252,10 +253,8 @@ check.bootstrap_interval(bootstrap_interval)
 # learns the way out early. `bonus=0.0` pays no bonus for demonstrated seconds. The score is an agent's
 # success on 200 roads after 150 episodes.
 #
-# The score of a group is its **interquartile mean** (IQM): sort, leave out a quarter, rounded down, at each
-# end, and take the mean. Of five agents the middle three count. The IQM can hide a failing agent, so print
-# them all.
-# <!-- claim: iqm(np.array([0, 1, 1, 1, 1])) == 1 -->
+# The score of a group is its **interquartile mean** (IQM): sort, leave out the lowest and the highest quarter
+# (rounded down: of five agents, one each), and take the mean.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each resample
 # draws both groups anew.
@@ -303,14 +302,14 @@ bc.show(figures.nothing_changed(study))
 # <!-- claim: [one_half_has_the_lowest_four(each) for each in halves()] == [True] * 2 + [False] * 18 -->
 # <!-- claim: all(counts.leaves_out_0(effect) for low, effect in splits() if low in (0, 4)) -->
 #
-# Suppose that a comparison leaves out 0 by luck in 5 % of cases. Of twenty independent ones, at least one
-# then does so in {{ 100 * (1 - 0.95**20) | .0f }} %. This is **multiplicity**. So say beforehand which
-# comparison counts, or multiply each p by the number of comparisons (*Bonferroni*).
+# If a comparison leaves out 0 by luck in 5 % of cases, at least one of twenty independent ones does so in
+# {{ 100 * (1 - 0.95**20) | .0f }} %. This is **multiplicity**. So say beforehand which comparison counts, or
+# multiply each p by the number of comparisons (*Bonferroni*).
 #
-# With both aids 7 of 10 agents escape, with plain SAC 1 of 10, and Fisher's p is {{ fisher(7, 1) | .3f }}.
-# Four methods make six pairs: as one of six it would not count, because six times p is {{ 6 * fisher(7, 1) | .2f }}.
-# Ten others of each, trained in another way, agree: {{ escapers(others('bootstrapped'), 'bootstrapped') }}
-# escape with both aids and {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
+# With both aids 7 of 10 agents escape, with plain SAC 1 of 10, and Fisher's p is {{ fisher(7, 1) | .3f }}. As
+# one of six pairs of methods it would not count, because six times p is {{ 6 * fisher(7, 1) | .2f }}. Ten
+# others of each, trained in another way, agree: {{ escapers(others('bootstrapped'), 'bootstrapped') }} escape
+# with both aids and {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
 # <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 # <!-- claim: fisher(7, 1) < 0.05 < 6 * fisher(7, 1) -->

@@ -76,8 +76,9 @@ def returns(groups: dict[str, Results]) -> Figure:
         said.append(f"{name}: {', '.join(f'{each:.0f}' for each in reached)}")
     above.axhline(rule, color=style("rule").colour, linewidth=1, linestyle=(0, (2, 2)))
     above.text(5, rule + 3, "the rule", fontsize=SMALL, color=style("rule").colour)
+    above.axvspan(300, 500, color=style("demos").colour, alpha=0.2, linewidth=0)
+    above.text(345, rule - 20, "c = 2: the bonus", fontsize=SMALL, color=style("bootstrapped").colour)
     for ax in (above, below):
-        ax.axvspan(300, 500, color=style("demos").colour, alpha=0.2, linewidth=0)
         ax.axvline(ends_at, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
         ax.set(xlim=(0, LAST), xticks=range(0, LAST + 1, 300))
     words = {"fontsize": SMALL, "color": QUIET, "ha": "right", "va": "bottom"}
@@ -86,7 +87,7 @@ def returns(groups: dict[str, Results]) -> Figure:
     above.tick_params(labelbottom=False)
     below.set(ylim=(0, 104), yticks=(0, 50, 100))
     below.xaxis.set_major_formatter("{x:,g}")
-    below.set_xlabel("training episode; shaded: 300 to 500", fontsize=SMALL, color=INK)
+    below.set_xlabel("training episode; shaded above: 300 to 500", fontsize=SMALL, color=INK)
     label_ends(above, ends)
     words = f"Mean return near episodes 450, 900 and 1,050: {'; '.join(said)}."
     return finish(figure, title, f"{words} The rule: {rule:.0f}.")

@@ -2,11 +2,12 @@
 
 import numpy as np
 
+from bootcourse.course.lessons.demonstrations.numbers import updates_of as updates_of
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.course.lessons.learning_from_demonstrations.measures import kinds
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.research.results import Results
-from bootcourse.statistics import lost
+from bootcourse.statistics import IN_A_ROW, lost
 from tools.course.known import SETTINGS, by_rule, idle, shipped_results
 
 
@@ -73,6 +74,12 @@ def fall(name: str) -> np.ndarray:
 def losing_until(name: str, episode: int) -> int:
     """How many of the twenty agents with the soft constraint have lost the way out by this training episode."""
     return sum(int(lost(each.curves["success"][:, :episode]).sum()) for each in _with(name)[0])
+
+
+def on_it_again(name: str, episode: int) -> int:
+    """How many of `losing_until` end ahead in more than half of the last training episodes."""
+    curves = [each.curves["success"] for each in _with(name)[0]]
+    return sum(int((lost(each[:, :episode]) & (each[:, -IN_A_ROW:].mean(axis=1) > 0.5)).sum()) for each in curves)
 
 
 def bonus_needed() -> np.ndarray:

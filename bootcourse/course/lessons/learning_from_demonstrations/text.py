@@ -46,20 +46,20 @@ progress("learning_from_demonstrations")
 # Now a learner also uses the rule's drives, the **demonstrations**. The paper adds a **bonus** c to the
 # reward of each demonstrated second.
 #
-# From each second on, add up the discounted rewards: when does the rule's drive earn less than staying behind
-# the traps? **Drag** c up to 2. What changes?
+# The chart adds up the discounted rewards from each second on. When is the rule's drive worth less than
+# staying behind the traps? **Drag** c up to 2. What changes?
 
 # %%
 bc.panels.bonus_panel(c=0)
 
 # %% [markdown]
-# *In the first {{ (bonus_needed() > 0.005).sum() }} seconds the rest of the rule's drive is worth less than
+# *In the first {{ (bonus_needed() > 0).sum() }} seconds the rest of the rule's drive is worth less than
 # staying behind; a bonus of {{ bonus_needed().max() | .3f }} a second would make it worth more.* The paper's
 # c = {{ SETTINGS.bonus | g }} adds {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} to its worth, as much as
 # an accident costs.
 # <!-- claim: discounted(by_rule(), SETTINGS.gamma) < discounted(idle(), SETTINGS.gamma) -->
-# <!-- claim: SETTINGS.bonus > 30 * bonus_needed().max() and (bonus_needed()[:10] > 0).all() and
-#   (bonus_needed()[20:] < 0).all() -->
+# <!-- claim: SETTINGS.bonus > 30 * bonus_needed().max() and (bonus_needed()[:15] > 0).all() and
+#   (bonus_needed()[15:] < 0).all() -->
 # <!-- claim: math.isclose(SETTINGS.bonus / (1 - SETTINGS.gamma), -DEFAULT.reward.accident) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -137,8 +137,8 @@ own_code.load()
 own_code.compare()
 
 # %% [markdown]
-# Train two agents with the soft constraint, one with demonstrations and one without. Watch whose success
-# rises first.
+# Train two agents with the soft constraint, one with demonstrations and one without, for equally many
+# updates. Whose success rises first?
 #
 # > **Predict.** Counted in its own episodes (not the rule's {{ SETTINGS.demonstration_episodes }}), does an
 # > agent find the way out sooner with demonstrations? Do clearly more of the study's agents escape in the end?
@@ -175,13 +175,12 @@ table(measures.ESCAPE, measures.escaped())
 # <!-- claim: len(found('c = 2')) == len(found('none')) == 20 and found('c = 2').max() < found('none').min() -->
 #
 # *In this training no more of them escape in the end*: {{ in_all('none') }} do in each row. *Without the soft
-# constraint fewer do* (last column). In a shorter training with two updates for each decision and π̃'s drives
-# both turn (lesson [[found_and_kept]]): with demonstrations all ten agents escape, with the soft constraint
-# or without it, but with the soft constraint alone {{ of_the_paper('soft') }}.
+# constraint fewer do* (last column). *Another training gives another answer* (lesson [[found_and_kept]]):
+# with at least five times the updates and π̃'s drives, all ten agents with demonstrations escape, with the
+# soft constraint or without it, but {{ of_the_paper('soft') }} with the soft constraint alone.
 # <!-- claim: [of_the_paper(m) for m in ('bootstrapped', 'demos', 'soft')] == ['10 of 10', '10 of 10', '5 of 10']
 #   and fisher(10, 5) < 0.05 -->
-# <!-- claim: all(shipped_results('paper').of(m).curves['success'].shape[1] < of(m).curves['success'].shape[1] and
-#   {(a['updates'], a['envs_per_agent']) for a in shipped_results('paper').of(m).agents} == {(2, 1)} for m in
+# <!-- claim: all(updates_of(shipped_results('paper').of(m)) > 5 * updates_of(of(m)) for m in
 #   ('bootstrapped', 'demos', 'soft')) -->
 # <!-- claim: in_all('c = 2') == in_all('c = 0') == in_all('none') == '16 of 20' -->
 # <!-- claim: all(stats.mannwhitneyu(earned('none'), earned(name)).pvalue > 0.1 for name in
@@ -219,21 +218,23 @@ predicted("learning_from_demonstrations.3")
 bc.show(figures.returns(measures.paid_and_not()))
 
 # %% [markdown]
-# **See.** *From episode 300 to 500 the return with c = {{ SETTINGS.bonus | g }} stays near the rule's: the
-# bonus pays for the rule's speed.* A second at 15 m/s earns {{ second_pays(15) - second_pays(12) | .1f }}
-# more than one at 12, but a demonstrated second pays a bonus of {{ SETTINGS.bonus | g }}.
+# **See.** *The bonus holds the agents at the rule's speed.* From episode 300 to 500 the ten with c = 2 drive
+# about {{ training('c = 2', 'speed', 300, 500).mean() | .0f }} m/s and earn about what the rule earns. A
+# second at 15 m/s, not 12, pays {{ second_pays(15) - second_pays(12) | .1f }} more, a demonstrated one
+# {{ SETTINGS.bonus | g }} more.
+# <!-- claim: (abs(training('c = 2', 'speed', 300, 500) - of('rule').scores('speed').mean()) < 0.4).all() -->
 # <!-- claim: training('c = 2', 'return', 300, 600).max() < training('c = 0', 'return', 300, 600).min() -->
-# <!-- claim: abs(training('c = 2', 'speed', 300, 500).mean() - of('rule').scores('speed').mean()) < 0.3 -->
 # <!-- claim: abs(training('c = 2', 'return', 300, 500).mean() -
 #   of('rule').scores('returns').mean()) < 5 -->
 #
-# *While much of the bonus is paid, success does not fall.* By episode 900, {{ losing_until('c = 0', 900) }}
-# of twenty agents with c = 0 have lost the way out, and none with c = 2; by 1,100 about half of either kind
-# have.
+# *It also keeps them on the way out while it is paid.* By episode 900 none of twenty agents with c = 2 has
+# lost the way out, but {{ losing_until('c = 0', 900) }} with c = 0 have. As the demonstrations run out,
+# {{ losing_until('c = 2', 1100) }} with c = 2 lose it, too; most find it again.
 # <!-- claim: losing_until('c = 2', 900) == 0 and stats.fisher_exact([[0, 20], [losing_until('c = 0', 900),
 #   20 - losing_until('c = 0', 900)]]).pvalue < 0.01 -->
-# <!-- claim: len(found('c = 2')) == len(found('c = 0')) == 20 and all(8 <= losing_until(name, 1100) <= 12 for
-#   name in ('c = 2', 'c = 0')) -->
+# <!-- claim: len(found('c = 2')) == len(found('c = 0')) == 20 and losing_until('c = 2', 1100) >= 8 and
+#   losing_until('c = 0', 1100) <= losing_until('c = 0', 900) + 1 -->
+# <!-- claim: on_it_again('c = 2', 1100) > losing_until('c = 2', 1100) / 2 -->
 # <!-- claim: SETTINGS.beta_episodes == 1000 -->
 # <!-- claim: all(training('c = 2', 'success', 300, 600, which).mean() > training('c = 0', 'success', 300,
 #   600, which).mean() + 0.05 and stats.mannwhitneyu(training('c = 2', 'success', 300, 600, which),
@@ -313,9 +314,9 @@ loss = own_code.yours_or_ours("large_margin_loss", doing="Judging")
 table(measures.PUSHED, measures.pushed(loss, yours[0], by_rule, seconds=20))
 
 # %% [markdown]
-# **See.** *It pushes where this action leads by less than 1.* Of the study's agents with this loss in place
-# of the bonus, {{ in_all('margin') }} escape with the soft constraint and {{ alone('margin') }} without it,
-# as with c = 0 and no loss (Round 2).
+# **See.** *It pushes where this action leads by less than 1.* The study's agents with this loss in place of
+# the bonus escape as often as its agents with neither: {{ in_all('margin') }} with the soft constraint,
+# {{ alone('margin') }} without it.
 # <!-- claim: settings_for('margin_soft').bonus == settings_for('margin').bonus == 0 and
 #   settings_for('margin_soft').paper_q_filter and settings_for('margin').paper_q_filter and
 #   settings_for('margin_soft').xi_multiplier == settings_for('soft').xi_multiplier > 0 -->
@@ -342,8 +343,8 @@ compare_predictions(
 #    policy only through the critics' Q.
 # 2. With demonstrations these agents found the way out after fewer episodes of their own, but the rule drove
 #    more than they saved. Whether more escape depends on the training (lesson [[found_and_kept]]).
-# 3. The bonus pays for the rule's speed, too: from episode 300 to 500 agents with c =
-#    {{ SETTINGS.bonus | g }} earned about what the rule earns.
+# 3. The bonus held agents at the rule's speed: from episode 300 to 500 those with c = 2 earned about what the
+#    rule earns.
 # 4. The paper's filter drops the margin loss where another action has the largest Q. The loss is not shown to
 #    help.
 

@@ -119,13 +119,14 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
     one, the drive's first.
     """
     values, true, hurt = judged(agent, model, drive)
-    taken = values.argmax(1)
-    misled = (hurt[np.arange(len(taken)), taken] > 0) & (hurt == 0).any(1)
+    chosen = values.argmax(1)
+    misled = (hurt[np.arange(len(chosen)), chosen] > 0) & (hurt == 0).any(1)
     now = int(misled.argmax())
-    title = f"The model promises {values[now, taken[now]]:.0f}; the true drive ends in an accident"
+    figure, ends, best, alt_parts = new_figure(4.55), hurt[now], chosen[now], []
+    how = "leaves the road" if ends[best] == Accident.ROAD_DEPARTURE else "ends in an accident"
+    title = f"The model promises {values[now, best]:.0f}; on the true road this action {how}"
     if not misled.any():
         title = "The model's best of nine ends well"
-    figure, ends, best, alt_parts = new_figure(4.55), hurt[now], taken[now], []
     ax, at = axes_at(figure, 1.35, 0.8, 4.0, 2.95), np.arange(N_ACTIONS)
     colours = [ALARM if end else style("bootstrapped").colour for end in ends]
     ax.barh(at - 0.19, values[now], 0.34, facecolor="white", edgecolor=INK, linewidth=0.9)
@@ -136,8 +137,8 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
         for x, words in zip(COLUMNS, pair, strict=True):
             ax.text(x, row, words, va="center", ha="right", fontsize=TEXT, **look)
         if row == best:
-            ax.text(COLUMNS[1] + 5, row, "← taken", va="center", fontsize=TEXT, **look)
-        alt_parts.append(f"{name}: {' and '.join(pair)}{', taken' if row == best else ''}")
+            ax.text(COLUMNS[1] + 5, row, "← chosen", va="center", fontsize=TEXT, **look)
+        alt_parts.append(f"{name}: {' and '.join(pair)}{', chosen' if row == best else ''}")
     for x, words in zip(COLUMNS, ("model", "true road"), strict=True):
         ax.text(x, -0.75, words, va="center", ha="right", fontsize=SMALL, color=QUIET)
     plain_axes(ax, "", grid="x")

@@ -87,9 +87,9 @@ explorable.futures(drive, agent.as_policy())
 # $$ \hat Q(s, a) = \sum_{k=0}^{h-1} \gamma^k r_k + \gamma^h\, W(v_h) $$
 #
 # The **horizon** h is the number of decisions in the rollout, the first included; here γ = 1. An accident
-# ends the sum. A rollout without one also gets W: what a whole episode on an empty road would earn, from the
-# rollout's last speed on ({{ worths().min() | .0f }} to {{ worths().max() | .0f }}). So a rollout without an
-# accident is worth more than one with.
+# ends the sum. Without an accident a rollout also gets W: what an episode on an empty road earns that begins
+# at the rollout's last speed ({{ worths().min() | .0f }} to {{ worths().max() | .0f }}). So a rollout without
+# an accident is worth more than one with.
 #
 # **Exercise (18 min, ●●●).** Write $\hat Q$ for all nine actions and many roads at once. You have
 # - `imagined_road.step(cars, actions)`: one decision. It returns the next cars, the rewards, and whether this
@@ -142,14 +142,14 @@ bc.recording(beginning(again, 40), height=360, futures=agent.as_policy())
 # %% [markdown]
 # ## Round 2: an agent that is stuck
 #
-# Nine of the study's ten plain SAC agents stay behind the traps. At {{ len(trapped_futures()) | , }} of their
-# decisions there we imagined all nine futures. In
-# {{ 'none' if not trapped_futures().any() else trapped_futures().sum() }} of them is the car ahead of trap 1
+# Nine of the study's ten plain SAC agents stay behind the traps. We imagined all nine futures at
+# {{ len(trapped_futures()) | , }} of their decisions there. In
+# {{ 'no future' if not trapped_futures().any() else trapped_futures().sum() }} is the car ahead of trap 1
 # after ten seconds.
 # <!-- claim: trapped_futures().shape[1] == 9 -->
 # <!-- claim: (lambda s: (s < 0.01).sum() == 9 and len(s) == 10)(outs('sac', 'alone')) -->
 #
-# > **Predict.** Now the look-ahead changes *every* decision. Do agents get out, and
+# > **Predict.** Now the look-ahead chooses at *every* decision. Do agents get out, and
 # > do any crash more often than alone?
 
 # %%
@@ -168,7 +168,9 @@ bc.show(figures.each_agent(study, "sac"))
 
 # %% [markdown]
 # **See.** Of the nine agents {{ led_out(outs('sac')) }} now get out in more than a tenth of their drives, but
-# {{ less_safe('sac').sum() }} crash *more* often than alone.
+# {{ less_safe('sac').sum() }} crash *more* often than alone: {{ more_accidents('sac', 'rollouts') }} times in
+# 1,000 drives, where it was {{ more_accidents('sac', 'alone') }}.
+# <!-- claim: less_safe('sac').sum() == 4 -->
 # <!-- claim: (outs('sac', 'alone')[less_safe('sac')] < 0.01).all() and less_safe('sac').any() -->
 # <!-- claim: 0 < led_out(outs('sac')) < 9 -->
 #
@@ -179,14 +181,14 @@ bc.show(figures.each_agent(study, "sac"))
 #
 # {{ with_and_without_w() }}
 #
-# So W helps some out, and leads at least one into accidents: it has {{ worst_with_w()[0] }} of the
-# {{ worst_with_w()[1] }} with W, and none without.
+# So W helps some agents out, but leads at least one into accidents: this one has {{ worst_with_w()[0] }} of
+# the {{ worst_with_w()[1] }} with W, and none without.
 # <!-- claim: (lambda w: w[0][0] > 5 * w[1][0] and w[0][1] > w[1][1])(rows_of_w()) -->
 # <!-- claim: worst_with_w()[0] > 50 and worst_with_w()[2:] == (0, 100) -->
 # <!-- claim: set(each('sac', 'rollouts', 'roads')) == {1000} -->
 #
-# Rollouts to the end of the episode need no W. On the true road, with γ = 1, a look-ahead by them earns at
-# least what the base policy earns: **policy improvement**.
+# With exact rollouts to the end, and no W, the look-ahead never earns less than the base policy: **policy
+# improvement**.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # *The proof of policy improvement*, where neither road nor policy draws. Let π be the base, T the end of the
@@ -252,16 +254,16 @@ bc.show(figures.wrong_models(study))
 # <!-- claim: per_thousand('ppo_cloned', 'shield', LATE) > 990 and len(WRONG) == 6 and
 #   len(each('ppo_cloned', 'alone', 'roads')) == 10 -->
 #
-# **Explain.** Is it the lost second? The car now imagines the late road moved on by a second, with an action
-# of its own:
+# **Explain.** At its second decision the car still imagines the road of its first, so it repeats its action:
+# if it steered left, it steers left again. Is the lost second to blame? We move the late road on by this
+# second:
 #
 # | our car's action in that second | drives that crash |
 # |---|---|
 # | keep straight | {{ moved_on(False).sum() }} of {{ len(moved_on(False)) }} |
 # | its own last action | {{ moved_on(True).sum() }} of {{ len(moved_on(True)) }} |
 #
-# So it is not the lost second but the forgotten action: a car that imagines the old road does not see that it
-# has already steered.
+# It is not the lost second, but the forgotten action.
 # <!-- claim: moved_on(False).all() and not moved_on(True).any() -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -307,8 +309,8 @@ bc.show(figures.learned(shipped_experiment("learned-model"), study))
 
 # %% [markdown]
 # **See.** The agent's own drives hold the most decisions, but in the model that they teach every drive with
-# the look-ahead crashes. Random actions help; the look-ahead's own drives help most on average. But in each
-# row {{ fewest_worse() }} or more of the ten agents crash more than alone.
+# the look-ahead crashes. The look-ahead's own drives help most on average. But in each row
+# {{ fewest_worse() }} or more of the ten agents crash more than alone.
 # <!-- claim: learning().measured['rows'].mean() > 2 * max(learned_rows(share).mean() for share in
 #   (None, *learned_model.RANDOM)) -->
 # <!-- claim: learned_without() == 1000 and in_last_model().mean() < 0.6 *

@@ -68,7 +68,9 @@ def believed(updates: Sequence[int], values: Mapping[str, np.ndarray], bound: fl
     marks = {f"no drive is worth more than {bound:.0f}": bound}
     ends = [f"{words}: {each[:, -1].min():.1f} to {each[:, -1].max():.1f}" for words, each in values.items()]
     alt = f"At the end, {'; '.join(ends)}."
-    label = "mean Q of the rule's actions; a line for each critic"
+    apart = max(np.ptp(each, axis=0).max() for each in values.values())
+    label = f"mean Q of the rule's actions: {len(values[AGENTS[1]])} lines for each agent"
+    label += ", nearly one on the other" if apart < bound / 8 else ""
     return charts.lines(updates, values, title, "update", label, looks=looks, marks=marks, alt=alt)
 
 

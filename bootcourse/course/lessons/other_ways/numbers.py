@@ -137,6 +137,12 @@ def below_all_others(method: str, spent: float, count: str) -> bool:
     return differ and method == min(scores, key=lambda one: scores[one].value)
 
 
+def share_of_first(method: str, episodes: int = 80) -> float:
+    """The decisions of an agent's first episodes, in % of its training until `FIRST`: the median over the agents."""
+    decisions = later(method).curves["decisions"][:, :episodes].astype(float).sum(axis=1)
+    return float(100 * np.median(decisions) / FIRST)
+
+
 def left_of(method: str) -> float:
     """The smallest share that a learning curve over the decisions keeps of its best until then."""
     curve = figures.learning_curve(later(method), measures.DECISIONS)

@@ -18,12 +18,12 @@ from bootcourse.methods import display_name
 from bootcourse.policies import Policy
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 
-METHODS = ("bc", "cql", "cql_sac", "gail", "sac", "bootstrapped")
+METHODS = ("bc", "cql", "gail", "sac", "bootstrapped")
 SECONDS = 40  # of a drive: what comes later adds less than 0.01 to its worth at γ = 0.8
 
 
 def agents(which: int = 0) -> dict[str, Policy]:
-    """A trained agent of each of six methods, by the method's name: the first, or another."""
+    """A trained agent of each of five methods, by the method's name: the first, or another."""
     return {display_name(method): shipped_agents(method)[which].as_policy() for method in METHODS}
 
 
@@ -112,5 +112,5 @@ def worth(policy: Policy, roads: Sequence[int], gamma: float) -> float:
 
 
 def by_set(values: Sequence[float]) -> np.ndarray:
-    """A number of each agent, one set of six after the other, as (sets, agents)."""
+    """A number of each agent, one set of five after the other, as (sets, agents)."""
     return np.reshape(values, (-1, len(METHODS)))

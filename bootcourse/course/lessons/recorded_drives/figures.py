@@ -26,8 +26,8 @@ from bootcourse.statistics import ESCAPES
 ROAD = 9  # of the held-out ones: chosen for GAIL's drive
 WITH = "with CQL's term"
 LABELS = {  # where a method's name stands in `estimates`: x, y, side
-    "bc": (99, 0.1, "right"), "cql": (99, -0.2, "right"), "cql_sac": (60, 0.3, "left"),
-    "gail": (39, -0.35, "left"), "sac": (21, 1.25, "left"), "bootstrapped": (26, -0.57, "left"),
+    "bc": (99, 0.1, "right"), "cql": (99, -0.2, "right"), "gail": (39, -0.35, "left"),
+    "sac": (21, 1.25, "left"), "bootstrapped": (26, -0.57, "left"),
 }  # fmt: skip
 METHODS_BY_NAME = {display_name(method): method for method in choosing.METHODS}
 
@@ -121,47 +121,57 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
     return finish(figure, title, f"A grid of nine actions each. {said}.")
 
 
-def estimates(names: Sequence[str], alike: np.ndarray, estimated: np.ndarray, truth: np.ndarray) -> Figure:
-    """How far estimates are off, for sets of agents, (sets, agents); alike: how often each acts as the data do."""
-    off = estimated - truth
+def estimates(names: Sequence[str], alike: np.ndarray, fits: Sequence[np.ndarray], truth: np.ndarray) -> Figure:
+    """How far the estimates of two fits are off, for sets of agents, (sets, agents); alike: how often each acts as the
+    data do.
+    """
+    off = np.stack(fits) - truth
     title = "How far is each estimate off?"
-    if abs(off[alike > 0.8]).max() < 0.1 < 1 < abs(off[alike < 0.4]).max():
-        title = "Estimates are nearest where an agent acts as the data do"
-    label = "agrees with the rule in so many of the recorded seconds"
-    figure, ax = one_axes(3.7, title, label, "estimate minus truth (above 0: too high)")
+    if abs(off[:, alike > 0.8]).max() < 0.1 < 0.4 < abs(off[:, alike < 0.4]).max():
+        title = "Where an agent acts as the data do, both fits are near the truth"
+    label = "share of the recorded seconds in which an agent would do what the rule did"
+    figure, ax = one_axes(3.7, title, label, "estimate minus truth (above 0: too high); ● first fit, ○ second fit")
     ax.axhline(0, color=INK, linewidth=1)
     said = []
     for i, name in enumerate(names):
         look = style(METHODS_BY_NAME[name])
-        x = 100 * alike[:, i]
-        ax.scatter(x, off[:, i], s=34, color=look.colour, zorder=3)
+        x, mine = 100 * alike[:, i], off[:, :, i]
+        ax.vlines(x, *mine, color=look.colour, linewidth=1, zorder=2)
+        for each, fill in zip(mine, (look.colour, "white"), strict=True):
+            ax.scatter(x, each, s=34, color=fill, edgecolors=look.colour, linewidths=1.3, zorder=3)
         dx, dy, side = LABELS[METHODS_BY_NAME[name]]
         ax.text(dx, dy, name, fontsize=TEXT, color=look.colour, ha=side)
-        said.append(f"{name}: {x.min():.0f}–{x.max():.0f} %, off {off[:, i].min():+.2f} to {off[:, i].max():+.2f}")
+        apart = abs(mine[0] - mine[1]).max()
+        said.append(
+            f"{name}: {x.min():.0f}–{x.max():.0f} %, off {mine.min():+.2f} to {mine.max():+.2f}, two fits up to "
+            f"{apart:.2f} apart"
+        )
     ax.set_xlim(0, 100)
     ax.xaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")
-    return finish(figure, title, f"A dot for each agent: {'; '.join(said)}.")
+    return finish(figure, title, f"For each agent a dot for either fit, joined by a line: {'; '.join(said)}.")
 
 
-def chosen(study: Results, guesses: Sequence[float], truth: Sequence[float]) -> Markdown:
-    """A table, a row for each set of six agents: whom the largest estimate takes, and what is wrong with that choice.
+def chosen(study: Results, guesses: Sequence[Sequence[float]], truth: Sequence[float]) -> Markdown:
+    """A table, a row for each set of agents: whom the first fit takes, what is wrong with it, whom the second takes.
 
-    guesses, truth: of each agent, one set after the other.
+    guesses: of two fits; these and truth: of each agent, one set after the other.
     """
     score = {
         name: np.transpose([study.of(method).scores(name) for method in choosing.METHODS])
         for name in ("returns", "success", "accident")
     }
-    guessed, worth, rows = choosing.by_set(guesses), choosing.by_set(truth), []
-    for place, (guess, truly) in enumerate(zip(guessed, worth, strict=True)):
-        get, taken = score["returns"][place], guess.argmax()
-        name = display_name(choosing.METHODS[taken])
+    first, second = map(choosing.by_set, guesses)
+    rows = []
+    for place, (guess, again, truly) in enumerate(zip(first, second, choosing.by_set(truth), strict=True)):
+        get, taken, then = score["returns"][place], guess.argmax(), again.argmax()
         so = "right: the highest return"
         if taken != get.argmax():
             does = _does(score["success"][place, taken], score["accident"][place, taken])
-            so = does + _why(guess - truly, taken, truly.argmax(), get)
-        rows.append([place + 1, f"{name}, {guess[taken]:.2f}", f"{truly[taken]:.2f}", f"{get[taken]:.0f}", so])
-    return table(["set", "largest estimate", "its true worth", "its return", "so"], rows)
+            so = _why(does, guess - truly, taken, truly.argmax(), get)
+        names = [display_name(choosing.METHODS[each]) for each in (taken, then)]
+        other = f"{names[1]}{': right' if then == get.argmax() else ''}"
+        rows.append([place + 1, f"{names[0]}, {guess[taken]:.2f}", f"{truly[taken]:.2f}", so, other])
+    return table(["set", "largest estimate", "its true worth", "so", "second fit takes"], rows)
 
 
 def _does(success: float, accident: float) -> str:
@@ -171,13 +181,17 @@ def _does(success: float, accident: float) -> str:
     return "gets out" if success > 0.5 else "stays behind trap 1"
 
 
-def _why(off: np.ndarray, taken: int, best: int, returns: np.ndarray) -> str:
+def _why(does: str, off: np.ndarray, taken: int, best: int, returns: np.ndarray) -> str:
     """Why this agent was taken: the best's estimate was too low, or its own too high; and who earns most."""
     most = returns.argmax()
-    earns = f"; {display_name(choosing.METHODS[most])} returns {returns[most]:.0f}"
+    earns = f"the highest return, {returns[most]:.0f}, is {display_name(choosing.METHODS[most])}'s"
     if taken == best:
-        return f", but is worth most{earns}"
+        return f"worth most, but {does}; {earns}"
     if off[taken] > -off[best]:
-        return f"; estimated {off[taken]:.1f} too high{earns}"
+        return f"{does}, and was estimated {off[taken]:.1f} too high; {earns}"
     low = f"estimated {-off[best]:.1f} too low"
-    return f"{earns}, but was {low}" if best == most else f"; {display_name(choosing.METHODS[best])} was {low}{earns}"
+    return (
+        f"{does}; {earns}, {low}"
+        if best == most
+        else f"{does}; {display_name(choosing.METHODS[best])} was {low}; {earns}"
+    )

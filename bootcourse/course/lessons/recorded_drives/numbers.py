@@ -19,12 +19,12 @@ from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import of, shipped_experiment
 
-SETS = 5  # of six agents, one of each of `choosing.METHODS`
+SETS = 5  # of five agents, one of each of `choosing.METHODS`
 
 
 @cache
 def agents() -> list[Policy]:
-    """The notebook's 30, one set after the other."""
+    """The notebook's 25, one set after the other."""
     return [agent for which in range(SETS) for agent in choosing.agents(which).values()]
 
 
@@ -36,7 +36,7 @@ def overlaps() -> np.ndarray:
 
 @cache
 def estimated() -> np.ndarray:
-    """What each is worth by two fits, the first the notebook's, (fits, sets, agents).
+    """What each is worth by the notebook's two fits, (fits, sets, agents).
 
     Which agent has the largest estimate differs between the two: the text says only what holds for both.
     """

@@ -14,7 +14,7 @@ from bootcourse.methods import style
 from bootcourse.plots.figure import SMALL, axes_at, finish, new_figure, one_axes, plain_axes
 from bootcourse.research.report import rule_results
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import IN_A_ROW, found_after, rolling_means
+from bootcourse.statistics import IN_A_ROW, found_after, lost, rolling_means
 
 PENALTY = "with the value penalty", "without it"
 
@@ -43,7 +43,8 @@ FADING = "ξ falls towards 0"  # the study's own agents with the soft constraint
 
 FLOOR = "ξ falls to 0.1"
 
-FAULTS = "slow (return {:.0f}, the rule {:.0f})", "not found by all", "lost again"  # of the kinds of `courses`
+# of the kinds of `courses`
+FAULTS = "slow (return {0:.0f}, the rule {1:.0f})", "not found by all", "lost by {2} of {3}, at times"
 PULLS = "strong throughout", "weak throughout", "strong, then none", "strong, then weak"  # of those of `twenty`
 
 
@@ -60,7 +61,7 @@ def courses(kinds: Sequence[str]) -> Figure:
         left = 0.5 + 2.1 * column
         above, below = axes_at(figure, left, 0.95, 1.9, 0.75), axes_at(figure, left, 2.15, 1.9, 1.7)
         earned = changed[kind].of("soft").scores("returns").mean()
-        fault = fault.format(earned, rule)
+        fault = fault.format(earned, rule, lost(success).sum(), len(success))
         plain_axes(above, f"{kind}:\n{fault}")
         xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
         until = np.argmax(xi <= 0.101) if kind == FADING else len(xi)

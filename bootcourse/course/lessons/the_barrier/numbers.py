@@ -10,9 +10,8 @@ from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.policies import PlanPolicy, random_policy
 from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
 from bootcourse.research.results import Results
-from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
-from tools.course.known import ROAD, discounted, idle, shipped_experiment
+from tools.course.known import ROAD, shipped_experiment
 
 
 @cache
@@ -94,21 +93,6 @@ def step_to_the_left() -> attempts.Outcome:
 def one_acceleration() -> attempts.Outcome:
     """What comes of one acceleration mid-lane, on 100 roads."""
     return attempts.drive(PlanPolicy([attempts.ACCELERATE]), held_out_seeds(7, 100), easier.MidLaneStart)
-
-
-@cache
-def only_accelerate() -> int:
-    """How many agents with a start in the free lane alone earn on each road what accelerating for ever earns there."""
-    agents = easy(MIDDLE).episodes("returns")
-    plan = PlanPolicy([attempts.ACCELERATE] * DEFAULT.clock.decisions)
-    drives = attempts.drive(plan, held_out_seeds(1, agents.shape[1]), easier.MidLaneStart)
-    return int(np.isclose(agents, drives.values(1.0), atol=1e-3).all(axis=1).sum())
-
-
-def one_that_pays(gamma: float) -> float:
-    """The chance that one of 400 random drives gets out and is worth more than staying."""
-    pays = (lucky(gamma) > discounted(idle(), gamma)).sum() / 5000
-    return 1 - (1 - pays) ** 400
 
 
 @cache

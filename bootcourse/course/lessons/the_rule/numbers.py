@@ -79,13 +79,6 @@ def gap(drive: Rollout, second: int) -> float:
     return trap - ego - drive.scenario.car.length
 
 
-def speeds_up_behind() -> np.ndarray:
-    """How often each drive that stays behind with t_safe = 2 s sees nobody ahead, after it saw somebody."""
-    reasons, _, _, episodes = decided(20.0, t_safe=2.0)
-    free = reasons[:, ~episodes.success & (episodes.accident == 0)] == Reason.FREE
-    return (free[1:] & ~free[:-1]).sum(axis=0)
-
-
 @cache
 def change() -> tuple[float, float, int]:
     """With a sight of 30 m: how far ahead trap 1 is (m) when the first lane change begins, at least and at most over

@@ -135,13 +135,13 @@ def timed(decide: Callable[[np.ndarray], np.ndarray]) -> tuple[Episodes, np.ndar
 def ranked(rules: Mapping[str, Mapping[str, float]]):
     """A table of the rules with these numbers, the highest return first, with the time until they are ahead.
 
-    lane_sight: the lane's sight, if another.
+    speed_sight, lane_sight: the sight for the target speed, and that for the lane if it is another.
     """
     rows = []
     for name, numbers in rules.items():
-        others = {key: value for key, value in numbers.items() if key != "lane_sight"}
-        sight = others.pop("sight", DEFAULT.sight.distance)
-        drives, times = timed(with_two_sights(sight, numbers.get("lane_sight", sight), **others))
+        others = dict(numbers)
+        for_speed = others.pop("speed_sight", DEFAULT.sight.distance)
+        drives, times = timed(with_two_sights(for_speed, others.pop("lane_sight", for_speed), **others))
         after = f"{np.median(times):.0f} s" if len(times) else "–"
         counts = f"{drives.success.sum()}", f"{(drives.accident > 0).sum()}"
         rows.append((drives.returns.mean(), [name, f"{drives.returns.mean():.1f}", after, *counts]))

@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons.the_barrier.attempts import drive
+from bootcourse.course.lessons.the_barrier.attempts import Outcome, drive
 from bootcourse.course.lessons.the_barrier.explorable import by_plan
 from bootcourse.course.lessons.the_trap.driving import all_plans, on_road
 from bootcourse.course.lessons.the_trap.exercises import bearable_risk
@@ -13,8 +13,8 @@ from bootcourse.course.lessons.the_trap.time_step import unhurt
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.policies import plan_policy
-from bootcourse.road.formulas import bicycle_step
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import by_rule, discounted, escaped_with, idle, shipped_results
@@ -22,22 +22,6 @@ from tools.course.known import by_rule, discounted, escaped_with, idle, shipped_
 PLAN = [*RIGHT_FIRST, ("accelerate straight", 5)]  # it looks at nothing
 BLIND = plan_policy(PLAN)
 FARTHER = 0.9, 0.95, 0.99  # γ of the study's agents that look farther ahead
-
-
-@cache
-def into_left_lane() -> np.ndarray:
-    """Which of all plans end in the left lane, parallel to the road, and never leave it: (6561,) bool."""
-    road, plans = DEFAULT.road, all_plans()
-    half, right = road.lane_width / 2, road.lane_width * (road.lanes - 1)
-    found = (plans == 3).sum(axis=1) == (plans == 5).sum(axis=1)
-    for i in np.flatnonzero(found):
-        state, places = (0.0, right, 0.0, DEFAULT.ego.speed), []
-        for action in np.repeat(plans[i], DEFAULT.clock.steps):
-            steering = (int(action) - 4) * DEFAULT.ego.steering
-            state = bicycle_step(*state, 0.0, steering, DEFAULT.car.length, DEFAULT.clock.dt)
-            places.append(state[1])
-        found[i] = -half <= min(places) and max(places) <= right + half and abs(places[-1]) <= half
-    return found
 
 
 @cache
@@ -53,7 +37,7 @@ def blind_plan():
 
 
 @cache
-def on_ten():
+def on_ten() -> Rollout:
     """That plan on road 10."""
     return record(BLIND, [10])[0]
 
@@ -73,10 +57,15 @@ def worth_of_plan(gamma: float = 0.8) -> float:
 
 
 @cache
-def helped_worth(gamma: float = 0.8) -> list[float]:
-    """What driving is worth at its start to each agent with the rule's help, on 150 held-out roads, from the least."""
-    policies = [agent.as_policy() for agent in shipped_agents("bootstrapped")]
-    return sorted(float(drive(policy, held_out_seeds(1, 150)).values(gamma).mean()) for policy in policies)
+def helped() -> Outcome:
+    """The γ panel's agent with the rule's help on the study's 1,000 held-out roads."""
+    return drive(shipped_agents("bootstrapped")[2].as_policy(), held_out_seeds(1, 1000))
+
+
+@cache
+def helped_on_ten() -> Rollout:
+    """That agent on road 10."""
+    return record(shipped_agents("bootstrapped")[2].as_policy(), [10])[0]
 
 
 def crashed_early() -> np.ndarray:
@@ -84,11 +73,10 @@ def crashed_early() -> np.ndarray:
     return by_plan().accident & (by_plan().lasted <= 10)
 
 
-def borne(gamma: float) -> float:
-    """The risk of an early crash that the plan bears on road 10, if the crash pays as the last figure's does."""
-    rewards = on_ten().rewards
-    crash = gamma ** np.arange(5) @ [*rewards[:4], DEFAULT.reward.accident]
-    return bearable_risk.solution(discounted(idle(), gamma), discounted(on_ten(), gamma), crash)
+def borne(gamma: float, way: Rollout) -> float:
+    """The risk of an early crash that a way out on road 10 bears, if the crash pays as the last figure's does."""
+    crash = gamma ** np.arange(5) @ [*on_ten().rewards[:4], DEFAULT.reward.accident]
+    return bearable_risk.solution(discounted(idle(), gamma), discounted(way, gamma), crash)
 
 
 @cache

@@ -34,6 +34,7 @@ from bootcourse.course import (
     table,
 )
 from bootcourse.course.lessons.the_trap import diagrams, driving, explorable, figures, time_step
+from bootcourse.course.shipped import shipped_agents
 from bootcourse.road import formulas
 
 progress("the_trap")
@@ -105,16 +106,13 @@ bc.show(figures.nine_actions(decoded, seconds=2))
 # %% [markdown]
 # A drive of at most {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s is an **episode**. An
 # **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive that ends ahead of
-# trap 1 *gets out* and is a **success**, even if an accident then ends it. Without an accident it gets out
-# *unhurt*.
+# trap 1 *gets out* and is a **success**. Without an accident it gets out *unhurt*.
 # <!-- claim: len(KINDS) == 3 -->
 #
 # A **plan** is a list of actions; after the last one the car goes straight on. Take the {{ 3 ** 8 | , }}
 # plans that steer left, straight or right in each of eight seconds, and then accelerate for five.
 #
-# > **Predict.** On an empty road {{ into_left_lane().sum() }} of these plans would end in the left lane, parallel
-# > to it, without leaving the road. On road 7 they must also miss trap 2. How many get out unhurt there?
-# <!-- claim: not (on_road(7)(all_plans()) & ~into_left_lane()).any() -->
+# > **Predict.** How many of these plans get out unhurt on road 7?
 
 # %%
 choices = ["1", "about 10", "about 100", "about 1,000"]
@@ -289,7 +287,8 @@ live.show(training)
 # In our study {{ len(of('sac')) }} agents of each kind learned for
 # {{ of('sac').curves['success'].shape[1] | , }} drives each. Agents of one kind differ only in their
 # **seed**, from which all chance in training is drawn. Then each agent drove {{ roads() | , }} **held-out**
-# roads, not used in training. It **escapes** if it gets out on at least {{ 100 * ESCAPES | .0f }} % of these.
+# roads, not used in training. It **escapes** if it gets out on at least {{ 100 * ESCAPES | .0f }} % of these,
+# hurt or unhurt.
 # <!-- claim: len(of('sac')) == len(of('bootstrapped')) -->
 # <!-- claim: of('sac').curves['success'].shape == of('bootstrapped').curves['success'].shape -->
 #
@@ -357,9 +356,9 @@ explorable.discount()
 # <!-- claim: all(discounted(by_rule(), percent / 100) < discounted(idle(), percent / 100) for percent
 #   in range(50, round(100 * pays_from()))) -->
 #
-# **Exercise (8 min, ●●○).** A driver that does nothing earns the return `stay`. An attempt to get out ends in
-# an accident with probability q and then returns `crash`; otherwise it returns `out`, which is more than
-# `crash`. What is the largest q at which an attempt returns, on average, at least as much as staying?
+# **Exercise (8 min, ●●○).** Doing nothing returns `stay`. An attempt to get out returns `crash` with
+# probability q and `out` otherwise (`out` is more than `crash`). Up to which q does an attempt return, on
+# average, at least `stay`?
 
 
 # %%
@@ -371,38 +370,46 @@ def bearable_risk(stay, out, crash):
 check.bearable_risk(bearable_risk)
 
 # %% [markdown]
-# Your `reward` and `bearable_risk` draw the next picture. An attempt that goes well is the rule's drive, or
-# the blind plan's, on road {{ ROAD }}. One that goes wrong crashes *early*, in second 5, as most crashes of
-# the blind plan do.
+# Your `reward` and `bearable_risk` draw the next picture. If an attempt goes well, it is a drive of the panel
+# on road {{ ROAD }}: the rule's, the blind plan's or the agent's. If not, it crashes *early*, in second 5,
+# where most crashes of the blind plan happen.
 # <!-- claim: set(by_plan().lasted[crashed_early()]) == {5} and crashed_early().sum() >
 #   by_plan().accident.sum() / 2 -->
 
 # %%
 bearable = own_code.yours_or_ours("bearable_risk", doing="Judging attempts")
 quick = bc.record(bc.plan_policy(blind_plan), [ROAD])[0]
-stay, slow, fast = (driving.paid(pay, drive) for drive in (idle, by_rule, quick))
+helped = bc.record(shipped_agents("bootstrapped")[2].as_policy(), [ROAD])[0]
+stay, slow, fast, best = (driving.paid(pay, drive) for drive in (idle, by_rule, quick, helped))
 crash = [*fast[:4], -10]
-early = np.mean(hurt & (blind.distance < 50))  # crashes within 50 m, which are those in second 5
+agents = study.of("bootstrapped")
+# on each road, the plan's and the agent's:
+crashes = np.array([hurt, agents.episodes("accident")[2] > 0])
+distance = np.array([blind.distance, agents.episodes("distance")[2]])
+early = np.mean(crashes & (distance < 50), axis=1)  # within 50 m, which is by second 5
 gammas, risks = np.linspace(0.7, 1, 61), []
 for gamma in gammas:
-    worth = [gamma ** np.arange(len(each)) @ each for each in (stay, slow, fast, crash)]
-    risks.append([bearable(worth[0], way, worth[3]) for way in worth[1:3]])
+    worth = [gamma ** np.arange(len(each)) @ each for each in (stay, slow, fast, best, crash)]
+    risks.append([bearable(worth[0], way, worth[4]) for way in worth[1:4]])
 bc.show(figures.bearable_risks(gammas, np.array(risks), early))
 
 # %% [markdown]
-# **Explain.** At γ = 0.8 neither *the rule's* nor *the blind plan's* way pays. The rule's is worth less than
-# staying even without any risk. The blind plan's would pay if at most {{ 100 * borne(0.8) | .0f }} % of the
-# attempts crashed early, but {{ 100 * crashed_early().mean() | .0f }} % do (dashed).
+# **Explain.** At γ = 0.8 the rule's way is worth less than staying even without any risk. The blind plan's
+# would pay if at most {{ 100 * borne(0.8, on_ten()) | .0f }} % of the attempts crashed early, but
+# {{ 100 * crashed_early().mean() | .0f }} % do. The agent's way pays: it bears
+# {{ 100 * borne(0.8, helped_on_ten()) | .0f }} %, and the agent crashes on only
+# {{ 100 * helped().accident.mean() | .1f }} % of its drives, none of them so early. So γ is not why so many
+# stay: **a better way pays at γ = 0.8, too.**
 # <!-- claim: discounted(idle(), 0.8) > max(worth_of_plan(), discounted(by_rule(), 0.8)) -->
-# <!-- claim: borne(0.8) < crashed_early().mean() < borne(0.9) -->
+# <!-- claim: borne(0.8, on_ten()) < crashed_early().mean() < borne(0.9, on_ten()) -->
 # <!-- claim: crashed_early().mean() == np.mean((blind_plan().accident > 0) & (blind_plan().distance < 50)) -->
+# <!-- claim: helped().accident.mean() == of('bootstrapped').scores('accident')[2] < borne(0.8, helped_on_ten()) -->
+# <!-- claim: helped().lasted[helped().accident].min() > 5 -->
+# <!-- claim: helped().values(0.8).mean() > 1.2 > discounted(idle(), 0.8) -->
 #
-# So is γ why so many stay? No. **A better way pays at γ = 0.8, too**: the drives of four of our five saved
-# agents with help are worth about {{ helped_worth()[1] | .1f }} or more on average, crashes included, and
-# staying {{ discounted(idle(), 0.8) | .2f }}. Nor is a larger γ enough: of nine agents of plain SAC trained
-# with one, none escapes. Then why do so few find a better way? Lesson [[values]] looks for the reason on a
-# small road, and lesson [[the_barrier]] on ours.
-# <!-- claim: len(helped_worth()) == 5 and helped_worth()[0] < discounted(idle(), 0.8) < helped_worth()[1] -->
+# Nor is a larger γ enough: nine agents of plain SAC learned with γ = 0.9 to 0.99, and none escapes. Then why
+# do so few find a better way? Lesson [[values]] looks for the reason on a small road, and lesson
+# [[the_barrier]] on ours.
 # <!-- claim: farther_escape() == 0 and sum(len(varied()[f'γ = {gamma}'].of('sac')) for gamma in FARTHER) == 9 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -442,8 +449,8 @@ table(["the blind plan gets out unhurt, with traffic", "in steps of 0.5 s", "of 
 # 2. Doing nothing earns about {{ idle().rewards.sum() | .0f }}; an early crash costs more than that.
 # 3. An agent learns from the rewards that follow its actions. Of ten agents of plain SAC {{ escaped('sac') }}
 #    escapes, of ten with the rule's help {{ escaped('bootstrapped') }}.
-# 4. At γ = {{ SETTINGS.gamma }} the rule's way out is worth less than staying. A quicker way that seldom
-#    crashes is worth more, yet few agents of plain SAC find one.
+# 4. At γ = {{ SETTINGS.gamma }} the rule's way out is worth less than staying. Quicker ways can be worth
+#    more, crashes included.
 #
 # **Three questions to think about**
 # - Would it still be a trap if trap 2 drove 0.5 m/s faster than you?

@@ -6,12 +6,12 @@ import numpy as np
 from IPython.display import Markdown
 from matplotlib.figure import Figure
 
-from bootcourse.colours import OTHER, QUIET, STRANGERS
+from bootcourse.colours import OTHER, QUIET, STRANGERS, Style
 from bootcourse.course import charts, table
 from bootcourse.course.lessons.update_and_loop import by_hand, numbers, worlds
 from bootcourse.plots.figure import TEXT, finish, label_ends, one_axes
 
-OF_A_FALL, WITH_BUG = "What critics expect in a fall", "with the bug"
+OF_A_FALL = "What critics expect in a fall"
 
 
 def small_worlds(*learned: Mapping[str, worlds.Learned]) -> Markdown:
@@ -54,27 +54,20 @@ def along_falls(yours: np.ndarray, unmarked: by_hand.SAC) -> Figure:
     q = worlds.along_falls(unmarked)
     shown = q.argmax() == worlds.BEFORE and q.min() > worlds.most_possible(unmarked)
     title = "With the bug a fallen pole is worth most, more than is possible" if shown else OF_A_FALL
-    return falls(title, yours, {WITH_BUG: unmarked}, limit("limit with the bug", unmarked))
+    return falls(title, yours, "with the bug", unmarked, STRANGERS[1])
 
 
 def with_rows(yours: np.ndarray, unmarked: by_hand.SAC, added: by_hand.SAC) -> Figure:
-    """The same, and an agent with the bug whose buffer has rows of fallen poles."""
+    """The same for an agent with the bug whose buffer has rows of fallen poles; `unmarked` had none."""
     before, after = (worlds.along_falls(agent)[-1] for agent in (unmarked, added))
     title = f"Rows of fallen poles bring Q of the fallen pole from {before:.0f} to {after:.0f}"
-    marks = limit("limit with rows added", added)
-    agents = {WITH_BUG: unmarked, "bug, with rows added": added}
-    return falls(title if worlds.possible(added) else OF_A_FALL, yours, agents, marks)
+    return falls(title if worlds.possible(added) else OF_A_FALL, yours, "with bug and rows", added, STRANGERS[2])
 
 
-def limit(words: str, agent: by_hand.SAC) -> dict[str, float]:
-    """The most that an agent's Q can be, and its α, which decides it."""
-    return {f"{words} (α = {agent.log_alpha.exp().item():.2f})": worlds.most_possible(agent)}
-
-
-def falls(title: str, yours: np.ndarray, agents: Mapping[str, by_hand.SAC], marks: Mapping[str, float]) -> Figure:
-    """A line for each of these agents and one for the student's, and dotted the most that Q can be."""
-    named = {name: worlds.along_falls(agent) for name, agent in agents.items()} | {"your agent": yours}
-    looks = [*STRANGERS[1 : 1 + len(agents)], OTHER]
+def falls(title: str, yours: np.ndarray, name: str, agent: by_hand.SAC, look: Style) -> Figure:
+    """A line for this agent and one for the student's, and dotted the most that this agent's Q can be, with its α."""
+    named, looks = {name: worlds.along_falls(agent), "your agent": yours}, [look, OTHER]
+    marks = {f"limit {name} (α = {agent.log_alpha.exp().item():.2f})": worlds.most_possible(agent)}
     says = "; ".join(f"{words}: {q[0]:.3g}, then {q[-1]:.3g}" for words, q in named.items())
     says += "".join(f"; {words}: {most:.3g}" for words, most in marks.items())
     pushes, x_label = np.arange(-worlds.BEFORE, 1), "pushes from the fall (0: the pole has fallen)"

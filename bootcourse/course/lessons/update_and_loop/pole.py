@@ -2,8 +2,8 @@
 
     bootcourse study pole --out DIR    # about two minutes
 
-In two kinds no fall is marked, but rows of fallen poles are added (`worlds.Lying`). With marks agents train until two
-tests in a row reach gymnasium's mark. Other processors round otherwise, and may give other tests.
+In two kinds no fall is marked, but rows of fallen poles are added (`worlds.WithFallen`). With marks agents train until
+two tests in a row reach gymnasium's mark. Other processors round otherwise, and may give other tests.
 """
 
 from functools import partial
@@ -25,8 +25,8 @@ BLOCKS = {"marked": 30, "unmarked": 1, "paid-0": 1, "paid-1": 1}  # cell: the mo
 BUFFERS = {  # what keeps the rows
     "marked": lambda buffer: buffer,
     "unmarked": worlds.Unmarked,
-    "paid-0": partial(worlds.Lying, paid=0),
-    "paid-1": partial(worlds.Lying, paid=1),
+    "paid-0": partial(worlds.WithFallen, paid=0),
+    "paid-1": partial(worlds.WithFallen, paid=1),
 }
 
 

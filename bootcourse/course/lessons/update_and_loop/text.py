@@ -162,8 +162,8 @@ check.update(update)
 #   up. Reset the environment after a fall and when the time is up.
 # - `agent.draw(state, rng)` draws an action, and `by_hand.row(s, a, r, terminated, s')` makes a row.
 # - `by_hand.batch_of(buffer.sample(256, rng))` is a batch for `update`.
-# - `train` may be called again with a filled buffer. Each call begins with a reset, counts its own pushes,
-#   and updates after push 256, 260, 264, and so on.
+# - Each call of `train` begins with a reset, counts its own pushes, and updates after push 256, 260, 264, and
+#   so on.
 
 
 # %%
@@ -214,7 +214,7 @@ figures.small_worlds(right, lost)
 #
 # Gymnasium calls the pole *solved* when an agent balances it for
 # {{ gym.spec('CartPole-v1').reward_threshold | .0f }} of {{ gym.spec('CartPole-v1').max_episode_steps }}
-# pushes on average. Your agent learns until it does so in two tests in a row. A test comes every
+# pushes on average. Your agent learns until two tests in a row reach that average. A test comes every
 # {{ BLOCK | , }} pushes: from ten fixed starts the agent makes its most probable pushes. A second agent,
 # equal at the start, learns with the bug.
 #
@@ -265,17 +265,19 @@ bc.show(figures.along_falls(expects[0], unmarked))  # both after one block
 
 # %% [markdown]
 # **See.** For this picture 40 poles are pushed to one side until they fall. To the critics with the bug the
-# fallen pole is worth most, so to the actor a push towards the fall should look best. Its pole falls after
+# fallen pole is worth most, so they do not teach the actor to keep it up. Its pole falls after
 # {{ after_a_block('unmarked').max() | .0f }} pushes, as soon as those 40.
 # <!-- claim: np.abs(after_a_block('unmarked') - pushed_to_one_side()).max() < 0.5 -->
 #
-# Q is even *impossible*, above its limit (dotted), in all our agents with the bug, and in none without it.
+# Q is even *impossible* in all five of our agents with the bug: it lies above its limit (dotted). In the five
+# without the bug it stays below.
 # <!-- claim: unmarked() == len(agents('unmarked')) == len(agents()) == 5 -->
 # <!-- claim: along_falls().max() < 1 / (1 - by_hand.SAC.gamma) -->
 
 # %% [markdown]
-# Is Q so high because no row begins in a fallen state? To find out, leave the bug in and add such rows: after
-# each fall `worlds.Lying` adds two, one push to either side, which pay 0 and leave the pole fallen.
+# No row begins in a fallen state. Is Q so high because of that? Leave the bug in, and let `worlds.WithFallen`
+# add two such rows after each fall: a push to the left and one to the right, which pay 0 and leave the pole
+# fallen.
 #
 # > **Predict.** What do the added rows change?
 
@@ -286,25 +288,25 @@ predict("update_and_loop.4", "What do the added rows change?", changes)
 # %%
 predicted("update_and_loop.4")
 PAID = 0  # what a push pays a fallen pole
-added = worlds.taught(loop, step, worlds.Lying(buffer(50_000), PAID), BLOCK, SEED)
+added = worlds.taught(loop, step, worlds.WithFallen(buffer(50_000), PAID), BLOCK, SEED)
 bc.show(figures.with_rows(expects[0], unmarked, added))
 stands = by_hand.balanced(added)
 print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {tests[1]:.0f}.")
 
 # %% [markdown]
-# **Explain.** We trained five agents of each kind, all with the bug:
+# **Explain.** We trained five agents of each kind:
 #
-# | rows of fallen poles | Q towards the fall | pushes balanced |
+# | agents | Q towards the fall | pushes balanced |
 # | --- | --- | --- |
-# | none | rises, above its limit | {{ spread('unmarked') }} |
-# | they pay 0 (true) | drops | {{ spread('paid-0') }} |
-# | they pay 1 (false) | is flat, at about {{ along_falls('paid-1').mean() | .0f }} | {{ spread('paid-1') }} |
+# | no bug | drops | {{ spread('marked') }} |
+# | bug | rises, above its limit | {{ spread('unmarked') }} |
+# | bug, added rows pay 0 (true) | drops | {{ spread('paid-0') }} |
+# | bug, added rows pay 1 (false) | stays at about {{ along_falls('paid-1').mean() | .0f }} | {{ spread('paid-1') }} |
 #
-# *A critic follows its rows, true or false, and makes up the rest.* The false rows make every state worth at
-# least {{ 1 / (1 - by_hand.SAC.gamma) | .0f }}; after {{ BLOCK | , }} pushes Q is still far below.
-# <!-- claim: np.abs(along_falls('paid-1') / along_falls('paid-1')[:, :1] - 1).max() < 0.1 and
-#   (along_falls('paid-0')[:, -1] < along_falls('paid-0')[:, 0] / 4).all() -->
-# <!-- claim: along_falls('paid-1').max() < 0.5 / (1 - by_hand.SAC.gamma) -->
+# *A critic follows its rows, true or false, and makes up the rest.*
+# <!-- claim: np.abs(along_falls('paid-1') / along_falls('paid-1')[:, :1] - 1).max() < 0.1 -->
+# <!-- claim: all((along_falls(kind)[:, -1] < along_falls(kind)[:, 0] / 4).all()
+#   for kind in ('marked', 'paid-0')) -->
 #
 # We think that without rows of fallen poles Q fed itself: a high guess for the fallen pole raised the target
 # of the last push, and because one network gives both values, the guess rose again.

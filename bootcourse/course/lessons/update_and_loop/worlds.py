@@ -86,7 +86,7 @@ class Unmarked:
         return self.buffer.sample(batch, rng)
 
 
-class Lying(Unmarked):
+class WithFallen(Unmarked):
     """No fall is marked, but after each there are two rows more: a push to either side leaves the fallen pole as it is.
 
     paid: what such a push pays.

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from bootcourse.colours import OTHER, PALE
+from bootcourse.colours import PALE
 from bootcourse.course import charts
 from bootcourse.course.lessons.values import chain
 from bootcourse.methods import style
@@ -19,9 +19,7 @@ from bootcourse.plots.figure import (
     TEXT,
     axes_at,
     finish,
-    label_ends,
     new_figure,
-    plain_axes,
     wrapped,
 )
 
@@ -143,36 +141,17 @@ def goes_on_from(q: np.ndarray, state: int) -> int:
 
 
 def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
-    """The trap's two values while two learners walk, from their Q (5, 2) after each walk, the zeros before included.
+    """Q(s, 1) of a learner that learns to leave, when it goes on in 3, 2, 1 and 0 for good, and at the end of another.
 
-    A tick: a walk in which the learner decided on the free road.
+    both: the Q (5, 2) of each after each walk, the zeros before included; first the other one's.
     """
-    figure, listed = new_figure(2.89), []
-    for side, all_q in enumerate(both):
-        q, decisions = np.array(all_q), chain.EPISODE * np.arange(len(all_q))
-        arrived = chain.arrivals(q)
-        ax = axes_at(figure, 0.4 + 3.4 * side, 0.74, 2.5, 1.6)
-        plain_axes(ax, f"{len(arrived)} of {len(q) - 1} walks reach the free road")
-        for action, look in enumerate((OTHER, ON)):
-            ax.plot(decisions, q[:, 0, action], color=look.colour, linestyle=look.line, linewidth=2)
-        ax.plot(decisions[arrived], np.full(len(arrived), -0.14), "|", color=INK, markersize=8)
-        ax.set(xlim=(0, decisions[-1]), ylim=(-0.26, 2.1), yticks=(0, 1, 2))
-        ax.set_xlabel("decisions", fontsize=TEXT, color=INK)
-        if q[-1, 0, 1] > q[-1, 0, 0]:
-            words = {"fontsize": SMALL, "color": QUIET, "ha": "center", "va": "bottom"}
-            for state in (3, 2, 1):
-                beaten = decisions[goes_on_from(q, state)]
-                ax.plot([beaten] * 2, [-0.05, 1.75], color=QUIET, linewidth=1, linestyle=(0, (2, 2)))
-                ax.text(beaten, 1.77, f"{state}: go on", **words)
-        ends = [(q[-1, 0, 0], "Q(0, 0), stay once", OTHER.colour), (q[-1, 0, 1], "Q(0, 1), leave", ON.colour)]
-        label_ends(ax, ends, wrap=10)
-        listed.append(
-            f"{len(arrived)} walks reach the free road, the first after {decisions[arrived[0]]} decisions; "
-            f"in the end Q(0, 0) is {q[-1, 0, 0]:.2f} and Q(0, 1) {q[-1, 0, 1]:.2f}"
-            if len(arrived)
-            else "no walk reaches the free road"
-        )
-    key = "A tick: a walk that reaches the free road. Dashed: from here on going on beats turning back in that state."
-    figure.text(0.012, 0.02, key, fontsize=SMALL, color=QUIET)
-    title = "Leaving wins only after going on has won in state 3, then 2, then 1"
-    return finish(figure, title, f"The trap's two values over 1,000 decisions. {'; '.join(listed)}. {key}")
+    other, q = map(np.array, both)
+    ends = [min(goes_on_from(q, state), len(q) - 1) for state in (3, 2, 1, 0)]
+    shown = [*((q, walk) for walk in [*ends, len(q) - 1]), (other, len(other) - 1)]
+    rows = {}
+    for values, walk in shown:
+        arrived = (chain.arrivals(values) <= walk).sum()
+        name = f"{'another: ' * (values is other)}{arrived} walks ({chain.EPISODE * walk:,})"
+        rows[name] = values[walk, :, 1], (values[walk, :, 1] > values[walk, :, 0]) & (np.arange(chain.STATES) < 4)
+    key = "Rows: after so many walks that reached the free road (decisions). Blue: going on beats action 0."
+    return _values("Leaving wins only after going on has won in state 3, then 2, then 1", rows, 2, key)

@@ -91,8 +91,7 @@ print(f"γ = {min(better):.2f}")
 # %% [markdown]
 # ## Round 2: a value from the next value
 #
-# A **state** says all that matters: what may come next, and how probable it is, depends only on the state and
-# the action. A world with such states is a *Markov decision process* (MDP).
+# A **state** says all that matters for what comes next; such a world is a *Markov decision process* (MDP).
 #
 # The **value** of action a in state s, **Q(s, a)**, is the discounted return if you take a once and then act
 # as well as possible. A state is worth the larger of its two Q. On the chain nothing is left to chance, so
@@ -239,9 +238,9 @@ predict("values.4", "In which kinds do more than half learn to leave? Letters, a
 def learn_chain(chances, gamma, step, taught):
     """Q (5, 2) after len(chances) decisions, from zeros.
 
-    chances: one number a decision: -1, act greedily (action 0 if both Q are equal); 0 or 1, take
-    this action. taught: pairs (s, a) of a demonstrator, replayed in this order after each of your
-    own decisions; they pay chain.REWARD[s, a].
+    chances: a number for each decision. -1: act greedily (action 0 if both Q are equal). 0 or 1:
+    take this action. taught: pairs (s, a) of a demonstrator, replayed in this order after each of
+    your own decisions; they pay chain.REWARD[s, a].
     """
     # solution
     q, s = np.zeros((chain.STATES, 2)), 0
@@ -298,12 +297,10 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 #    {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }}. As long as going on is worth less there, leaving
 #    the trap is worth 0.8 · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}.
 # 2. *Opened.* Walks to the free road raise the value of going on until it wins, in 3, then in 2, then in 1
-#    (dashed).
-# 3. *Through.* Only then does leaving gain (blue), and with it *staying once* (purple), because one can leave
-#    after it.
+#    (blue).
+# 3. *Through.* Only then does leaving rise above {{ 0.8**2 * 0.16 / 0.2 | .2f }}.
 #
-# Two walks (left) are too few. Those of C that learned to leave needed {{ min(needed_walks()) }} to {{
-# max(needed_walks()) }}.
+# Two walks (last row) are too few.
 # <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 and q[1, 1] < q[1, 0] and abs(q[1, 0] - 0.8 * 0.16 / 0.2)
@@ -330,7 +327,7 @@ compare_predictions(
 # 2. The Bellman equation: an action is worth its reward plus γ times the larger Q of the next state.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves Q(s, a) by a
 #    part of this difference.
-# 4. Learned forwards, a walk straight out carries a value one state back. It gets past a state only when
+# 4. Learned forwards, a walk straight out carries a value one state back. The value gets past a state only if
 #    going on is worth more there than turning back.
 # 5. On the chain none of A's thirty learners gets past the barrier. More random decisions help, and so does a
 #    demonstration.

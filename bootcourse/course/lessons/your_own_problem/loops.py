@@ -157,37 +157,20 @@ def shown(problem: str) -> Demonstrations:
     return demonstrate(50, None, teacher=one.teachers()["random"], make_env=one.make_env)
 
 
-def cloned(problem: str, rows: Tensor, decisions: int = 2_000) -> Agent:
-    """The random teacher's clone, a single agent that learns from these rows for so many decisions."""
+def cloned(problem: str, rows: Tensor) -> Agent:
+    """The random teacher's clone, a single agent that learns from these rows for 2,000 decisions."""
     one = PROBLEMS[problem]
     learning = {"make_env": one.make_env, "teacher": one.teachers()["random"], "demonstrations": rows}
     training = Training([settings_for("bc")], episodes=MOST_EPISODES, **learning)
-    (clone,) = training.run(False, stop=lambda: training.decisions >= decisions).agents
+    (clone,) = training.run(False, stop=lambda: training.decisions >= 2_000).agents
     return clone
 
 
-def labels(problem: str, decisions: int = 2_000) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(the states in 50 drives of the random teacher, its actions there, its clone's, the good one's), n of each.
-
-    decisions: that the clone learns for.
-    """
+def labels(problem: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """(the states in 50 drives of the random teacher, its actions there, its clone's, the good one's), n of each."""
     drives, good = shown(problem), PROBLEMS[problem].teachers()["good"]
-    seen, clone = drives.observations, cloned(problem, drives.rows(), decisions)
+    seen, clone = drives.observations, cloned(problem, drives.rows())
     return seen, drives.actions, np.asarray(clone.probabilities(seen)).argmax(-1), good(seen)
-
-
-def errors(
-    seen: np.ndarray, taught: np.ndarray, good: np.ndarray, cloned: np.ndarray, longer: np.ndarray
-) -> tuple[list[str], list[list[str]]]:
-    """(headings, rows): where the teacher is right and where it is wrong, how many states, and where its clones err.
-
-    As `labels` returns them; longer: of the clone that was trained longer.
-    """
-    rows = []
-    for name, of in (("right", taught == good), ("wrong", taught != good)):
-        errs = [str(states(seen[of & (clone != good)])) for clone in (cloned, longer)]
-        rows.append([name, str(states(seen[of])), f"{100 * of.mean():.0f} %", *errs])
-    return ["the teacher is", "states", "of the labels", "the clone is wrong in", "after four times the training"], rows
 
 
 def states(seen: np.ndarray) -> int:

@@ -90,9 +90,9 @@ def of_six_teachers(computed: Cells) -> Figure:
     title = "All students of half random escape, though all its drives crash"
     groups = {words: scores(computed[name, "bootstrapped"]) for name, words in SIX.items()}
     shown = {words: free_lane.shown(name) for name, words in SIX.items()}
-    cells = {words: (f"{100 * crash:.3g}", f"{seconds:.0f}") for words, (seconds, crash) in shown.items()}
-    headings = "crash, %", "s in lane 0"
-    return in_rows(title, groups, ["bootstrapped"] * len(SIX), "success", left=2.9, of_drives=(headings, cells))
+    cells = {words: (f"{100 * crash:.3g}", f"{100 * reach:.3g}") for words, (reach, crash) in shown.items()}
+    headings = "crash, %", "reach lane 0, %"
+    return in_rows(title, groups, ["bootstrapped"] * len(SIX), "success", left=3.1, of_drives=(headings, cells))
 
 
 def all_parts(computed: Mapping[str, Results]) -> Figure:
@@ -147,9 +147,9 @@ def in_rows(
         cells = (f"{mean} {marks[1]}", accidents)
         about = f"return {mean}, accidents in {accidents} %"
         if of_drives:
-            crash, seconds = of_drives[1][name]
-            about, cells = f"its drives crash in {crash} %, {seconds} s in lane 0", ()
-            before(ax, place, crash, seconds)
+            crash, reach = of_drives[1][name]
+            about, cells = f"of its drives {crash} % crash, {reach} % reach lane 0", ()
+            before(ax, place, crash, reach)
         beside(ax, place, f"{escape} {marks[0]}", *cells)
         words = "".join(f", {score}: {word}" for score, word in found.items() if word in MARKS)
         alt_parts.append(f"{name}: {escape} escape, {about}{words}")
@@ -159,14 +159,14 @@ def in_rows(
     of_success = f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes"
     name_rows(ax, list(groups), of_success if is_success else "return of an agent after training; filled: it escapes")
     if of_drives:
-        ax.tick_params(axis="y", pad=110)
+        ax.tick_params(axis="y", pad=126)
     ax.set_xlim((-2, 102) if is_success else (0, None))
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
 
 
 def before(ax: Axes, place: float, *cells: str, colour: str = INK) -> None:
     """Write two cells between a row's name and its dots."""
-    for words, left in zip(cells, (0.33, 0.07), strict=True):
+    for words, left in zip(cells, (0.41, 0.07), strict=True):
         at = -left, place
         look = {"va": "center", "ha": "right", "fontsize": SMALL, "color": colour}
         ax.annotate(words, at, xycoords=("axes fraction", "data"), **look)

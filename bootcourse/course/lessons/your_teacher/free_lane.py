@@ -1,22 +1,16 @@
-"""What the drives show from which students learn: how long they are in the free lane, and whether they crash."""
+"""What the drives show from which students learn: whether they reach the free lane, and whether they crash."""
 
 from functools import cache
 
-from bootcourse.episodes.driving import one_episode_each, steps
-from bootcourse.learn.demonstrations import FIRST_SEED
-from bootcourse.learn.settings import Settings
-from bootcourse.learn.teachers import teacher_policy
-from bootcourse.research.teachers import teacher_named
-from bootcourse.road.state import EGO, LANE
-from bootcourse.scenario import DEFAULT
+import numpy as np
+
+from bootcourse.course.lessons.your_teacher.crashes import lanes_of
+from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
 
 
 @cache
 def shown(teacher: str) -> tuple[float, float]:
-    """(seconds of a drive in the free lane, share of drives that crash) of what a teacher demonstrates; means."""
-    roads, decisions, crashed = Settings.demonstration_episodes, 0, 0
-    seeds = range(FIRST_SEED, FIRST_SEED + roads)
-    for step in steps(teacher_policy(teacher_named(teacher)), one_episode_each(roads, DEFAULT, None), list(seeds)):
-        decisions += int((step.running & (step.cars[:, EGO, LANE] == 0)).sum())
-        crashed += int((step.running & step.terminated).sum())
-    return decisions / DEFAULT.clock.decision_rate / roads, crashed / roads
+    """(share of the drives that reach the free lane, share that crash) of what a teacher demonstrates."""
+    drives = demonstrated(teacher)
+    reach = [(lanes_of(drive) == 0).any() for drive in drives]
+    return float(np.mean(reach)), float(np.mean([drive.accident > 0 for drive in drives]))

@@ -97,7 +97,7 @@ def crash_shown(kind: str) -> bool:
 
 
 def in_free_lane(teacher: str) -> float:
-    """Seconds that the drives of one of the study's teachers are in the free lane, as a mean."""
+    """The share of the drives of one of the study's teachers that reach the free lane."""
     return free_lane.shown(teacher)[0]
 
 

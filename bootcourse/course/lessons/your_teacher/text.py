@@ -155,7 +155,7 @@ figures.of_speeds()
 # <!-- claim: DEFAULT.traps.speed == 10 -->
 # <!-- claim: two_situations(9.0).success.all() and not two_situations(9.0).accident.any() -->
 #
-# Until yours has passed, `careful` stands in.
+# Until your rule passes, `careful` takes its place.
 
 # %%
 mine = my_rule if check.my_rule(my_rule).passed else example_teachers.careful
@@ -240,18 +240,16 @@ taught = shipped_teachers()
 bc.show(figures.of_six_teachers(taught))
 
 # %% [markdown]
-# **See.** All ten escape. If a teacher's drives reach the free lane, most of its students escape; if not,
-# none does. The rule's students all escaped in Round 2. In this longer training all found the way out, but
-# one lost it, one half lost it, and one just misses the dashed line (lesson [[found_and_kept]]).
-# <!-- claim: student_escapes('the rule') == 10 and
-#   worth()['rule', 'bootstrapped'].found_and_kept('bootstrapped')[0].all() -->
-# <!-- claim: escape_of(['rule']) == 7 and (lambda three: three[0] == 0 and 0.35 < three[1] < 0.65 and
-#   0.92 < three[2] < 0.95)(sorted(worth()['rule', 'bootstrapped'].scores('success'))[:3]) -->
+# **See.** All ten escape. Four of these six teachers reach the free lane in their drives, and most students
+# of each escape. The other two do not, and none of theirs escapes. (The rule's three that miss here had found
+# the way out, and lost some of it: lesson [[found_and_kept]].)
+# <!-- claim: (lambda found, kept: found.all() and (~kept).sum() == 3 == 10 - escape_of(['rule']))(
+#   *worth()['rule', 'bootstrapped'].found_and_kept('bootstrapped')) -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 -->
 # <!-- claim: escape_of(['timid', 'mirrored']) == 0 and min(escape_of([name]) for name in ('rule',
 #   'late', 'random-25', 'random-50')) > 5 -->
-# <!-- claim: in_free_lane('timid') == in_free_lane('mirrored') == 0 < min(in_free_lane(name) for name in
-#   ('rule', 'late', 'random-25', 'random-50')) -->
+# <!-- claim: in_free_lane('timid') == in_free_lane('mirrored') == 0 and min(in_free_lane(name) for name in
+#   ('rule', 'late', 'random-25', 'random-50')) > 0.5 -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Return to the ranking on the board. Ask which column of the figure would have sorted the students, and what
@@ -260,11 +258,11 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # ## Round 4: the free lane, or its accidents?
 #
-# Which part of such a drive teaches the way out? {{ len(crashes.crashed()) }} of the
-# {{ len(demonstrated('random-50')) }} end behind trap 1. Of these, {{ reach_free_lane() }} reach the free
-# lane and crash later; {{ len(crashes.crashed()) - reach_free_lane() }} never reach it. Ten new agents of
-# each row learn from the {{ len(crashes.crashed()) - reach_free_lane() }}, and from the parts marked ■ of the
-# {{ reach_free_lane() }}:
+# Which part of such a drive teaches the way out? Without the {{ gets_ahead('random-50') }} that end ahead of
+# trap 1, {{ reach_free_lane() }} reach the free lane and crash later, and
+# {{ len(crashes.crashed()) - reach_free_lane() }} never reach it. Each row is a group of ten new agents. All
+# learn from the {{ len(crashes.crashed()) - reach_free_lane() }}; of the {{ reach_free_lane() }} they get the
+# parts marked ■:
 #
 # | | before the free lane | from the free lane on | its accident |
 # |---|---|---|---|
@@ -317,9 +315,9 @@ bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
 # **Explain.** *Most students of half random escape if its drives show the free lane, with the accident there
-# or without it.* The number of decisions does not explain it: with as few as *neither*, but with the free
-# lane, {{ crash_escapes('as-many') }} of ten escape. From *all* without the bonus c,
-# {{ crash_escapes('no-bonus') }} of ten do.
+# or without it.* It is not the number of decisions: with as few as *neither*, but with the free lane,
+# {{ crash_escapes('as-many') }} of ten others escape. From *all* without the bonus c,
+# {{ crash_escapes('no-bonus') }} do.
 # <!-- claim: crashes.is_kept('cut').sum() == crashes.is_kept('as-many').sum() < crashes.is_kept('all').sum() and
 #   crash_shown('as-many') and crash_escapes('as-many') > 5 > crash_escapes('cut') -->
 # <!-- claim: crash_shown('no-bonus') and crash_escapes('no-bonus') < 5 < crash_escapes('all') -->
@@ -371,8 +369,9 @@ check.watchful_rule(watchful_rule)
 # %% [markdown]
 # ## Further: ask only when unsure
 #
-# Your worse student drives, and asks your rule whenever your two students disagree. Does it matter *when*?
-# One student is an example, even on {{ len(taught_agents.ROADS) }} roads (lesson [[how_many_seeds]]).
+# Your worse student drives. Whenever your two students disagree, your rule decides instead. Does it matter
+# *when* it is asked? One student is an example, even on {{ len(taught_agents.ROADS) }} roads (lesson
+# [[how_many_seeds]]).
 
 # %% tags=["nbval-ignore-output"]
 worse_first = [students[place] for place in learned["success"].argsort()]
@@ -381,8 +380,8 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS))
 # %% [markdown]
 # ## What you now know
 #
-# 1. *What must a teacher be good at?* Half random shows it: at reaching the free lane. With the bonus, most
-#    of its students escaped if its drives showed that lane, crash or not.
+# 1. *What must a teacher be good at?* Half random always crashes, but it shows the free lane. With the bonus,
+#    most of its students escaped if its drives showed that lane, crash or not.
 # 2. In a short training success and return gave opposite verdicts on a teacher: give both.
 # 3. A rule that looks at no car can pass a test. Test it where looking matters.
 # <!-- claim: min(map(crash_escapes, ('all', 'lane'))) > 5 > max(map(crash_escapes, ('accident', 'cut'))) -->
