@@ -5,7 +5,7 @@ import gc
 import sys
 
 # torch, numba and matplotlib make some 300,000 objects that stay. Python's garbage collector would look at them again
-# and again while they load, and twice at the end: together a sixth of a short command's time.
+# and again while they load, and twice at the end: together a quarter of a short command's time.
 gc.set_threshold(50_000, 20, 20)
 atexit.register(gc.freeze)
 

@@ -85,8 +85,7 @@ def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title:
             ax.text(shown.mean(), row - 0.32, f"{shown.mean():.0f}", fontsize=TEXT, color=INK, ha="center")
             alt_parts[name].append(f"{label.removesuffix(' (%)')} {shown.mean():.0f} %".replace("\n", " "))
         plain_axes(ax, label.replace("\n", " "), grid="x")
-        names = [name.replace(", ", ",\n") for name in measured]
-        ax.set_yticks(range(len(measured)), names if place == 0 else [""] * len(measured))
+        ax.set_yticks(range(len(measured)), list(measured) if place == 0 else [""] * len(measured))
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
         ax.set(xlim=(-4, 104), ylim=(len(measured) - 0.5, -0.7))
     words = "; ".join(f"{name}: {', '.join(parts)}" for name, parts in alt_parts.items())

@@ -54,8 +54,8 @@ title = "This agent learned the way out, and lost it"
 bc.show(figures.one_agent(study.of("demos"), best, title))
 
 # %% [markdown]
-# At the end this agent fails like one that never found the way out. A table shows only the end. The paper's,
-# beside ours:
+# At the end this agent fails like one that never found the way out. A table shows only the end. Here is the
+# paper's, beside ours:
 # <!-- claim: (in_training('sac', 0, 2000) == 0).any() -->
 
 # %%

@@ -187,8 +187,8 @@ bc.show(figures.each_agent(study, "sac"))
 # <!-- claim: worst_with_w()[0] > 50 and worst_with_w()[2:] == (0, 100) -->
 # <!-- claim: set(each('sac', 'rollouts', 'roads')) == {1000} -->
 #
-# With exact rollouts to the end, and no W, the look-ahead never earns less than the base policy: **policy
-# improvement**.
+# With γ = 1, exact rollouts to the end and no W, the look-ahead never earns less than the base policy:
+# **policy improvement**.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # *The proof of policy improvement*, where neither road nor policy draws. Let π be the base, T the end of the

@@ -172,8 +172,8 @@ print(f"The blind plan gets out unhurt on {unhurt:.0%}, crashes on {np.mean(hurt
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Collect the guesses for all plans before anybody runs the planner. If somebody asks about the last section:
-# with a time constant τ of the heading, {{ time_step.HIGHWAY_ENVS }} s in the quicker traffic, a step
-# multiplies an error by 1 − 0.5 s / τ = {{ 1 - 0.5 / 0.2 | .1f }}. So does gradient descent diverge if the
+# a heading's error is multiplied in each step by 1 − 0.5 s / τ, which is {{ 1 - 0.5 / 0.2 | .1f }} for the
+# quicker traffic's time constant τ of {{ time_step.HIGHWAY_ENVS }} s. So does gradient descent diverge if the
 # learning rate times the curvature is above 2. The report's page of claims says which of the course's results
 # we computed again at 0.25 s.
 # <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
