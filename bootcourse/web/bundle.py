@@ -22,7 +22,7 @@ HERE = Path(__file__).resolve().parent
 PACKAGE = HERE.parent
 SHIPPED = HERE / "world.json"
 MADE_OF = (
-    "*.py", "road/*.py", "episodes/*.py", "learn/agent.py", "learn/networks.py", "learn/protocol.py",
+    "[a-z]*.py", "road/*.py", "episodes/*.py", "learn/agent.py", "learn/networks.py", "learn/protocol.py",
     "learn/compiled*.py", "learn/records.py", "learn/settings.py", "learn/vectorised.py", "replay3d/*.py",
     "plots/road.py", "plots/svg.py", "web/build.py", "web/entries.py", "web/learning.py", "web/packing.py",
     "web/wasm.py", "web/*.safetensors",
