@@ -96,7 +96,7 @@ def test_the_same_seed_learns_the_same_and_sliders_act_while_it_learns(page):
             const when = test => new Promise(go => { learner.on.curves = () => test() && go(); });
             await when(() => learner.episode >= 8);
             learner.set({ xiFixed: 0.5, p: 0.7 });
-            await when(() => learner.episode >= learner.marks[0].episode + 30);
+            await when(() => learner.marks.length && learner.episode >= learner.marks[0].episode + 30);
             learner.stop();
             return { xi: learner.curves.xi, marks: learner.marks };
         }"""

@@ -53,8 +53,9 @@ def test_a_slider_acts_while_they_learn_and_leaves_a_mark(visit):
         page.page.click("#start")
         learned(page, 5)
         page.page.locator("#dial-xi").press("Home")
-        marks = page.page.evaluate("trap.view.learners.map(each => each.marks.at(-1).changes)")
-        assert marks == [{"xi_multiplier": 0}] * 2
+        page.page.wait_for_function("() => trap.view.learners.every(each => each.marks.length)")
+        marks = page.page.evaluate("trap.view.learners.map(each => each.marks.map(({ changes }) => changes))")
+        assert marks == [[{"xi_multiplier": 0}]] * 2
         page.page.wait_for_function("() => trap.view.learners.every(each => each.curves.xi.at(-1) === 0)")
         page.page.wait_for_function("() => document.querySelector('#curves svg').textContent.includes('ξ = 0 α')")
 

@@ -170,8 +170,10 @@ function serve(port) {
       trainer = new Trainer(given);
       every = given.every;
       go();
-    } else if (kind === "set") trainer.set(given.changes);
-    else if (kind === "pause") {
+    } else if (kind === "set") {
+      trainer.set(given.changes);
+      say("changed", given);
+    } else if (kind === "pause") {
       running = false;
       report();
     } else if (kind === "go" && !trainer.done) go();

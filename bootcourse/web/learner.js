@@ -95,6 +95,9 @@ class Learner {
       this.agents.push(snapshot);
       this.answer("agent", snapshot);
       this.on.agent?.(this, snapshot);
+    } else if (kind === "changed") {
+      this.marks.push({ episode, ...said });
+      this.on.curves?.(this);
     } else if (kind === "weights") this.answer("weights", said.weights);
     else if (kind === "failed") this.fail(new Error(said.message));
     else if (kind === "done") {
@@ -116,13 +119,13 @@ class Learner {
     this.on.failed?.(this, error);
   }
 
-  // Change p, xi, xiFixed, c, beta, betaEpisodes, eta, gamma ... from now on; `marks` keeps what was changed when.
+  // Change p, xi, xiFixed, c, beta, betaEpisodes, eta, gamma ... from now on; `marks` keeps what was changed when,
+  // as the worker tells it: it may be some episodes ahead of what this thread has heard.
   // Throws an Error for a value that is not right, and for a setting that is one of the start alone.
   set(asked) {
     const changes = changesOf(this.learning, asked), late = Object.keys(changes).find(name => AT_START.includes(name));
     if (late) throw new Error(`${late} is set when an agent begins: start another one.`);
     Object.assign(this.settings, changes);
-    this.marks.push({ episode: this.episode, changes });
     this.worker.postMessage({ kind: "set", changes });
   }
 
