@@ -175,6 +175,8 @@ def compare_predictions(lesson: str, answers: Mapping[int, object]):
     lesson: its name; answers: {1: what the lesson found for the prediction LESSON.1, in words or a number}. Raises
     BootcourseError for no lesson, and for a damaged file.
     """
+    from IPython.display import display
+
     from bootcourse.course import table
 
     check_known("The lesson", lesson, LESSONS)
@@ -187,6 +189,7 @@ def compare_predictions(lesson: str, answers: Mapping[int, object]):
             cells = f"{number(lesson)}.{place}", one.get("question", ""), *both
             rows.append([str(html("{}", cell)) for cell in cells])
     if not rows:
+        display({"text/plain": "Your predictions, and the answers:"}, raw=True)  # as in `predicted`
         results = (f"{number(lesson)}.{place}: {worded(result)}" for place, result in answers.items())
         return Note(f"{NOTHING} The answers are: {'; '.join(results)}.")
     below = f"You committed to {len(rows)} of {len(answers)} predictions."
@@ -203,5 +206,4 @@ class Note:
         return printable(self.sentence)
 
     def _repr_html_(self) -> str:
-        # The first line is what JupyterLab shows of a folded output.
-        return str(html('<!-- a note -->\n<div role="status">{}</div>', self.sentence))
+        return str(html('<div role="status">{}</div>', self.sentence))

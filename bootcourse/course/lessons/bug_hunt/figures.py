@@ -101,7 +101,7 @@ def line_ends(hunt: Hunt) -> Figure:
         said = "; ".join(f"{name}: {', '.join(f'{value:.3g}' for value in ends[name])}" for name in ends)
         alt.append(f"{what}: {said}")
     span = f"means of the last 30 episodes or {LAST * EVERY:,} updates"
-    words = f"dots: an agent's two lines; grey: from one of the healthy agent's to the other ({span})"
+    words = f"dots: the agent's two seeds; grey: between the healthy agent's two seeds ({span})"
     figure.text(0.012, 1 - 0.42 / figure.get_figheight(), words, fontsize=charts.SMALL, color=charts.QUIET)
     return finish(figure, title, f"Two dots in each row. {'. '.join(alt)}.".replace("-", "−"))
 

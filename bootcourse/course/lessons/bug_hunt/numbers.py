@@ -61,12 +61,6 @@ def asked(name: str) -> float:
     return float(end_error(q, seen().actions, seen().rewards, seen().terminated))
 
 
-def unforeseen() -> int:
-    """At how many of these accidents the healthy agent's Q is above -2."""
-    q = hunt().agent("healthy").q_values(seen().states)
-    return int((np.take_along_axis(q, seen().actions[:, None].astype(int), 1)[ended()] > -2).sum())
-
-
 def promised(name: str) -> np.ndarray:
     """What the critic of each of an agent's two seeds promises where its line ends, (2,)."""
     return figures.last(hunt(), "promise")[name]

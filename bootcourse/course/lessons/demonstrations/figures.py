@@ -118,15 +118,19 @@ def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
         wrong.append(errs)
         beyond.append(place > high)
     wrong, beyond = np.concatenate(wrong), np.concatenate(beyond)
+    errs_at = [f"{100 * wrong[where].mean():.0f} %" for where in (beyond, ~beyond)]
     ax.axhline(2, color=INK, linewidth=1.5)
     plain_axes(ax, "", grid="")
     words = {"fontsize": TEXT, "ha": "left"}
     ax.text(-BEFORE + 0.2, 2.06, "the road's edge", color=INK, va="bottom", **words)
-    ax.text(-BEFORE + 0.2, low + 0.06, "where the rule has rows", color=style("rule").colour, va="bottom", **words)
+    green = style("rule").colour
+    ax.text(-BEFORE + 0.2, low + 0.06, "as far out as the rule drives", color=green, va="bottom", **words)
     ax.set(xlim=(-BEFORE, 0.2), ylim=(-2, 2.35))
     ax.set_yticks(list(PLACES), list(PLACES.values()))
-    ax.text(-BEFORE + 0.2, -1.94, "red: an error", color=ALARM, va="bottom", **words)
-    ax.set_xlabel("time before the car is off the road (s)", fontsize=TEXT, color=INK)
+    red = f"red: errors, {errs_at[0]} of decisions left of the band, {errs_at[1]} elsewhere"
+    ax.text(-BEFORE + 0.2, -1.94, red, color=ALARM, va="bottom", **words)
+    below = "time before the car is off the road (s); each line a drive, dark: several alike"
+    ax.set_xlabel(below, fontsize=TEXT, color=INK)
     title = "The clones' cars before they leave the road, and their errors"
     if wrong[beyond].mean() > 0.9 and wrong.mean() > 0.5:
         title = "Error after error, the clones drift off the road"
@@ -134,8 +138,7 @@ def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
         figure, title,
         f"The last {BEFORE} s of {len(ended)} drives that leave the road on the left. In the left lane the rule's rows "
         f"reach from {-low:.1f} m right of its middle to {high:.1f} m left. Left of them "
-        f"{100 * wrong[beyond].mean():.0f} % of these drives' decisions are errors, elsewhere "
-        f"{100 * wrong[~beyond].mean():.0f} %.",
+        f"{errs_at[0]} of these drives' decisions are errors, elsewhere {errs_at[1]}.",
     )  # fmt: skip
 
 

@@ -26,11 +26,6 @@ def beyond_the_band() -> int:
     return int((left_in(rows()["the stochastic rule"]) > left_in(rows()["the rule"]).max()).sum())
 
 
-def near_the_edge() -> float:
-    """The share of the rule's rows that are at least 1 m left of the left lane's middle."""
-    return float((left_in(rows()["the rule"]) > 1).float().mean())
-
-
 def by_chance() -> Results:
     """The ten clones of the stochastic rule, trained with more updates than the study's clones of the rule."""
     return shipped_results("paper").of("bc")

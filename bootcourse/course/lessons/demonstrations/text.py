@@ -15,7 +15,7 @@
 #
 # **What you will be able to do**
 # - train clones of drivers, yourself included, and judge them by how they drive;
-# - find where a clone fails, and test what its data lack;
+# - find where a clone fails, and test which rows help;
 # - let a clone drive, have the rule label what it meets, and see what that changes.
 #
 # **Time** 50 minutes; running it takes under one minute. **It builds on** lessons [[the_trap]],
@@ -44,8 +44,7 @@ ROAD = 10
 
 # %% [markdown]
 # Two others drive 60 roads: the rule, and the **stochastic rule**, which takes the rule's action with
-# probability p = {{ RULE_P }} and otherwise one of the other eight. In the first 30 seconds each of the
-# rule's drives begins in lane 2, falls back, and changes to lane 0.
+# probability p = {{ RULE_P }} and otherwise one of the other eight.
 
 # %% tags=["hide-input"]
 unsure = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(0))
@@ -147,8 +146,8 @@ print(cloning.accidents(alone))
 bc.show(figures.off_the_road(alone, by_rule))
 
 # %% [markdown]
-# **See.** *Error after error, the clone drifts to the road's edge, into states in which it errs more*: left
-# of all the rule's rows nearly every decision is an error.
+# **See.** *Error after error, the clone drifts to the road's edge, into states in which it errs more*: in the
+# drives that end there nearly every decision left of the green band is an error.
 #
 # In the rule's states these clones err in about a fifth of the seconds (Round 1), in their own in more than
 # half. Errors that lead to states with more errors are called **compounding errors**.
@@ -159,19 +158,19 @@ bc.show(figures.off_the_road(alone, by_rule))
 # with a probability of at most ε, and T − t + 1 errors follow from it; add up over t. Our clones disagree
 # with a fifth of their data: with such an ε the bound allows an error in nearly every second. Then ask what
 # the rule would do at the edge and where the clone could have learned it. The picture says that errors are
-# frequent where the rule has no rows, not that these errors cause the accidents: that needs an experiment,
-# which is Round 3.
+# frequent farther out than the rule drives, in drives that end there, not that these errors cause the
+# accidents: that needs an experiment, which is Round 3.
 
 # %% [markdown]
-# ## Round 3: which rows are missing?
+# ## Round 3: which rows help?
 #
-# Left of the green band the rule has no row, the stochastic rule {{ beyond_the_band() }}. Do these help? To
-# the rule's rows we add {{ beyond_the_band() }} of the stochastic rule's, five times each, labelled with the
+# Left of the green band lie {{ beyond_the_band() }} of the stochastic rule's rows, and none of the rule's. Do
+# they help? To the rule's rows we add as many of the stochastic rule's, five times each, labelled with the
 # rule's actions. They are of one of three kinds:
 #
 # - **from the edge**: left of the band;
 # - **near the edge**: in the band, at least 1 m left;
-# - **others**: from anywhere but left of the band.
+# - **others**: from anywhere in the band or right of it.
 #
 # > **Predict.** How many of the accidents remain with the rows from the edge?
 
@@ -194,18 +193,19 @@ fed_crash = {name: cloning.measure(fed[name], by_rule[::10]) for name in fed}
 bc.show(figures.added(KINDS[0], measured[KINDS[0]], fed_crash))
 
 # %% [markdown]
-# **See.** *The rows from the edge prevent most accidents; as many other rows do not.* The rows from near the
-# edge help, too: of the rule's own rows only {{ 100 * near_the_edge() | .0f }} % are there.
-#
-# *A longer training reverses the order of Round 1*: with {{ updates_of(of('bc')) / UPDATES | .0f }} times as
-# many updates the study's clones of the rule crash in {{ 100 * accidents('bc') | .1f }} % of their drives.
-# Its clones of the stochastic rule had twice as many as these, and crash in
-# {{ 100 * by_chance().scores('accident').mean() | .0f }} %.
+# **See.** *After a longer training the rule's rows alone are enough*: with
+# {{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates, and as many drives of the rule, the
+# study's clones crash in {{ 100 * accidents('bc') | .1f }} % of their drives. Its clones of the stochastic
+# rule had twice as many updates and crash in {{ 100 * by_chance().scores('accident').mean() | .0f }} %, so
+# the order of Round 1 is reversed.
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 -->
 # <!-- claim: by_chance().agents[0]['stochastic_demonstrations'] and len(by_chance()) == 10 and
 #   round(updates_of(by_chance()) / updates_of(of('bc')), 1) == 2 -->
 # <!-- claim: by_chance().agents[0]['demonstration_episodes'] == of('bc').agents[0]['demonstration_episodes'] -->
 # <!-- claim: of('bc').scores('accident').max() < by_chance().scores('accident').min() -->
+#
+# *After a short training {{ beyond_the_band() }} rows from the edge, or from near it, prevent more than half
+# of the accidents; as many others do not.*
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The rule's drives have places near the edge, too, but with other headings. Five clones of each are few, and
@@ -214,8 +214,8 @@ bc.show(figures.added(KINDS[0], measured[KINDS[0]], fed_crash))
 # %% [markdown]
 # ## Round 4: what if the rule labels the clone's own states?
 #
-# In Round 3 we knew rows that help. If you do not know any, let your clone drive, ask the rule what it would
-# have done in these states, add the labelled states to the data, and train again. This is **DAgger** ("data
+# In Round 3 we knew which rows help. If you do not, let your clone drive, ask the rule what it would have
+# done in these states, add the labelled states to the data, and train again. This is **DAgger** ("data
 # aggregation"). It needs a teacher that answers in any state.
 #
 # > **Predict.** Begin with 20 drives of the rule, and in each of two rounds add 20 labelled drives of the
@@ -255,7 +255,8 @@ trainings = [cloning.measure(each, by_rule[::10]) for each in zip(*drivers, stri
 bc.show(figures.taught(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
-# **Explain.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.*
+# **See.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.* As many
+# updates as before now serve both.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody must let a
@@ -283,7 +284,7 @@ compare_predictions(
 #
 # 1. A clone learns to predict the demonstrator's action. Judge it by how it drives.
 # 2. It is trained on the teacher's states and drives in its own, where errors lead to more errors.
-# 3. After a short training, a few rows from the road's edge prevent most of the accidents of the rule's
+# 3. A longer training, or a few rows from the road's edge, prevents most of the accidents of the rule's
 #    clones.
 # 4. DAgger adds rows from the clone's own states: the clone drives, the teacher labels.
 #

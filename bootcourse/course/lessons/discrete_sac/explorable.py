@@ -94,7 +94,9 @@ def overestimated() -> Explorable:
             "one critic": Curve(one, style("sac").colour),
             "for each action the smaller of two critics": Curve(two, OTHER.colour, "--"),
         }
-        axes = Axes("actions, each worth 0", "highest estimate, on average", limits)
+        axes = Axes(
+            f"actions, each worth 0 (errors of standard deviation {error:g})", "highest estimate, on average", limits
+        )
         says = f"The highest of {actions:g}: {seems:.2f} by one critic, {less:.2f} by the smaller of two."
         return curves(says.replace("-", "−"), axes, counts, named, mark=actions)
 

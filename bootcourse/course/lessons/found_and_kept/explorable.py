@@ -43,7 +43,7 @@ def losing() -> Explorable:
     for tick in ticks(0, episodes, 4):
         across, _ = axes.at(tick, 0)
         still += [line(across, TOP, across, bottom + 3), text(across, bottom + 15, f"{tick:,.0f}", "middle", QUIET, 11)]
-    columns = (LOSE, "lose it at", "least once"), (KEEP, "escape", "in the test"), (EARN, "return of", "these")
+    columns = (LOSE, "lose it at", "least once"), (KEEP, "escape", "in the test"), (EARN, "and then", "earn")
     for x, *words in columns:
         still += [text(x, TOP - 38 + 16 * i, word, "middle", bold=True) for i, word in enumerate(words)]
 

@@ -106,6 +106,6 @@ def chances(cells: Mapping[str, Results], counted: Mapping[str, float]) -> Figur
     ax.set_xticks(at, [each.replace("1/4", "¼") for each in updates], fontsize=TEXT, color=INK)
     ax.set_xlabel("updates for a decision; grey: agents of each method", fontsize=TEXT, color=INK, labelpad=20)
     few, many = (f"{each(values):.0f}" for each in (min, max))
-    title = f"The paper's four rates come in {few} to {many} % of the draws, and the bars are wide"
+    title = f"With π̃ the paper's four rates come in {few} to {many} % of the draws"
     chance = "; ".join(f"{u} {v:.0f} % [{a:.0f}, {b:.0f}]" for u, v, (a, b) in zip(updates, values, bars, strict=True))
     return finish(figure, title, f"For each number of updates, chance [95 %]: {chance}.")

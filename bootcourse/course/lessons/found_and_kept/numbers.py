@@ -51,28 +51,18 @@ def way(results: Results, method: str) -> Counted:
 
 @cache
 def group(words: str) -> Group:
-    """Of round 2: see `groups`; or of the ten others: "others: never", "others: ends", "others: ends, no bonus"."""
+    """Of round 2: see `groups`; or of the ten others: "others: never", "others: ends"."""
     if words.startswith("others: "):
-        cell = {"ends": "", "never": ", β for ever", "ends, no bonus": ", c = 0"}[words.removeprefix("others: ")]
+        cell = {"ends": "", "never": ", β for ever"}[words.removeprefix("others: ")]
         agents = shipped_experiment("stress")[f"bootstrapped{cell}"]
     else:
         agents = groups()[words]
-    return _group(agents, "bootstrapped")
-
-
-def _group(agents: Results, method: str) -> Group:
-    return Group(lost(agents.curves["success"]), agents.scores("returns"), agents.found_and_kept(method)[1])
+    return Group(lost(agents.curves["success"]), agents.scores("returns"), agents.found_and_kept("bootstrapped")[1])
 
 
 def earn(words: str) -> float:
     """The mean return of a group's agents that escape."""
     return float(group(words).earned[group(words).keep].mean())
-
-
-@cache
-def endless() -> Group:
-    """Of the agents with demonstrations alone, for whom β never ends."""
-    return _group(endless_demonstrations(), "demos")
 
 
 def lost_least_if_both(low: int, high: int) -> bool:
@@ -95,12 +85,6 @@ def given(driver: str) -> list[Estimate]:
     return [pattern(agents) for agents in counts.by_updates(driver).values()]
 
 
-def in_percent(chance: Estimate) -> str:
-    """A chance with its bar, as the text says it."""
-    value, low, high = (f"{100 * part:.0f}" for part in chance)
-    return f"{value} % (bar: {low} to {high} %)"
-
-
 def endless_demonstrations() -> Results:
     """Ten agents with demonstrations alone, for whom β never ends."""
     return shipped_experiment("ablations")["β for ever"].of("demos")
@@ -111,25 +95,28 @@ def explanations() -> str:
     ours, lasting = way(of_all(), "demos"), way(endless_demonstrations(), "demos")
     rows = [
         ["1. agents lose the way out",
-         f"demonstrations alone: of 10 agents {ours.kept or 'none'} keeps it if β ends, "
-         f"{lasting.kept} if it never ends",
+         f"Round 2: with demonstrations alone {ours.kept or 'none'} of 10 agents keeps it if β ends, "
+         f"{lasting.kept} keep it if β never ends",
          "possible for this row, if the paper stopped before β ended"],
         ["2. single agents",
-         f"single agents of Round 1 give the paper's four rates in {in_percent(pattern(of_all()))}; of the ten "
-         f"others: in {100 * others_read():.0f} %",
+         f"single agents of Round 1 give the paper's four rates in {100 * pattern(of_all()).value:.0f} % of the "
+         f"draws, those of the ten others in {100 * others_read():.0f} %",
          "seldom, taken alone"],
         ["3. another training",
-         f"with 2 updates and π̃ the four rates come in {in_percent(pattern(clocks()['2', 'π̃']))}",
+         f"Round 3: with 2 updates and π̃ they come in {100 * pattern(clocks()['2', 'π̃']).value:.0f} %",
          "possible for the rates, together with 2"],
         ["4. other traffic", "not tested", "*open*"],
     ]  # fmt: skip
     return markdown(["what could explain it", "what we saw", "so"], rows)
 
 
-def least_earned() -> float:
-    """The lowest return of an agent with demonstrations that escapes, in the settings of round 3, both drivers."""
-    helped = [results.of(method) for results in clocks().values() for method in ("demos", "bootstrapped")]
-    return min(float(each.scores("returns")[each.scores("success") >= ESCAPES].min()) for each in helped)
+def least_earned(lasting: bool) -> float:
+    """The lowest return of an agent with demonstrations that escapes, of all that we trained; lasting: β never ends."""
+    trained = [of_all(), *clocks().values(), *shipped_experiment("ablations").values()]
+    trained += shipped_experiment("stress").values()  # the ten others
+    helped = [each.of(method) for each in trained for method in ("demos", "bootstrapped") if method in each.methods]
+    chosen = [each for each in helped if (each.agents[0]["beta_episodes"] is None) == lasting]
+    return float(min(each.scores("returns")[each.scores("success") >= ESCAPES].min(initial=np.inf) for each in chosen))
 
 
 def of_the_agent_shown() -> Rollout:

@@ -42,15 +42,10 @@ def halves() -> list[Estimate]:
 
 
 @cache
-def splits() -> list[tuple[int, Estimate]]:
-    """All splits of our ten bootstrapped agents, five against five: how many of the four worst are in the first."""
-    returns = np.sort(of("bootstrapped").scores("returns"))
-    first = [list(half) for half in combinations(range(10), 5)]
-    return [
-        (sum(i < 4 for i in half), counts.exact_difference(returns[half], np.delete(returns, half))) for half in first
-    ]
-
-
-def one_half_has_the_lowest_four(effect: Estimate) -> bool:
-    """Is this difference that of a split in which the four lowest returns came into one half?"""
-    return any(low in (0, 4) and np.isclose(effect.value, each.value) for low, each in splits())
+def leaves_out_0_by_luck() -> float:
+    """In which share of all splits of our ten bootstrapped agents, five against five, the interval leaves out 0."""
+    returns = of("bootstrapped").scores("returns")
+    splits = [list(half) for half in combinations(range(10), 5)]
+    return float(
+        np.mean([counts.leaves_out_0(counts.exact_difference(returns[x], np.delete(returns, x))) for x in splits])
+    )

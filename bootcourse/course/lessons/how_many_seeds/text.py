@@ -59,9 +59,9 @@ bc.recording(drives, height=360)
 # on none of the {{ roads() | , }} held-out roads.
 # <!-- claim: np.sort(of('sac').scores('success'))[:-1].max() == 0 and escaped('sac') == 1 -->
 #
-# Here are all ten, and ten more with the soft constraint, ten with demonstrations, ten with both. This is an
-# **ablation**: leave out parts of a method, train again, and see what gets worse. An agent *escapes* if it
-# ends ahead of trap 1 on at least {{ 100 * ESCAPES | .0f }} % of the held-out roads.
+# Here are all ten, and thirty with one or both aids. This is an **ablation**: leave out parts of a method,
+# train again, and see what gets worse. An agent *escapes* if it ends ahead of trap 1 on at least
+# {{ 100 * ESCAPES | .0f }} % of the held-out roads.
 
 # %%
 study = bc.shipped_results()
@@ -74,8 +74,8 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # ## Round 1: what does eight of ten say?
 #
 # With the soft constraint alone, eight of ten agents escape. If you trained thousands, the share that escapes
-# would be the *true rate*. Which true rates are believable? A rate is too low if, with it, hardly any study
-# (under 2.5 %) would see eight or more escape.
+# would be the *true rate*. Which true rates are believable? A rate is too low to believe if fewer than 2.5 %
+# of studies at that rate would see eight or more escape.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
 # > **Predict.** Many studies train ten agents each. At a true rate of 50 %, as with ten fair coins, eight or
@@ -136,12 +136,12 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # %% [markdown]
 # ## Round 2: how many agents does it take?
 #
-# With the soft constraint alone eight of ten agents escape, with both aids seven. Do the methods differ? If
-# they are alike, chance alone decides how the fifteen escapes fall on the two methods. How often do they fall
-# at least as unevenly as eight to seven? That is the **p value**. *Fisher's exact test* computes it, and
-# below 0.05 we speak of a difference. Here p is {{ fisher(8, 7) | .0f }}, because fifteen cannot fall more
-# evenly.
-# <!-- claim: escaped('soft') == 8 and escaped('bootstrapped') == 7 -->
+# With both aids seven of ten agents escape, with plain SAC one. Do the methods differ? If they are alike,
+# chance alone decides how the eight escapes fall on the twenty agents. How often do they fall at least as
+# unevenly as seven to one? That is the **p value**. *Fisher's exact test* computes it: {{ fisher(7, 1) | .3f }}.
+# Below 0.05 we speak of a difference. With {{ fisher(8, 7) | .0f }} for p, the soft constraint's eight
+# against both aids' seven shows none.
+# <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
 # > such studies does Fisher's test find the difference?
@@ -249,9 +249,9 @@ check.bootstrap_interval(bootstrap_interval)
 # %% [markdown]
 # ## Round 4: what do your five seeds show?
 #
-# Change one number of the method, train five agents with the change and five without, and see which group
-# learns the way out early. `bonus=0.0` pays no bonus for demonstrated seconds. The score is an agent's
-# success on 200 roads after 150 episodes.
+# Train five agents with one number changed and five without. Which group learns the way out sooner?
+# `bonus=0.0` pays no bonus for demonstrated seconds. The score is an agent's success on 200 roads after 150
+# episodes.
 #
 # The score of a group is its **interquartile mean** (IQM): sort, leave out the lowest and the highest quarter
 # (rounded down: of five agents, one each), and take the mean.
@@ -297,21 +297,20 @@ bc.show(figures.nothing_changed(study))
 
 # %% [markdown]
 # **See.** Read as an ablation, the first comparison says that a change costs {{ -halves()[0].value | .0f }}
-# points of return. It is luck: the four lowest returns came into one half.
+# points of return. It is luck.
 # <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
-# <!-- claim: [one_half_has_the_lowest_four(each) for each in halves()] == [True] * 2 + [False] * 18 -->
-# <!-- claim: all(counts.leaves_out_0(effect) for low, effect in splits() if low in (0, 4)) -->
 #
-# If a comparison leaves out 0 by luck in 5 % of cases, at least one of twenty independent ones does so in
-# {{ 100 * (1 - 0.95**20) | .0f }} %. This is **multiplicity**. So say beforehand which comparison counts, or
-# multiply each p by the number of comparisons (*Bonferroni*).
+# Of all splits of these ten agents, {{ 100 * leaves_out_0_by_luck() | .0f }} % give an interval that leaves
+# out 0, not 5 %: from few seeds intervals are too short (Round 3). Even at 5 %, at least one of twenty
+# independent comparisons does so in {{ 100 * (1 - 0.95**20) | .0f }} % of cases. This is **multiplicity**. So
+# say beforehand which comparison counts, or multiply each p by their number (*Bonferroni*).
+# <!-- claim: round(100 * leaves_out_0_by_luck()) == 9 -->
 #
-# With both aids 7 of 10 agents escape, with plain SAC 1 of 10, and Fisher's p is {{ fisher(7, 1) | .3f }}. As
-# one of six pairs of methods it would not count, because six times p is {{ 6 * fisher(7, 1) | .2f }}. Ten
-# others of each, trained in another way, agree: {{ escapers(others('bootstrapped'), 'bootstrapped') }} escape
-# with both aids and {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
+# Round 2's p of {{ fisher(7, 1) | .3f }}, as one of six pairs of methods, would not count, because six times
+# p is {{ 6 * fisher(7, 1) | .2f }}. Ten others of each, trained in another way, agree:
+# {{ escapers(others('bootstrapped'), 'bootstrapped') }} escape with both aids and
+# {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
 # <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
-# <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 # <!-- claim: fisher(7, 1) < 0.05 < 6 * fisher(7, 1) -->
 
 # %% [markdown] tags=["instructor"] minutes=3

@@ -61,11 +61,11 @@ def _all_and_parts(agents: Sequence[Results]) -> str:
     return f"**{escape(agents)}** ({parts})" if len(agents) > 1 else f"**{escape(agents)}**"
 
 
-PUSHED = ["the demonstrated action", "states", "loss above 0", "counted by the filter"]
+PUSHED = ["the demonstrated action", "states", "the filtered loss pushes in"]
 
 
 def pushed(loss: Callable[[Tensor, Tensor], Tensor], agent: Agent, drive: Rollout, seconds: int) -> list[list[str]]:
-    """In how many states of a drive's first seconds a margin loss pushes, without the paper's filter and with it.
+    """In how many states of a drive's first seconds a margin loss with the paper's filter pushes.
 
     loss: of (q, demonstrated actions), with a margin of 1. Rows below `PUSHED`, by an agent's own Q.
     """
@@ -74,5 +74,5 @@ def pushed(loss: Callable[[Tensor, Tensor], Tensor], agent: Agent, drive: Rollou
     rivals = q.scatter(-1, did[:, None], -np.inf).amax(-1)
     lead, pushes = q.gather(-1, did[:, None])[:, 0] - rivals, loss(q, did) > 0
     kinds = {"is behind": lead < 0, "leads by less than 1": (lead >= 0) & (lead < 1), "leads by 1 or more": lead >= 1}
-    columns = torch.ones(len(q)) > 0, pushes, pushes & (paper_q_filter(q, did) > 0)
+    columns = torch.ones(len(q)) > 0, pushes & (paper_q_filter(q, did) > 0)
     return [[name, *(f"{int((of & each).sum())}" for each in columns)] for name, of in kinds.items()]

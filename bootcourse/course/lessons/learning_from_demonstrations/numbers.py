@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from bootcourse.course.lessons.demonstrations.numbers import updates_of as updates_of
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.course.lessons.learning_from_demonstrations.measures import kinds
 from bootcourse.panels.bonus import bonus_numbers

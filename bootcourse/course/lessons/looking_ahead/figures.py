@@ -158,7 +158,7 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
 
     computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
     """
-    title = "In a learned model most agents crash more with the look-ahead than alone"
+    title = "With each kind of learned model the agents crash more often than alone, on average"
     agents, base = learned_model.together(computed), learned_model.BASE
     alone = per_thousand(cells, Cell(base, "alone"))[: len(agents)]
     controls = {"the agent": agents}
@@ -166,24 +166,26 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
         f"{100 * share:.0f} % of its actions random": learned_model.together(computed, share)
         for share in learned_model.RANDOM
     }
-    rows = {name: learned_model.per_thousand(of, LEARNED_FORM, control=True).ravel() for name, of in controls.items()}
+    rows = {"(alone, without a model)": alone}
+    rows |= {name: learned_model.per_thousand(of, LEARNED_FORM, control=True).ravel() for name, of in controls.items()}
     rows["the agent, then the look-ahead"] = learned_model.per_thousand(agents, LEARNED_FORM)[:, -1]
-    rows["(alone, without a model)"] = alone
     learned_from = [of.measured["rows"] for of in controls.values()] + [agents.notes["rows"][:, -1]]
-    thousands = [f"{of.mean() / 1000:.0f}" for of in learned_from] + ["–"]
+    thousands = ["–"] + [f"{of.mean() / 1000:.0f}" for of in learned_from]
     row, alt_parts = 0.46, []
     figure = new_figure(1.75 + row * len(rows))
     ax = axes_at(figure, 3.05, 1.0, 2.3, row * len(rows))
     on_the_left = {"transform": ax.get_yaxis_transform(), "ha": "right", "va": "center", "fontsize": SMALL}
     for place, ((name, values), rows_of) in enumerate(zip(rows.items(), thousands, strict=True)):
-        worse, mean, last = values > alone, f"{values.mean():,.0f}", values is alone
+        worse, mean, first = values > alone, f"{values.mean():,.0f}", values is alone
         dots(ax, values, place, style(base).colour, worse, values.mean())
-        beside(ax, place, mean, "" if last else f"{worse.sum()} of {len(worse)}")
+        beside(ax, place, mean, "" if first else f"{worse.sum()} of {len(worse)}")
         ax.text(-0.1, place, rows_of, color=INK, **on_the_left)
-        more = "" if last else f", {worse.sum()} of {len(worse)} more than alone"
-        alt_parts.append(f"{name}{'' if last else f', {rows_of} thousand decisions'}: mean {mean}{more}")
+        more = "" if first else f", {worse.sum()} of {len(worse)} more than alone"
+        alt_parts.append(f"{name}{'' if first else f', {rows_of} thousand decisions'}: mean {mean}{more}")
     beside(ax, -0.75, "mean", "more than alone", colour=QUIET)
     name_rows(ax, list(rows), "accidents in 1,000 drives")
+    ax.axvline(alone.mean(), color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
+    ax.text(alone.mean(), -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
     ax.tick_params(axis="y", pad=48)
     for x, words in ((-0.02, "decisions\n(thousand)"), (-0.32, "the model learns from")):
         ax.text(x, -0.75, words, color=QUIET, **on_the_left)

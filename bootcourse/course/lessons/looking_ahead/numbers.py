@@ -81,12 +81,12 @@ def led_out(success: np.ndarray) -> int:
     return int((success[outs("sac", "alone") < 0.01] > 0.1).sum())
 
 
-def rows_of_w() -> list[tuple[float, int]]:
-    """Of the nine that stay behind alone, with W and without: accidents in 1,000 drives, how many get out."""
+def rows_of_w() -> list[tuple[int, int, int]]:
+    """Of the nine that stay behind alone, with W and without: drives, accidents, how many get out."""
     nine, found = outs("sac", "alone") < 0.01, []
     for with_worth in (True, False):
         of = shipped()[Cell("sac", "rollouts", with_worth=with_worth).name].measured
-        found.append((1000 * of["accidents"][nine].sum() / of["roads"][nine].sum(), led_out(of["success"])))
+        found.append((int(of["roads"][nine].sum()), int(of["accidents"][nine].sum()), led_out(of["success"])))
     return found
 
 
@@ -100,10 +100,10 @@ def worst_with_w() -> tuple[int, int, int, int]:
 
 def with_and_without_w() -> str:
     """These, as Markdown."""
-    names = "with W, 1,000 drives each", "without W, 100 drives each"
-    rows = [[name, f"{accidents:.0f}", out] for name, (accidents, out) in zip(names, rows_of_w(), strict=True)]
-    headings = ["look-ahead", "accidents in 1,000 drives", "agents that get out"]
-    return markdown(headings, rows)
+    rows = [
+        [name, f"{drives:,}", *rest] for name, (drives, *rest) in zip(("with W", "without W"), rows_of_w(), strict=True)
+    ]
+    return markdown(["look-ahead", "drives", "accidents", "agents that get out"], rows)
 
 
 @cache
@@ -172,11 +172,15 @@ def learned_without(share: float | None = None) -> float:
     return float(control(share).mean())
 
 
+def alone() -> np.ndarray:
+    """Those of the same agents alone, (agents,)."""
+    return figures.per_thousand(shipped(), Cell(learned_model.BASE, "alone"))[: len(learning())]
+
+
 def fewest_worse() -> int:
     """How many crash more often with the look-ahead than alone, in the kind of models where these are fewest."""
-    alone = figures.per_thousand(shipped(), Cell(learned_model.BASE, "alone"))[: len(learning())]
     kinds = [in_last_model(), control(), *map(control, learned_model.RANDOM)]
-    return min(int((each > alone).sum()) for each in kinds)
+    return min(int((each > alone()).sum()) for each in kinds)
 
 
 def learned_rows(share: float | None = None) -> np.ndarray:

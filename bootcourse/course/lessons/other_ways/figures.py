@@ -10,6 +10,7 @@ from bootcourse.colours import ALARM, OTHER, Style
 from bootcourse.course import charts
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.other_ways.measures import AGENTS, DECISIONS, SECONDS, Episodes, Judged, in_training
+from bootcourse.learn.settings import settings_for
 from bootcourse.methods import display_name, style
 from bootcourse.plots.diagrams import Diagram, label
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
@@ -19,7 +20,7 @@ from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import iqm
 
-START, TRAINED, END = 210, 560, 690  # pixels: the training begins and ends, and the trained agent drives
+START, TRAINED, END = 300, 650, 780  # pixels: the training begins and ends, and the trained agent drives
 ROW, TOP, THICK = 52, 62, 18
 TAKES = {  # learner: (what it takes, from, until, whether it fades)
     "ppo_cloned": ("a first policy", START - 34, START, False),
@@ -34,12 +35,22 @@ MARKED = {SECONDS: equal_decisions.SECONDS, DECISIONS: equal_decisions.BUDGETS[0
 POINTS = 60  # of each curve
 
 
+def hours_before(method: str) -> float:
+    """The hours that the rule drives before the training: for demonstrations, or for what a clone learns from."""
+    settings = settings_for(method, **equal_decisions.COMMON[method])
+    drives = settings.demonstration_episodes if settings.needs_demonstrations else 0
+    return drives * DEFAULT.clock.decisions / 3600
+
+
 def what_is_taken() -> Diagram:
-    """A row for each learner: a bar while it uses the teacher, which gets thinner where that fades."""
+    """A row for each learner: a bar while it uses the teacher, which gets thinner where that fades.
+
+    Hollow: how long the rule drives before.
+    """
     height = TOP + ROW * len(TAKES) + 4
     says = "A teacher can help before, during or after training (thinner: less and less)"
     parts = [label(8, 18, says, "start", bold=True)]
-    middles = {"before": START - 40, "training": (START + TRAINED) / 2, "after": (TRAINED + END) / 2}
+    middles = {"before": START - 72, "training": (START + TRAINED) / 2, "after": (TRAINED + END) / 2}
     parts += [label(x, 40, words) for words, x in middles.items()]
     for x in (START, TRAINED):
         dash = 'stroke="currentColor" stroke-dasharray="4 4" opacity="0.6"'
@@ -50,11 +61,16 @@ def what_is_taken() -> Diagram:
         end = top + (2 if fades else THICK)
         corners = f"{first},{top} {last},{top} {last},{end} {first},{top + THICK}"
         parts += [f'<polygon points="{corners}" fill="{style(method).colour}"/>']
-        parts += [label(START - 44, top + 14, learner, "end", bold=True)]
+        parts += [label(START - 152, top + 14, learner, "end", bold=True)]
+        if hours := hours_before(method):
+            look = 'fill="none" stroke="currentColor"'
+            parts += [f'<rect x="{START - 140}" y="{top}" width="98" height="{THICK}" {look}/>']
+            parts += [label(START - 91, top + 14, f"{hours:.0f} h of drives")]
         place = (START - 8, top - 6, words, "end") if last == START else (START + 12, top - 6, words, "start")
         parts += [label(*place)]
         until = {START: "before the training", END: "in training and afterwards"}.get(last, "in training")
-        alt_parts.append(f"{learner} takes {words}, {until}{', which fades' * fades}.")
+        drives = f" It needs {hours:.0f} h of the rule's drives before." * (hours > 0)
+        alt_parts.append(f"{learner} takes {words}, {until}{', which fades' * fades}.{drives}")
     return Diagram(END + 10, height, parts, " ".join(alt_parts))
 
 
@@ -191,7 +207,8 @@ def two_counts(computed: Mapping[str, Results], rule: float) -> Figure:
     best, least = next(iter(order[SECONDS])), [*order[DECISIONS]][-1]
     title = f"By seconds of computing {best} earns the most of the five, by decisions"
     title += f"{'' if best == least else ' ' + least} the least"
-    words = f"interquartile mean of ten agents' last {WINDOW} episodes; without the seconds of PPO's cloning"
+    words = f"interquartile mean of ten agents' last {WINDOW} episodes; without the seconds of PPO's cloning;\n"
+    words += f"PPO's line ends at {equal_decisions.BUDGETS[-1]:,} decisions"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     each = {count: ", ".join(f"{name} {of:.0f}" for name, of in by.items()) for count, by in order.items()}
     alt = f"Return in training after {MARKED[SECONDS]} s of computing: {each[SECONDS]}."

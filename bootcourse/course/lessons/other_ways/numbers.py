@@ -7,6 +7,7 @@ from itertools import combinations
 import numpy as np
 
 from bootcourse.course.lessons.other_ways import figures, measures
+from bootcourse.course.lessons.other_ways.figures import hours_before  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
 from bootcourse.episodes.record import record
@@ -14,7 +15,7 @@ from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.methods import METHODS  # noqa: F401 (for the expressions)
 from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
-from bootcourse.research.equal_decisions import BUDGETS, by_method, tried
+from bootcourse.research.equal_decisions import BUDGETS, by_method
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import DEFAULT
@@ -66,22 +67,6 @@ def pairs(budget: int) -> dict[tuple[str, str], float]:
     of = list(combinations([method for method in compared() if method in TAUGHT], 2))
     p = [p_value(*(at(method, "returns", budget) for method in pair)) for pair in of]
     return {pair: float(each) for pair, each in zip(of, holm(p), strict=True)}
-
-
-def search(method: str) -> dict[str, float]:
-    """{what was tried: mean return} of the search."""
-    return tried(shipped_experiment("beyond-search")[method])
-
-
-def drives_before(method: str) -> int:
-    """How many drives of the rule these agents have before they begin: demonstrations, or what a clone learns from."""
-    settings = trained_with(method)
-    return settings.demonstration_episodes if settings.needs_demonstrations else 0
-
-
-def hours_before(method: str) -> float:
-    """The hours that these drives took."""
-    return drives_before(method) * DEFAULT.clock.decisions / 3600
 
 
 def trained_with(method: str) -> Settings:
@@ -141,9 +126,3 @@ def share_of_first(method: str, episodes: int = 80) -> float:
     """The decisions of an agent's first episodes, in % of its training until `FIRST`: the median over the agents."""
     decisions = later(method).curves["decisions"][:, :episodes].astype(float).sum(axis=1)
     return float(100 * np.median(decisions) / FIRST)
-
-
-def left_of(method: str) -> float:
-    """The smallest share that a learning curve over the decisions keeps of its best until then."""
-    curve = figures.learning_curve(later(method), measures.DECISIONS)
-    return float(np.nanmin(curve / np.fmax.accumulate(curve)))

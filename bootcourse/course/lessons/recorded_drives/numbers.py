@@ -54,6 +54,11 @@ def off() -> np.ndarray:
     return estimated() - truth()
 
 
+def first_returns() -> np.ndarray:
+    """The return of each agent of the first set."""
+    return np.array([of(method).scores("returns")[0] for method in choosing.METHODS])
+
+
 @cache
 def successes() -> np.ndarray:
     """In which share of its drives each gets ahead of trap 1, (sets, agents)."""

@@ -57,7 +57,7 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
         firsts = np.cumsum((0, *ends[:-1]))
         crossed = [first + k for first, of in zip(firsts, crashes, strict=True) for k in range(of)]
         ax.scatter(across[crossed], down[crossed], s=42, **CRASHES)
-        verbs = ("escape", "escapes"), ("only crash", "only crashes"), ("stay", "stays")
+        verbs = ("escape", "escapes"), ("others crash", "other crashes"), ("stay", "stays")
         counts = sum(ends[:2]), *ends[2:]
         says = ", ".join(f"{n} {verb[int(n == 1)]}" for n, verb in zip(counts, verbs, strict=True))
         ax.text(x, y + 0.06, says, va="center", fontsize=TEXT, color=INK, fontweight="bold")

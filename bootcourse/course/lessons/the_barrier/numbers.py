@@ -90,9 +90,19 @@ def step_to_the_left() -> attempts.Outcome:
 
 
 @cache
-def one_acceleration() -> attempts.Outcome:
-    """What comes of one acceleration mid-lane, on 100 roads."""
-    return attempts.drive(PlanPolicy([attempts.ACCELERATE]), held_out_seeds(7, 100), easier.MidLaneStart)
+def accelerating(seconds: int) -> attempts.Outcome:
+    """What comes of so many accelerations from a start in the free lane, on 100 roads."""
+    return attempts.drive(PlanPolicy([attempts.ACCELERATE] * seconds), held_out_seeds(7, 100), easier.MidLaneStart)
+
+
+def too_fast() -> np.ndarray:
+    """The speeds (m/s) of the agents that start in the free lane, escape, and earn no more than who stays there."""
+    speeds = []
+    for kind in (MIDDLE, BOTH):
+        success, returns = easy(kind).scores("success"), easy(kind).scores("returns")
+        poor = (success >= ESCAPES) & (returns <= easier.staying(kind))
+        speeds.append(easy(kind).scores("speed")[poor])
+    return np.concatenate(speeds)
 
 
 @cache

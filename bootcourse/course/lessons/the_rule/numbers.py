@@ -18,15 +18,6 @@ from bootcourse.policies import PolicyOutput
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SETTLED as SETTLED
 from bootcourse.rule import Reason, rule
-from bootcourse.scenario import DEFAULT
-
-
-class Changes(NamedTuple):
-    """The rule's lane changes in which the formula, not the floor, gives the safety distance."""
-
-    speeds: np.ndarray  # m/s, at the first such decision of each road that has one
-    faster: np.ndarray  # m/s, by how much that is faster than trap 2
-    crashed: int  # how many of these roads end in an accident
 
 
 @cache
@@ -43,16 +34,6 @@ def decided(sight: float, **numbers) -> tuple[np.ndarray, np.ndarray, np.ndarray
 
     episodes = drive_episodes(drive, ROADS, together=len(ROADS))
     return *map(np.array, zip(*seen, strict=True)), episodes
-
-
-def by_the_formula(sight: float) -> Changes:
-    """Where the formula decides, with another sight (m), on the lesson's roads."""
-    reasons, distances, cars, episodes = decided(sight)
-    found = (reasons == Reason.CHANGE) & (distances > DEFAULT.rule.floor)
-    at = found.argmax(0)[found.any(0)], np.flatnonzero(found.any(0))
-    speeds = cars[:, :, EGO, SPEED]
-    faster = speeds - cars[:, :, TRAP_2, SPEED]
-    return Changes(speeds[at], faster[at], int((episodes.accident[at[1]] > 0).sum()))
 
 
 def lost_in_change(floor: float, sight: float = 20.0) -> np.ndarray:
@@ -77,6 +58,12 @@ def gap(drive: Rollout, second: int) -> float:
     """The room (m) between the ego and trap 2, from bumper to bumper."""
     ego, trap = drive.states[second * drive.scenario.clock.steps, [EGO, TRAP_2], X]
     return trap - ego - drive.scenario.car.length
+
+
+def faster(drive: Rollout, second: int) -> float:
+    """By how much (m/s) the ego is faster than trap 2."""
+    ego, trap = drive.states[second * drive.scenario.clock.steps, [EGO, TRAP_2], SPEED]
+    return ego - trap
 
 
 @cache

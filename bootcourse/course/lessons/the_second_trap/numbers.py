@@ -5,13 +5,16 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons import number
-from bootcourse.course.lessons.the_second_trap import explorable, ppo_kinds, second_trap
+from bootcourse.course.lessons.the_second_trap import (
+    explorable,  # noqa: F401 (the text names it)
+    ppo_kinds,
+    second_trap,
+)
 from bootcourse.course.lessons.your_teacher import example_teachers
 from bootcourse.episodes.record import record
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.research.tables import markdown
-from bootcourse.road.formulas import speed_reward
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, discounted, idle, shipped_teachers
@@ -47,12 +50,6 @@ def ppo_drive(kind: str = "alone", seed: int = 0):
 def ppo_speeds(kind: str = "alone", seed: int = 0) -> np.ndarray:
     """Its speed (m/s) after each decision, (decisions,)."""
     return second_trap.speeds(ppo_drive(kind, seed))
-
-
-def drive_advantage(lam: float) -> float:
-    """The first second's advantage in this drive, as the panel on λ counts it: with V at a steady 10 m/s."""
-    surprises = np.array([speed_reward(v) for v in ppo_speeds()]) - speed_reward(explorable.MEAN)
-    return float(surprises @ (settings_for("ppo").gamma * lam) ** np.arange(len(surprises)))
 
 
 def ppo_gap() -> np.ndarray:

@@ -16,7 +16,7 @@
 # **What you will be able to do**
 # - find out from a drive what its reward pays for;
 # - say when a reward pays for a changing speed;
-# - write PPO's advantages and its loss, and train an agent with them.
+# - write PPO's advantages and its actor's loss, and train an agent with them.
 #
 # **Time** 45 minutes; running it takes about half a minute. **It builds on** the reward (lesson
 # [[the_trap]]), the temporal difference ([[values]]), *terminated* ([[update_and_loop]]) and cloning
@@ -113,8 +113,8 @@ steady = bc.formulas.speed_reward(speeds.mean())
 print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {steady:.2f}")
 
 # %% [markdown]
-# **See.** The agent falls back to {{ ppo_speeds().min() | .0f }} m/s first, so the sprints pay late. What is
-# that worth at the start? It depends on γ:
+# **See.** The agent falls back to {{ ppo_speeds().min() | .0f }} m/s first, so the sprints pay late. What a
+# whole drive is worth at its start depends on γ:
 #
 # {{ worth_table() }}
 #
@@ -156,7 +156,7 @@ bc.show(figures.gives_up(ppo_kinds.reference()["alone"]))
 # %% [markdown]
 # **See.** At 200,000 decisions up to {{ 100 * ppo('alone')['escapes'][:, 3].max() | .0f }} % of an agent's
 # drives get ahead, at 300,000 none, and later hardly any. At 300,000 all ten agents still earn less than a
-# car that keeps straight, so they gave up leaving *before* they earned more than it.
+# car that keeps straight, so they gave up leaving first.
 # <!-- claim: all(abs(at[3] - 200_000) < 500 and abs(at[5] - 300_000) < 500 for at in ppo('alone')['at']) and
 #   ppo('alone')['escapes'][:, 5].max() == 0 and ppo('alone')['curve'][:, :6].max() < idle().rewards.sum() -->
 # <!-- claim: ppo('alone')['curve'][:, 9:].max(axis=1).min() > idle().rewards.sum() + 5 and
@@ -169,15 +169,15 @@ bc.show(figures.gives_up(ppo_kinds.reference()["alone"]))
 # %% [markdown]
 # ## Round 3: how does PPO see pay that comes late?
 #
-# Falling back costs something now; the sprint pays many seconds later. So PPO must credit an action with what
-# comes long after it.
+# Falling back costs something now; the sprint pays many seconds later.
 #
 # The **advantage** A of an action is what came of it, less what PPO's critic V expected. We add it up from
-# *surprises*, one a second: what came in that second, less what V expected of it. λ, from 0 to 1, says how
+# *surprises*: what came in one second, less what V expected of that second. λ, from 0 to 1, and γ say how
 # much later surprises count.
 #
-# Suppose V expects a steady 10 m/s, but the car falls back and then sprints. An outlined bar is a second's
-# surprise; its filled part counts. The filled parts add up to A of the first second.
+# Suppose V expects a steady 10 m/s, but the car falls back and then sprints. Each outlined bar is one
+# second's surprise, and its filled part is what counts of it. All filled parts together are A of the first
+# second.
 #
 # **Drag** λ down from PPO's {{ settings_for('ppo').gae_lambda }}: where does falling back stop looking good?
 
@@ -186,11 +186,9 @@ explorable.later()
 
 # %% [markdown]
 # **See.** Falling back looks bad at λ = 0.8, but good at 0.85. What counts is the product γλ: with SAC's γ =
-# {{ settings_for('sac').gamma }} it would look bad at every λ. A longer fall needs a larger γλ.
+# {{ settings_for('sac').gamma }} it would look bad at every λ.
 # <!-- claim: all(explorable.weighted(lam * settings_for('sac').gamma / settings_for('ppo').gamma).sum() < 0 for
 #   lam in np.linspace(0, 1, 101)) -->
-# <!-- claim: drive_advantage(0.9) < -0.5 < 0 < explorable.weighted(0.9).sum() and
-#   (ppo_speeds()[:28] <= 10).all() -->
 # <!-- claim: all(ppo_kinds.settings_of(kind).gae_lambda == settings_for('ppo').gae_lambda > 0 for
 #   kind in ppo_kinds.KINDS) -->
 # <!-- claim: [explorable.weighted(lam).sum() > 0 for lam in (0, 0.5, 0.8, 0.85, 0.95, 1)] ==
@@ -204,7 +202,8 @@ explorable.later()
 #
 # $$ A_t = \delta_t + \gamma\lambda\, \delta_{t+1} + (\gamma\lambda)^2 \delta_{t+2} + \dots $$
 #
-# **Endings need care.** The data hold {{ ppo_kinds.settings_of('alone').horizon }} decisions of each road:
+# **Endings need care**, also that of the data, after {{ ppo_kinds.settings_of('alone').horizon }} decisions
+# on each road:
 #
 # | after decision t comes | `terminated` | `ended` | next V in δ | the sum |
 # |---|---|---|---|---|
@@ -238,12 +237,13 @@ check.advantages(advantages)
 # %% [markdown]
 # ## Round 4: how far may one decision push?
 #
-# PPO drives {{ ppo_kinds.settings_of('alone').horizon }} decisions on each of
-# {{ ppo_kinds.settings_of('alone').envs_per_agent }} roads, learns from them in a few passes over random
-# parts (*minibatches*), throws them away and drives again. The policy that drove is π_old.
+# PPO drives these {{ ppo_kinds.settings_of('alone').horizon }} decisions on each of
+# {{ ppo_kinds.settings_of('alone').envs_per_agent }} roads with its present policy, π_old. In a few passes
+# over random parts (*minibatches*) V is trained towards V + A, and the actor with the loss below and a small
+# entropy bonus. Then PPO throws the decisions away and drives again.
 #
 # The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since it
-# was taken. At first ρ = 1. A good decision (A > 0) pushes ρ up, a bad one pushes it down, and ε =
+# was taken. A good decision (A > 0) pushes ρ up, a bad one pushes it down, and ε =
 # {{ 100 * settings_for('ppo').clip | .0f }} % limits how far.
 #
 # > **Predict.** An action turned out badly, A = −2, but has become likelier, ρ = 1.5. Does this
@@ -279,7 +279,8 @@ check.clipped_loss(clipped_loss)
 # %% [markdown] tags=["instructor"] minutes=7
 # The endings are the hard part. Draw two rows, one that ends in an accident and one that runs out of time,
 # and fill in δ and the sum for both. Then ask who thinks that clipping limits the policy. It only takes the
-# payment away: other rows of the batch can push the policy further.
+# payment away: other rows of the batch can push the policy further. The library also brings A to mean 0 and
+# deviation 1 in each minibatch, before the loss.
 
 # %% [markdown]
 # ## Round 5: start as a clone

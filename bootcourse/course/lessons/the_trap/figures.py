@@ -1,15 +1,17 @@
 """Figures of the trap: where each action leads, what pays, how agents drive after training, which risk is bearable."""
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import OTHER
+from bootcourse.course.dots import name_rows
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.methods import METHODS, style
 from bootcourse.plots.canvas import MplAxes
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, finish, in_front, new_figure, one_axes
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, WIDTH, axes_at, finish, in_front, new_figure, one_axes
 from bootcourse.plots.road import draw_car, draw_road, edges_of
 from bootcourse.research import report
 from bootcourse.research.results import Results
@@ -81,35 +83,30 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
     return finish(figure, f"In {seconds} s steering moves the car {least:.1f} to {most:.1f} m sideways", alt)
 
 
-def bearable_risks(gammas: np.ndarray, risks: np.ndarray, early: np.ndarray) -> Figure:
-    """The share of early crashes that the rule's way, the plan and an agent with help bear at each γ, (gammas, 3).
+def bearable_risks(risks: Sequence[float], early: np.ndarray) -> Figure:
+    """The share of early crashes that the rule's way, the plan and an agent with help bear at γ = 0.8, a bar for each.
 
     early: the share of roads on which the plan, and the agent, do crash early, (2,).
     """
     title = "At γ = 0.8 the blind plan crashes more than it bears; an agent with help does not"
-    figure, ax = one_axes(3.6, title, "γ, what a reward a second later is worth", "risk of an early crash (%)")
-    rule = f"the rule's way bears 0 below γ = {gammas[np.argmax(risks[:, 0] > 0)]:.2f}"
-    ways = (
-        (rule, "rule", (0.941, 4.6), ()),
-        ("the blind plan bears", None, (0.893, 17.5), (100 * early[0], (-9, 0), "right")),
-        ("an agent with help bears", "bootstrapped", (0.868, 24), (100 * early[1], (8, 8), "left")),
-    )
-    now, says = np.argmin(abs(gammas - 0.8)), []
-    for (name, method, place, does), risk in zip(ways, 100 * risks.T, strict=True):
-        colour = style(method).colour if method else INK
-        ax.plot(gammas, risk, color=colour, linewidth=2)
-        ax.text(*place, name, ha="left" if method is None else "right", fontsize=TEXT, color=colour)
-        if does:
-            share, offset, side = does
-            look = {"textcoords": "offset points", "fontsize": TEXT, "color": colour, "va": "center"}
-            ax.plot(0.8, risk[now], "o", color=colour, markersize=6)
-            ax.annotate(f"{risk[now]:.0f} %", (0.8, risk[now]), xytext=(-5, 8), ha="right", **look)
-            hollow = {"markerfacecolor": "white", "markersize": 7, "clip_on": False, "zorder": 5}
-            ax.plot(0.8, share, "o", color=colour, **hollow)
-            ax.annotate(f"crashes early: {share:.0f} %", (0.8, share), xytext=offset, ha=side, **look)
-            says.append(f"{name} {risk[now]:.0f} % and crashes early on {share:.0f} % (hollow)")
-    ax.set(xlim=(gammas[0], gammas[-1]), ylim=(0, 42))
-    alt = f"The risk of an early crash that each way out bears grows with γ. At γ = 0.8 {', and '.join(says)}; {rule}."
+    names = ("the rule's way", "the blind plan", "an agent with help")
+    colours = style("rule").colour, INK, style("bootstrapped").colour
+    high, left = 0.72 * len(names), 1.6
+    figure, says = new_figure(0.5 + high + 0.6), []
+    ax = axes_at(figure, left, 0.5, WIDTH - left - 0.3, high)
+    for row, (name, colour, risk) in enumerate(zip(names, colours, risks, strict=True)):
+        bars = [(f"bears {100 * risk:.0f} %", 100 * risk, colour)]
+        if row:
+            share = 100 * early[row - 1]
+            bars.append((f"crashes early: {share:.0f} %", share, "white"))
+        for k, (words, width, fill) in enumerate(bars):
+            y = row + 0.34 * (k - (len(bars) - 1) / 2)
+            ax.barh(y, width, 0.3, color=fill, edgecolor=colour, linewidth=1.4)
+            ax.text(width + 0.25, y, words, fontsize=TEXT, color=colour, va="center")
+        says.append(f"{name} {', '.join(words for words, *_ in bars)}")
+    name_rows(ax, names, "risk of an early crash (%)")
+    ax.set(xlim=(0, 20), xticks=range(0, 21, 5))
+    alt = f"Filled bars: the risk that each way out bears. Hollow ones: how often it crashes early. {'; '.join(says)}."
     return finish(figure, title, alt)
 
 

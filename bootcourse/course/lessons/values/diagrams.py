@@ -81,14 +81,24 @@ def walks(forwards: Sequence[np.ndarray], backwards: np.ndarray) -> Figure:
     return _values(title, {name: (q[:, 1], q[:, 1] > 0) for name, q in named.items()}, 3, "Blue: above 0.")
 
 
-def _values(title: str, rows: Mapping[str, tuple[np.ndarray, np.ndarray]], digits: int, key: str) -> Figure:
-    """A row of numbers for each name: one for each state, and which of them are blue. The last row stands apart."""
+def _values(
+    title: str,
+    rows: Mapping[str, tuple[np.ndarray, np.ndarray]],
+    digits: int,
+    key: str,
+    heads: Sequence[str] = ("trap: Q(0, 1)", "Q(1, 1)", "Q(2, 1)", "Q(3, 1)", "free: Q(4, 1)"),
+    what: str = "The value of going on",
+) -> Figure:
+    """A row of numbers for each name: one for each state, and which of them are blue. The last row stands apart.
+
+    what: the numbers are, for the alt text.
+    """
     left, top, (wide, high), apart = 1.9, 0.95, CELL, 0.12
     figure, listed = new_figure(top + len(rows) * high + apart + 0.4), []
     ax = axes_at(figure, left, top, 5 * wide, len(rows) * high + apart)
     ax.set(xlim=(0, 5 * wide), ylim=(len(rows) * high + apart, 0))
     ax.axis("off")
-    for s, name in enumerate(("trap: Q(0, 1)", "Q(1, 1)", "Q(2, 1)", "Q(3, 1)", "free: Q(4, 1)")):
+    for s, name in enumerate(heads):
         ax.text((s + 0.5) * wide, -0.08, name, fontsize=TEXT, color=INK, ha="center", va="bottom")
     for k, (name, (values, blue)) in enumerate(rows.items()):
         down = k * high + apart * (k == len(rows) - 1)
@@ -101,7 +111,7 @@ def _values(title: str, rows: Mapping[str, tuple[np.ndarray, np.ndarray]], digit
         said = (f"{value:.{digits}f}{' (blue)' * bool(is_blue)}" for value, is_blue in zip(values, blue, strict=True))
         listed.append(f"{name}: {', '.join(said)}")
     figure.text(0.012, 0.06, key, fontsize=SMALL, color=QUIET)
-    return finish(figure, title, f"The value of going on in the states 0 to 4. {key} {'; '.join(listed)}.")
+    return finish(figure, title, f"{what} in the states 0 to 4. {key} {'; '.join(listed)}.")
 
 
 def who_leaves(found: Mapping[str, Sequence[np.ndarray]]) -> Figure:
@@ -141,7 +151,8 @@ def goes_on_from(q: np.ndarray, state: int) -> int:
 
 
 def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
-    """Q(s, 1) of a learner that learns to leave, when it goes on in 3, 2, 1 and 0 for good, and at the end of another.
+    """Each state's larger Q of a learner that learns to leave, when it goes on in 3, 2, 1 and 0 for good, and at the
+    end of another.
 
     both: the Q (5, 2) of each after each walk, the zeros before included; first the other one's.
     """
@@ -152,6 +163,9 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
     for values, walk in shown:
         arrived = (chain.arrivals(values) <= walk).sum()
         name = f"{'another: ' * (values is other)}{arrived} walks ({chain.EPISODE * walk:,})"
-        rows[name] = values[walk, :, 1], (values[walk, :, 1] > values[walk, :, 0]) & (np.arange(chain.STATES) < 4)
-    key = "Rows: after so many walks that reached the free road (decisions). Blue: going on beats action 0."
-    return _values("Leaving wins only after going on has won in state 3, then 2, then 1", rows, 2, key)
+        rows[name] = values[walk].max(axis=1), (values[walk, :, 1] > values[walk, :, 0]) & (np.arange(chain.STATES) < 4)
+    key = "Rows: walks that reached the free road (decisions). White: staying or turning back is worth more. "
+    key += "Blue: going on is."
+    heads = ("trap", "state 1", "state 2", "state 3", "free road")
+    title = "Leaving wins only after going on has won in state 3, then 2, then 1"
+    return _values(title, rows, 2, key, heads, "The larger Q")

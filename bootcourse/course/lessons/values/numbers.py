@@ -13,34 +13,6 @@ def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
     return sum(map(chain.has_been_free, chain.learned(explore, gamma, walks=walks)))
 
 
-@cache
-def with_draws(walks: int = 30) -> list[np.ndarray]:
-    """Q of each of the chain's learners with A's ε and γ, if they draw one of two equal actions at random."""
-    return [_drawing(seed)[-1] for seed in range(walks)]
-
-
-@cache
-def drawn_arrivals(walks: int = 30) -> list[int]:
-    """On how many walks each of those that reach the free road does so."""
-    counts = (len(chain.arrivals(np.array(_drawing(seed)))) for seed in range(walks))
-    return [count for count in counts if count]
-
-
-@cache
-def _drawing(seed: int) -> list[np.ndarray]:
-    """A's learner of this seed that draws so: its Q before the first walk and after each."""
-    rng, q, s, found = np.random.default_rng(1000 + seed), np.zeros((chain.STATES, 2)), 0, []
-    for t, chance in enumerate(chain.chances(0.1, 1000, seed)):
-        if t % chain.EPISODE == 0:
-            s = 0
-            found.append(q.copy())
-        greedy = rng.integers(2) if q[s, 0] == q[s, 1] else q[s].argmax()
-        a = int(greedy) if chance < 0 else chance
-        q[s, a] += 0.3 * (chain.REWARD[s, a] + 0.8 * q[chain.NEXT[s, a]].max() - q[s, a])
-        s = chain.NEXT[s, a]
-    return [*found, q]
-
-
 def sweeps(times: int, gamma: float) -> np.ndarray:
     """Q of the chain after so many sweeps of the Bellman equation, from zeros: (5, 2)."""
     q = np.zeros((chain.STATES, 2))
@@ -58,9 +30,20 @@ def walked(times: int, backwards: bool = False) -> list[bool]:
 
 
 @cache
-def walks(seed: int) -> np.ndarray:
-    """Q of one of the last figure's learners after each walk, the zeros before included: (walks + 1, 5, 2)."""
-    return np.array(chain.over_walks(0.5, 0.8, seed))
+def walks(seed: int, explore: float = 0.5, start: float = 0.0) -> np.ndarray:
+    """Q of C's learner of this seed (or with another ε) before its first walk and after each: (walks + 1, 5, 2).
+
+    start: what all Q are at first.
+    """
+    q, s, found = np.full((chain.STATES, 2), start), 0, []
+    for t, chance in enumerate(chain.chances(explore, 1000, seed)):
+        if t % chain.EPISODE == 0:
+            s = 0
+            found.append(q.copy())
+        a = int(q[s].argmax()) if chance < 0 else chance
+        q[s, a] += 0.3 * temporal_difference.solution(q, s, a, chain.REWARD[s, a], chain.NEXT[s, a], 0.8)
+        s = chain.NEXT[s, a]
+    return np.array([*found, q])
 
 
 def arrivals(seed: int) -> np.ndarray:
@@ -77,3 +60,10 @@ def walks_until(state: int, seed: int = 1) -> int:
 def needed_walks() -> list[int]:
     """How many walks to the free road each of C's learners that leave needed."""
     return [walks_until(0, seed) for seed in range(30) if chain.leaves(walks(seed)[-1])]
+
+
+@cache
+def too_few() -> list[int]:
+    """How many walks to the free road each of C's others made, of those that were there: the fewest first."""
+    others = (len(arrivals(seed)) for seed in range(30) if not chain.leaves(walks(seed)[-1]))
+    return sorted(count for count in others if count)

@@ -91,7 +91,7 @@ print(f"γ = {min(better):.2f}")
 # %% [markdown]
 # ## Round 2: a value from the next value
 #
-# A **state** says all that matters for what comes next; such a world is a *Markov decision process* (MDP).
+# A **state** says all that matters for what comes next (this makes a *Markov decision process*, MDP).
 #
 # The **value** of action a in state s, **Q(s, a)**, is the discounted return if you take a once and then act
 # as well as possible. A state is worth the larger of its two Q. On the chain nothing is left to chance, so
@@ -103,12 +103,11 @@ print(f"γ = {min(better):.2f}")
 # To find Q, begin with Q = 0 everywhere. One **sweep** computes the right side for all ten pairs (s, a) at
 # once; the next sweep begins with the new Q.
 #
-# > **Predict.** After which sweep does Q(0, 1), the value of leaving the trap, first contain a part
-# > of the free road's reward?
+# > **Predict.** After which sweep does the free road's reward first reach Q(0, 1), the value of leaving the trap?
 
 # %%
 choices = ["1", "2", "4", "5"]
-predict("values.2", "After which sweep does Q(0, 1) know of the free road?", choices)
+predict("values.2", "After which sweep does the free road's reward reach Q(0, 1)?", choices)
 
 # %% [markdown]
 # **Exercise (8 min, ●●○).** Write one sweep. `chain.REWARD[s, a]` and `chain.NEXT[s, a]`, arrays (5, 2), hold
@@ -238,8 +237,8 @@ predict("values.4", "In which kinds do more than half learn to leave? Letters, a
 def learn_chain(chances, gamma, step, taught):
     """Q (5, 2) after len(chances) decisions, from zeros.
 
-    chances: a number for each decision. -1: act greedily (action 0 if both Q are equal). 0 or 1:
-    take this action. taught: pairs (s, a) of a demonstrator, replayed in this order after each of
+    chances: for each decision -1 (act greedily, action 0 if both Q are equal), or the action to
+    take, 0 or 1. taught: pairs (s, a) of a demonstrator, replayed in this order after each of
     your own decisions; they pay chain.REWARD[s, a].
     """
     # solution
@@ -273,8 +272,8 @@ bc.show(diagrams.who_leaves(found))
 
 # %% [markdown]
 # **Explain.** In A none learns to leave, although leaving is worth more. On the way out you lose the trap's
-# pay, and only the end pays: this is a **barrier**. A longer view alone (B) does not help. No learner of A or
-# B reached the free road, so none knows its value.
+# pay, and only the end pays: this is a **barrier**. A longer view (B) does not help: no learner of A or B
+# reached the free road.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
@@ -291,16 +290,18 @@ bc.show(diagrams.who_leaves(found))
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** A state passes back only its *larger* Q.
+# **Explain.** A state passes back only its *larger* Q, the number in the table.
 #
-# 1. *Blocked.* In the trap staying is worth {{ 0.16 / 0.2 | .2f }}, so in state 1 turning back is worth 0.8 ·
-#    {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }}. As long as going on is worth less there, leaving
-#    the trap is worth 0.8 · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}.
-# 2. *Opened.* Walks to the free road raise the value of going on until it wins, in 3, then in 2, then in 1
-#    (blue).
-# 3. *Through.* Only then does leaving rise above {{ 0.8**2 * 0.16 / 0.2 | .2f }}.
+# 1. *Blocked* (last row). In the trap staying is worth {{ 0.16 / 0.2 | .2f }}, so in state 1 turning back is
+#    worth 0.8 · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }}. While going on is worth less there,
+#    leaving the trap is worth 0.8 · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}.
+# 2. *Opened.* Walks to the free road turn one state after another blue: 3, 2, 1.
+# 3. *Through.* Only then does leaving rise above {{ 0.8**2 * 0.16 / 0.2 | .2f }}, and past {{ 0.16 / 0.2 | .2f }}.
 #
-# Two walks (last row) are too few.
+# Those that learn to leave need {{ min(needed_walks()) }} to {{ max(needed_walks()) }} such walks. All but
+# one of C's others make at most {{ too_few()[-2] }}.
+# <!-- claim: len(needed_walks()) == leaving(0.5, 0.8) and len(too_few()) == free_road_seen(0.5, 0.8) -
+#   leaving(0.5, 0.8) and too_few()[-2] < min(needed_walks()) <= too_few()[-1] -->
 # <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 and q[1, 1] < q[1, 0] and abs(q[1, 0] - 0.8 * 0.16 / 0.2)
@@ -323,7 +324,7 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. The discounted return is the sum of the rewards from now on, one after t decisions × γᵗ.
+# 1. The discounted return is the sum of the rewards from now on; one that comes t decisions later counts γᵗ.
 # 2. The Bellman equation: an action is worth its reward plus γ times the larger Q of the next state.
 # 3. A temporal difference says how much better one decision went than expected. Q-learning moves Q(s, a) by a
 #    part of this difference.
@@ -334,11 +335,10 @@ compare_predictions(
 #
 # **Three questions to think about**
 # - With γ = 0.6, how many of D's thirty would learn to leave, and should they?
-# - If your learner draws one of two equal actions at random, {{ len(drawn_arrivals()) }} of A's thirty reach
-#   the free road, but none learns to leave. Why?
+# - What would A's learners do if all Q were 5 at first?
 # - Your car sees 26 numbers. What replaces the chain's table of ten values, and what can then go wrong with a
 #   demonstration?
-# <!-- claim: not any(map(chain.leaves, with_draws())) and 0 < max(drawn_arrivals()) < min(needed_walks()) -->
+# <!-- claim: all(chain.leaves(walks(seed, 0.1, 5.0)[-1]) for seed in range(30)) and sweeps(99, 0.8).max() <= 5 -->
 # <!-- claim: leaving(1.0, 0.6) == 0 and 0.6**4 < 0.16 -->
 #
 # **Read on**: [](discrete_sac.ipynb), with networks in place of the table. Sutton and Barto, *Reinforcement
@@ -349,9 +349,8 @@ compare_predictions(
 #
 # - *γ = 0.6.* None, and rightly: 0.6⁴ = {{ 0.6**4 | .2f }} is below 0.16, so staying is worth more (Round 1).
 #   They explore as much as before; whether it is a trap depends on γ.
-# - *Equal actions.* At first all values are equal, so some learners reach the free road by chance, on
-#   {{ max(drawn_arrivals()) }} walks at most. As in the last figure, these are too few to carry its value
-#   back to the trap.
+# - *Q is 5 at first.* No action is worth more than 5. In the states 0 to 3 a Q falls when its action is
+#   taken, so the greedy learner turns to the other action. All thirty learn to leave.
 # - *The table.* A function with fewer numbers than states: a network. It answers for states that it has not
 #   seen, which is its use and its danger. States of 26 numbers rarely come twice, and a network carries an
 #   error from one state to the next. The rule's drives also show a slow way, which on road 10 is worth less

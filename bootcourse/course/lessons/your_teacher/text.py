@@ -25,15 +25,7 @@
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import (
-    check,
-    compare_predictions,
-    predict,
-    predicted,
-    progress,
-    source,
-    table,
-)
+from bootcourse.course import check, compare_predictions, predict, predicted, progress, table
 from bootcourse.course.lessons.your_teacher import (
     asking,
     example_teachers,
@@ -106,13 +98,13 @@ figures.cars_in_rows(cars)
 # %% [markdown]
 # Your rule decides on a **speed** and a **lane**. `toward(cars, speed, lane, scenario)` finds the action that
 # brings the car there. The racer is one line:
-
-# %% tags=["nbval-ignore-output"]
-source("bootcourse.course.lessons.your_teacher.example_teachers", "racer")
-
-# %% [markdown]
-# > **Predict.** A blind rule looks at no car: it always steers one lane left, at one speed. You may choose that
-# > speed, from 8 to 15 m/s. On how many of 100 roads does it get out?
+#
+# ```python
+# return toward(cars, 20.0, 0, scenario) if cars[EGO, LANE] == 0 else careful(cars, scenario)
+# ```
+#
+# > **Predict.** A blind rule looks at no car: it always steers one lane left, at a speed of your choice, 8, 9, … or
+# > 15 m/s. On how many of 100 roads does it get out?
 
 # %%
 predict("your_teacher.1", "At its best speed it gets out on ...", ["none", "about half", "all"])
@@ -186,7 +178,7 @@ driven = [bc.record(driver, [ROAD], label=name)[0] for name, driver in both.item
 bc.recording([beginning(drive, 30) for drive in driven], height=360)
 
 # %% [markdown]
-# Two students are no verdict, so ten of each teacher ship, beside ten that learned alone for as long.
+# Two students are no verdict. The kit has ten of each teacher, and ten that learned alone for as long.
 # <!-- claim: {s['updates'][-1] for s in taught_agents.reference().values()} == {taught_agents.UPDATES} -->
 #
 # > **Predict.** The racer earns next to nothing itself, and those that learned alone earn
@@ -207,7 +199,7 @@ bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 # more often than those alone (▲), but earn less (▼), by rank tests with Holm's correction at 5 % (lesson
 # [[how_many_seeds]]).
 #
-# So far, students escaped only if their teacher gets out. Must a teacher get out?
+# So far, students escaped only if their teacher gets out. Must it?
 # <!-- claim: student_escapes('timid') == 0 -->
 # <!-- claim: all(student_escapes(name) >= 5 for name in ('the rule', 'careful', 'racer')) -->
 # <!-- claim: students('racer')['success'].mean() > 3 * students('alone')['success'].mean() -->
@@ -221,7 +213,8 @@ bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 # ## Round 3: a teacher that crashes
 #
 # Half random's {{ len(demonstrated('random-50')) }} drives all end in an accident, and half of its labels are
-# random.
+# random. Beside it: **quarter random** acts at random in a quarter of the states, **late** is the rule 0.75 s
+# late, and **mirrored** is the rule with left and right exchanged.
 # <!-- claim: all(drive.accident > 0 for drive in demonstrated('random-50')) -->
 #
 # > **Predict.** Ten students learn from half random's drives and labels, in a whole training of
@@ -229,10 +222,6 @@ bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 
 # %%
 predict("your_teacher.3", "Of these ten students escape ...", ["0 to 2", "3 to 7", "8 to 10"])
-
-# %% [markdown]
-# Three more teachers: **quarter random** acts at random in a quarter of the states, **late** is the rule 0.75
-# s late, and **mirrored** is the rule with left and right exchanged.
 
 # %%
 predicted("your_teacher.3")
@@ -242,7 +231,7 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # **See.** All ten escape. Four of these six teachers reach the free lane in their drives, and most students
 # of each escape. The other two do not, and none of theirs escapes. (The rule's three that miss here had found
-# the way out, and lost some of it: lesson [[found_and_kept]].)
+# the way out, and lost some or all of it: lesson [[found_and_kept]].)
 # <!-- claim: (lambda found, kept: found.all() and (~kept).sum() == 3 == 10 - escape_of(['rule']))(
 #   *worth()['rule', 'bootstrapped'].found_and_kept('bootstrapped')) -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 -->
@@ -258,8 +247,8 @@ bc.show(figures.of_six_teachers(taught))
 # %% [markdown]
 # ## Round 4: the free lane, or its accidents?
 #
-# Which part of such a drive teaches the way out? Without the {{ gets_ahead('random-50') }} that end ahead of
-# trap 1, {{ reach_free_lane() }} reach the free lane and crash later, and
+# Which part of such a drive teaches the way out? We leave out the {{ gets_ahead('random-50') }} drives that
+# end ahead of trap 1. Of the others, {{ reach_free_lane() }} reach the free lane and crash later;
 # {{ len(crashes.crashed()) - reach_free_lane() }} never reach it. Each row is a group of ten new agents. All
 # learn from the {{ len(crashes.crashed()) - reach_free_lane() }}; of the {{ reach_free_lane() }} they get the
 # parts marked ■:
@@ -300,13 +289,6 @@ def without_the_accident(lanes):
 check.without_the_accident(without_the_accident)
 
 # %% [markdown]
-# Two agents learn from your choice, as briefly as in Round 2.
-
-# %% tags=["nbval-ignore-output"]
-passed = check.without_the_accident(without_the_accident).passed
-figures.chosen(without_the_accident) if passed else "First the exercise."
-
-# %% [markdown]
 # Ten of each kind, after a whole training:
 
 # %%
@@ -315,12 +297,18 @@ bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
 # **Explain.** *Most students of half random escape if its drives show the free lane, with the accident there
-# or without it.* It is not the number of decisions: with as few as *neither*, but with the free lane,
-# {{ crash_escapes('as-many') }} of ten others escape. From *all* without the bonus c,
+# or without it.* It is not the number of decisions: ten others had as few as *neither*, but among them the
+# free lane, and {{ crash_escapes('as-many') }} escape. From *all* without the bonus c,
 # {{ crash_escapes('no-bonus') }} do.
 # <!-- claim: crashes.is_kept('cut').sum() == crashes.is_kept('as-many').sum() < crashes.is_kept('all').sum() and
 #   crash_shown('as-many') and crash_escapes('as-many') > 5 > crash_escapes('cut') -->
 # <!-- claim: crash_shown('no-bonus') and crash_escapes('no-bonus') < 5 < crash_escapes('all') -->
+#
+# Your choice teaches two agents, as briefly as in Round 2:
+
+# %% tags=["nbval-ignore-output"]
+passed = check.without_the_accident(without_the_accident).passed
+figures.chosen(without_the_accident) if passed else "First the exercise."
 
 # %% [markdown] tags=["instructor"] minutes=1
 # `bootcourse study crashes --out DIR` trains its seven groups again.
@@ -369,9 +357,8 @@ check.watchful_rule(watchful_rule)
 # %% [markdown]
 # ## Further: ask only when unsure
 #
-# Your worse student drives. Whenever your two students disagree, your rule decides instead. Does it matter
-# *when* it is asked? One student is an example, even on {{ len(taught_agents.ROADS) }} roads (lesson
-# [[how_many_seeds]]).
+# Your worse student drives, and your rule decides whenever your two students disagree. Does it matter *when*
+# it is asked? One student is only an example.
 
 # %% tags=["nbval-ignore-output"]
 worse_first = [students[place] for place in learned["success"].argsort()]
