@@ -25,14 +25,16 @@ WORLD = ".jp-OutputArea [data-lm-suppress-shortcuts]"
 FRAMES = """async host => {  // pictures from a key to its arrow, with a clock that waits for decisions
     const pad = host.shadowRoot.getElementById('pad'), shell = host.shadowRoot.getElementById('shell'), took = [];
     const send = (kind, key) => shell.dispatchEvent(new KeyboardEvent(kind, { key, bubbles: true, composed: true }));
-    const frame = () => new Promise(requestAnimationFrame);
-    for (const key of ['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight']) {
-        await new Promise(rest => setTimeout(rest, 2500));
-        await frame();
-        send('keydown', key);
+    const until = async test => {
         let frames = 0;
-        while (!pad.querySelector('.coming') && frames < 100) { await frame(); frames++; }
-        took.push(frames);
+        while (!test() && frames < 300) { await new Promise(requestAnimationFrame); frames++; }
+        return frames;
+    };
+    const coming = () => pad.querySelector('.coming');
+    for (const key of ['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight']) {
+        if (await until(() => !coming()) === 300) return [300];
+        send('keydown', key);
+        took.push(await until(coming));
         send('keyup', key);
     }
     return took;
@@ -187,7 +189,7 @@ def test_a_rule_that_fails_is_one_sentence_on_the_road(worlds):
 
 def test_a_key_is_seen_two_pictures_later_and_the_module_is_there_once(worlds):
     took = worlds.page.locator(WORLD).nth(0).evaluate(FRAMES)
-    assert max(took) <= 2, took  # 33 ms at 60 pictures a second
+    assert 0 < min(took) <= max(took) <= 2, took  # 33 ms at 60 pictures a second
     assert answer(worlds, "print(len({id(each.library) for each in (mine, learned, ruled)}))") == "1"
 
 

@@ -88,7 +88,6 @@ def test_the_file_plays_without_a_network_and_every_car_is_where_it_was(whole_ep
         page.page.goto(path.as_uri())
         page.page.wait_for_function("() => window.__viserMutable?.nodeRefFromName['/drive0/car9/paint']")
         print(f"opened in {time.monotonic() - started:.2f} s")
-        page.page.wait_for_timeout(1500)
         before = page.page.inner_text("#bc-numbers")
         assert until(lambda: page.page.inner_text("#bc-numbers") != before), "it does not play"
         for t in (60.0, 0.0, 33.4):  # forwards and backwards

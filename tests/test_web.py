@@ -243,6 +243,16 @@ def test_step_by_step_each_press_is_one_decision(visit):
         assert len(state(page)["actions"]) == 3
 
 
+def test_step_by_step_a_key_pressed_while_a_step_is_shown_is_the_next_one(visit):
+    with visit() as page:
+        page.page.get_by_role("button", name="step").click()
+        page.page.keyboard.press("ArrowDown")
+        page.page.wait_for_function("() => trap.game.running && trap.game.controls.idle")
+        page.page.keyboard.press("ArrowLeft")
+        page.page.wait_for_function("() => !trap.game.running && trap.game.controls.idle && trap.game.drive.time > 1")
+        assert [ACTION_NAMES[a] for a in state(page)["actions"]] == ["brake straight", "keep left"]
+
+
 def test_a_finger_on_the_pad_drives_and_the_page_fits_a_phone(visit):
     with visit(width=390, height=844, color_scheme="dark") as page:
         assert page.page.evaluate("document.documentElement.scrollWidth") == 390

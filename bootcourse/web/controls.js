@@ -10,7 +10,7 @@ class Controls {
   // keys: the element whose keys count while it, or what is in it, has the focus; signal: ends that. pressed(): the
   // player has chosen something. commands: { key: function }, for all other keys.
   constructor(pad, keys, signal, pressed, commands) {
-    Object.assign(this, { pressed, held: new Map(), tapped: {}, pad: [] });
+    Object.assign(this, { pressed, held: new Map(), tapped: {}, waiting: null, pad: [] });
     for (const action of [6, 7, 8, 3, 4, 5, 0, 1, 2]) {
       const button = document.createElement("button");
       button.type = "button";
@@ -59,8 +59,14 @@ class Controls {
     Object.assign(this.tapped, wish);
     this.touched();
     clearTimeout(this.waiting);
-    this.waiting = setTimeout(() => this.pressed(), TOGETHER);
+    this.waiting = setTimeout(() => {
+      this.waiting = null;
+      this.pressed();
+    }, TOGETHER);
   }
+
+  // Whether a tap waits for its decision, and no other key can join it.
+  get asked() { return Object.keys(this.tapped).length > 0 && this.waiting === null; }
 
   // The action of the next decision as it stands now; the last key of two that contradict each other counts.
   get coming() {

@@ -335,7 +335,10 @@ class Game {
     this.shown = limit;
     this.arrive();
     if (this.drive.over) this.finish();
-    else if (this.pace === 0 && !this.waiting) this.run(false);
+    else if (this.pace === 0 && !this.waiting) {
+      this.run(false);
+      if (!this.mine && this.controls.asked) this.step(); // a key pressed while the last step was shown
+    }
   }
 
   draw() {

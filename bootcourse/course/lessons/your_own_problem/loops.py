@@ -157,11 +157,11 @@ def shown(problem: str) -> Demonstrations:
     return demonstrate(50, None, teacher=one.teachers()["random"], make_env=one.make_env)
 
 
-def cloned(problem: str, rows: Tensor, seed: int = 0) -> Agent:
+def cloned(problem: str, rows: Tensor) -> Agent:
     """The random teacher's clone, a single agent that learns from these rows for 2,000 decisions."""
     one = PROBLEMS[problem]
     learning = {"make_env": one.make_env, "teacher": one.teachers()["random"], "demonstrations": rows}
-    training = Training([settings_for("bc", seed=seed)], episodes=MOST_EPISODES, **learning)
+    training = Training([settings_for("bc")], episodes=MOST_EPISODES, **learning)
     (clone,) = training.run(False, stop=lambda: training.decisions >= 2_000).agents
     return clone
 

@@ -246,9 +246,9 @@ print(f"{len(seen):,} labels, {loops.states(seen):,} states")
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask for the vote in DoorKey before the count: which states are similar there, and do they need the same
-# action? The repeated labels are not the reason: three clones that saw each state once outvoted hardly any
-# error, either.
-# <!-- claim: outvoted_when_seen_once().mean() < 0.2 and outvoted_when_seen_once().shape[0] == 3 -->
+# action? The repeated labels are not the reason: a clone that saw each state once outvoted hardly any error,
+# either.
+# <!-- claim: outvoted_when_seen_once().mean() < 0.2 -->
 
 # %% [markdown]
 # ## Round 5: what pays in a loop?
