@@ -3,6 +3,7 @@
 import json
 import threading
 import time
+from functools import partial
 
 import numpy as np
 import pytest
@@ -105,6 +106,14 @@ def test_a_policy_and_a_rule_are_asked_for_each_decision(world):
     [by_rule] = record(rule_policy(DEFAULT), [3])
     assert asked(shown, "guest1")["thought"]["action"] == by_rule.actions[0]
     assert shown.drivers[2]["plan"] == [7]
+
+
+def test_a_driver_is_called_by_the_name_that_the_reader_gave_its_function(world):
+    def my_rule(cars, scenario, slow=8):
+        return 1 if cars[0, 3] > slow else 4
+
+    shown = world(3, driver=partial(my_rule, slow=9), ghosts=[rule_policy(DEFAULT), lambda cars, scenario: 4])
+    assert [each["name"] for each in shown.drivers] == ["my_rule", "policy", "policy"]
 
 
 def test_what_a_readers_rule_does_wrong_is_one_sentence_for_the_page(world):

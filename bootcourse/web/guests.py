@@ -6,6 +6,7 @@ for each decision.
 
 import inspect
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import NamedTuple
 
 from bootcourse.colours import STRANGERS
@@ -84,8 +85,11 @@ def _plan(actions: Sequence) -> list[int]:
 
 
 def _called(function) -> str:
+    """Its name, or that of the function of which it is a part; the library's own have none that a reader knows."""
+    while isinstance(function, partial):
+        function = function.func
     own = getattr(function, "__name__", type(function).__name__)
-    return {"idle_policy": "idle", "<lambda>": "policy", "drive": "policy"}.get(own, own)
+    return "idle" if own == "idle_policy" else "policy" if own.startswith(("_", "<")) or own == "drive" else own
 
 
 def _policy(function, scenario: Scenario):
