@@ -38,7 +38,8 @@ def two_drives(hunt: Hunt) -> list[Rollout]:
 def returns(hunt: Hunt) -> Figure:
     """Mean return of the last 30 training episodes."""
     title = "Return in training"
-    episode, what = "training episode (logarithmic)", "return, mean of 30 episodes (short drives: more of them)"
+    episode = "training episode (logarithmic)"
+    what = "return, mean of 30 episodes (an agent that crashes early drives more episodes)"
     return charts.many(hunt.curves("return"), title, episode, what, reference="healthy", x_scale="log")
 
 

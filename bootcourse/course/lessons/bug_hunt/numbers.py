@@ -61,6 +61,11 @@ def asked(name: str) -> float:
     return float(end_error(q, seen().actions, seen().rewards, seen().terminated))
 
 
+def line_end(name: str) -> float:
+    """The Q at its own accidents with which an agent's training ends, the mean of two seeds."""
+    return float(hunt().probe(name, "end")[:, -1].mean())
+
+
 def promised(name: str) -> np.ndarray:
     """What the critic of each of an agent's two seeds promises where its line ends, (2,)."""
     return figures.last(hunt(), "promise")[name]

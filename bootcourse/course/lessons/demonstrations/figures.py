@@ -93,11 +93,15 @@ def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title:
 
 
 BEFORE = 15  # s before an accident that `off_the_road` shows
+DRAWN = 12  # of its drives; all are counted
 PLACES = {-1.0: "1 m right", 0.0: "left lane's\nmiddle", 1.0: "1 m left"}
 
 
 def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
-    """Where the clones' cars were in the last seconds before they left the road on the left, and where they erred."""
+    """Where the clones' cars were in the last seconds before they left the road on the left, and where they erred.
+
+    A few of the drives, evenly chosen, are drawn; the numbers count all of them.
+    """
     ended = [drive for drive in own if cloning.off_on_the_left(drive)]
     left = cloning.left_in(of_rule)
     rows = left[left.abs() < 2]  # in the left lane
@@ -106,15 +110,17 @@ def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
     ax = figure.add_axes((0.125, 0.14, 0.85, 0.71))
     ax.axhspan(low, high, color=style("rule").colour, alpha=0.16, linewidth=0)
     wrong, beyond = [], []
-    for drive in ended:
+    drawn = {len(ended) * k // DRAWN for k in range(DRAWN)}
+    for number, drive in enumerate(ended):
         clock = drive.scenario.clock
         at = np.arange(len(drive.actions)) - (len(drive.states) - 1) * clock.dt
-        ax.plot(
-            (np.arange(len(drive.states)) - len(drive.states) + 1) * clock.dt, -drive.states[:, EGO, Y],
-            color=style("bc").colour, linewidth=0.7, alpha=0.25,
-        )  # fmt: skip
         place, errs = cloning.metres_left(drive), drive.actions != drive.rule_actions
-        ax.plot(at[errs], place[errs], "o", color=ALARM, markersize=3.2, alpha=0.45, markeredgewidth=0)
+        if number in drawn:
+            ax.plot(
+                (np.arange(len(drive.states)) - len(drive.states) + 1) * clock.dt, -drive.states[:, EGO, Y],
+                color=style("bc").colour, linewidth=1.2, alpha=0.6,
+            )  # fmt: skip
+            ax.plot(at[errs], place[errs], "o", color=ALARM, markersize=4, alpha=0.8, markeredgewidth=0)
         wrong.append(errs)
         beyond.append(place > high)
     wrong, beyond = np.concatenate(wrong), np.concatenate(beyond)
@@ -129,16 +135,16 @@ def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
     ax.set_yticks(list(PLACES), list(PLACES.values()))
     red = f"red: errors, {errs_at[0]} of decisions left of the band, {errs_at[1]} elsewhere"
     ax.text(-BEFORE + 0.2, -1.94, red, color=ALARM, va="bottom", **words)
-    below = "time before the car is off the road (s); each line a drive, dark: several alike"
+    below = f"time before the car is off the road (s); lines: {len(drawn)} of {len(ended)} drives; percentages: of all"
     ax.set_xlabel(below, fontsize=TEXT, color=INK)
     title = "The clones' cars before they leave the road, and their errors"
     if wrong[beyond].mean() > 0.9 and wrong.mean() > 0.5:
         title = "Error after error, the clones drift off the road"
     return finish(
         figure, title,
-        f"The last {BEFORE} s of {len(ended)} drives that leave the road on the left. In the left lane the rule's rows "
-        f"reach from {-low:.1f} m right of its middle to {high:.1f} m left. Left of them "
-        f"{errs_at[0]} of these drives' decisions are errors, elsewhere {errs_at[1]}.",
+        f"The last {BEFORE} s of {len(drawn)} of {len(ended)} drives that leave the road on the left. In the left "
+        f"lane the rule's rows reach from {-low:.1f} m right of its middle to {high:.1f} m left. Left of them "
+        f"{errs_at[0]} of all {len(ended)} drives' decisions are errors, elsewhere {errs_at[1]}.",
     )  # fmt: skip
 
 

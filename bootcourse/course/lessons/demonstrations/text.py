@@ -35,8 +35,7 @@ progress("demonstrations")
 # %% [markdown]
 # ## Look first
 #
-# Drive this road until you get out once without an accident: you will train clones of your drive. (If you do
-# not get out, one drive of the rule stands for yours.)
+# Drive this road until you get out once without an accident: you will train clones of your drive.
 
 # %% tags=["nbval-ignore-output"]
 ROAD = 10
@@ -149,8 +148,8 @@ bc.show(figures.off_the_road(alone, by_rule))
 # **See.** *Error after error, the clone drifts to the road's edge, into states in which it errs more*: in the
 # drives that end there nearly every decision left of the green band is an error.
 #
-# In the rule's states these clones err in about a fifth of the seconds (Round 1), in their own in more than
-# half. Errors that lead to states with more errors are called **compounding errors**.
+# In the rule's states these clones err in about one second of five (Round 1), in their own in more than one
+# of two. Errors that lead to states with more errors are called **compounding errors**.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Let a clone err in its teacher's states with a probability of at most ε per second (Ross and Bagnell 2010).
@@ -165,8 +164,8 @@ bc.show(figures.off_the_road(alone, by_rule))
 # ## Round 3: which rows help?
 #
 # Left of the green band lie {{ beyond_the_band() }} of the stochastic rule's rows, and none of the rule's. Do
-# they help? To the rule's rows we add as many of the stochastic rule's, five times each, labelled with the
-# rule's actions. They are of one of three kinds:
+# they help? To the rule's rows we add {{ beyond_the_band() }} of the stochastic rule's, each five times and
+# labelled with the rule's action. We try three kinds:
 #
 # - **from the edge**: left of the band;
 # - **near the edge**: in the band, at least 1 m left;
@@ -193,19 +192,17 @@ fed_crash = {name: cloning.measure(fed[name], by_rule[::10]) for name in fed}
 bc.show(figures.added(KINDS[0], measured[KINDS[0]], fed_crash))
 
 # %% [markdown]
-# **See.** *After a longer training the rule's rows alone are enough*: with
-# {{ updates_of(of('bc')) / UPDATES | .0f }} times as many updates, and as many drives of the rule, the
-# study's clones crash in {{ 100 * accidents('bc') | .1f }} % of their drives. Its clones of the stochastic
-# rule had twice as many updates and crash in {{ 100 * by_chance().scores('accident').mean() | .0f }} %, so
-# the order of Round 1 is reversed.
+# **See.** *{{ beyond_the_band() }} rows from the edge prevent most of the accidents; as many others do not.*
+#
+# *A longer training prevents nearly all of them*: with {{ updates_of(of('bc')) / UPDATES | .0f }} times as
+# many updates the study's clones of as many drives crash in {{ 100 * accidents('bc') | .1f }} %. Then the
+# order of Round 1 is reversed: its clones of the stochastic rule had twice as many updates as these, and
+# crash in {{ 100 * by_chance().scores('accident').mean() | .0f }} %.
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 -->
 # <!-- claim: by_chance().agents[0]['stochastic_demonstrations'] and len(by_chance()) == 10 and
 #   round(updates_of(by_chance()) / updates_of(of('bc')), 1) == 2 -->
 # <!-- claim: by_chance().agents[0]['demonstration_episodes'] == of('bc').agents[0]['demonstration_episodes'] -->
 # <!-- claim: of('bc').scores('accident').max() < by_chance().scores('accident').min() -->
-#
-# *After a short training {{ beyond_the_band() }} rows from the edge, or from near it, prevent more than half
-# of the accidents; as many others do not.*
 
 # %% [markdown] tags=["instructor"] minutes=3
 # The rule's drives have places near the edge, too, but with other headings. Five clones of each are few, and
@@ -219,8 +216,8 @@ bc.show(figures.added(KINDS[0], measured[KINDS[0]], fed_crash))
 # aggregation"). It needs a teacher that answers in any state.
 #
 # > **Predict.** Begin with 20 drives of the rule, and in each of two rounds add 20 labelled drives of the
-# > newest clone. All clones have equally many updates. In which states does the last clone agree with the
-# > rule more often than the first did?
+# > newest clone. All clones have equally many updates. Where does the last clone agree with the rule more
+# > often than the first did: in the rule's states, or in those it drives into itself?
 
 # %%
 own_only, rule_only = "only in the states it drives into itself", "only in the rule's states"
@@ -255,8 +252,7 @@ trainings = [cloning.measure(each, by_rule[::10]) for each in zip(*drivers, stri
 bc.show(figures.taught(trainings, measured[KINDS[0]]))
 
 # %% [markdown]
-# **See.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.* As many
-# updates as before now serve both.
+# **See.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.*
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask what DAgger costs: here a label is free, with a human teacher each one is work, and somebody must let a

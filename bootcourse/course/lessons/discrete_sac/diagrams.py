@@ -22,7 +22,7 @@ def sac_diagram() -> Diagram:
         arrow(150, 76, 228, 76), label(190, 96, "state"),
         arrow(78, 96, 78, 218), label(86, 150, "s, a, r, s′,", "start"), label(86, 168, "terminated", "start"),
         arrow(150, 252, 228, 252), label(190, 272, "batch"),
-        arrow(146, 218, 244, 97), label(206, 166, "its states", "start"),
+        arrow(146, 218, 244, 97), label(206, 158, "states of", "start"), label(206, 176, "the batch", "start"),
         arrow(300, 218, 300, 97), label(308, 200, "min Q", "start"),
         arrow(370, 50, 450, 50), label(411, 42, "entropy"),
         arrow(452, 76, 372, 76), label(411, 96, "α"),

@@ -11,7 +11,7 @@ from bootcourse.course.dots import name_rows
 from bootcourse.course.lessons.discrete_sac.explorable import ACTIONS, ALPHA, START
 from bootcourse.course.lessons.discrete_sac.own_parts import STEPS, SURE, Descent, Walked
 from bootcourse.methods import style
-from bootcourse.plots.figure import SMALL, axes_at, finish, new_figure
+from bootcourse.plots.figure import SMALL, TEXT, axes_at, finish, new_figure
 
 
 def descents(ends: Mapping[str, Descent]):
@@ -32,7 +32,7 @@ def two_jobs(alphas: Sequence[float], walked: Walked, unpaid: Walked) -> Figure:
     unpaid: the same with a target that holds no pay.
     """
     names = [*(f"α = {alpha:g}" for alpha in alphas), f"α falls from {alphas[-1]:g}"]
-    names.append(f"from {alphas[-1]:g}, no pay in target")
+    names.append("falls, no pay in target")
     leaves, found = np.vstack([walked.leaves, unpaid.leaves]), np.vstack([walked.found, unpaid.found])
     parts = {
         "found it, sure of leaving": (found & (leaves > SURE), style("sac").colour),
@@ -42,12 +42,15 @@ def two_jobs(alphas: Sequence[float], walked: Walked, unpaid: Walked) -> Figure:
     }
     row, before, alt_parts = 0.36, np.zeros(len(names)), []
     figure = new_figure(1.15 + row * len(names) + 0.6)
-    ax = axes_at(figure, 1.6, 1.15, 4.9, row * len(names))
+    ax = axes_at(figure, 1.6, 1.15, 3.9, row * len(names))
     for words, (of, colour) in parts.items():
         look = {"color": colour, "edgecolor": INK, "linewidth": 0.7, "clip_on": False}
         ax.barh(names, of.sum(axis=1), 0.72, left=before, label=words, **look)
         before += of.sum(axis=1)
         alt_parts.append(f"{words}: {', '.join(map(str, of.sum(axis=1)))}")
+    for place, count in enumerate((found & (leaves > SURE)).sum(axis=1)):
+        look = {"fontsize": TEXT, "color": style("sac").colour, "va": "center"}
+        ax.text(before[place] + 5, place, f"{count} sure of leaving", **look)
     name_rows(ax, names, f"of {walked.leaves.shape[1]} learners")
     ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=2, fontsize=SMALL, frameon=False, columnspacing=1.2)
     alt = f"A bar for each kind of learner: {', '.join(names)}. Of each kind, in this order, {'; '.join(alt_parts)}. "

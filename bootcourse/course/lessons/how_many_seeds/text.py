@@ -74,8 +74,8 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # ## Round 1: what does eight of ten say?
 #
 # With the soft constraint alone, eight of ten agents escape. If you trained thousands, the share that escapes
-# would be the *true rate*. Which true rates are believable? A rate is too low to believe if fewer than 2.5 %
-# of studies at that rate would see eight or more escape.
+# would be the *true rate*. Which are believable? A rate is too low if, at that rate, fewer than 2.5 % of
+# studies would see eight or more escape.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
 # > **Predict.** Many studies train ten agents each. At a true rate of 50 %, as with ten fair coins, eight or
@@ -139,8 +139,7 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # With both aids seven of ten agents escape, with plain SAC one. Do the methods differ? If they are alike,
 # chance alone decides how the eight escapes fall on the twenty agents. How often do they fall at least as
 # unevenly as seven to one? That is the **p value**. *Fisher's exact test* computes it: {{ fisher(7, 1) | .3f }}.
-# Below 0.05 we speak of a difference. With {{ fisher(8, 7) | .0f }} for p, the soft constraint's eight
-# against both aids' seven shows none.
+# Below 0.05 we speak of a difference.
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. In how many of 100
@@ -161,8 +160,9 @@ predicted("how_many_seeds.3")
 explorable.studies()
 
 # %% [markdown]
-# **See.** With ten agents of each, more than half of the studies miss even this large difference. So our
-# eight against seven shows neither that one method is better nor that the two are alike.
+# **See.** With ten agents of each, more than half of the studies miss even this large difference. So the soft
+# constraint's eight against both aids' seven (p = {{ fisher(8, 7) | .0f }}) shows neither that one method is
+# better nor that the two are alike.
 # <!-- claim: power(0.8, 0.3, 10) < 0.5 < fisher(8, 7) -->
 #
 # The share of studies that find a difference is the **power** of the comparison. Compute it before you train:
@@ -225,8 +225,8 @@ explorable.intervals()
 # %% [markdown]
 # **See.** *Of 100 intervals {{ explorable.holding(3) }} contain the mean, not 95.* In
 # {{ 100 * 0.7**3 | .0f }} of 100 studies all three agents do well. Resampling cannot know that other agents
-# fail, so the interval is short and lies above the mean of all: *the shortest intervals miss.* So print the
-# returns themselves.
+# fail, so the interval is short and lies too high: *the shortest intervals miss.* So print the returns
+# themselves.
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
 #   of('bootstrapped').scores('returns').mean()).sum() == round(100 * 0.7**3) == 34)(
@@ -254,7 +254,9 @@ check.bootstrap_interval(bootstrap_interval)
 # episodes.
 #
 # The score of a group is its **interquartile mean** (IQM): sort, leave out the lowest and the highest quarter
-# (rounded down: of five agents, one each), and take the mean.
+# (rounded down: of five agents, one each), and take the mean. One odd agent decides little, but failures can
+# drop out, as of Round 3's ten (mean {{ of('bootstrapped').scores('returns').mean() | .0f }}, IQM
+# {{ iqm(of('bootstrapped').scores('returns')) | .0f }}). Print the agents, too.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each resample
 # draws both groups anew.
@@ -302,14 +304,15 @@ bc.show(figures.nothing_changed(study))
 #
 # Of all splits of these ten agents, {{ 100 * leaves_out_0_by_luck() | .0f }} % give an interval that leaves
 # out 0, not 5 %: from few seeds intervals are too short (Round 3). Even at 5 %, at least one of twenty
-# independent comparisons does so in {{ 100 * (1 - 0.95**20) | .0f }} % of cases. This is **multiplicity**. So
-# say beforehand which comparison counts, or multiply each p by their number (*Bonferroni*).
+# independent comparisons does so in {{ 100 * (1 - 0.95**20) | .0f }} % of cases. This is **multiplicity**.
+# Say beforehand which comparison counts, or multiply each p by the number of comparisons (*Bonferroni*;
+# intervals get wider).
 # <!-- claim: round(100 * leaves_out_0_by_luck()) == 9 -->
 #
-# Round 2's p of {{ fisher(7, 1) | .3f }}, as one of six pairs of methods, would not count, because six times
-# p is {{ 6 * fisher(7, 1) | .2f }}. Ten others of each, trained in another way, agree:
-# {{ escapers(others('bootstrapped'), 'bootstrapped') }} escape with both aids and
-# {{ escapers(others('sac'), 'sac') or 'none' }} with plain SAC (p < 0.001).
+# If we tested all six pairs of methods, Round 2's p of {{ fisher(7, 1) | .3f }} would become
+# {{ 6 * fisher(7, 1) | .2f }}, and not count. A new test, of ten others of each, does:
+# {{ escapers(others('bootstrapped'), 'bootstrapped') }} against {{ escapers(others('sac'), 'sac') }} (p <
+# 0.001).
 # <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
 # <!-- claim: fisher(7, 1) < 0.05 < 6 * fisher(7, 1) -->
 
@@ -338,8 +341,8 @@ compare_predictions(
 #   for m in ('sac', 'soft', 'demos', 'bootstrapped')) -->
 # 3. Compute the power before you train, for the smallest effect of interest.
 # 4. A short interval from three seeds may be luck: resampling knows these three alone.
-# 5. Five against five may differ by luck, and among twenty comparisons one probably does. Name beforehand the
-#    one that counts, or correct each p.
+# 5. Among twenty comparisons one probably shows a difference by luck. Name beforehand the one that counts, or
+#    correct each p.
 #
 # **Three questions to think about**
 # - Can 20 drives of each show that two *agents* differ? That two *methods* do?

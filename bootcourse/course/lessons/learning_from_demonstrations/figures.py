@@ -77,7 +77,7 @@ def returns(groups: dict[str, Results]) -> Figure:
     above.axhline(rule, color=style("rule").colour, linewidth=1, linestyle=(0, (2, 2)))
     above.text(5, rule + 3, "the rule", fontsize=SMALL, color=style("rule").colour)
     above.axvspan(300, 500, color=style("demos").colour, alpha=0.2, linewidth=0)
-    above.text(345, rule - 20, "c = 2: the bonus", fontsize=SMALL, color=style("bootstrapped").colour)
+    above.text(345, rule - 20, "c = 2: as slow as the rule", fontsize=SMALL, color=style("bootstrapped").colour)
     for ax in (above, below):
         ax.axvline(ends_at, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
         ax.set(xlim=(0, LAST), xticks=range(0, LAST + 1, 300))

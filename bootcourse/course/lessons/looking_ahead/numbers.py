@@ -90,12 +90,16 @@ def rows_of_w() -> list[tuple[int, int, int]]:
     return found
 
 
-def worst_with_w() -> tuple[int, int, int, int]:
-    """Of the nine, with W: the accidents of the one that has most, and of all; without W its accidents, and drives."""
+def worst_with_w() -> tuple[int, int, int, int, int]:
+    """Of the nine, with W: the accidents of the one that has most, and of all.
+
+    Without W its accidents, its drives, and in how many of them it is not ahead of trap 1 at the end.
+    """
     nine = outs("sac", "alone") < 0.01
     with_w, without = (shipped()[Cell("sac", "rollouts", with_worth=w).name].measured for w in (True, False))
     ends, worst = with_w["accidents"][nine], int(with_w["accidents"][nine].argmax())
-    return int(ends[worst]), int(ends.sum()), *(int(without[of][nine][worst]) for of in ("accidents", "roads"))
+    hurt, roads, success = (without[of][nine][worst] for of in ("accidents", "roads", "success"))
+    return int(ends[worst]), int(ends.sum()), int(hurt), int(roads), round(roads * (1 - success))
 
 
 def with_and_without_w() -> str:
@@ -160,6 +164,16 @@ def learning(share: float | None = None) -> Results:
 def in_last_model() -> np.ndarray:
     """Accidents in 1,000 drives of each that looks ahead in the model of the look-ahead's drives, too, (agents,)."""
     return learned_model.per_thousand(learning(), figures.LEARNED_FORM)[:, -1]
+
+
+def by_round() -> str:
+    """Accidents in each round's model of the look-ahead's drives, means over the agents, as Markdown."""
+    means = learned_model.per_thousand(learning(), figures.LEARNED_FORM).mean(axis=0)
+    drives = [f"{learned_model.DRIVES * (number + 1):,}" for number in range(len(means))]
+    return markdown(
+        ["drives so far", "accidents in 1,000"],
+        [[so_far, f"{mean:,.0f}"] for so_far, mean in zip(drives, means, strict=True)],
+    )
 
 
 def control(share: float | None = None) -> np.ndarray:

@@ -12,11 +12,12 @@ from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa:
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
 from bootcourse.episodes.record import record
 from bootcourse.learn.settings import Settings, settings_for
-from bootcourse.methods import METHODS  # noqa: F401 (for the expressions)
+from bootcourse.methods import METHODS, display_name  # noqa: F401 (for the expressions)
 from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import BUDGETS, by_method
 from bootcourse.research.results import Results
+from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, holm, interval
@@ -110,6 +111,18 @@ def training_scores(spent: float, count: str) -> dict[str, Estimate]:
 def thousands_made(method: str) -> float:
     """How many thousand decisions its training makes in five seconds of computing."""
     return equal_decisions.SECONDS * FIRST / at(method, "seconds", FIRST).mean() / 1000
+
+
+def updates_and_decisions() -> str:
+    """The updates of each method in one round of PPO after cloning, and its decisions in five seconds, as Markdown."""
+    (decisions, by_ppo), rows = ppo_round(), []
+    for method in TAUGHT:
+        of = later(method).agents[0]
+        made = by_ppo if method == "ppo_cloned" else decisions * of["updates"] // of["envs_per_agent"]
+        critics = f", of {settings_for('rlpd').critics} critics" if method == "rlpd" else ""
+        rows.append([display_name(method), f"{made}{critics}", f"{thousands_made(method):.0f}"])
+    heads = ["", f"updates in {decisions:,} decisions", f"thousand decisions in {equal_decisions.SECONDS} s"]
+    return markdown(heads, rows)
 
 
 def below_all_others(method: str, spent: float, count: str) -> bool:

@@ -153,7 +153,7 @@ def estimates(names: Sequence[str], alike: np.ndarray, fits: Sequence[np.ndarray
 
 
 def chosen(study: Results, guesses: Sequence[Sequence[float]], truth: Sequence[float]) -> Markdown:
-    """A table, a row for each set of agents: whom the first fit takes, what is wrong with it, whom the second takes.
+    """A table, a row for each set of agents: whom each of two fits takes, and whom it should take.
 
     guesses: of two fits; these and truth: of each agent, one set after the other.
     """
@@ -161,21 +161,16 @@ def chosen(study: Results, guesses: Sequence[Sequence[float]], truth: Sequence[f
         name: np.transpose([study.of(method).scores(name) for method in choosing.METHODS])
         for name in ("returns", "success", "accident")
     }
-    first, second = map(choosing.by_set, guesses)
     rows = []
-    for place, (guess, again, truly) in enumerate(zip(first, second, choosing.by_set(truth), strict=True)):
-        get, taken, then = score["returns"][place], guess.argmax(), again.argmax()
-        wins = "right: the highest return"
-        if get.argmax() != truly.argmax():  # an estimate near the truth takes another
-            wins = "the highest return, by luck"
-        so = wins
-        if taken != get.argmax():
+    for place, (*fits, truly) in enumerate(zip(*map(choosing.by_set, (*guesses, truth)), strict=True)):
+        returns, cells = score["returns"][place], []
+        most, names = returns.argmax(), [display_name(method) for method in choosing.METHODS]
+        for taken in (fit.argmax() for fit in fits):
             does = _does(score["success"][place, taken], score["accident"][place, taken])
-            so = _why(does, guess - truly, taken, truly.argmax(), get)
-        names = [display_name(choosing.METHODS[each]) for each in (taken, then)]
-        other = f"{names[1]}: {wins.split(': ')[0]}" if then == get.argmax() else names[1]
-        rows.append([place + 1, f"{names[0]}, {guess[taken]:.2f}", f"{truly[taken]:.2f}", so, other])
-    return table(["set", "largest estimate", "its true worth", "so", "second fit takes"], rows)
+            cells.append(f"✓ {names[taken]}" if taken == most else f"✗ {names[taken]}: {does}")
+        worth = "" if truly.argmax() == most else f"; worth most: {names[truly.argmax()]}"
+        rows.append([place + 1, *cells, f"{names[most]}, {returns[most]:.0f}{worth}"])
+    return table(["set", "first fit takes", "second fit takes", "highest return"], rows)
 
 
 def _does(success: float, accident: float) -> str:
@@ -183,19 +178,3 @@ def _does(success: float, accident: float) -> str:
     if accident > 0.5:
         return f"crashes on {100 * accident:.0f} % of the roads"
     return "gets out" if success > 0.5 else "stays behind trap 1"
-
-
-def _why(does: str, off: np.ndarray, taken: int, best: int, returns: np.ndarray) -> str:
-    """Why this agent was taken: the best's estimate was too low, or its own too high; and who earns most."""
-    most = returns.argmax()
-    earns = f"the highest return, {returns[most]:.0f}, is {display_name(choosing.METHODS[most])}'s"
-    if taken == best:
-        return f"worth most, but {does}; {earns}"
-    if off[taken] > -off[best]:
-        return f"{does}, and was estimated {off[taken]:.1f} too high; {earns}"
-    low = f"estimated {-off[best]:.1f} too low"
-    return (
-        f"{does}; {earns}, {low}"
-        if best == most
-        else f"{does}; {display_name(choosing.METHODS[best])} was {low}; {earns}"
-    )

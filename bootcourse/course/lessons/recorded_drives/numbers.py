@@ -54,9 +54,9 @@ def off() -> np.ndarray:
     return estimated() - truth()
 
 
-def first_returns() -> np.ndarray:
-    """The return of each agent of the first set."""
-    return np.array([of(method).scores("returns")[0] for method in choosing.METHODS])
+def returns() -> np.ndarray:
+    """The return of each, (sets, agents)."""
+    return np.array([of(method).scores("returns")[:SETS] for method in choosing.METHODS]).T
 
 
 @cache

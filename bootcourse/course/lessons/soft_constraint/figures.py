@@ -111,12 +111,12 @@ def twenty(kinds: Sequence[str]) -> Figure:
         studies = changed[kind], others["soft" if kind == FADING else f"soft, {kind}"]
         returns = np.concatenate([each.scores("returns") for each in studies])
         kept = np.concatenate([each.found_and_kept("soft")[1] for each in studies])
-        dots(ax, returns, place, colour, kept, bar=returns.mean())
+        dots(ax, returns, place, colour, kept)
         fast = f"{(kept & (returns > 2 * rule)).sum()} of {len(kept)}"
         beside(ax, place, fast)
-        alt.append(f"{pull} ({kind}): {fast}, mean return {returns.mean():.0f}")
+        alt.append(f"{pull} ({kind}): {fast}")
     names = [f"{pull}:\n{kind}" for pull, kind in zip(PULLS, kinds, strict=True)]
-    name_rows(ax, names, "return of an agent on 1,000 roads; filled: it escapes; bar: mean of twenty")
+    name_rows(ax, names, "return of an agent on 1,000 roads; filled: it escapes")
     beside(ax, -0.62, "escape, fast")
     for times, words in ((1, "the rule"), (2, "twice: fast")):
         ax.axvline(times * rule, color=green, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)

@@ -80,11 +80,6 @@ def losing(agents: list[Results]) -> int:
     return sum(int(lost(each.of("soft").curves["success"]).sum()) for each in agents)
 
 
-def escaping_after_a_loss(agents: Results) -> int:
-    """How many of these agents lose the way out at least once in their training, and escape after it."""
-    return int((lost(agents.curves["success"]) & agents.found_and_kept("soft")[1]).sum())
-
-
 def crashes(agents: list[Results]) -> float:
     """The share of their drives that end in an accident."""
     return float(np.mean([each.of("soft").scores("accident") for each in agents]))

@@ -59,8 +59,7 @@ bc.panels.policy_panel(its_drive, agent=helped, xi=1.0, table=False)
 
 # %% [markdown]
 # **See.** *From ξ = 0.3 up the car is as slow as the rule, from 0.03 down it drives as the agent does.* Near
-# 0.1, and again near 0.04, it leaves the road: a compromise between two drivers can be worse than both. This
-# Q was learned for the agent's own driving.
+# 0.1, and again near 0.04, it leaves the road: a compromise between two drivers can be worse than both.
 # <!-- claim: all(way(xi) == way(1, "the rule's way") for xi in (0.3, 0.5, 1)) -->
 # <!-- claim: all(way(xi) == way(1, "the agent's way") for xi in (0.03, 0.01, 0)) -->
 # <!-- claim: "off the road" in way(0.1) and "off the road" in way(0.04) -->
@@ -134,8 +133,8 @@ check.soft_constraint(soft_constraint)
 # {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }} at first. α falls, as in lesson [[discrete_sac]], and ξ
 # falls with it.
 #
-# Where all Q are equal, the best π still prefers the rule's action. The nats by which its log π leads are the
-# rule's **head start**.
+# Where all Q are equal, the best π still prefers the rule's action. Its log π exceeds the others' by some
+# nats, the rule's **head start**.
 #
 # > **Predict.** α and ξ fall to a hundredth of what they were. How much of the head start is left?
 
@@ -147,8 +146,8 @@ predict(
 )
 
 # %% [markdown]
-# **Drag** α down. Let another action's Q be 1 larger than all others. By this its log π gains some nats on
-# the rule's: **Q's lead**. Which of the two stays the same, and when does the other action win?
+# **Drag** α down. Give another action a Q that is 1 larger than all others. Its log π then gains some nats on
+# the rule's: **Q's lead**. Which stays the same, head start or lead, and when does the other action win?
 
 # %%
 predicted("soft_constraint.2")
@@ -301,15 +300,13 @@ bc.show(figures.courses(kinds))
 # **See.** A pull that stays strong keeps the agents slow, and two of ten do not escape. With one that stays
 # weak, two of ten never find the way out, but none of the other eight loses it. With one that fades, all ten
 # find it, but {{ losing([of('soft')]) }} **lose** it at least once: they fall from {{ HAD }} ahead of
-# {{ IN_A_ROW }} episodes to {{ LOST }} or fewer. {{ escaping_after_a_loss(of('soft')) }} of these escape in
-# the end.
+# {{ IN_A_ROW }} episodes to {{ LOST }} or fewer. In the end {{ kept(of('soft')) }} of the ten escape.
 # <!-- claim: stays(2).scores('returns').max() < 1.1 * of('rule').scores('returns').mean() -->
 # <!-- claim: found(stays(0.1)) == 8 and losing([stays(0.1)]) == 0 -->
 # <!-- claim: found(stays(2)) == found(of('soft')) == len(of('soft')) == 10 and kept(stays(2)) == 8 -->
 # <!-- claim: same_until_the_floor() -->
 #
-# In a fourth kind ξ falls to 0.1 and no further. Leaving the rule costs {{ leaving_costs(1) | .2f }} ξ a
-# second: {{ leaving_costs(2) | .1f }} with ξ = 2, but only {{ leaving_costs(0.1) | .1f }} with ξ = 0.1.
+# In a fourth kind ξ falls to 0.1 and no further.
 #
 # > **Predict.** Twenty agents learn with this ξ: the study's ten, and ten *others* (other seeds, other code,
 # > twice the episodes). How many escape in the test and earn more than twice what the rule earns (*fast*)?
@@ -326,16 +323,17 @@ bc.show(figures.twenty(kinds))
 # %% [markdown]
 # **See.** *With a pull that is strong first, then weak but not gone, all twenty escape and are fast.* None of
 # them loses the way out in training, but they crash in {{ 100 * crashes(floored()) | .0f }} % of their
-# drives, the rule in none. The floor keeps up the pull and the temperature α + ξ: which of them helps is
-# open.
+# drives, the rule in none. The floor keeps up two things, the pull and the temperature α + ξ. Which of them
+# helps is open.
 #
 # <!-- claim: of('rule').scores('accident').max() == 0 -->
 # <!-- claim: losing(floored()) == 0 -->
 # <!-- claim: (in_all(fast_keepers, 2), in_all(fast_keepers, 0.1), in_all(fast_keepers)) == (0, 13, 16) -->
 # <!-- claim: twenty(len) == twenty(found) == twenty(kept) == twenty(fast_keepers) == 20 -->
 #
-# A second at 15 m/s pays {{ second_pays(15) - second_pays(12) | .1f }} more than at the rule's 12: by these
-# prices only the weaker pull lets an agent be fast.
+# A second at 15 m/s pays {{ second_pays(15) - second_pays(12) | .1f }} more than one at the rule's 12.
+# Leaving the rule for it costs {{ leaving_costs(2) | .1f }} with ξ = 2, but {{ leaving_costs(0.1) | .1f }}
+# with ξ = 0.1: by these prices only the weak pull lets an agent be fast.
 # <!-- claim: abs(of('rule').scores('speed').mean() - 12) < 0.5 -->
 # <!-- claim: leaving_costs(0.1) < second_pays(15) - second_pays(12) < leaving_costs(2) -->
 

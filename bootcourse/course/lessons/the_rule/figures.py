@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM
 from bootcourse.course.lessons.the_rule.explorable import long_enough
+from bootcourse.course.lessons.the_rule.rules import makes_way_at
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import overtaken
@@ -105,6 +106,9 @@ def speeds_by_sight(far: Rollout, near: Rollout) -> Figure:
     lower.set_xlabel("time (s)", fontsize=TEXT, color=INK)
     lower.text(23, 9.0, "sight 200 m", fontsize=TEXT, color=QUIET, va="center")
     lower.text(17, 16.0, "sight 30 m", fontsize=TEXT, color=rule, va="center")
+    moment = near.times[makes_way_at(near, followed)]
+    lower.plot(moment, near.states[makes_way_at(near, followed), EGO, SPEED], "o", color=rule, markersize=7)
+    lower.text(moment, 16.0, "the car ahead makes way", fontsize=TEXT, color=rule, va="center")
     out = np.flatnonzero(np.diff((ahead > sight).astype(int)) == 1)
     said = (
         f"{name}: ahead of trap 1 after {overtaken(drive):.0f} s, then {speeds.min():g} to {speeds.max():g} m/s"
@@ -114,7 +118,7 @@ def speeds_by_sight(far: Rollout, near: Rollout) -> Figure:
     alt = (
         f"Two drives on one road. The rule follows a car {ahead[0]:.0f} m ahead at {times[0]:g} s. From "
         f"{times[out[0] + 1]:g} s on this car leaves the sight of {sight:g} m again and again, and each time the speed "
-        f"rises. {'; '.join(said)}."
+        f"rises. {'; '.join(said)}. With a sight of 30 m the car ahead makes way at {moment:g} s."
     )
     return finish(figure, title, alt)
 

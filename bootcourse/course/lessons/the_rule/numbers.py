@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bootcourse.course.lessons.the_rule.rules import ALOOF as ALOOF
-from bootcourse.course.lessons.the_rule.rules import ROADS, with_numbers
+from bootcourse.course.lessons.the_rule.rules import ROADS, makes_way_at, with_numbers
 from bootcourse.course.lessons.the_rule.rules import as_printed as as_printed
 from bootcourse.course.lessons.the_rule.rules import crash as crash
 from bootcourse.course.lessons.the_rule.rules import driven as driven
@@ -108,6 +108,16 @@ def followed(drive: Rollout, first: int, last: int | None = None) -> Followed:
 
 def makes_way(drive: Rollout, car: int) -> float:
     """How far ahead (m) a car is when it leaves the leftmost lane with the rule in it; infinite if it does not."""
-    cars = drive.states
-    left = np.flatnonzero((cars[1:, car, LANE] > 0) & (cars[:-1, car, LANE] == 0) & (cars[1:, EGO, LANE] == 0))
-    return float(cars[1 + left[0], car, X] - cars[1 + left[0], EGO, X]) if len(left) else float("inf")
+    at = makes_way_at(drive, car)
+    return float("inf") if at is None else float(drive.states[at, car, X] - drive.states[at, EGO, X])
+
+
+def made_way(drive: Rollout) -> list[int]:
+    """Which cars do so, with the rule behind them."""
+    return [car for car in range(drive.states.shape[1]) if car != EGO and 0 < makes_way(drive, car) < np.inf]
+
+
+def closes_in() -> float:
+    """How fast (m/s) the rule with a sight of 30 m drives when car 4 makes way on the lesson's road."""
+    drive = recorded(10, 30.0)
+    return float(drive.states[makes_way_at(drive, 4), EGO, SPEED])

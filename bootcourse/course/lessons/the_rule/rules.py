@@ -53,6 +53,13 @@ def crash(sight: float = 20.0) -> Rollout:
     return record(rule_policy(scenario), [road], scenario, label=f"rule, sight {sight:g} m")[0]
 
 
+def makes_way_at(drive: Rollout, car: int) -> int | None:
+    """The state at which a car has left the leftmost lane with the rule in it; None if it does not."""
+    cars = drive.states
+    left = np.flatnonzero((cars[1:, car, LANE] > 0) & (cars[:-1, car, LANE] == 0) & (cars[1:, EGO, LANE] == 0))
+    return int(1 + left[0]) if len(left) else None
+
+
 def with_two_sights(speed_sight: float, lane_sight: float, **numbers) -> Callable[[np.ndarray], np.ndarray]:
     """The rule with a sight for the target speed (m) and another for the lane (m): cars -> actions."""
     for_speed, for_lane = with_numbers(speed_sight, **numbers), with_numbers(lane_sight, **numbers)

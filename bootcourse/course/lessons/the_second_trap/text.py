@@ -113,13 +113,13 @@ steady = bc.formulas.speed_reward(speeds.mean())
 print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {steady:.2f}")
 
 # %% [markdown]
-# **See.** The agent falls back to {{ ppo_speeds().min() | .0f }} m/s first, so the sprints pay late. What a
-# whole drive is worth at its start depends on γ:
+# **See.** The agent falls back to {{ ppo_speeds().min() | .0f }} m/s first. What is a whole drive worth at
+# its start?
 #
 # {{ worth_table() }}
 #
-# With SAC's γ, keeping straight is worth most of the three: the first trap. With PPO's γ, this agent's drive
-# is worth more than keeping straight, but far less than `careful`'s: the second trap.
+# With PPO's γ, this agent's drive is worth more than keeping straight, but far less than `careful`'s: the
+# second trap. With SAC's γ its sprints come too late to pay.
 # <!-- claim: worth('keeping straight', settings_for('sac').gamma) > 1.1 * max(
 #   worth(driver, settings_for('sac').gamma) for driver in ('this agent', 'careful')) -->
 # <!-- claim: worth('careful', settings_for('ppo').gamma) > 2 * max(worths()) and
@@ -138,8 +138,8 @@ print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {s
 # %% [markdown]
 # ## Round 2: when does it give up leaving?
 #
-# > **Predict.** In training two things happen: the agent's drives stop getting ahead, and it begins to earn
-# > more than by keeping straight. Which comes first?
+# > **Predict.** In training two things happen: the agent stops getting ahead, which it did in few drives, and
+# > it begins to earn more than by keeping straight. Which comes first?
 
 # %%
 choices = [
@@ -169,11 +169,15 @@ bc.show(figures.gives_up(ppo_kinds.reference()["alone"]))
 # %% [markdown]
 # ## Round 3: how does PPO see pay that comes late?
 #
-# Falling back costs something now; the sprint pays many seconds later.
+# PPO drives {{ ppo_kinds.settings_of('alone').horizon }} decisions on each of
+# {{ ppo_kinds.settings_of('alone').envs_per_agent }} roads with its present policy, learns from them in a few
+# passes over random parts (*minibatches*), throws them away and drives again. It has an actor, and a critic V
+# that learns what a state is worth. Falling back costs something now, and the sprint pays later: how does the
+# actor learn of it?
 #
-# The **advantage** A of an action is what came of it, less what PPO's critic V expected. We add it up from
-# *surprises*: what came in one second, less what V expected of that second. λ, from 0 to 1, and γ say how
-# much later surprises count.
+# The **advantage** A of an action is what came of it, less what V expected. We add it up from *surprises*:
+# what came in one second, less what V expected of that second. γ and λ (0 to 1) set the weight of the
+# surprises that follow.
 #
 # Suppose V expects a steady 10 m/s, but the car falls back and then sprints. Each outlined bar is one
 # second's surprise, and its filled part is what counts of it. All filled parts together are A of the first
@@ -202,8 +206,7 @@ explorable.later()
 #
 # $$ A_t = \delta_t + \gamma\lambda\, \delta_{t+1} + (\gamma\lambda)^2 \delta_{t+2} + \dots $$
 #
-# **Endings need care**, also that of the data, after {{ ppo_kinds.settings_of('alone').horizon }} decisions
-# on each road:
+# **Endings need care**. The data end, too, after {{ ppo_kinds.settings_of('alone').horizon }} decisions:
 #
 # | after decision t comes | `terminated` | `ended` | next V in δ | the sum |
 # |---|---|---|---|---|
@@ -237,13 +240,10 @@ check.advantages(advantages)
 # %% [markdown]
 # ## Round 4: how far may one decision push?
 #
-# PPO drives these {{ ppo_kinds.settings_of('alone').horizon }} decisions on each of
-# {{ ppo_kinds.settings_of('alone').envs_per_agent }} roads with its present policy, π_old. In a few passes
-# over random parts (*minibatches*) V is trained towards V + A, and the actor with the loss below and a small
-# entropy bonus. Then PPO throws the decisions away and drives again.
+# In each pass V is trained towards V + A, and the actor with the loss below and a small entropy bonus.
 #
-# The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since it
-# was taken. A good decision (A > 0) pushes ρ up, a bad one pushes it down, and ε =
+# The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since
+# π_old, the policy that drove, took it. A good decision (A > 0) pushes ρ up, a bad one pushes it down, and ε =
 # {{ 100 * settings_for('ppo').clip | .0f }} % limits how far.
 #
 # > **Predict.** An action turned out badly, A = −2, but has become likelier, ρ = 1.5. Does this
@@ -355,17 +355,17 @@ compare_predictions(
 # **Three questions to think about**
 # - Which number, other than success, would have shown the second trap?
 # - Could cloning `racer` or `timid` of lesson [[your_teacher]] work as well?
-# - Test the guess of Round 5 without a clone: would a *shaping reward* γ Φ(s') − Φ(s) do, whose *potential* Φ
-#   grows with each lane to the left?
+# - If Round 5's guess is right, would four times the decisions free PPO alone?
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Answers to the three questions. (1) The largest speed beside the mean speed: it shows the sprints. Or one
 # drive that is looked at. The return does not show it. (2) The racer leads past the traps and crashes later,
 # as a clone of the quarter-random teacher does: try it. From `timid` {{ cloned_escape('timid') }} of ten
-# escape. (3) Let PPO alone begin on roads where some drives are already in the free lane. Or pay it for each
-# lane to the left by a *shaping reward* γ Φ(s') − Φ(s), with a *potential* Φ of
-# {{ second_trap.PER_LANE | .0f }} for each lane, 0 after an accident; that leaves the best policy as it is
-# (Ng, Harada and Russell 1999). Of ten agents trained so {{ ppo_escapes('shaped') }} escape.
+# escape. (3) By the guess, no: hardly any of its drives get ahead, so there is next to nothing to improve.
+# The folded table shows a run as long. To test the guess, let PPO alone begin on roads where some drives are
+# already in the free lane. A *shaping reward* γ Φ(s') − Φ(s), with a *potential* Φ of
+# {{ second_trap.PER_LANE | .0f }} for each lane to the left and 0 after an accident, leaves the best policy
+# as it is (Ng, Harada and Russell 1999), but of ten agents trained so {{ ppo_escapes('shaped') }} escape.
 # <!-- claim: len(ppo('shaped')['success']) == 10 and second_trap.shaping_reward(20.0, 40.0, True, 0.99) == -20 -->
 
 # %% [markdown]

@@ -1,14 +1,17 @@
 """What the lesson's cells do with drives: try plans on a road, and pay each second of a drive."""
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from bootcourse.episodes.evaluate import drive_episodes
+from bootcourse.course.shipped import shipped_agents
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.policies import PlanPolicy
+from bootcourse.policies import PlanPolicy, idle_policy, plan_policy, rule_policy
 from bootcourse.road.state import EGO, HEADING, LANE, SPEED, STEERING, Y
+from bootcourse.scenario import DEFAULT
 
 ACCELERATE = 7  # "accelerate straight"
 
@@ -37,3 +40,24 @@ def paid(reward: Callable, drive: Rollout) -> np.ndarray:
     accidents = [0] * (seconds - 1) + [drive.accident]
     each = zip(speeds.tolist(), offsets.tolist(), after[:, STEERING].tolist(), accidents, strict=True)
     return np.array([float(reward(*second)) for second in each])
+
+
+def worths(
+    reward: Callable, plan: Sequence[str | tuple[str, int]], gamma: float = 0.8
+) -> dict[str, tuple[float, float]]:
+    """What four drivers' ways are worth, and how often these crash: means of the first 100 held-out roads.
+
+    reward: as in `paid`; plan: what the blind plan does, in words.
+    """
+    ways = {
+        "staying": idle_policy,
+        "the rule's way": rule_policy(DEFAULT),
+        "the blind plan": plan_policy(plan),
+        "an agent with help": shipped_agents("bootstrapped")[2].as_policy(),
+    }
+    found = {}
+    for name, policy in ways.items():
+        drives = record(policy, held_out_seeds(1, 100))
+        each = [gamma ** np.arange(len(drive.actions)) @ paid(reward, drive) for drive in drives]
+        found[name] = float(np.mean(each)), float(np.mean([drive.accident > 0 for drive in drives]))
+    return found

@@ -1,6 +1,6 @@
-"""Figures of the trap: where each action leads, what pays, how agents drive after training, which risk is bearable."""
+"""Figures of the trap: where each action leads, what pays, how agents drive after training, what each way is worth."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from functools import partial
 
 import numpy as np
@@ -83,30 +83,27 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
     return finish(figure, f"In {seconds} s steering moves the car {least:.1f} to {most:.1f} m sideways", alt)
 
 
-def bearable_risks(risks: Sequence[float], early: np.ndarray) -> Figure:
-    """The share of early crashes that the rule's way, the plan and an agent with help bear at γ = 0.8, a bar for each.
+def worth_with_crashes(worths: Mapping[str, tuple[float, float]]) -> Figure:
+    """What each way out is worth at γ = 0.8, crashes included, against staying.
 
-    early: the share of roads on which the plan, and the agent, do crash early, (2,).
+    worths: each driver's mean worth, and the share of its drives that crash; the first one stays.
     """
-    title = "At γ = 0.8 the blind plan crashes more than it bears; an agent with help does not"
-    names = ("the rule's way", "the blind plan", "an agent with help")
+    title = "At γ = 0.8 only the agent's way is worth more than staying, crashes included"
+    (_, (stays, _)), *ways = worths.items()
     colours = style("rule").colour, INK, style("bootstrapped").colour
-    high, left = 0.72 * len(names), 1.6
-    figure, says = new_figure(0.5 + high + 0.6), []
-    ax = axes_at(figure, left, 0.5, WIDTH - left - 0.3, high)
-    for row, (name, colour, risk) in enumerate(zip(names, colours, risks, strict=True)):
-        bars = [(f"bears {100 * risk:.0f} %", 100 * risk, colour)]
-        if row:
-            share = 100 * early[row - 1]
-            bars.append((f"crashes early: {share:.0f} %", share, "white"))
-        for k, (words, width, fill) in enumerate(bars):
-            y = row + 0.34 * (k - (len(bars) - 1) / 2)
-            ax.barh(y, width, 0.3, color=fill, edgecolor=colour, linewidth=1.4)
-            ax.text(width + 0.25, y, words, fontsize=TEXT, color=colour, va="center")
-        says.append(f"{name} {', '.join(words for words, *_ in bars)}")
-    name_rows(ax, names, "risk of an early crash (%)")
-    ax.set(xlim=(0, 20), xticks=range(0, 21, 5))
-    alt = f"Filled bars: the risk that each way out bears. Hollow ones: how often it crashes early. {'; '.join(says)}."
+    high, left = 0.5 * len(ways), 1.6
+    figure, says = new_figure(0.95 + high + 0.6), []
+    ax = axes_at(figure, left, 0.95, 3.6, high)
+    for row, ((name, (worth, crashes)), colour) in enumerate(zip(ways, colours, strict=True)):
+        ax.barh(row, worth, 0.5, color=colour)
+        words = f"{worth:.2f}, " + (f"crashes on {100 * crashes:.0f} %" if crashes else "never crashes")
+        ax.text(1.36, row, words, fontsize=TEXT, color=colour, va="center")
+        says.append(f"{name} {words}")
+    name_rows(ax, [name for name, _ in ways], "worth at γ = 0.8, the mean of 100 roads (no unit)")
+    ax.axvline(stays, color=INK, linestyle="--", linewidth=1.4)
+    ax.text(stays, -0.62, f"staying: {stays:.2f}", fontsize=TEXT, color=INK, ha="center", va="bottom")
+    ax.set(xlim=(0, 1.3), xticks=(0, 0.5, 1))
+    alt = f"A bar for what each way out is worth; staying is worth {stays:.2f}. {'; '.join(says)}."
     return finish(figure, title, alt)
 
 

@@ -6,8 +6,9 @@ import numpy as np
 
 from bootcourse.course.lessons.the_barrier.attempts import Outcome, drive
 from bootcourse.course.lessons.the_barrier.explorable import by_plan
+from bootcourse.course.lessons.the_trap import driving
 from bootcourse.course.lessons.the_trap.driving import all_plans, on_road
-from bootcourse.course.lessons.the_trap.exercises import bearable_risk
+from bootcourse.course.lessons.the_trap.exercises import bearable_risk, reward
 from bootcourse.course.lessons.the_trap.figures import RIGHT_FIRST
 from bootcourse.course.lessons.the_trap.time_step import unhurt
 from bootcourse.course.shipped import shipped_agents
@@ -63,9 +64,9 @@ def helped() -> Outcome:
 
 
 @cache
-def helped_on_ten() -> Rollout:
-    """That agent on road 10."""
-    return record(shipped_agents("bootstrapped")[2].as_policy(), [10])[0]
+def worths() -> dict[str, tuple[float, float]]:
+    """What the drivers of the last figure are worth, and how often they crash."""
+    return driving.worths(reward.solution, PLAN)
 
 
 def crashed_early() -> np.ndarray:
@@ -74,7 +75,7 @@ def crashed_early() -> np.ndarray:
 
 
 def borne(gamma: float, way: Rollout) -> float:
-    """The risk of an early crash that a way out on road 10 bears, if the crash pays as the last figure's does."""
+    """The risk of an early crash that a way out on road 10 bears, if the crash pays as the lesson's does."""
     crash = gamma ** np.arange(5) @ [*on_ten().rewards[:4], DEFAULT.reward.accident]
     return bearable_risk.solution(discounted(idle(), gamma), discounted(way, gamma), crash)
 

@@ -34,7 +34,6 @@ from bootcourse.course import (
     table,
 )
 from bootcourse.course.lessons.the_trap import diagrams, driving, explorable, figures, time_step
-from bootcourse.course.shipped import shipped_agents
 from bootcourse.road import formulas
 
 progress("the_trap")
@@ -105,8 +104,8 @@ bc.show(figures.nine_actions(decoded, seconds=2))
 
 # %% [markdown]
 # A drive of at most {{ DEFAULT.clock.decisions / DEFAULT.clock.decision_rate }} s is an **episode**. An
-# **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive that ends ahead of
-# trap 1 *gets out*: a **success**, even if it ends in an accident. Without one it gets out *unhurt*.
+# **accident** (a collision, leaving the road, or almost stopping) ends it at once. A drive *gets out* (a
+# **success**) if it ends ahead of trap 1. If it does so without an accident, it gets out *unhurt*.
 # <!-- claim: len(KINDS) == 3 -->
 #
 # A **plan** is a list of actions; after the last one the car goes straight on. Take the {{ 3 ** 8 | , }}
@@ -147,13 +146,12 @@ bc.show(bc.top_view_over_time(drive, times=[0, 2, 4, 6, 8, bc.overtaken(drive)],
 # %%
 predicted("the_trap.1")
 all_plans = driving.all_plans()
-for road in (7, ROAD):  # all plans, on two roads
-    out = driving.on_road(road)(all_plans)
-    print(f"road {road}: {out.sum()} of {len(all_plans):,} plans get out unhurt")
+out = driving.on_road(7)(all_plans)
+print(f"road 7: {out.sum()} of {len(all_plans):,} plans get out unhurt")
 
 # %% [markdown]
-# **See.** You need not brake here. One of the {{ getting_out(ROAD) }} plans that get out on road {{ ROAD }}
-# now drives {{ roads() | , }} other roads: the **blind plan**, which looks at nothing.
+# **See.** You need not brake here. One of the few plans that get out on road {{ ROAD }} now drives
+# {{ roads() | , }} other roads: the **blind plan**, which looks at nothing.
 # <!-- claim: 70 < getting_out(7) < 150 and 0 < getting_out(ROAD) < 10 -->
 # <!-- claim: on_road(ROAD)(np.array([[5, 3, 3, 3, 3, 5, 5, 5]])).all() and ROAD not in
 #   held_out_seeds(1, roads()) -->
@@ -356,53 +354,47 @@ explorable.discount()
 # <!-- claim: all(discounted(by_rule(), percent / 100) < discounted(idle(), percent / 100) for percent
 #   in range(50, round(100 * pays_from()))) -->
 #
-# **Exercise (8 min, ●●○).** Doing nothing returns `stay`. An attempt to get out returns `crash` with
-# probability q and `out` otherwise (`out` is more than `crash`). Up to which q does an attempt return, on
-# average, at least `stay`?
+# **Exercise (8 min, ●●○).** Staying is worth `stay`. An attempt to get out crashes with probability q, and is
+# then worth `crash`; otherwise it is worth `out`, which is more than `crash`. Up to which q is an attempt, on
+# average, worth at least `stay`?
 
 
 # %%
 def bearable_risk(stay, out, crash):
-    """The largest q from 0 to 1, and 0 if even a safe way out returns less than `stay`."""
+    """The largest q from 0 to 1, and 0 if even a safe way out is worth less than `stay`."""
     # solution: the exercise's own
 
 
 check.bearable_risk(bearable_risk)
 
 # %% [markdown]
-# Your `reward` and `bearable_risk` draw the next picture, at γ = 0.8. An attempt that goes well earns what
-# the panel's drive on road {{ ROAD }} earns: the rule's, the blind plan's or the agent's. One that fails ends
-# in an *early* crash, in second 5, like most crashes of the blind plan.
+# On road {{ ROAD }} the blind plan gets out; elsewhere most of its crashes are *early*, in second 5. Your
+# function says which risk of an early crash it bears at γ = 0.8. The picture shows what each way *is* worth:
+# the mean of 100 held-out roads, crashes included.
 # <!-- claim: set(by_plan().lasted[crashed_early()]) == {5} and crashed_early().sum() >
 #   by_plan().accident.sum() / 2 -->
 
 # %%
 bearable = own_code.yours_or_ours("bearable_risk", doing="Judging attempts")
 quick = bc.record(bc.plan_policy(blind_plan), [ROAD])[0]
-helped = bc.record(shipped_agents("bootstrapped")[2].as_policy(), [ROAD])[0]
-stay, slow, fast, best = (driving.paid(pay, drive) for drive in (idle, by_rule, quick, helped))
-crash = [*fast[:4], -10]
-agents = study.of("bootstrapped")
-# on each road, the plan's and the agent's:
-crashes = np.array([hurt, agents.episodes("accident")[2] > 0])
-distance = np.array([blind.distance, agents.episodes("distance")[2]])
-early = np.mean(crashes & (distance < 50), axis=1)  # within 50 m, which is by second 5
-worth = [0.8 ** np.arange(len(each)) @ each for each in (stay, slow, fast, best, crash)]
-risks = [bearable(worth[0], way, worth[4]) for way in worth[1:4]]
-bc.show(figures.bearable_risks(risks, early))
+stay, out = (driving.paid(pay, drive) for drive in (idle, quick))
+crash = [*out[:4], -10]
+risk = bearable(*(0.8 ** np.arange(len(each)) @ each for each in (stay, out, crash)))
+early = np.mean(hurt & (blind.distance < 50))  # within 50 m, which is by second 5
+print(f"The blind plan bears an early crash on {risk:.0%} of the roads, and has one on {early:.0%}")
+bc.show(figures.worth_with_crashes(driving.worths(pay, blind_plan)))
 
 # %% [markdown]
-# **Explain.** At γ = 0.8 the rule's way is worth less than staying even without any risk. The blind plan's
-# would pay if at most {{ 100 * borne(0.8, on_ten()) | .0f }} % of the attempts crashed early, but
-# {{ 100 * crashed_early().mean() | .0f }} % do. The agent's way pays: it bears
-# {{ 100 * borne(0.8, helped_on_ten()) | .0f }} %, and the agent crashes on only
-# {{ 100 * helped().accident.mean() | .1f }} % of its drives, none of them so early. So γ alone does not make
-# them stay: **a better way pays at γ = 0.8, too.**
+# **Explain.** At γ = 0.8 the rule's way is worth less than staying, although the rule never crashes. The
+# blind plan's way, when it goes well, is worth more, but the plan crashes early more often than it bears. The
+# agent crashes, too, but seldom, and its way pays. So γ alone does not make them stay: **a better way pays at
+# γ = 0.8, too.**
 # <!-- claim: discounted(idle(), 0.8) > max(worth_of_plan(), discounted(by_rule(), 0.8)) -->
-# <!-- claim: borne(0.8, by_rule()) == 0 < borne(0.8, on_ten()) < crashed_early().mean() -->
+# <!-- claim: worths()['the blind plan'][0] < worths()["the rule's way"][0] < worths()['staying'][0]
+#   < worths()['an agent with help'][0] and worths()["the rule's way"][1] == 0 -->
+# <!-- claim: borne(0.8, by_rule()) == 0 < borne(0.8, on_ten()) < crashed_early().mean() / 2 -->
 # <!-- claim: crashed_early().mean() == np.mean((blind_plan().accident > 0) & (blind_plan().distance < 50)) -->
-# <!-- claim: helped().accident.mean() == of('bootstrapped').scores('accident')[2] < borne(0.8, helped_on_ten()) -->
-# <!-- claim: helped().lasted[helped().accident].min() > 5 -->
+# <!-- claim: helped().accident.mean() == of('bootstrapped').scores('accident')[2] < 0.1 -->
 # <!-- claim: helped().values(0.8).mean() > 1.2 > discounted(idle(), 0.8) -->
 #
 # Nor is a larger γ enough: nine agents of plain SAC learned with γ = 0.9 to 0.99, and none escapes. Lesson
@@ -450,7 +442,7 @@ table(["the blind plan gets out unhurt, with traffic", "in steps of 0.5 s", "of 
 #    more, crashes included.
 #
 # **Three questions to think about**
-# - Would it still be a trap if trap 2 drove 0.5 m/s faster than you?
+# - At γ = 1, which of Round 4's three ways are worth more than staying, crashes included?
 # - Which reward would you change so that a learner leaves at once? What else would it do then?
 # - An agent's first attempts to get out all end in a crash. What can it learn from them, and what not?
 #
@@ -460,9 +452,11 @@ table(["the blind plan gets out unhurt, with traffic", "in steps of 0.5 s", "of 
 # %% [markdown] tags=["instructor"] minutes=3
 # *Model answers to the three questions:*
 #
-# - **Trap 2 drives 0.5 m/s faster.** After ten seconds it is 5 m further ahead, and the middle lane opens
-#   beside you. Then steering left works without braking. Doing nothing still pays the same each second, so it
-#   is still a trap, but it should be a weaker one.
+# - **γ = 1.** All three: the worth is then the return, and the last picture of Round 3 shows its means. The
+#   rule's is {{ of('rule').episodes('returns').mean() | .0f }} and the blind plan's, crashes included,
+#   {{ blind_plan().returns.mean() | .0f }}; doing nothing returns {{ idle().rewards.sum() | .0f }}.
+#   <!-- claim: min(of('rule').episodes('returns').mean(), blind_plan().returns.mean(),
+#   of('bootstrapped').scores('returns')[2]) > 1.5 * idle().rewards.sum() -->
 # - **Another reward.** If a second behind the traps *cost* something, to stay would not pay. But then an
 #   early crash, which ends the cost, may be the best way out for a learner that has not found the way out. A
 #   smaller penalty for accidents makes attempts cheaper, and the trained driver may crash more. A bonus for

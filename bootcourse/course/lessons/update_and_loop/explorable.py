@@ -70,11 +70,15 @@ def two_poles() -> Explorable:
 def trained_poles(marked: by_hand.SAC, unmarked: by_hand.SAC) -> Explorable:
     """The pole of the student's agent and of one that has learned with the bug."""
     drives = {"agent with the bug": of_an_agent(unmarked), "your agent": of_an_agent(marked)}
-    return beside(drives, (STRANGERS[1], OTHER), first=min(SHOWN, *(len(states) - 1 for states in drives.values())))
+    return beside(drives, (STRANGERS[1], OTHER))
 
 
-def beside(drives: dict[str, np.ndarray], looks: Sequence[Style], first: int = 0) -> Explorable:
-    """Two poles beside each other. drives: {name: the states of an episode}; first: the push shown at first."""
+def beside(drives: dict[str, np.ndarray], looks: Sequence[Style]) -> Explorable:
+    """Two poles beside each other. At first the push is shown at which one has fallen.
+
+    drives: {name: the states of an episode}.
+    """
+    first = min(SHOWN, *(len(states) - 1 for states in drives.values()))
 
     def draw(push: float) -> Drawing:
         parts, says, done = [], [], round(push)

@@ -207,6 +207,6 @@ class ReplayBuffer:
         self.next = (self.next + 1) % self.size
 
     def sample(self, batch, rng):
-        """Rows drawn at random: (batch, n). rng: a NumPy generator."""
+        """Rows drawn at random: (batch, n); stack only these. rng: a NumPy generator."""
         drawn = rng.integers(len(self.rows), size=batch)
         return torch.stack([self.rows[i] for i in drawn])

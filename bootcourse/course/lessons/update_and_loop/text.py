@@ -44,7 +44,7 @@ progress("update_and_loop")
 # A cart carries a pole, and each push to the left or right pays 1. An episode ends when the pole falls (it
 # leans by more than {{ fallen_at() | .0f }}°, dashed, or the cart leaves its track), and at the latest after
 # 500 pushes. An untrained agent pushes one cart, and a rule written by hand pushes the other. **Drag** the
-# push.
+# push back to 0.
 
 # %%
 explorable.two_poles()
@@ -70,7 +70,7 @@ explorable.the_end()
 # That works because a row says only what the *world* did, and the target asks the *present* policy what it
 # would do in s'.
 #
-# **Exercise (4 min, ●○○).** Write `sample`, with the generator `rng`. Do not copy the whole buffer.
+# **Exercise (4 min, ●○○).** Write `sample`, with the generator `rng`.
 
 
 # %%
@@ -90,7 +90,7 @@ class ReplayBuffer:
         self.next = (self.next + 1) % self.size
 
     def sample(self, batch, rng):
-        """Rows drawn at random: (batch, n). rng: a NumPy generator."""
+        """Rows drawn at random: (batch, n); stack only these. rng: a NumPy generator."""
         # solution: the exercise's own
 
 
@@ -122,8 +122,8 @@ check.ReplayBuffer(ReplayBuffer)
 # > 7. **Steps.** Compute the three losses, then make a gradient step for each.
 # > 8. **Copies.** Q̄ₖ becomes Q̄ₖ + τ (Qₖ − Q̄ₖ), weight by weight.
 #
-# You wrote these functions in lesson [[discrete_sac]]. They detach y, Q and H; you detach α (first comment
-# below).
+# You wrote these functions in lesson [[discrete_sac]]. They hold y, Q and H fixed; the first comment below
+# does so for α.
 
 # %%
 own_code.load()
@@ -183,11 +183,11 @@ check.train(train)
 figures.small_worlds()
 
 # %% [markdown]
-# > **Predict.** Suppose that, by a bug, `terminated` is 0 in all rows. In which worlds does Q change?
+# > **Predict.** By a bug, `terminated` is 0 in all rows. In which worlds is the learned Q then wrong?
 
 # %%
 changed = ["only the first", "the first two", "all but the third", "all four"]
-predict("update_and_loop.1", "In which worlds does Q change?", changed)
+predict("update_and_loop.1", "In which worlds is the learned Q wrong?", changed)
 
 # %%
 predicted("update_and_loop.1")
@@ -301,7 +301,7 @@ print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {t
 # | no bug | drops | {{ spread('marked') }} |
 # | bug | rises, above its limit | {{ spread('unmarked') }} |
 # | bug, added rows pay 0 (true) | drops | {{ spread('paid-0') }} |
-# | bug, added rows pay 1 (false) | does not drop | {{ spread('paid-1') }} |
+# | bug, added rows pay 1 (false) | stays level | {{ spread('paid-1') }} |
 #
 # *A critic follows its rows, true or false, and makes up the rest.*
 # <!-- claim: np.abs(along_falls('paid-1') / along_falls('paid-1')[:, :1] - 1).max() < 0.1 -->
@@ -309,7 +309,7 @@ print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {t
 #   for kind in ('marked', 'paid-0')) -->
 #
 # We think that without rows of fallen poles Q fed itself: a high guess for the fallen pole raised the target
-# of the last push, and because one network gives both values, the guess rose again.
+# of the last push, and, as one network gives both values, that raised the guess in turn.
 # <!-- claim: possible('paid-0') == possible('paid-1') == 5 == len(agents('paid-1')) == len(agents('paid-0')) and
 #   after_a_block('paid-0').argmax() == 1 -->
 
@@ -331,10 +331,9 @@ compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: compared, 4
 # %% [markdown]
 # ## What you now know
 #
-# 1. A batch holds mostly rows of earlier policies: SAC learns off-policy.
-# 2. `terminated` says that nothing more is earned. A time limit does not say so.
-# 3. In a small world you can work out Q and the right push, so a bug can show as a wrong number.
-# 4. A critic makes up what no row tells it, and a Q above its limit gives that away.
+# 1. `terminated` says that nothing more is earned. A time limit does not say so.
+# 2. In a small world you can work out Q and the right push, so a bug can show as a wrong number.
+# 3. A critic makes up what no row tells it. If a Q is above its limit, it is surely wrong.
 
 # %% [markdown]
 # **Three questions to think about**

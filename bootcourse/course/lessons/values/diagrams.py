@@ -77,7 +77,7 @@ def sweeps(found: Sequence[np.ndarray]) -> Figure:
 def walks(forwards: Sequence[np.ndarray], backwards: np.ndarray) -> Figure:
     """Q(s, 1) after each of a learner's walks out, from its Q (5, 2), and after one walk learned in reverse."""
     named = {f"walk {k}": q for k, q in enumerate(forwards, 1)} | {"walk 1, learned backwards": backwards}
-    title = "Each walk carries a value one state back; learned backwards, one walk carries it all the way"
+    title = "Learned forwards, each walk carries a value one state back"
     return _values(title, {name: (q[:, 1], q[:, 1] > 0) for name, q in named.items()}, 3, "Blue: above 0.")
 
 
@@ -94,7 +94,7 @@ def _values(
     what: the numbers are, for the alt text.
     """
     left, top, (wide, high), apart = 1.9, 0.95, CELL, 0.12
-    figure, listed = new_figure(top + len(rows) * high + apart + 0.4), []
+    figure, listed = new_figure(top + len(rows) * high + apart + 0.4 + 0.17 * key.count("\n")), []
     ax = axes_at(figure, left, top, 5 * wide, len(rows) * high + apart)
     ax.set(xlim=(0, 5 * wide), ylim=(len(rows) * high + apart, 0))
     ax.axis("off")
@@ -164,8 +164,8 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
         arrived = (chain.arrivals(values) <= walk).sum()
         name = f"{'another: ' * (values is other)}{arrived} walks ({chain.EPISODE * walk:,})"
         rows[name] = values[walk].max(axis=1), (values[walk, :, 1] > values[walk, :, 0]) & (np.arange(chain.STATES) < 4)
-    key = "Rows: walks that reached the free road (decisions). White: staying or turning back is worth more. "
-    key += "Blue: going on is."
+    key = "Rows: walks that reached the free road (decisions). Blue: going on is worth more.\n"
+    key += "White: in the trap staying is (0.80 once learned), in the states 1 to 3 turning back (0.64)."
     heads = ("trap", "state 1", "state 2", "state 3", "free road")
     title = "Leaving wins only after going on has won in state 3, then 2, then 1"
     return _values(title, rows, 2, key, heads, "The larger Q")

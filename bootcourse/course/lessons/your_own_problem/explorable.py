@@ -141,7 +141,7 @@ def loop_or_goal() -> Explorable:
         return drawing(WIDTH, 196, [text(4, 20, says, size=14, bold=True), *parts], alt)
 
     numbers = {
-        "bonus": Number("c", 0.1, 0.001, 2, 0.05, "Each decision of a demonstration pays so much.", logarithmic=True),
+        "bonus": Number("c", 0.3, 0.001, 2, 0.05, "Each decision of a demonstration pays so much.", logarithmic=True),
         "way": Number("way", 12, 2, 90, 1, "So many decisions lead to the goal, all in the demonstrations.",
                       check=whole_number("way", 2, 90)),
     }  # fmt: skip

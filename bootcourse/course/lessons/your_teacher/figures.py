@@ -92,7 +92,7 @@ def of_six_teachers(computed: Cells) -> Figure:
     shown = {words: free_lane.shown(name) for name, words in SIX.items()}
     cells = {words: (f"{100 * crash:.3g}", f"{100 * reach:.3g}") for words, (reach, crash) in shown.items()}
     headings = "crash, %", "reach lane 0, %"
-    return in_rows(title, groups, ["bootstrapped"] * len(SIX), "success", left=3.1, of_drives=(headings, cells))
+    return in_rows(title, groups, ["bootstrapped"] * len(SIX), "success", left=2.85, of_drives=(headings, cells))
 
 
 def all_parts(computed: Mapping[str, Results]) -> Figure:
@@ -130,8 +130,8 @@ def in_rows(
     """A dot for each agent at its success (%) or return, a row for each group; beside it what the group reached.
 
     groups: {name: `scores`}; methods: of each group, for its colour; drawn: "success" or "returns"; left: inches;
-    of_drives: two headings, {name: cells} about the teacher's drives, in place of its students' return and accidents
-    and left of the dots.
+    of_drives: two headings, {name: cells} about the teacher's drives, left of the dots and in place of its students'
+    accidents.
     """
     row, alt_parts, is_success = 0.42, [], drawn == "success"
     figure = new_figure(HEAD + row * len(groups) + FOOT)
@@ -148,12 +148,13 @@ def in_rows(
         about = f"return {mean}, accidents in {accidents} %"
         if of_drives:
             crash, reach = of_drives[1][name]
-            about, cells = f"of its drives {crash} % crash, {reach} % reach lane 0", ()
+            about = f"return {mean}, of its teacher's drives {crash} % crash, {reach} % reach lane 0"
+            cells = (cells[0],)
             before(ax, place, crash, reach)
         beside(ax, place, f"{escape} {marks[0]}", *cells)
         words = "".join(f", {score}: {word}" for score, word in found.items() if word in MARKS)
         alt_parts.append(f"{name}: {escape} escape, {about}{words}")
-    beside(ax, -0.75, "escape", *(() if of_drives else ("return", "accidents, %")), colour=QUIET)
+    beside(ax, -0.75, "escape", *(("return",) if of_drives else ("return", "accidents, %")), colour=QUIET)
     if of_drives:
         before(ax, -0.75, *of_drives[0], colour=QUIET)
     of_success = f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes"

@@ -106,6 +106,11 @@ def escape_of(teachers: list[str]) -> int:
     return sum(worth()[teacher, "bootstrapped"].escapers("bootstrapped") for teacher in teachers)
 
 
+def taught_returns(teacher: str) -> float:
+    """What the ten bootstrapped students of one of these teachers earn on average."""
+    return worth()[teacher, "bootstrapped"].scores("returns").mean()
+
+
 def worth() -> dict:
     """{(teacher, method): ten agents} of the experiment `teachers`."""
     return shipped_teachers()
