@@ -62,13 +62,18 @@ def asked(name: str) -> float:
 
 
 def line_end(name: str) -> float:
-    """The Q at its own accidents with which an agent's training ends, the mean of two seeds."""
-    return float(hunt().probe(name, "end")[:, -1].mean())
+    """The Q at its own accidents where an agent's line ends, the mean of two seeds."""
+    return float(figures.last(hunt(), "end")[name].mean())
 
 
 def promised(name: str) -> np.ndarray:
     """What the critic of each of an agent's two seeds promises where its line ends, (2,)."""
     return figures.last(hunt(), "promise")[name]
+
+
+def peaks(name: str) -> np.ndarray:
+    """The most that the critic of each of an agent's two seeds promises in training, (2,)."""
+    return hunt().probe(name, "promise").max(axis=1)
 
 
 def after_the_end(name: str) -> float:

@@ -105,10 +105,10 @@ def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
     ended = [drive for drive in own if cloning.off_on_the_left(drive)]
     left = cloning.left_in(of_rule)
     rows = left[left.abs() < 2]  # in the left lane
-    low, high = rows.min().item(), rows.max().item()
+    high = rows.max().item()
     figure = new_figure(3.9)
     ax = figure.add_axes((0.125, 0.14, 0.85, 0.71))
-    ax.axhspan(low, high, color=style("rule").colour, alpha=0.16, linewidth=0)
+    ax.axhspan(-2, high, color=style("rule").colour, alpha=0.16, linewidth=0)
     wrong, beyond = [], []
     drawn = {len(ended) * k // DRAWN for k in range(DRAWN)}
     for number, drive in enumerate(ended):
@@ -130,7 +130,7 @@ def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
     words = {"fontsize": TEXT, "ha": "left"}
     ax.text(-BEFORE + 0.2, 2.06, "the road's edge", color=INK, va="bottom", **words)
     green = style("rule").colour
-    ax.text(-BEFORE + 0.2, low + 0.06, "as far out as the rule drives", color=green, va="bottom", **words)
+    ax.text(-BEFORE + 0.2, -1.68, "the rule, in the left lane", color=green, va="bottom", **words)
     ax.set(xlim=(-BEFORE, 0.2), ylim=(-2, 2.35))
     ax.set_yticks(list(PLACES), list(PLACES.values()))
     red = f"red: errors, {errs_at[0]} of decisions left of the band, {errs_at[1]} elsewhere"
@@ -143,7 +143,7 @@ def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
     return finish(
         figure, title,
         f"The last {BEFORE} s of {len(drawn)} of {len(ended)} drives that leave the road on the left. In the left "
-        f"lane the rule's rows reach from {-low:.1f} m right of its middle to {high:.1f} m left. Left of them "
+        f"lane the rule's rows reach {high:.1f} m left of its middle. Left of this place "
         f"{errs_at[0]} of all {len(ended)} drives' decisions are errors, elsewhere {errs_at[1]}.",
     )  # fmt: skip
 

@@ -59,8 +59,7 @@ bc.show(figures.where_they_were(driven, seconds=30, title=title))
 # %% [markdown]
 # ## Round 1: whose clones crash least?
 #
-# A **demonstration** is somebody's drive, kept as transitions (lesson [[discrete_sac]]), one row for each
-# decision.
+# A **demonstration** is somebody's drive, kept as transitions.
 
 # %%
 mine = [drive for drive in world.attempts if drive.success and not drive.accident]
@@ -135,7 +134,7 @@ bc.show(figures.clones(measured))
 # > **Predict.** Where do most accidents of the rule's clones happen?
 
 # %%
-where = ["behind the traps", "into another car in the lane change", "off the edge of the road"]
+where = ["into a trap, from behind", "into another car in the lane change", "off the road's edge"]
 predict("demonstrations.2", "Where do most accidents of the rule's clones happen?", where)
 
 # %%
@@ -163,9 +162,9 @@ bc.show(figures.off_the_road(alone, by_rule))
 # %% [markdown]
 # ## Round 3: which rows help?
 #
-# Left of the green band lie {{ beyond_the_band() }} of the stochastic rule's rows, and none of the rule's. Do
-# they help? To the rule's rows we add {{ beyond_the_band() }} of the stochastic rule's, each five times and
-# labelled with the rule's action. We try three kinds:
+# Left of the green band lie {{ beyond_the_band() }} of the stochastic rule's rows, and none of the rule's. To
+# the rule's rows we add {{ beyond_the_band() }} of the stochastic rule's, each five times and labelled with
+# the rule's action. We try three kinds:
 #
 # - **from the edge**: left of the band;
 # - **near the edge**: in the band, at least 1 m left;
@@ -192,12 +191,14 @@ fed_crash = {name: cloning.measure(fed[name], by_rule[::10]) for name in fed}
 bc.show(figures.added(KINDS[0], measured[KINDS[0]], fed_crash))
 
 # %% [markdown]
-# **See.** *{{ beyond_the_band() }} rows from the edge prevent most of the accidents; as many others do not.*
+# **See.** *{{ beyond_the_band() }} rows from the edge prevent most of the accidents, as many from near it
+# more than half; as many others do not help.* (In Round 1 the stochastic rule's data hold such rows, the
+# rule's none.)
 #
-# *A longer training prevents nearly all of them*: with {{ updates_of(of('bc')) / UPDATES | .0f }} times as
-# many updates the study's clones of as many drives crash in {{ 100 * accidents('bc') | .1f }} %. Then the
-# order of Round 1 is reversed: its clones of the stochastic rule had twice as many updates as these, and
-# crash in {{ 100 * by_chance().scores('accident').mean() | .0f }} %.
+# *A longer training prevents nearly all of them*: after {{ updates_of(of('bc')) / UPDATES | .0f }} times as
+# many updates, clones of the rule crash in {{ 100 * accidents('bc') | .1f }} %. Clones of the stochastic rule
+# had twice as many again, and crash in {{ 100 * by_chance().scores('accident').mean() | .0f }} %: the order
+# of Round 1 is reversed.
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 -->
 # <!-- claim: by_chance().agents[0]['stochastic_demonstrations'] and len(by_chance()) == 10 and
 #   round(updates_of(by_chance()) / updates_of(of('bc')), 1) == 2 -->
@@ -217,10 +218,10 @@ bc.show(figures.added(KINDS[0], measured[KINDS[0]], fed_crash))
 #
 # > **Predict.** Begin with 20 drives of the rule, and in each of two rounds add 20 labelled drives of the
 # > newest clone. All clones have equally many updates. Where does the last clone agree with the rule more
-# > often than the first did: in the rule's states, or in those it drives into itself?
+# > often than the first did: in the rule's states, or in its own?
 
 # %%
-own_only, rule_only = "only in the states it drives into itself", "only in the rule's states"
+own_only, rule_only = "only in its own states", "only in the rule's states"
 choices = ["in the rule's states and its own", own_only, rule_only, "in neither"]
 predict("demonstrations.4", "Where does the last clone agree more than the first?", choices)
 
@@ -280,7 +281,7 @@ compare_predictions(
 #
 # 1. A clone learns to predict the demonstrator's action. Judge it by how it drives.
 # 2. It is trained on the teacher's states and drives in its own, where errors lead to more errors.
-# 3. A longer training, or a few rows from the road's edge, prevents most of the accidents of the rule's
+# 3. A longer training, or a few rows at or near the road's edge, prevents most accidents of the rule's
 #    clones.
 # 4. DAgger adds rows from the clone's own states: the clone drives, the teacher labels.
 #

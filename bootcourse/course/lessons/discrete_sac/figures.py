@@ -41,8 +41,8 @@ def two_jobs(alphas: Sequence[float], walked: Walked, unpaid: Walked) -> Figure:
         "never found it": (~found, "white"),
     }
     row, before, alt_parts = 0.36, np.zeros(len(names)), []
-    figure = new_figure(1.15 + row * len(names) + 0.6)
-    ax = axes_at(figure, 1.6, 1.15, 3.9, row * len(names))
+    figure = new_figure(0.95 + row * len(names) + 0.6)
+    ax = axes_at(figure, 1.6, 0.95, 3.9, row * len(names))
     for words, (of, colour) in parts.items():
         look = {"color": colour, "edgecolor": INK, "linewidth": 0.7, "clip_on": False}
         ax.barh(names, of.sum(axis=1), 0.72, left=before, label=words, **look)
@@ -54,8 +54,4 @@ def two_jobs(alphas: Sequence[float], walked: Walked, unpaid: Walked) -> Figure:
     name_rows(ax, names, f"of {walked.leaves.shape[1]} learners")
     ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=2, fontsize=SMALL, frameon=False, columnspacing=1.2)
     alt = f"A bar for each kind of learner: {', '.join(names)}. Of each kind, in this order, {'; '.join(alt_parts)}. "
-    title = (
-        "With a small α none leaves, with a large one none decides; "
-        "with one that falls from 10 many leave, and all with no pay in the target"
-    )
-    return finish(figure, title, alt)
+    return finish(figure, "A falling α leads many out; without the pay in the target, all", alt)

@@ -1,5 +1,5 @@
-"""Numbers that the lesson's text prints: the panel of Round 1 as it opens, the best policy of Round 2, the highest
-estimates and the actor that may move them of Round 3, and the chain of Round 4.
+"""Numbers that the lesson's text prints: the panel of Round 1 as it opens, the highest estimates of Round 3 and the
+actor that may move them, and the chain of Round 4.
 """
 
 import math
@@ -19,7 +19,6 @@ q = np.array(START)
 pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
 BY_Q = pi @ q
 WORTH = BY_Q - ALPHA * pi @ np.log(pi)
-SOFTMAX = math.exp(3) / (math.e + math.exp(3))  # of Q = 1 and 3 with α = 1, the second action
 ALPHAS = (0.01, 0.1, 0.15, 0.2, 0.25, 1, 10)  # constant temperatures: Round 4's and more
 
 

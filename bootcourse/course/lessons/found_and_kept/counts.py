@@ -24,6 +24,10 @@ def both_tables(study: Results) -> list[list[str]]:
 
 
 def by_updates(driver: str) -> dict[str, Results]:
-    """The four methods' agents of round 3 whose demonstrations this driver gave: {updates for a decision: results}."""
+    """The four methods' agents of round 3 whose demonstrations this driver gave: {updates for a decision: results}.
+
+    driver: "the rule" or "the stochastic rule".
+    """
+    symbol = {"the rule": "μ", "the stochastic rule": "π̃"}[driver]
     settings = clocks.choices(shipped_experiment("clocks")).items()
-    return {updates: agents for (updates, by), agents in settings if by == driver}
+    return {updates: agents for (updates, by), agents in settings if by == symbol}

@@ -65,7 +65,8 @@ def losing() -> Explorable:
             parts += _bars(axes, top, success, limit) + ends[words]
             parts.append(text(LOSE, _middle(top), f"{losers[words]} of {len(success)}", "middle"))
         *some, last = losers.values()
-        says = f"Lost at {limit:.0f} of {IN_A_ROW} or fewer: {', '.join(map(str, some))} and {last} of ten lose it."
+        counted = f"{', '.join(map(str, some))} and {last}"
+        says = f"Lost at {limit:.0f} of {IN_A_ROW} or fewer: from top to bottom {counted} of ten lose it."
         parts.append(text(4, 20, says, size=14, bold=True))
         bars = f"bar: in training, more than {limit:.0f} of the last {IN_A_ROW} ahead"
         parts.append(text(LEFT, TOP - 22, bars, bold=True))

@@ -28,10 +28,10 @@ def one_agent(results: Results, which: int, title: str) -> Figure:
     ax, good = figure.axes[0], np.flatnonzero(share > 50)
     ax.axvline(end, color=INK, linewidth=1.1, linestyle=(0, (4, 3)), zorder=1)
     ax.text(end + 25, 90, f"no demonstrations\nafter {end:,}", fontsize=TEXT, color=QUIET, va="center")
-    for place, words in ((good[0], "found"), (good[-1], "last had it")):
+    for place, words, away, side in ((good[0], "found", (8, 9), "left"), (good[-1], "last had it", (-8, -9), "right")):
         ax.plot(at[place], share[place], "o", color=INK, ms=6, zorder=5)
         ax.annotate(
-            f"{words}: {at[place]:,.0f}", (at[place], share[place]), (8, 0), ha="left", va="center",
+            f"{words}: {at[place]:,.0f}", (at[place], share[place]), away, ha=side, va="center",
             textcoords="offset points", fontsize=TEXT, color=INK, zorder=4,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 1},
         )  # fmt: skip
@@ -106,6 +106,6 @@ def chances(cells: Mapping[str, Results], counted: Mapping[str, float]) -> Figur
     ax.set_xticks(at, [each.replace("1/4", "¼") for each in updates], fontsize=TEXT, color=INK)
     ax.set_xlabel("updates for a decision; grey: agents of each method", fontsize=TEXT, color=INK, labelpad=20)
     few, many = (f"{each(values):.0f}" for each in (min, max))
-    title = f"With π̃ the paper's four rates come in {few} to {many} % of the draws"
+    title = f"The paper's four rates come in {few} to {many} % of the draws"
     chance = "; ".join(f"{u} {v:.0f} % [{a:.0f}, {b:.0f}]" for u, v, (a, b) in zip(updates, values, bars, strict=True))
     return finish(figure, title, f"For each number of updates, chance [95 %]: {chance}.")

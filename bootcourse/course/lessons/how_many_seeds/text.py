@@ -74,8 +74,8 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # ## Round 1: what does eight of ten say?
 #
 # With the soft constraint alone, eight of ten agents escape. If you trained thousands, the share that escapes
-# would be the *true rate*. Which are believable? A rate is too low if, at that rate, fewer than 2.5 % of
-# studies would see eight or more escape.
+# would be the *true rate*. Which are believable? A rate is too low if, with it, eight or more of ten escape
+# in fewer than 2.5 % of studies.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
 # > **Predict.** Many studies train ten agents each. At a true rate of 50 %, as with ten fair coins, eight or
@@ -136,8 +136,8 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # %% [markdown]
 # ## Round 2: how many agents does it take?
 #
-# With both aids seven of ten agents escape, with plain SAC one. Do the methods differ? If they are alike,
-# chance alone decides how the eight escapes fall on the twenty agents. How often do they fall at least as
+# With both aids seven of ten agents escape, with plain SAC one. Do the methods differ? If they are alike, it
+# is chance which eight of the twenty agents escape. How often would chance alone split the eight at least as
 # unevenly as seven to one? That is the **p value**. *Fisher's exact test* computes it: {{ fisher(7, 1) | .3f }}.
 # Below 0.05 we speak of a difference.
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
@@ -225,8 +225,7 @@ explorable.intervals()
 # %% [markdown]
 # **See.** *Of 100 intervals {{ explorable.holding(3) }} contain the mean, not 95.* In
 # {{ 100 * 0.7**3 | .0f }} of 100 studies all three agents do well. Resampling cannot know that other agents
-# fail, so the interval is short and lies too high: *the shortest intervals miss.* So print the returns
-# themselves.
+# fail, so the interval is short and lies too high: *the shortest intervals miss.* So print the returns.
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
 #   of('bootstrapped').scores('returns').mean()).sum() == round(100 * 0.7**3) == 34)(
@@ -249,14 +248,10 @@ check.bootstrap_interval(bootstrap_interval)
 # %% [markdown]
 # ## Round 4: what do your five seeds show?
 #
-# Train five agents with one number changed and five without. Which group learns the way out sooner?
-# `bonus=0.0` pays no bonus for demonstrated seconds. The score is an agent's success on 200 roads after 150
-# episodes.
-#
-# The score of a group is its **interquartile mean** (IQM): sort, leave out the lowest and the highest quarter
-# (rounded down: of five agents, one each), and take the mean. One odd agent decides little, but failures can
-# drop out, as of Round 3's ten (mean {{ of('bootstrapped').scores('returns').mean() | .0f }}, IQM
-# {{ iqm(of('bootstrapped').scores('returns')) | .0f }}). Print the agents, too.
+# We compare groups by their **interquartile means** (IQM): sort, leave out the lowest and the highest
+# quarter, and take the mean. One odd agent decides little, but the IQM can hide failures: Round 3's ten have
+# mean {{ of('bootstrapped').scores('returns').mean() | .0f }} and IQM {{
+# iqm(of('bootstrapped').scores('returns')) | .0f }}.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each resample
 # draws both groups anew.
@@ -267,11 +262,29 @@ def difference_interval(x, y, draws_x, draws_y):
     """(difference, low, high): IQM of x less IQM of y, scores (m,) and (n,), with its interval.
 
     draws_x (resamples, m) and draws_y (resamples, n) are the agents that each resample draws.
+    A quarter is rounded down.
     """
     # solution: the exercise's own
 
 
 check.difference_interval(difference_interval)
+
+# %% [markdown]
+# Here *nothing* was changed: our ten bootstrapped agents are split at random, twenty times.
+
+# %%
+bc.show(figures.nothing_changed(study))
+
+# %% [markdown]
+# **See.** Read as an ablation, the first comparison says that a change costs {{ -halves()[0].value | .0f }}
+# points of return. It is luck: of all splits of these ten agents, {{ 100 * leaves_out_0_by_luck() | .0f }} %
+# give an interval that leaves out 0, not 5 %: from few seeds intervals are too short (Round 3).
+# <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
+# <!-- claim: round(100 * leaves_out_0_by_luck()) == 9 -->
+#
+# Train five agents with one number changed and five without. Which group learns the way out sooner?
+# `bonus=0.0` pays no bonus for demonstrated seconds. The score is an agent's success on 200 roads after 150
+# episodes.
 
 # %%
 # Yours: you may also change rule_p (now 0.9), beta_start (0.6), gamma (0.8) or xi_multiplier (200).
@@ -286,31 +299,20 @@ interval_of = own_code.yours_or_ours("difference_interval", doing="Comparing")
 table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
-# **Explain.** If the interval contains 0, five seeds do not say which group learns earlier, nor that both
-# learn alike. For an answer train *new* agents, as many as your smallest effect of interest needs.
+# **Explain.** An interval that contains 0 says neither which group learns earlier nor that both learn alike;
+# one that leaves out 0 may be luck. For an answer train *new* agents, as many as your smallest effect of
+# interest needs.
 
 # %% [markdown]
 # ### If you try many changes
 #
-# Here *nothing* was changed: our ten bootstrapped agents are split at random, twenty times.
-
-# %%
-bc.show(figures.nothing_changed(study))
-
-# %% [markdown]
-# **See.** Read as an ablation, the first comparison says that a change costs {{ -halves()[0].value | .0f }}
-# points of return. It is luck.
-# <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
-#
-# Of all splits of these ten agents, {{ 100 * leaves_out_0_by_luck() | .0f }} % give an interval that leaves
-# out 0, not 5 %: from few seeds intervals are too short (Round 3). Even at 5 %, at least one of twenty
-# independent comparisons does so in {{ 100 * (1 - 0.95**20) | .0f }} % of cases. This is **multiplicity**.
-# Say beforehand which comparison counts, or multiply each p by the number of comparisons (*Bonferroni*;
-# intervals get wider).
-# <!-- claim: round(100 * leaves_out_0_by_luck()) == 9 -->
+# Even at 5 %, at least one of twenty independent comparisons leaves out 0 in {{ 100 * (1 - 0.95**20) | .0f }} %
+# of cases. This is **multiplicity**. Say beforehand which comparison counts, or multiply each p by the number
+# of comparisons (*Bonferroni*).
 #
 # If we tested all six pairs of methods, Round 2's p of {{ fisher(7, 1) | .3f }} would become
-# {{ 6 * fisher(7, 1) | .2f }}, and not count. A new test, of ten others of each, does:
+# {{ 6 * fisher(7, 1) | .2f }}, and not count. A new test does, of ten others of each (lesson
+# [[learning_from_demonstrations]]: trained twice as long):
 # {{ escapers(others('bootstrapped'), 'bootstrapped') }} against {{ escapers(others('sac'), 'sac') }} (p <
 # 0.001).
 # <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
@@ -341,8 +343,8 @@ compare_predictions(
 #   for m in ('sac', 'soft', 'demos', 'bootstrapped')) -->
 # 3. Compute the power before you train, for the smallest effect of interest.
 # 4. A short interval from three seeds may be luck: resampling knows these three alone.
-# 5. Among twenty comparisons one probably shows a difference by luck. Name beforehand the one that counts, or
-#    correct each p.
+# 5. Where nothing differs, at least one of twenty comparisons probably shows a difference. Name beforehand
+#    the one that counts, or correct each p.
 #
 # **Three questions to think about**
 # - Can 20 drives of each show that two *agents* differ? That two *methods* do?

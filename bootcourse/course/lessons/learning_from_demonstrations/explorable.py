@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bootcourse.colours import QUIET
+from bootcourse.colours import INK, QUIET
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import settings_for
@@ -35,13 +35,15 @@ def nine_values(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
         for place, value in enumerate(values):
             sides = np.array([-HALF, HALF, HALF, -HALF]) + place + 0.5
             low, high = np.clip([value, value + margin], *y)
-            chart.fill(sides, [y[0], y[0], low, low], style("demos").colour if place == mine else OTHERS)
+            chart.fill(sides, [0.0, 0.0, low, low], style("demos").colour if place == mine else OTHERS)
             if margin and place != mine:
                 chart.fill(sides, [low, low, high, high], "none", edge=EDGE)
+        chart.line([0, len(values)], [0.0, 0.0], INK, 0.8)
         for level in levels:
             chart.line([0, len(values)], [level, level], QUIET, 0.8, "--")
+        below, looks = CHART[1] + CHART[3] + 16, ((QUIET, 11), (INK, 11, True))
         under = [
-            text(chart.at(place + 0.5, 0)[0], CHART[1] + CHART[3] + 16 + 13 * row, word, "middle", QUIET, 11)
+            text(chart.at(place + 0.5, 0)[0], below + 13 * row, word, "middle", *looks[place == mine])
             for place, action in enumerate(ACTION_NAMES)
             for row, word in enumerate(action.split())
         ]

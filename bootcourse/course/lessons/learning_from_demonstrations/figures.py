@@ -13,7 +13,7 @@ from bootcourse.episodes.evaluate import evaluate
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
-from bootcourse.plots.figure import SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
+from bootcourse.plots.figure import SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.policies import rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
@@ -57,23 +57,29 @@ class LiveDemonstrations(LiveWayOut):
         super().__init__({"with demonstrations": helped, "without": alone}, trained, "one of twenty agents")
 
 
-def returns(groups: dict[str, Results]) -> Figure:
-    """The mean return of groups of ten agents in their first training episodes, and below how often they succeed."""
+def returns(groups: dict[str, Results], others: dict[str, Results]) -> Figure:
+    """The mean return of groups of ten agents while demonstrations last, and below how often they succeed.
+
+    others: ten other agents of each group, whose success alone is drawn, thin.
+    """
     title = "With the bonus agents stay longer with the rule, and success falls later"
-    figure, rule, said, ends = new_figure(5.0), evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value, [], []
+    figure, rule, said = new_figure(5.0), evaluate(rule_policy(DEFAULT), 200, seed=8).returns.value, []
     above, below = (axes_at(figure, 0.5, top, 4.9, tall) for top, tall in ((0.95, 2.0), (3.3, 1.1)))
     plain_axes(above, f"return, no bonus counted: mean of ten agents and {WINDOW} episodes")
-    plain_axes(below, "of these episodes, succeed (%)")
+    plain_axes(below, "of these episodes, succeed (%); thin: the ten others")
     ends_at = next(iter(groups.values())).agents[0]["beta_episodes"]
     for name, agents in groups.items():
         colour = style("bootstrapped").colour if agents.agents[0]["bonus"] else NO_BONUS
         at, earned = rolling_means(agents.curves["return"], WINDOW)
-        _, succeed = rolling_means(agents.curves["success"], WINDOW)
-        above.plot(at, earned.mean(axis=0), color=colour, linewidth=2.2)
-        below.plot(at, 100 * succeed.mean(axis=0), color=colour, linewidth=2.2)
-        ends.append((earned.mean(axis=0)[at <= LAST][-1], name, colour))
-        reached = np.interp((450, 900, 1050), at, earned.mean(axis=0))
+        earned, lasts = earned.mean(axis=0), at <= ends_at
+        above.plot(at[lasts], earned[lasts], color=colour, linewidth=2.2)
+        reached = np.interp((450, 900), at, earned)
         said.append(f"{name}: {', '.join(f'{each:.0f}' for each in reached)}")
+        above.text(ends_at + 12, earned[lasts][-1], name, va="center", fontsize=TEXT, color=colour)
+        for some, width, opacity in ((agents, 2.2, 1), (others[name], 1, 0.6)):
+            success = some.curves["success"]
+            at, share = rolling_means(success, WINDOW, points=success.shape[1] // 20)
+            below.plot(at, 100 * share.mean(axis=0), color=colour, linewidth=width, alpha=opacity)
     above.axhline(rule, color=style("rule").colour, linewidth=1, linestyle=(0, (2, 2)))
     above.text(5, rule + 3, "the rule", fontsize=SMALL, color=style("rule").colour)
     above.axvspan(300, 500, color=style("demos").colour, alpha=0.2, linewidth=0)
@@ -88,6 +94,5 @@ def returns(groups: dict[str, Results]) -> Figure:
     below.set(ylim=(0, 104), yticks=(0, 50, 100))
     below.xaxis.set_major_formatter("{x:,g}")
     below.set_xlabel("training episode; shaded above: 300 to 500", fontsize=SMALL, color=INK)
-    label_ends(above, ends)
-    words = f"Mean return near episodes 450, 900 and 1,050: {'; '.join(said)}."
+    words = f"Mean return near episodes 450 and 900: {'; '.join(said)}."
     return finish(figure, title, f"{words} The rule: {rule:.0f}.")

@@ -42,12 +42,13 @@ def found(agents: Sequence[Results]) -> np.ndarray:
     return np.concatenate([found_after(each.curves["success"]) for each in agents])
 
 
-def paid_and_not() -> dict[str, Results]:
-    """The study's ten agents with both aids, with the bonus and without it."""
-    return {name: kinds()[f"demonstrations, {name}"][0][0] for name in ("c = 2", "c = 0")}
+def paid_and_not() -> tuple[dict[str, Results], dict[str, Results]]:
+    """The study's ten agents with both aids, with the bonus and without it, and the ten others of each."""
+    study, others = ({name: kinds()[f"demonstrations, {name}"][0][k] for name in ("c = 2", "c = 0")} for k in (0, 1))
+    return study, others
 
 
-ESCAPE = ["escape: all (study + others)", "with the soft constraint", "without it"]
+ESCAPE = ["agents that escape (study + others)", "with the soft constraint", "without it"]
 
 
 def escaped() -> list[list[str]]:

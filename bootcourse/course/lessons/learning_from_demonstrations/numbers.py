@@ -6,7 +6,8 @@ from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.course.lessons.learning_from_demonstrations.measures import kinds
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.research.results import Results
-from bootcourse.statistics import IN_A_ROW, lost
+from bootcourse.road.state import EGO, SPEED
+from bootcourse.statistics import lost
 from tools.course.known import SETTINGS, by_rule, idle, shipped_results
 
 
@@ -50,11 +51,6 @@ def median_found(name: str) -> int:
     return int(np.median(found(name)) + 0.5)
 
 
-def saved() -> float:
-    """About how many training episodes fewer the agents with demonstrations and c = 2 need to find the way out."""
-    return float(round(np.median(found("none")) - np.median(found("c = 2")), -1))
-
-
 def earned(name: str) -> np.ndarray:
     """The returns of the agents with the soft constraint and these demonstrations, (agents,)."""
     return np.concatenate([each.scores("returns") for each in _with(name)[0]])
@@ -65,20 +61,14 @@ def training(name: str, curve: str, first: int, last: int | None, others: bool =
     return _with(name)[0][int(others)].curves[curve][:, first:last].mean(axis=1)
 
 
-def fall(name: str) -> np.ndarray:
-    """By how much the return of each of the study's ten falls as β reaches 0, (agents,)."""
-    return training(name, "return", 800, 900) - training(name, "return", 1000, 1100)
-
-
 def losing_until(name: str, episode: int) -> int:
     """How many of the twenty agents with the soft constraint have lost the way out by this training episode."""
     return sum(int(lost(each.curves["success"][:, :episode]).sum()) for each in _with(name)[0])
 
 
-def on_it_again(name: str, episode: int) -> int:
-    """How many of `losing_until` end ahead in more than half of the last training episodes."""
-    curves = [each.curves["success"] for each in _with(name)[0]]
-    return sum(int((lost(each[:, :episode]) & (each[:, -IN_A_ROW:].mean(axis=1) > 0.5)).sum()) for each in curves)
+def speeds_of_the_rule() -> np.ndarray:
+    """The ego's speed at each second of the rule's drive (m/s)."""
+    return by_rule().states[:: by_rule().scenario.clock.simulation_rate, EGO, SPEED]
 
 
 def bonus_needed() -> np.ndarray:

@@ -56,7 +56,9 @@ bc.panels.bonus_panel(c=0)
 # *In the first {{ (bonus_needed() > 0).sum() }} seconds the rest of the rule's drive is worth less than
 # staying behind; a bonus of {{ bonus_needed().max() | .3f }} a second would make it worth more.* The paper's
 # c = {{ SETTINGS.bonus | g }} adds {{ SETTINGS.bonus / (1 - SETTINGS.gamma) | .0f }} to its worth, as much as
-# an accident costs.
+# an accident costs. (At the hump it speeds up for a few seconds.)
+# <!-- claim: 14.5 < speeds_of_the_rule()[34:44].max() and speeds_of_the_rule()[:34].max() < 11
+#   and speeds_of_the_rule()[43:50].max() < 13 -->
 # <!-- claim: discounted(by_rule(), SETTINGS.gamma) < discounted(idle(), SETTINGS.gamma) -->
 # <!-- claim: SETTINGS.bonus > 30 * bonus_needed().max() and (bonus_needed()[:15] > 0).all() and
 #   (bonus_needed()[15:] < 0).all() -->
@@ -166,17 +168,15 @@ table(measures.ESCAPE, measures.escaped())
 # %% [markdown]
 # **See.** *With demonstrations agents find the way out after fewer episodes of their own*: in the median
 # {{ median_found('c = 2') }} with c = {{ SETTINGS.bonus | g }}, {{ median_found('none') }} without
-# demonstrations. With c = 0 it is {{ median_found('c = 0') }}: most of the gain needs no bonus. An agent
-# saves about {{ saved() | .0f }} drives, fewer than the rule's {{ SETTINGS.demonstration_episodes }}, but
-# these serve any number of agents.
+# demonstrations. With c = 0 it is {{ median_found('c = 0') }}: most of the gain needs no bonus.
 # <!-- claim: len(found('c = 0')) == 20 and found('c = 0').max() < np.median(found('none')) and
 #   np.median(found('c = 0')) < (np.median(found('none')) + np.median(found('c = 2'))) / 2 -->
-# <!-- claim: np.median(found('none')) - np.median(found('c = 2')) < SETTINGS.demonstration_episodes -->
 # <!-- claim: len(found('c = 2')) == len(found('none')) == 20 and found('c = 2').max() < found('none').min() -->
 #
 # *In this training no more of them escape in the end*: {{ in_all('none') }} do in each row. *Without the soft
-# constraint fewer do* (last column). *Another training gives another answer* (lesson [[found_and_kept]]):
-# there all agents with demonstrations escape, but {{ of_the_paper('soft') }} with the soft constraint alone.
+# constraint fewer do* (last column). *Another training gives another answer to both* (lesson
+# [[found_and_kept]]): there all agents with demonstrations escape, with the soft constraint or without it,
+# but {{ of_the_paper('soft') }} with it alone.
 # <!-- claim: [of_the_paper(m) for m in ('bootstrapped', 'demos', 'soft')] == ['10 of 10', '10 of 10', '5 of 10']
 #   and fisher(10, 5) < 0.05 -->
 # <!-- claim: in_all('c = 2') == in_all('c = 0') == in_all('none') == '16 of 20' -->
@@ -201,7 +201,7 @@ bc.recording([shipped.beginning(drive, 60)], height=480)
 # ## Round 3: what does the bonus cost?
 #
 # > **Predict.** Ten agents learn with c = {{ SETTINGS.bonus | g }}, ten with c = 0. Near episode 400 all have
-# > found the way out. Which of them then earn more, the bonus not counted?
+# > found the way out. Which then earn more, the bonus not counted?
 # <!-- claim: abs(of('rule').scores('speed').mean() - 12) < 0.5 and max(map(second_pays, np.arange(0,
 #   30, 0.1))) <= second_pays(15) -->
 # <!-- claim: max(found('c = 2').max(), found('c = 0').max()) < 400 -->
@@ -212,7 +212,7 @@ predict("learning_from_demonstrations.3", "Which agents earn more near episode 4
 
 # %%
 predicted("learning_from_demonstrations.3")
-bc.show(figures.returns(measures.paid_and_not()))
+bc.show(figures.returns(*measures.paid_and_not()))
 
 # %% [markdown]
 # **See.** *The bonus holds the agents at the rule's speed.* From episode 300 to 500 the ten with c = 2 drive
@@ -225,12 +225,14 @@ bc.show(figures.returns(measures.paid_and_not()))
 #   of('rule').scores('returns').mean()) < 5 -->
 #
 # *At first it also keeps them on the way out* (below): from episode 450 to 500 nearly all episodes succeed,
-# but about two of three with c = 0. As the demonstrations run out, success with c = 2 falls, too, to about
-# half. Most agents find the way again.
-# <!-- claim: training('c = 2', 'success', 450, 500).mean() > 0.98 and
-#   abs(training('c = 0', 'success', 450, 500).mean() - 2 / 3) < 0.03 -->
+# but with c = 0 about two of three (of the others' about four of five). As the demonstrations run out,
+# success with c = 2 falls, too: to about half, the others' to
+# {{ 100 * training('c = 2', 'success', 1000, 1050, True).mean() | .0f }} %. Who escapes more often differs
+# between the tens (table of Round 2).
+# <!-- claim: min(training('c = 2', 'success', 450, 500, which).mean() for which in (False, True)) > 0.98 and
+#   abs(training('c = 0', 'success', 450, 500).mean() - 2 / 3) < 0.03 and
+#   abs(training('c = 0', 'success', 450, 500, True).mean() - 0.8) < 0.03 -->
 # <!-- claim: abs(training('c = 2', 'success', 1000, 1050).mean() - 0.5) < 0.1 -->
-# <!-- claim: all(on_it_again(each, 1500) > losing_until(each, 1500) / 2 for each in ('c = 2', 'c = 0')) -->
 # <!-- claim: SETTINGS.beta_episodes == 1000 -->
 # <!-- claim: all(training('c = 2', 'success', 300, 600, which).mean() > training('c = 0', 'success', 300,
 #   600, which).mean() + 0.05 and stats.mannwhitneyu(training('c = 2', 'success', 300, 600, which),
@@ -238,7 +240,6 @@ bc.show(figures.returns(measures.paid_and_not()))
 # <!-- claim: all(training('c = 0', 'success', 450, 500, which).mean() < training('c = 0', 'success', 300, 400,
 #   which).mean() - 0.15 and training('c = 2', 'success', 450, 500, which).mean() > 0.98 > 0.9 > training('c = 2',
 #   'success', 1000, 1050, which).mean() for which in (False, True)) -->
-# <!-- claim: fall('c = 2').mean() > 30 and fall('c = 0').mean() < -10 -->
 #
 # **Slide.** Train two agents in the panel. When their success is near 100 %, set c to 0, and watch the
 # return.
@@ -260,11 +261,11 @@ bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)
 # %% [markdown]
 # ## Round 4: where can a margin teach?
 #
-# A demonstration shows *one* action. Where no row shows another one, its Q is a guess, and the error of the
-# guess is called an **extrapolation error**.
+# A demonstration shows *one* action. Where no row shows another one, its Q is a guess, whose error is called
+# an **extrapolation error**.
 #
 # **Drag** through the rule's drive. In which seconds does your agent's critic give another action the largest
-# Q? Some of these actions may be better: your agent has rows of its own, too.
+# Q? Some may be better: your agent has rows of its own, too.
 
 # %%
 by_rule = bc.record(bc.rule_policy(bc.DEFAULT), [10], label="rule")[0]
@@ -343,8 +344,8 @@ compare_predictions(
 #
 # 1. A share β of each batch is the rule's, and falls to 0. Without the soft constraint its actions reach the
 #    policy only through the critics' Q.
-# 2. With demonstrations these agents found the way out after fewer episodes of their own, but one agent alone
-#    saved fewer than the rule drove. Whether more escape depends on the training (lesson [[found_and_kept]]).
+# 2. With demonstrations these agents found the way out after fewer episodes of their own. Whether more escape
+#    depends on the training (lesson [[found_and_kept]]).
 # 3. The bonus held agents at the rule's speed: from episode 300 to 500 those with c = 2 earned about what the
 #    rule earns.
 # 4. The paper's filter drops the margin loss where another action has the largest Q, so the loss corrects

@@ -66,9 +66,9 @@ def outs(base: str, form: str = "rollouts") -> np.ndarray:
     return each(base, form, "success")
 
 
-def worse_than_alone(base: str) -> int:
-    """With how many of the lesson's wrong models a base policy crashes more often than alone when it looks ahead."""
-    return sum(per_thousand(base, model=model) > per_thousand(base, "alone") for model in WRONG)
+def worse_than_alone(base: str, form: str = "rollouts") -> int:
+    """With how many of the lesson's wrong models a base policy crashes more often in one form than alone."""
+    return sum(per_thousand(base, form, model) > per_thousand(base, "alone") for model in WRONG)
 
 
 def worths() -> np.ndarray:
@@ -81,17 +81,8 @@ def led_out(success: np.ndarray) -> int:
     return int((success[outs("sac", "alone") < 0.01] > 0.1).sum())
 
 
-def rows_of_w() -> list[tuple[int, int, int]]:
-    """Of the nine that stay behind alone, with W and without: drives, accidents, how many get out."""
-    nine, found = outs("sac", "alone") < 0.01, []
-    for with_worth in (True, False):
-        of = shipped()[Cell("sac", "rollouts", with_worth=with_worth).name].measured
-        found.append((int(of["roads"][nine].sum()), int(of["accidents"][nine].sum()), led_out(of["success"])))
-    return found
-
-
-def worst_with_w() -> tuple[int, int, int, int, int]:
-    """Of the nine, with W: the accidents of the one that has most, and of all.
+def worst_with_w() -> tuple[int, int, int, int]:
+    """Of the nine, with W: the accidents of the one that has most.
 
     Without W its accidents, its drives, and in how many of them it is not ahead of trap 1 at the end.
     """
@@ -99,15 +90,7 @@ def worst_with_w() -> tuple[int, int, int, int, int]:
     with_w, without = (shipped()[Cell("sac", "rollouts", with_worth=w).name].measured for w in (True, False))
     ends, worst = with_w["accidents"][nine], int(with_w["accidents"][nine].argmax())
     hurt, roads, success = (without[of][nine][worst] for of in ("accidents", "roads", "success"))
-    return int(ends[worst]), int(ends.sum()), int(hurt), int(roads), round(roads * (1 - success))
-
-
-def with_and_without_w() -> str:
-    """These, as Markdown."""
-    rows = [
-        [name, f"{drives:,}", *rest] for name, (drives, *rest) in zip(("with W", "without W"), rows_of_w(), strict=True)
-    ]
-    return markdown(["look-ahead", "drives", "accidents", "agents that get out"], rows)
+    return int(ends[worst]), int(hurt), int(roads), round(roads * (1 - success))
 
 
 @cache
@@ -189,6 +172,11 @@ def learned_without(share: float | None = None) -> float:
 def alone() -> np.ndarray:
     """Those of the same agents alone, (agents,)."""
     return figures.per_thousand(shipped(), Cell(learned_model.BASE, "alone"))[: len(learning())]
+
+
+def worse_in_last_model() -> int:
+    """How many crash more often with the look-ahead in that last model than alone."""
+    return int((in_last_model() > alone()).sum())
 
 
 def fewest_worse() -> int:

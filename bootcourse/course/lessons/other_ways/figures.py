@@ -162,7 +162,7 @@ def in_the_test(computed: Mapping[str, Results], rule: float) -> Figure:
         least, most = returns.min(), returns.max()
         words = f"{earned:.0f} ({least:.0f} to {most:.0f}), accidents {accidents} %"
         alt_parts.append(f"{names[-1]}: {words}")
-    beside(ax, -0.75, "return", "accidents, %", colour=QUIET)
+    beside(ax, -0.75, "return", "accidents,\n% (mean)", colour=QUIET)
     name_rows(ax, names, "return of an agent in the test; filled: it had a teacher; bar: interquartile mean")
     ax.set_xlim(0, 140)
     ax.text(rule + 2, len(names) - 1, "the rule", color=green, fontsize=SMALL, va="center")

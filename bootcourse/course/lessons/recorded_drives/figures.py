@@ -73,8 +73,8 @@ def returns(study: Results) -> Figure:
 def would_do(learners: Mapping[str, SACLearner]) -> Figure:
     """In which share of the recorded seconds the rule took each of the nine actions, and agents would, as grids.
 
-    learners: by what they are called, such as `WITH`. Below each grid, the crashes on 100 roads, and without CQL's term
-    what an agent promises at their starts (the mean Q of its actions) beside what it is worth from there.
+    learners: by what they are called, such as `WITH`. Below each grid, the crashes on 100 roads, and what
+    an agent promises at their starts (the mean Q of its actions) beside what it is worth from there.
     """
     data, names = choosing.recorded(), ["the rule"]
     taken, colours = [data.actions], [style("rule").colour]
@@ -90,9 +90,8 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
             names.append(f"{name}, seed {settings.seed}")
             colours.append(style("cql").colour if name == WITH else OTHER.colour)
             words.append(f"crashes on {crashes[name][-1]} of 100 roads")
-            if name != WITH:
-                promise, earns = choosing.promised(policy, choosing.starts()), choosing.worth(policy, range(100), 0.8)
-                words[-1] += f"\nat the start promises {promise:.1f},\nthen earns {earns:.1f}".replace("-", "−")
+            promise, earns = choosing.promised(policy, choosing.starts()), choosing.worth(policy, range(100), 0.8)
+            words[-1] += f"\nat the start promises {promise:.1f},\nthen earns {earns:.1f}".replace("-", "−")
     shares = [torch.bincount(each, minlength=9).reshape(3, 3).numpy() / len(each) for each in taken]
     faster = [share[2].sum() for share in shares[1:]]
     title = "What the rule did, and what the agents would do"
@@ -153,7 +152,7 @@ def estimates(names: Sequence[str], alike: np.ndarray, fits: Sequence[np.ndarray
 
 
 def chosen(study: Results, guesses: Sequence[Sequence[float]], truth: Sequence[float]) -> Markdown:
-    """A table, a row for each set of agents: whom each of two fits takes, and whom it should take.
+    """A table, a row for each set of agents: whom each of two fits takes, and who is worth most.
 
     guesses: of two fits; these and truth: of each agent, one set after the other.
     """
@@ -164,13 +163,15 @@ def chosen(study: Results, guesses: Sequence[Sequence[float]], truth: Sequence[f
     rows = []
     for place, (*fits, truly) in enumerate(zip(*map(choosing.by_set, (*guesses, truth)), strict=True)):
         returns, cells = score["returns"][place], []
-        most, names = returns.argmax(), [display_name(method) for method in choosing.METHODS]
+        most, names = truly.argmax(), [display_name(method) for method in choosing.METHODS]
         for taken in (fit.argmax() for fit in fits):
             does = _does(score["success"][place, taken], score["accident"][place, taken])
-            cells.append(f"✓ {names[taken]}" if taken == most else f"✗ {names[taken]}: {does}")
-        worth = "" if truly.argmax() == most else f"; worth most: {names[truly.argmax()]}"
-        rows.append([place + 1, *cells, f"{names[most]}, {returns[most]:.0f}{worth}"])
-    return table(["set", "first fit takes", "second fit takes", "highest return"], rows)
+            mark = "✓" if taken == most else "✗"
+            cells.append(f"{mark} {names[taken]}{'' if (mark, does) == ('✓', 'gets out') else f': {does}'}")
+        best = returns.argmax()
+        apart = "" if best == most else f"; highest return: {names[best]}, {returns[best]:.0f}"
+        rows.append([place + 1, *cells, f"{names[most]}{apart}"])
+    return table(["set", "first fit takes", "second fit takes", "worth most"], rows)
 
 
 def _does(success: float, accident: float) -> str:

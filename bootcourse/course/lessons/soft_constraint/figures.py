@@ -11,7 +11,7 @@ from bootcourse.course import shipped
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.live_curves import LiveWayOut
 from bootcourse.methods import style
-from bootcourse.plots.figure import SMALL, axes_at, finish, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import SMALL, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
 from bootcourse.research.report import rule_results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import IN_A_ROW, found_after, lost, rolling_means
@@ -73,6 +73,8 @@ def courses(kinds: Sequence[str]) -> Figure:
         above.set(yscale="log", ylim=(0.02, 3))
         above.set_yticks((0.1, 1, 2), ("0.1", "1", "2"))
         above.minorticks_off()
+        if not column:
+            above.text(-0.04, 1.06, "ξ", transform=above.transAxes, ha="right", fontsize=TEXT, color=INK)
         episodes, share = rolling_means(success, IN_A_ROW, success.shape[1])
         plain_axes(below, "" if column else f"of the last {IN_A_ROW} training episodes (actions drawn), ended ahead")
         below.plot(episodes, IN_A_ROW * share.T, color=colour, linewidth=0.8, alpha=0.7)
@@ -84,7 +86,7 @@ def courses(kinds: Sequence[str]) -> Figure:
             ax.tick_params(labelleft=not column, labelbottom=ax is below)
         ahead = f"at last {IN_A_ROW * share[:, -1].mean():.0f} on average"
         alt.append(f"{kind}: {fault}, {ahead}")
-    words = "above: mean ξ of ten agents; below: a line for each; return: mean in the test"
+    words = "mean ξ of ten agents; below, a line for each; return: mean in the test"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     return finish(
         figure,

@@ -48,6 +48,12 @@ def kept(agents: Results) -> int:
     return int(agents.found_and_kept("soft")[1].sum())
 
 
+def nearly_escaping() -> float:
+    """The mean success of those of the ten agents whose ξ stays at 2 that find the way out and do not escape."""
+    ahead = stays(2).scores("success")
+    return float(ahead[~stays(2).found_and_kept("soft")[1]].mean())
+
+
 def fast_keepers(agents: Results) -> int:
     """How many of those that kept the way out return more than twice as much as the rule."""
     fast = agents.scores("returns") > 2 * of("rule").scores("returns").mean()

@@ -72,13 +72,6 @@ def crash_on_most(kind: str) -> int:
     return int((easy(kind).scores("accident") > 0.5).sum())
 
 
-def mostly_leave_the_road() -> int:
-    """How many of Round 1's agents do not escape, crash on most roads, and mostly by leaving the road."""
-    agents = easy("as it is")
-    crash, leave = agents.scores("accident"), agents.scores("road_departure")
-    return int(((agents.scores("success") < ESCAPES) & (crash > 0.5) & (leave > crash / 2)).sum())
-
-
 def escape_and_crash(kind: str) -> int:
     """How many agents of a kind escape, and have an accident on most roads."""
     agents = easy(kind)

@@ -86,19 +86,18 @@ tests = [bc.evaluate(agent.as_policy(), 200, seed=5) for agent in alone.agents]
 figures.how_they_drive(alone.agents, tests)
 
 # %% [markdown]
-# **See.** An agent *escapes* if it gets out on at least {{ 100 * ESCAPES | .0f }} % of the roads. We trained
-# ten agents like these with each γ. Only {{ easy('as it is').escapers('sac') }} of the twenty escapes. The
-# others stay behind ({{ ends('as it is')[3] }}) or crash on most roads ({{ ends('as it is')[2] }}). A *crash*
-# is any accident: {{ mostly_leave_the_road() }} of these agents mostly leave the road. None of the twenty
-# earns more than a car that does nothing.
+# **See.** An agent *escapes* if it gets out, unhurt or not, on at least {{ 100 * ESCAPES | .0f }} % of the
+# roads. We trained ten agents like these with each γ. Only {{ easy('as it is').escapers('sac') }} of the
+# twenty escapes. The others stay behind ({{ ends('as it is')[3] }}) or crash on most roads
+# ({{ ends('as it is')[2] }}). None of the twenty earns more than a car that does nothing.
 # <!-- claim: sum(ends('as it is')) == 20 and all(ends(kind)[3] == stay(kind)
 #   for kind in ('as it is', CHEAP, MIDDLE, BOTH)) -->
 # <!-- claim: easy('as it is').escapers('sac') == 1 and len(easy('as it is')) == 20 and not
 #   escape_and_crash('as it is') -->
 # <!-- claim: easy('as it is').scores('returns').max() < easier.staying('as it is') -->
 #
-# Perhaps staying is best for what SAC maximises: a discounted sum (entropy apart), in which the reward after
-# t seconds is multiplied by $\gamma^t$. Let the planner search for the largest such sum.
+# Perhaps staying is best for what SAC maximises: a discounted sum, in which the reward after t seconds is
+# multiplied by $\gamma^t$. Let the planner search for the largest such sum.
 # <!-- claim: SETTINGS.gamma == 0.8 -->
 #
 # > **Predict.** At γ = 0.8, does the planner's best drive stay behind trap 1? (A second behind
@@ -142,8 +141,8 @@ table(["drive", "worth at γ = 0.8"], rows, below=below)
 # ## Round 2: is it luck?
 #
 # Lesson [[the_trap]]'s **blind plan** (right 1 s, left 4 s, right 3 s) steers for {{ easier.LATER }} s, and
-# then accelerates. Suppose that an attempt gets out if each of these decisions is right, and that `good` of
-# nine actions are.
+# then accelerates. Suppose that an attempt gets out if each of these {{ easier.LATER }} decisions is right,
+# and that at each `good` of the nine actions are right.
 # <!-- claim: attempts.PLAN[:9] == [5] + 4 * [3] + 3 * [5] + [7] -->
 #
 # **Exercise (5 min, ●●○).** Write the chance that at least one of `tries` random attempts gets out.
@@ -192,7 +191,7 @@ by_chance = chance_of(9 * tried.success.mean(), 1, 400)  # one decision, right w
 bc.show(figures.while_they_learned(trained["as it is"], by_chance))
 
 # %% [markdown]
-# **Explain.** *Most agents do get out, {{ once_ahead() }} of twenty at least once, yet only one escapes.*
+# **Explain.** *It is not luck: {{ once_ahead() }} of twenty get out at least once, yet only one escapes.*
 #
 # Getting out by luck does not pay if the drive goes on at random: all {{ len(lucky()) }} such drives crashed
 # in the end. At γ = 0.8 only {{ (lucky(0.8) > discounted(idle(), 0.8)).sum() }} of them are worth more than
@@ -207,17 +206,17 @@ bc.show(figures.while_they_learned(trained["as it is"], by_chance))
 # %% [markdown]
 # ## Round 3: the price, the way, or both?
 #
-# You have driven some seconds of the blind plan without an accident. What is its rest worth, if staying is
-# worth 1? **Drag** the price of an accident and γ. When does the plan pay?
+# You have driven the first seconds of the blind plan, without an accident. What is the rest of it worth, as a
+# multiple of staying? **Drag** the price of an accident and γ. When does the plan pay?
 
 # %%
 explorable.barrier()
 
 # %% [markdown]
-# **See.** *The plan gets worse before it gets better.* We call this dip a **barrier**. At a price of 10 and γ =
-# 0.8 the whole plan is worth {{ hill(10, 0.8)[0] | .1f }} times as much as staying, and after 4 s its rest is
-# worth less than nothing. Most of its accidents come in the fifth second ({{ crash_by(5).sum() / 10 | .0f }} %
-# of the drives), and the nearer they are, the less γ shrinks their price.
+# **See.** *The plan gets worse before it gets better*: here lesson [[values]]'s barrier is a dip. At a price
+# of 10 and γ = 0.8 the whole plan is worth {{ hill(10, 0.8)[0] | .1f }} times as much as staying, and after 4
+# s its rest is worth less than nothing. In the fifth second {{ crash_by(5).sum() / 10 | .0f }} % of the
+# drives crash. The nearer this second comes, the less γ shrinks the price.
 # <!-- claim: crash_by(5).sum() > crash_by(150).sum() / 2 -->
 # <!-- claim: hill(10, 0.8).argmin() == 4 and hill(10, 0.8)[4] < 0 and not crash_by(4).any() and
 #   len(crash_by(5)) == 1000 -->
@@ -231,9 +230,9 @@ explorable.barrier()
 # What would free a learner? We ease the road in two ways:
 #
 # - *The price*: accidents cost 1 in place of 10.
-# - *The way*: the car starts in the free left lane, behind the traps and as fast as they are. From there five
-#   accelerations earned {{ accelerating(5).values(1.0).mean() | .0f }} on average, and staying
-#   {{ easier.staying(MIDDLE) | .0f }} (100 roads).
+# - *The way, and the risk on it*: the car starts in the free left lane, behind the traps and as fast as they
+#   are. From there five accelerations earned {{ accelerating(5).values(1.0).mean() | .0f }} on average, and
+#   staying {{ easier.staying(MIDDLE) | .0f }} (100 roads).
 #
 # > **Predict.** Twenty agents learn with neither change, twenty with each of the two, and twenty with
 # > both, for as long as in Round 1. What frees more than half of them?
@@ -252,16 +251,15 @@ predicted("the_barrier.3")
 bc.show(figures.escapes(trained, easier.SHOWN))
 
 # %% [markdown]
-# **Explain.** How do they end?
+# **Explain.** *The way alone keeps most agents from escaping, and so does the price alone.*
 #
-# - *Cheap accidents alone*: most agents crash, even the two that escape.
-# - *The free lane alone*: most stay, although five accelerations would pay.
-# - *Both*: {{ easy(BOTH).escapers('sac') }} escape, but {{ escape_and_crash(BOTH) }} of them still crash on
-#   most roads.
+# - *With cheap accidents* the way is left: most agents crash, even the two that escape.
+# - *From the free lane* the price is left: most stay, although five accelerations would pay.
+# - *With both* {{ easy(BOTH).escapers('sac') }} escape, but {{ escape_and_crash(BOTH) }} of them still crash
+#   on most roads.
 #
-# Most agents that escape from the free lane but earn no more than by staying (light blue) drive about
-# {{ np.median(too_fast()) | .0f }} m/s, where a second pays only {{ second_pays(np.median(too_fast())) | .2f }}.
-# To escape is not to drive well.
+# Most of the light blue agents drive about {{ np.median(too_fast()) | .0f }} m/s, where a second pays {{
+# second_pays(np.median(too_fast())) | .2f }}.
 # <!-- claim: len(too_fast()) == 10 and (too_fast() > 24).sum() > 8 and (too_fast() > 20).all() -->
 #
 # <!-- claim: accelerating(5).values(1.0).mean() > 5 * easier.staying(MIDDLE) -->

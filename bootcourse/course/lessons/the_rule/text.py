@@ -127,13 +127,13 @@ table(["speeds", "target behind the traps", "gets out, of 200 roads"], rows)
 # 4. The car behind you in the new lane is too close: wait.
 # 5. Else: change to the new lane.
 #
-# Cases 1 to 4 keep the lane. In case 1 only the car ahead in your own lane sets the target speed; with nobody
-# there it is 15 m/s.
+# In case 1 only the car ahead in your own lane sets the target speed; with nobody there it is 15 m/s.
 #
-# How long must the gap of case 3 be? You are faster than the car ahead in the new lane. The rule asks for a
-# gap of t_safe ({{ DEFAULT.rule.t_safe }} s, §) times the difference in speed, and for at least its *floor*
-# ({{ DEFAULT.rule.floor | g }} m, §). You brake at {{ DEFAULT.ego.acceleration | g }} m/s². Up to which
-# difference can you brake within this gap? **Drag** t_safe.
+# How long must the gap of case 3 be? If you are slower than the car ahead in the new lane, the rule asks for
+# its *floor* ({{ DEFAULT.rule.floor | g }} m, §). If you are faster, it asks for t_safe
+# ({{ DEFAULT.rule.t_safe }} s, §) times the difference in speed, but at least the floor. You brake at
+# {{ DEFAULT.ego.acceleration | g }} m/s². Up to which difference can you brake within this gap? **Drag**
+# t_safe.
 
 # %%
 explorable.gap()
@@ -153,6 +153,24 @@ def safety_distance(v_ego, v_current, v_new, t_safe, floor):
 
 
 check.safety_distance(safety_distance)
+
+# %% [markdown]
+# **Exercise (6 min, ●●○).** Return True for case 5, and False for cases 3 and 4. Both gaps are *from bumper
+# to bumper*. The gap ahead must be longer than $d_s$. The gap behind must be longer than the floor, and
+# longer than what the follower gains on you in t_safe.
+
+
+# %%
+def room_to_change(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
+    """True where a lane change has room, ahead and behind.
+
+    dx_front, dx_rear: distances to the new cars ahead and behind, centre to centre, positive, m,
+    infinite for nobody; length of a car, safety distance d_s and floor in m; speeds in m/s.
+    """
+    # solution: the exercise's own
+
+
+check.room_to_change(room_to_change)
 
 # %% [markdown]
 # As we read it, the paper prints this condition for a lane change. Here $v_e$ is your speed, and
@@ -182,25 +200,8 @@ bc.show(figures.when_to_change(drive))
 # %% [markdown]
 # **Explain.** While you are slower, the left side is negative, so the printed condition is false. It would be
 # true when you close in fast on a near car, and then a lane change is dangerous. So we think that its sign is
-# a misprint, and change lane when the gap is **longer** than the safety distance.
+# a misprint.
 # <!-- claim: (8 - 10) * DEFAULT.rule.t_safe < 0 -->
-#
-# **Exercise (6 min, ●●○).** Return True for case 5, and False for cases 3 and 4. Both gaps are *from bumper
-# to bumper*. The gap ahead must be longer than $d_s$. The gap behind must be longer than the floor, and
-# longer than what the follower gains on you in t_safe.
-
-
-# %%
-def room_to_change(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor):
-    """True where a lane change has room, ahead and behind.
-
-    dx_front, dx_rear: distances to the new cars ahead and behind, centre to centre, positive, m,
-    infinite for nobody; length of a car, safety distance d_s and floor in m; speeds in m/s.
-    """
-    # solution: the exercise's own
-
-
-check.room_to_change(room_to_change)
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Do the misprint on the board: write Equation 13 as printed, $d_{13} = d_s + \Delta x_\text{current} - \Delta
@@ -248,13 +249,14 @@ bc.show(figures.speeds_by_sight(drive, rules.recorded(ROAD, 30)))
 
 # %% [markdown]
 # **Explain.** The sight for the speed does it. A car far ahead drives
-# {{ np.median(followed(by_rule(), 11).speed) | .0f }} m/s, so the target is 10.5 m/s. Each time the car
-# leaves its sight, the rule accelerates, sees it again, and brakes. With a sight of 30 m the rule closes in
-# at 15 m/s, and the car makes way: it changes lane when the rule is
-# {{ makes_way(recorded(ROAD, 30.0), 4) | .0f }} m behind.
+# {{ np.median(followed(by_rule(), 11).speed) | .0f }} m/s, so the target is 10.5 m/s. Within its dead band
+# the tracker keeps 10 or 11 m/s. Each time the car leaves its sight, the rule accelerates, sees it again, and
+# brakes. With a sight of 30 m the rule closes in at 15 m/s, and the car makes way: it changes lane when the
+# rule is {{ makes_way(recorded(ROAD, 30.0), 4) | .0f }} m behind.
 # <!-- claim: by_rule().rule_reasons[33] == Reason.FREE and made_way(recorded(ROAD)) == [] -->
 # <!-- claim: np.isclose(closes_in(), 15) -->
 # <!-- claim: len(followed(by_rule(), 11, 33).car) == 22 and (by_rule().rule_speeds[11:33] == 10.5).all() -->
+# <!-- claim: (by_rule().states[[25 * DEFAULT.clock.steps, 45 * DEFAULT.clock.steps], EGO, SPEED] == [10, 11]).all() -->
 # <!-- claim: set(followed(by_rule(), 11).car) == {4} and
 #   150 < followed(by_rule(), 11).distance.min() and followed(by_rule(), 11).distance.max() <= 200 -->
 # <!-- claim: (split(30, 200).returns == driven(30.0).returns).all() and
@@ -322,7 +324,7 @@ rules.ranked({"the rule": {}, "yours": mine})
 # %% [markdown]
 # <details><summary>The answer</summary>
 #
-# Remove the *first* cause. Two numbers keep trap 1 in sight, and all drives get out:
+# Remove the *first* cause. Either of two changes keeps trap 1 in sight, and all drives get out:
 #
 # - `lane_sight` = 24 or more.
 # - A *floor of 0.5 m*: the lane change begins earlier, while trap 1 is still near.

@@ -4,7 +4,6 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons import number
 from bootcourse.course.lessons.the_second_trap import (
     explorable,  # noqa: F401 (the text names it)
     ppo_kinds,
@@ -12,9 +11,7 @@ from bootcourse.course.lessons.the_second_trap import (
 )
 from bootcourse.course.lessons.your_teacher import example_teachers
 from bootcourse.episodes.record import record
-from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import teacher_policy
-from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, discounted, idle, shipped_teachers
@@ -67,17 +64,6 @@ def worth(driver: str, gamma: float) -> float:
         "careful": lambda: record(teacher_policy(example_teachers.careful), [ROAD])[0],
     }
     return discounted(drives[driver](), gamma)
-
-
-def worth_table() -> str:
-    """What three drives are worth with SAC's γ and with PPO's, as Markdown."""
-    gammas = {method: settings_for(method).gamma for method in ("sac", "ppo")}
-    names = {"careful": f"`careful` (lesson {number('your_teacher')})"}
-    rows = [
-        [names.get(driver, driver), f"{worth(driver, gammas['sac']):.1f}", f"{worth(driver, gammas['ppo']):.0f}"]
-        for driver in ("keeping straight", "this agent", "careful")
-    ]
-    return markdown(["", f"SAC's γ = {gammas['sac']}", f"PPO's γ = {gammas['ppo']}"], rows)
 
 
 def worths() -> list[float]:

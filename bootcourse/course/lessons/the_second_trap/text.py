@@ -47,9 +47,6 @@ progress("the_second_trap")
 choices = ["on almost all", "on about half", "on none"]
 predict("the_second_trap.1", "On how many roads does a PPO agent end ahead of trap 1?", choices)
 
-# %% [markdown]
-# How does one of the ten earn this?
-
 # %% tags=["nbval-ignore-output"]
 predicted("the_second_trap.1")
 ROAD = 10
@@ -68,8 +65,6 @@ bc.recording([beginning(drive, 60)], height=360)
 
 # %% [markdown]
 # ## Round 1: what earns this agent so much?
-#
-# Its whole drive:
 
 # %%
 title = "This agent sprints and falls back, again and again, and does not pass trap 1"
@@ -113,15 +108,14 @@ steady = bc.formulas.speed_reward(speeds.mean())
 print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {steady:.2f}")
 
 # %% [markdown]
-# **See.** The agent falls back to {{ ppo_speeds().min() | .0f }} m/s first. What is a whole drive worth at
-# its start?
-#
-# {{ worth_table() }}
-#
-# With PPO's γ, this agent's drive is worth more than keeping straight, but far less than `careful`'s: the
-# second trap. With SAC's γ its sprints come too late to pay.
-# <!-- claim: worth('keeping straight', settings_for('sac').gamma) > 1.1 * max(
-#   worth(driver, settings_for('sac').gamma) for driver in ('this agent', 'careful')) -->
+# **See.** The agent falls back to {{ ppo_speeds().min() | .0f }} m/s first. With PPO's γ =
+# {{ settings_for('ppo').gamma }}, its drive is worth
+# {{ worth('this agent', settings_for('ppo').gamma) | .0f }} at the start, twice as much as keeping straight.
+# But a drive of `careful` (lesson [[your_teacher]]) is worth
+# {{ worth('careful', settings_for('ppo').gamma) | .0f }}: this agent is in the second trap. With SAC's γ =
+# {{ settings_for('sac').gamma }} its sprints come too late to pay: its drive is worth
+# {{ worth('this agent', settings_for('sac').gamma) | .1f }}, and keeping straight {{ worth('keeping straight',
+# settings_for('sac').gamma) | .1f }}.
 # <!-- claim: worth('careful', settings_for('ppo').gamma) > 2 * max(worths()) and
 #   min(worths()) > 1.2 * worth('keeping straight', settings_for('ppo').gamma) -->
 # <!-- claim: np.mean([speed_reward(v) for v in ppo_speeds()]) > 2.2 * speed_reward(10) -->
@@ -138,8 +132,8 @@ print(f"r_v of this drive: {paid:.2f} a second; at its mean speed throughout: {s
 # %% [markdown]
 # ## Round 2: when does it give up leaving?
 #
-# > **Predict.** In training two things happen: the agent stops getting ahead, which it did in few drives, and
-# > it begins to earn more than by keeping straight. Which comes first?
+# > **Predict.** At first a few training drives get ahead of trap 1. Later none do, and the agent earns more
+# > than by keeping straight. Which comes first: giving up, or earning more?
 
 # %%
 choices = [
@@ -175,9 +169,9 @@ bc.show(figures.gives_up(ppo_kinds.reference()["alone"]))
 # that learns what a state is worth. Falling back costs something now, and the sprint pays later: how does the
 # actor learn of it?
 #
-# The **advantage** A of an action is what came of it, less what V expected. We add it up from *surprises*:
-# what came in one second, less what V expected of that second. γ and λ (0 to 1) set the weight of the
-# surprises that follow.
+# The **advantage** A of an action is what came of it, less what V expected. It is a sum of *surprises*: what
+# came in one second, less what V expected of it. Each later surprise counts γλ times as much as the one
+# before (λ: 0 to 1).
 #
 # Suppose V expects a steady 10 m/s, but the car falls back and then sprints. Each outlined bar is one
 # second's surprise, and its filled part is what counts of it. All filled parts together are A of the first
@@ -240,7 +234,7 @@ check.advantages(advantages)
 # %% [markdown]
 # ## Round 4: how far may one decision push?
 #
-# In each pass V is trained towards V + A, and the actor with the loss below and a small entropy bonus.
+# In each pass V is trained towards V + A, and the actor with the loss below.
 #
 # The **ratio** $\rho = \pi(a|s) / \pi_\text{old}(a|s)$ says how much likelier an action has become since
 # π_old, the policy that drove, took it. A good decision (A > 0) pushes ρ up, a bad one pushes it down, and ε =
@@ -348,7 +342,7 @@ compare_predictions(
 # ## What you now know
 #
 # 1. Ten agents of PPO alone earn twice what keeping straight earns, and none gets out. They gave up leaving
-#    before they earned more than it: look at success, and at a drive.
+#    before they earned more than that. Look at success, and at a drive.
 # 2. Where a reward is convex, a changing speed can earn more than a steady one.
 # 3. After cloning the rule, all ten escape.
 #

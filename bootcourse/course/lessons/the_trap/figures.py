@@ -86,7 +86,7 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
 def worth_with_crashes(worths: Mapping[str, tuple[float, float]]) -> Figure:
     """What each way out is worth at γ = 0.8, crashes included, against staying.
 
-    worths: each driver's mean worth, and the share of its drives that crash; the first one stays.
+    worths: each driver's mean worth, and how often it crashes, which is not shown; the first one stays.
     """
     title = "At γ = 0.8 only the agent's way is worth more than staying, crashes included"
     (_, (stays, _)), *ways = worths.items()
@@ -94,10 +94,10 @@ def worth_with_crashes(worths: Mapping[str, tuple[float, float]]) -> Figure:
     high, left = 0.5 * len(ways), 1.6
     figure, says = new_figure(0.95 + high + 0.6), []
     ax = axes_at(figure, left, 0.95, 3.6, high)
-    for row, ((name, (worth, crashes)), colour) in enumerate(zip(ways, colours, strict=True)):
+    for row, ((name, (worth, _)), colour) in enumerate(zip(ways, colours, strict=True)):
         ax.barh(row, worth, 0.5, color=colour)
-        words = f"{worth:.2f}, " + (f"crashes on {100 * crashes:.0f} %" if crashes else "never crashes")
-        ax.text(1.36, row, words, fontsize=TEXT, color=colour, va="center")
+        words = f"{worth:.2f}"
+        ax.text(worth + 0.03, row, words, fontsize=TEXT, color=colour, va="center")
         says.append(f"{name} {words}")
     name_rows(ax, [name for name, _ in ways], "worth at γ = 0.8, the mean of 100 roads (no unit)")
     ax.axvline(stays, color=INK, linestyle="--", linewidth=1.4)

@@ -74,9 +74,9 @@ def crashed_early() -> np.ndarray:
     return by_plan().accident & (by_plan().lasted <= 10)
 
 
-def borne(gamma: float, way: Rollout) -> float:
-    """The risk of an early crash that a way out on road 10 bears, if the crash pays as the lesson's does."""
-    crash = gamma ** np.arange(5) @ [*on_ten().rewards[:4], DEFAULT.reward.accident]
+def borne(gamma: float, way: Rollout, accident: float = DEFAULT.reward.accident) -> float:
+    """The risk of an early crash that a way out on road 10 bears, if the crash comes when the lesson's does."""
+    crash = gamma ** np.arange(5) @ [*on_ten().rewards[:4], accident]
     return bearable_risk.solution(discounted(idle(), gamma), discounted(way, gamma), crash)
 
 

@@ -24,7 +24,7 @@ def small_worlds(*learned: Mapping[str, worlds.Learned]) -> Markdown:
             f"{q.mean():.1f}" if alike else f"{abs(q[0]):.1f} and {q[1]:.1f}; π(right) {pi[1]:.2f}" for q, pi in found
         )
         rows.append([words, world.right, *shown])
-    headings = ["world", "right Q", "your agent's Q", "its Q if `terminated` is lost"]
+    headings = ["world", "right Q (no entropy)", "your agent's Q", "its Q if `terminated` is lost"]
     return table(headings[: 2 + len(learned)], rows)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from bootcourse.course.lessons.update_and_loop import by_hand  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.update_and_loop.pole import BLOCK, SOLVED
-from bootcourse.course.lessons.update_and_loop.worlds import BEFORE, GAMMA  # noqa: F401 (the text names γ)
+from bootcourse.course.lessons.update_and_loop.worlds import BEFORE, GAMMA, to_one_side  # noqa: F401 (the text names γ)
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.research.problems import cartpole
 from bootcourse.research.results import Results
@@ -42,6 +42,11 @@ def spread(kind: str) -> str:
 def along_falls(kind: str = "marked") -> np.ndarray:
     """What each agent of a kind expects along a fall after its first block, (agents, 9): see `worlds.along_falls`."""
     return agents(kind).notes["q"][:, : BEFORE + 1]
+
+
+def one_sided() -> float:
+    """For how many pushes a pole stands that is pushed to one side only, a mean of `worlds.to_one_side`'s."""
+    return float(np.mean([len(states) - 1 for states in to_one_side()]))
 
 
 def solved() -> int:

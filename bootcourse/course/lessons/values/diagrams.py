@@ -94,7 +94,7 @@ def _values(
     what: the numbers are, for the alt text.
     """
     left, top, (wide, high), apart = 1.9, 0.95, CELL, 0.12
-    figure, listed = new_figure(top + len(rows) * high + apart + 0.4 + 0.17 * key.count("\n")), []
+    figure, listed = new_figure(top + len(rows) * high + apart + 0.4), []
     ax = axes_at(figure, left, top, 5 * wide, len(rows) * high + apart)
     ax.set(xlim=(0, 5 * wide), ylim=(len(rows) * high + apart, 0))
     ax.axis("off")
@@ -162,10 +162,9 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
     rows = {}
     for values, walk in shown:
         arrived = (chain.arrivals(values) <= walk).sum()
-        name = f"{'another: ' * (values is other)}{arrived} walks ({chain.EPISODE * walk:,})"
+        name = f"{'another: ' * (values is other)}{arrived} arrivals"
         rows[name] = values[walk].max(axis=1), (values[walk, :, 1] > values[walk, :, 0]) & (np.arange(chain.STATES) < 4)
-    key = "Rows: walks that reached the free road (decisions). Blue: going on is worth more.\n"
-    key += "White: in the trap staying is (0.80 once learned), in the states 1 to 3 turning back (0.64)."
+    key = "Rows: how many of its walks reached the free road. Number: the larger Q. Blue: that of going on."
     heads = ("trap", "state 1", "state 2", "state 3", "free road")
-    title = "Leaving wins only after going on has won in state 3, then 2, then 1"
+    title = "Going on must win in state 3, then 2, then 1, before leaving wins"
     return _values(title, rows, 2, key, heads, "The larger Q")

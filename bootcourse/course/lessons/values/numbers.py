@@ -30,10 +30,10 @@ def walked(times: int, backwards: bool = False) -> list[bool]:
 
 
 @cache
-def walks(seed: int, explore: float = 0.5, start: float = 0.0) -> np.ndarray:
+def walks(seed: int, explore: float = 0.5, start: float = 0.0, pay: float = 0.16) -> np.ndarray:
     """Q of C's learner of this seed (or with another ε) before its first walk and after each: (walks + 1, 5, 2).
 
-    start: what all Q are at first.
+    start: what all Q are at first; pay: what staying in the trap pays.
     """
     q, s, found = np.full((chain.STATES, 2), start), 0, []
     for t, chance in enumerate(chain.chances(explore, 1000, seed)):
@@ -41,7 +41,8 @@ def walks(seed: int, explore: float = 0.5, start: float = 0.0) -> np.ndarray:
             s = 0
             found.append(q.copy())
         a = int(q[s].argmax()) if chance < 0 else chance
-        q[s, a] += 0.3 * temporal_difference.solution(q, s, a, chain.REWARD[s, a], chain.NEXT[s, a], 0.8)
+        reward = chain.REWARD[s, a] if s or a else pay
+        q[s, a] += 0.3 * temporal_difference.solution(q, s, a, reward, chain.NEXT[s, a], 0.8)
         s = chain.NEXT[s, a]
     return np.array([*found, q])
 
@@ -60,6 +61,16 @@ def walks_until(state: int, seed: int = 1) -> int:
 def needed_walks() -> list[int]:
     """How many walks to the free road each of C's learners that leave needed."""
     return [walks_until(0, seed) for seed in range(30) if chain.leaves(walks(seed)[-1])]
+
+
+def arrived_seldom() -> int:
+    """How many of C's learners reach the free road in one or two walks, and do not learn to leave."""
+    return sum(0 < len(arrivals(seed)) < 3 and not chain.leaves(walks(seed)[-1]) for seed in range(30))
+
+
+def unpaid_leave(explore: float) -> int:
+    """How many of thirty learners learn to leave where staying in the trap pays nothing."""
+    return sum(chain.leaves(walks(seed, explore, pay=0.0)[-1]) for seed in range(30))
 
 
 def greedy_zero(explore: float) -> float:

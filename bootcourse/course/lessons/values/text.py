@@ -32,8 +32,8 @@ progress("values")
 # ## Look first
 #
 # Here is the trap of lesson [[the_trap]] as a **chain** of five states, with a quick, safe way out. You start
-# in state 0, the trap. The arrows are the two actions, 0 and 1. In the trap staying pays a little, on the
-# free road much. On the way between them nothing is paid, and action 0 leads back.
+# in state 0, the trap. The arrows are the two actions, 0 and 1. Staying pays little in the trap and much on
+# the free road. The way between pays nothing, and there action 0 leads back to the trap.
 # <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
 #   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
 #
@@ -219,9 +219,9 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 # - *C* and *D*: as A, with ε = 0.5 and with ε = 1;
 # - *E*: as A, with a demonstration of the way out, replayed after each decision.
 #
-# > **Predict.** Until it has been through, a learner's greedy action is nearly always 0, which leads to the trap. So
-# > it has to draw action 1 four times in a row, each time with probability ε / 2. In which kinds do more than half
-# > learn to leave?
+# > **Predict.** Before it has seen the free road, a learner's greedy action is nearly always 0. To get there it must
+# > draw action 1 four times in a row, each time with probability ε / 2. In which kinds do more than half learn to
+# > leave?
 # <!-- claim: all(greedy_zero(explore) > 0.99 for explore in (0.1, 0.5, 1.0)) -->
 
 # %%
@@ -285,23 +285,23 @@ bc.show(diagrams.who_leaves(found))
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
 #
 # In C {{ free_road_seen(0.5, 0.8) }} of the thirty reach the free road, but only {{ leaving(0.5, 0.8) }}
-# learn to leave. Here are two that reach it:
+# learn to leave. Of the others {{ arrived_seldom() }} arrive only once or twice. Arriving once is not enough.
+# Two that arrive:
+# <!-- claim: min(needed_walks()) > 2 -->
 
 # %%
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** A state passes back only its *larger* Q, the number in the table.
+# **Explain.** The state before learns only from a state's *larger* Q: the number in the table.
 #
-# 1. *Blocked* (last row). In the trap staying is worth {{ 0.16 / 0.2 | .2f }}, so in state 1 turning back is
-#    worth 0.8 · {{ 0.16 / 0.2 | .2f }} = {{ 0.8 * 0.16 / 0.2 | .2f }}. While going on is worth less there,
-#    leaving the trap is worth 0.8 · {{ 0.8 * 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}. This is
-#    not in the table, because staying's {{ 0.16 / 0.2 | .2f }} is larger.
-# 2. *Opened.* Walks to the free road turn one state after another blue: 3, 2, 1.
-# 3. *Through.* Only then does leaving rise past {{ 0.16 / 0.2 | .2f }}.
+# 1. *Blocked* (last row). In state 3 turning back is still worth more, so the free road's
+#    {{ walks(16)[-1][4].max() | .2f }} goes no farther. The trap sees only what turning back pays: 0.8 · 0.8
+#    · {{ 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}, less than staying's {{ 0.16 / 0.2 | .2f }}.
+# 2. *Opened* (rows 1 to 3). The arrivals raise the blue cell farthest left, until the state before turns
+#    blue, too: 3, 2, 1.
+# 3. *Through* (row 4). Only then does leaving rise past {{ 0.16 / 0.2 | .2f }}.
 #
-# Those of C that learn to leave need {{ min(needed_walks()) }} such walks or more.
-# <!-- claim: len(needed_walks()) == leaving(0.5, 0.8) -->
 # <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 and q[1, 1] < q[1, 0] and abs(q[1, 0] - 0.8 * 0.16 / 0.2)
@@ -334,12 +334,12 @@ compare_predictions(
 #    demonstration.
 #
 # **Three questions to think about**
-# - With γ = 0.6, how many of D's thirty would learn to leave, and should they?
+# - If staying in the trap paid nothing, would more learners of A learn to leave? And of C?
 # - What would A's learners do if all Q were 5 at first?
 # - Your car sees 26 numbers. What replaces the chain's table of ten values, and what can then go wrong with a
 #   demonstration?
 # <!-- claim: all(chain.leaves(walks(seed, 0.1, 5.0)[-1]) for seed in range(30)) and sweeps(99, 0.8).max() <= 5 -->
-# <!-- claim: leaving(1.0, 0.6) == 0 and 0.6**4 < 0.16 -->
+# <!-- claim: unpaid_leave(0.1) == 0 and unpaid_leave(0.5) > 1.5 * leaving(0.5, 0.8) -->
 #
 # **Read on**: [](discrete_sac.ipynb), with networks in place of the table. Sutton and Barto, *Reinforcement
 # Learning*, chapters 3, 4 and 6.
@@ -347,8 +347,9 @@ compare_predictions(
 # %% [markdown] tags=["instructor"] minutes=2
 # **Model answers.**
 #
-# - *γ = 0.6.* None, and rightly: 0.6⁴ = {{ 0.6**4 | .2f }} is below 0.16, so staying is worth more (Round 1).
-#   They explore as much as before; whether it is a trap depends on γ.
+# - *A trap without pay.* Of A none, because with ε = 0.1 a walk still seldom draws action 1 four times in a
+#   row. Of C {{ unpaid_leave(0.5) }} instead of {{ leaving(0.5, 0.8) }}: turning back is worth nothing before
+#   the first arrival, so the free road's value passes on sooner.
 # - *Q is 5 at first.* No action is worth more than 5. In the states 0 to 3 a Q falls when its action is
 #   taken, so the greedy learner turns to the other action. All thirty learn to leave.
 # - *The table.* A function with fewer numbers than states: a network. It answers for states that it has not

@@ -98,16 +98,6 @@ def outvoted(problem: str) -> np.ndarray:
 
 
 @cache
-def outvoted_when_seen_once() -> np.ndarray:
-    """The same for DoorKey's wrong states, and a clone that learns each state's label once, (states,)."""
-    drives, (seen, taught, _, good) = loops.shown("doorkey"), labels("doorkey")
-    first = np.unique(seen, axis=0, return_index=True)[1]
-    wrong = first[taught[first] != good[first]]
-    clone = loops.cloned("doorkey", drives.rows()[first])
-    return np.asarray(clone.probabilities(seen[wrong])).argmax(-1) == good[wrong]
-
-
-@cache
 def like_the_nearest(problem: str) -> float:
     """In which share of a problem's states in the labels, 1,500 at most, the nearest state needs the same action."""
     seen, _, _, good = labels(problem)

@@ -129,11 +129,11 @@ predicted("your_own_problem.1")
 bc.show(figures.edges(loops.trained(budgets, pole, angle_rule, pays=0, gamma=0)))
 
 # %% [markdown]
-# **See.** An agent's line parts where it pushes left from where it pushes right. The teacher's is upright:
-# for it only the angle counts. At first the agents' lines are nearly level: the agents go mostly by the
-# speed. As the lines turn upright, they pass the dashed line, which weighs angle and speed alike. A rule with
-# that line earns {{ speed_rule_earns() | .0f }}. After 3,000 decisions the agents copy their teacher better
-# and earn less: *one budget can mislead.*
+# **See.** On one side of its line an agent pushes left, on the other right. The teacher's is upright, because
+# for it only the angle counts. At first the agents go mostly by the speed, so their lines are nearly level.
+# As the lines turn upright, they pass the dashed line, which weighs angle and speed alike. A rule with that
+# line earns {{ speed_rule_earns() | .0f }}. After 3,000 decisions the agents copy their teacher better and
+# earn less: *one budget can mislead.*
 # <!-- claim: speed_rule_earns() > 450 -->
 #
 # The same with the reward:
@@ -149,8 +149,8 @@ for pays, gamma in ((0, 0), (1, 0.99)):  # on yours
 # %% [markdown]
 # ## Round 3: which errors does the teacher make?
 #
-# A **random** teacher errs in states that were drawn at random once, and always errs there. A **systematic**
-# teacher errs everywhere in one region. The **good** teacher makes neither error.
+# A **random** teacher errs in states drawn at random, each time that it comes there. A **systematic** teacher
+# errs everywhere in one region. The **good** teacher makes neither error.
 #
 # > **Predict.** On MountainCar the good teacher earns {{ earned('good') | .0f }}. The random teacher is right in
 # > {{ 100 * elsewhere_claims.PROBLEMS['mountain-car'].right | .0f }} % of the states and earns
@@ -165,16 +165,17 @@ predicted("your_own_problem.2")
 bc.show(figures.clones())
 
 # %% [markdown]
-# **See.** Clones of the random teachers earn far more than their teachers, on CartPole even more than the
-# good one. Clones of the systematic teachers earn hardly more than theirs.
-# <!-- claim: score('cartpole', 'random', 'cloning', 'returns') > score('cartpole', 'good', 'the teacher',
-#   'returns') -->
+# **See.** Clones of the random teachers earn far more than their teachers. Clones of the systematic teachers
+# earn about as much as theirs, on Lunar lander far less.
 # <!-- claim: {len(cells().scores(p, t, 'cloning')) for p, t in SHOWN} == {10} -->
 # <!-- claim: all(score(p, 'random', 'cloning', 'returns') > score(p, 'random', 'the teacher',
 #   'returns') + 20 and score(p, 'random', 'cloning', 'returns') > score(p, 'good', 'the teacher',
 #   'returns') - (10 if p == 'mountain-car' else 25) for p in THREE) -->
-# <!-- claim: all(score(p, 'systematic', 'cloning', 'returns') < score(p, 'systematic', 'the
-#   teacher', 'returns') + 10 for p in THREE) -->
+# <!-- claim: all(abs(score(p, 'systematic', 'cloning', 'returns') - score(p, 'systematic', 'the
+#   teacher', 'returns')) < 10 for p in THREE if p != 'lander') and cells().scores('lander', 'systematic',
+#   'cloning', 'returns').max() < score('lander', 'systematic', 'the teacher', 'returns') -->
+# <!-- claim: score('lander', 'systematic', 'cloning', 'returns') < score('lander', 'systematic', 'the
+#   teacher', 'returns') / 2 -->
 #
 # **Drag** *reach*: each square now does what most squares within this distance say. Which errors vanish?
 
@@ -187,7 +188,7 @@ explorable.votes()
 # <!-- claim: [explorable.reached(t, 70, r) for t, r in (('random', 0), ('random', 1), ('systematic',
 #   0), ('systematic', 1))] == [8, 20, 15, 15] -->
 #
-# > **Predict.** Is a clone such a vote? So far it took the most probable action of its policy π. Now the random
+# > **Predict.** So far a clone took the most probable action of its policy π. Now the random
 # > teachers' clones *draw* from π. What do they earn?
 
 # %%
@@ -227,14 +228,9 @@ for name in ("mountain-car", "doorkey"):
 
 # %% [markdown]
 # **See.** A vote helps where similar states need the same action. On MountainCar
-# {{ 100 * like_the_nearest('mountain-car') | .0f }} % of the states need the action of their most similar
+# {{ 100 * like_the_nearest('mountain-car') | .0f }} % of the states need the same action as their nearest
 # state, in DoorKey only {{ 100 * like_the_nearest('doorkey') | .0f }} %.
-#
-# A loop also repeats its labels: {{ wrong_states() }} wrong states hold {{ 100 * wrong_labels() | .0f }} % of
-# all labels. But a clone that learns each state once outvotes hardly any error, either.
-# <!-- claim: len(outvoted_when_seen_once()) == wrong_states() and outvoted_when_seen_once().mean() < 0.2 -->
 # <!-- claim: like_the_nearest('mountain-car') > 0.9 and like_the_nearest('doorkey') < 0.5 -->
-# <!-- claim: wrong_labels() > 0.8 and wrong_states() < 10 -->
 # <!-- claim: outvoted('mountain-car').mean() > 0.9 and not outvoted('doorkey').any() -->
 # <!-- claim: [len(seen) > 50 * loops.states(seen) for seen, *_ in map(labels, ('mountain-car',
 #   'doorkey'))] == [False, True] -->
@@ -251,10 +247,8 @@ print(f"{len(seen):,} labels, {loops.states(seen):,} states")
 # %% [markdown]
 # ## Round 5: what pays in a loop?
 #
-# The bonus does: each decision of a demonstration earns c, so a loop in it earns c again and again.
-#
 # > **Predict.** Agents get both aids from DoorKey's random teacher, soft constraint and demonstrations, with
-# > c = 2 as in the paper. Do they reach the goal more often than plain SAC?
+# > the paper's bonus, c = 2. Do they reach the goal more often than plain SAC?
 
 # %%
 choices = ["less often than plain SAC", "about as often", "more often"]
@@ -266,7 +260,9 @@ bc.show(figures.bonuses())
 
 # %% [markdown]
 # **See.** With c = 2 and a flawed teacher hardly any drive reaches the goal, with the good teacher nearly
-# all.
+# all. Each decision of a demonstration earns c, so a loop earns it again and again. In Round 4's drives
+# {{ wrong_states() }} wrong states hold {{ 100 * wrong_labels() | .0f }} % of the labels.
+# <!-- claim: wrong_labels() > 0.8 and wrong_states() < 10 -->
 # <!-- claim: all(np.diff(by_bonus(t)).max() < 0 and round(100 * by_bonus(t)[-1]) == 0 for t in
 #   ('random', 'systematic')) and by_bonus('good').min() > 0.99 -->
 
@@ -294,21 +290,25 @@ check.drowning_bonus(drowning_bonus)
 # %% [markdown]
 # **Explain.** Your threshold depends on the reward, the goal's pay and γ, not on the way's length. In DoorKey
 # it is at most {{ drowning_bonus(0, 1, 1, PROBLEMS['doorkey'].gamma) | .3f }}. Above it the loop is worth
-# more, but at c = 0.3, ten times that, {{ 100 * by_bonus('random')[3] | .0f }} % of the drives with the
-# random teacher reach the goal.
+# more, but need not win: at c = 0.3, ten times that, {{ 100 * by_bonus('random')[3] | .0f }} % of the drives
+# with the random teacher reach the goal. MountainCar's threshold is
+# {{ drowning_bonus(-1, 0, 120, PROBLEMS['mountain-car'].gamma) | .0f }}, but with c = 2 nearly all drives
+# there reach the flag.
+# <!-- claim: min(score('mountain-car', 'random', 'both', of) for of in ('success', 'drawn_success')) > 0.98 -->
 # <!-- claim: list(BONUSES)[3] == 'c = 0.3' and 9 < 0.3 / drowning_bonus(0, 1, 1, 0.97) < 11 -->
 # <!-- claim: math.isclose(drowning_bonus(0, 1, 1, 0.97), drowning_bonus(0, 1, 90, 0.97)) -->
 #
-# **Is it the loop?** With c = 2, goals in 100 drives:
+# **Is it the loop?** With c = 2 and drawn actions, goals in 100 drives:
 #
 # {{ loops_table() }}
 #
-# Without loops the agents reach the goal again. But the bonus can harm without a loop: with demonstrations
-# alone even the good teacher's agents reach no goal. (Actions are drawn here. By most probable ones the
-# random teacher's agents stay behind plain SAC with each c.)
+# Without loops the agents reach the goal again (by most probable actions only in
+# {{ 100 * score('doorkey', 'random', elsewhere.WITHOUT_LOOPS) | .0f }} of 100 drives, plain SAC in
+# {{ 100 * score('doorkey', 'none', 'SAC') | .0f }}). But the bonus can harm without a loop: with
+# demonstrations alone the good teacher's agents reach no goal; with c = 0 they do in
+# {{ 100 * score('doorkey', 'good', 'demonstrations, c = 0', 'drawn_success') | .0f }} drives.
 # <!-- claim: score('doorkey', 'random', elsewhere.WITHOUT_LOOPS, 'drawn_success') > 0.8 and score('doorkey',
 #   'random', 'both', 'drawn_success') == 0 -->
-# <!-- claim: by_bonus('random', 'success').max() < score('doorkey', 'none', 'SAC') - 0.1 -->
 # <!-- claim: all(score('doorkey', 'good', 'demonstrations', of) == 0 for of in ('success', 'drawn_success')) and
 #   min(score('doorkey', 'good', 'demonstrations, c = 0', of) for of in ('success', 'drawn_success')) > 0.5 -->
 
@@ -372,7 +372,7 @@ def enter(decisions):
 # 2. *Did the agents need the reward?* Train without it.
 # 3. *Which errors does the teacher make?* A clone's most probable action can outvote random errors where
 #    similar states need the same action.
-# 4. *Do states come back?* Then a loop can fill the labels.
+# 4. *Do states come back?* Then a loop can fill the demonstrations, and earn the bonus for ever.
 # 5. *What pays in a loop?* Compute the bonus above which a loop is worth more than the goal.
 #
 # **Three questions to think about**

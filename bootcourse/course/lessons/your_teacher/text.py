@@ -83,8 +83,8 @@ figures.exam_of_all()
 #
 # A rule reads the true state: a table with a row for each car. Row 0 is the ego, lane 0 the leftmost.
 #
-# `ahead` sees only cars whose middle is ahead of yours. It returns the gap to the next one in a lane, bumper
-# to bumper, and its speed; both are infinite if there is none. If the gap is below 0, that car is beside you.
+# `ahead(cars, lane)` looks for the next car in a lane whose middle is ahead of yours. It returns the gap,
+# bumper to bumper, and its speed; both are infinite if there is none. At a gap below 0 it is beside you.
 # <!-- claim: range(DEFAULT.road.lanes)[0] == 0 -->
 
 # %%
@@ -195,12 +195,12 @@ verdicts = taught_agents.verdicts(groups)
 bc.show(figures.students(groups | {"yours, 2 here": learned}, verdicts))
 
 # %% [markdown]
-# **See.** In this short training success and return give the racer opposite verdicts: its students get out
-# more often than those alone (▲), but earn less (▼), by rank tests with Holm's correction at 5 % (lesson
-# [[how_many_seeds]]).
+# **See.** In this short training, the racer's students get out more often than those alone (▲), but earn less
+# (▼). Timid's earn more (▲), but none gets out. (Rank tests with Holm's correction at 5 %, lesson
+# [[how_many_seeds]].)
 #
 # So far, students escaped only if their teacher gets out. Must it?
-# <!-- claim: student_escapes('timid') == 0 -->
+# <!-- claim: not students('timid')['success'].any() and verdicts()['timid']['returns'] == 'helps' -->
 # <!-- claim: all(student_escapes(name) >= 5 for name in ('the rule', 'careful', 'racer')) -->
 # <!-- claim: students('racer')['success'].mean() > 3 * students('alone')['success'].mean() -->
 # <!-- claim: len(verdicts()) == 4 and verdicts()['racer'] == {'success': 'helps', 'returns': 'hurts'} -->
@@ -232,7 +232,7 @@ bc.show(figures.of_six_teachers(taught))
 # **See.** All ten escape, and earn {{ taught_returns('random-50') | .0f }} on average, the rule's students {{
 # taught_returns('rule') | .0f }}.
 # Where a teacher's drives reach the free lane, most of its students escape; where they do not, none. (Three
-# of the rule's had found the way out, and lost some or all of it: lesson [[found_and_kept]].)
+# of the rule's lost the way out again, in part or whole: lesson [[found_and_kept]].)
 # <!-- claim: (lambda found, kept: found.all() and (~kept).sum() == 3 == 10 - escape_of(['rule']))(
 #   *worth()['rule', 'bootstrapped'].found_and_kept('bootstrapped')) -->
 # <!-- claim: worth()['random-50', 'bootstrapped'].escapers('bootstrapped') == 10 -->
@@ -272,8 +272,8 @@ choices = ["all of them", "those of only the free lane", "those of only the acci
 predict("your_teacher.4", "Who gets out?", choices)
 
 # %% [markdown]
-# **Exercise (5 min, ●○○).** Mark the decisions that *only the free lane* keeps: if the drive reaches lane 0,
-# all but the last; if not, all.
+# **Exercise (5 min, ●○○).** Mark the decisions that *only the free lane* learns from. A drive ends with its
+# accident; one that never reaches lane 0 is kept whole.
 
 
 # %%
@@ -298,8 +298,8 @@ bc.show(figures.all_parts(shipped_experiment("crashes")))
 
 # %% [markdown]
 # **Explain.** *Most students of half random escape if its drives show the free lane, with the accident there
-# or without it.* It is not the number of decisions: of ten agents with as few as *neither*, but with the free
-# lane among them, {{ crash_escapes('as-many') }} escape. From *all* without the bonus c,
+# or without it.* It is not the number of decisions: with as few as *neither* has, but the free lane among
+# them, {{ crash_escapes('as-many') }} of ten escape. From *all* without the bonus c,
 # {{ crash_escapes('no-bonus') }} do.
 # <!-- claim: crashes.is_kept('cut').sum() == crashes.is_kept('as-many').sum() < crashes.is_kept('all').sum() and
 #   crash_shown('as-many') and crash_escapes('as-many') > 5 > crash_escapes('cut') -->
@@ -369,7 +369,8 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS))
 #
 # 1. *What must a teacher be good at?* Here, at showing the free lane. Half random always crashes, but with
 #    the bonus most of its students escaped if its drives showed that lane.
-# 2. In a short training success and return gave opposite verdicts on a teacher: give both.
+# 2. In a short training timid's students earned more than those alone, but none got out: give success and
+#    return.
 # 3. A rule that looks at no car can pass a test. Test it where looking matters.
 # <!-- claim: min(map(crash_escapes, ('all', 'lane'))) > 5 > max(map(crash_escapes, ('accident', 'cut'))) -->
 #
