@@ -11,7 +11,7 @@ from bootcourse.course import shipped
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.live_curves import LiveWayOut
 from bootcourse.methods import style
-from bootcourse.plots.figure import SMALL, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
+from bootcourse.plots.figure import SMALL, axes_at, finish, new_figure, one_axes, plain_axes
 from bootcourse.research.report import rule_results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import IN_A_ROW, found_after, lost, rolling_means
@@ -71,10 +71,8 @@ def courses(kinds: Sequence[str]) -> Figure:
             above.annotate("", (until + 190, 0.03), (until, 0.1), arrowprops=arrow)
             above.text(until + 240, 0.03, "towards 0", va="center", fontsize=SMALL, color=colour)
         above.set(yscale="log", ylim=(0.02, 3))
-        above.set_yticks((0.1, 1, 2), ("0.1", "1", "2"))
+        above.set_yticks((0.1, 2), ("ξ = 0.1", "ξ = 2"))
         above.minorticks_off()
-        if not column:
-            above.text(-0.04, 1.06, "ξ", transform=above.transAxes, ha="right", fontsize=TEXT, color=INK)
         episodes, share = rolling_means(success, IN_A_ROW, success.shape[1])
         plain_axes(below, "" if column else f"of the last {IN_A_ROW} training episodes (actions drawn), ended ahead")
         below.plot(episodes, IN_A_ROW * share.T, color=colour, linewidth=0.8, alpha=0.7)
