@@ -51,11 +51,10 @@ def pytest_xdist_auto_num_workers(config):
 
 
 # What takes each process a minute to compute, one process computes for all files that need it: the numbers in the
-# lessons' texts and what the course claims, and the right answers to the exercises.
+# lessons' texts, what the course claims, and the right answers to the exercises.
 TOGETHER = {
-    **dict.fromkeys(
-        ("test_assets", "test_book", "test_classroom", "test_course", "test_stress", "test_teaching"), "texts"
-    ),
+    **dict.fromkeys(("test_book", "test_classroom", "test_course", "test_teaching"), "texts"),
+    **dict.fromkeys(("test_assets", "test_stress"), "claims"),
     **dict.fromkeys(("test_lessons_checks", "test_lessons_values", "test_answer_forms"), "answers"),
 }
 
