@@ -227,8 +227,8 @@ bc.show(figures.returns(*measures.paid_and_not()))
 # *At first it also keeps them on the way out* (below): from episode 450 to 500 nearly all episodes succeed,
 # but with c = 0 about two of three (of the others' about four of five). As the demonstrations run out,
 # success with c = 2 falls, too: to about half, the others' to
-# {{ 100 * training('c = 2', 'success', 1000, 1050, True).mean() | .0f }} %. Who escapes more often differs
-# between the tens (table of Round 2).
+# {{ 100 * training('c = 2', 'success', 1000, 1050, True).mean() | .0f }} %. Which kind escapes more often
+# differs between the tens (table of Round 2).
 # <!-- claim: min(training('c = 2', 'success', 450, 500, which).mean() for which in (False, True)) > 0.98 and
 #   abs(training('c = 0', 'success', 450, 500).mean() - 2 / 3) < 0.03 and
 #   abs(training('c = 0', 'success', 450, 500, True).mean() - 0.8) < 0.03 -->

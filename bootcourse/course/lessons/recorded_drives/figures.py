@@ -89,9 +89,9 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
             taken.append(choosing.actions_of(policy, data.states))
             names.append(f"{name}, seed {settings.seed}")
             colours.append(style("cql").colour if name == WITH else OTHER.colour)
-            words.append(f"crashes on {crashes[name][-1]} of 100 roads")
             promise, earns = choosing.promised(policy, choosing.starts()), choosing.worth(policy, range(100), 0.8)
-            words[-1] += f"\nat the start promises {promise:.1f},\nthen earns {earns:.1f}".replace("-", "−")
+            says = f"at the start promises {promise:.1f},\nthen earns {earns:.1f}".replace("-", "−")
+            words.append(f"crashes on {crashes[name][-1]} of 100 roads\n{says}")
     shares = [torch.bincount(each, minlength=9).reshape(3, 3).numpy() / len(each) for each in taken]
     faster = [share[2].sum() for share in shares[1:]]
     title = "What the rule did, and what the agents would do"
