@@ -14,9 +14,9 @@ project = html_title = "bootcourse"
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx_design", "sphinxcontrib.bibtex"]
 bibtex_bibfiles, bibtex_reference_style = ["references.bib"], "author_year"
 html_theme = "furo"
-html_static_path = ["style.css", "wide.js"]
+html_static_path = ["style.css", "wide.js", "drag.js"]
 html_css_files = ["style.css"]
-html_js_files = ["wide.js"]
+html_js_files = ["wide.js", "drag.js"]
 html_extra_path = ["whole"]  # a page that is whole already: the drive
 html_show_sphinx = html_show_copyright = html_show_sourcelink = html_copy_source = False
 html_math_renderer = "mathml"

@@ -10,8 +10,9 @@ import pytest
 
 import bootcourse as bc
 from bootcourse.course.lessons import LESSONS, stem
+from bootcourse.panels.number import Number, whole_number
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
-from tools import book
+from tools import book, draggable
 from tools.course.source import lesson_of, sources
 
 FILES = [stem(name) for name in LESSONS]
@@ -136,6 +137,32 @@ def test_on_a_phone_what_is_wider_than_the_screen_scrolls_inside_itself_and_says
             dark = "invert" in figure.evaluate("image => getComputedStyle(image).filter")
             assert dark == (theme == "dark") and page.page.locator(".bc-scrolls").count() > 3
     page.page.close()
+
+
+@needs_browser
+def test_an_explorable_follows_its_sliders_in_the_book(made, new_page):
+    page = new_page()
+    page.page.goto((made / f"lessons/{stem('values')}.html").as_uri())
+    panel = page.page.locator(".draggable").first
+    says = lambda: panel.locator(".picture title").text_content()  # noqa: E731
+    first, sliders = says(), panel.locator("input").all()
+    sliders[0].focus()
+    page.page.keyboard.press("ArrowRight")
+    moved, value = says(), panel.locator("output").first.text_content()
+    assert moved != first and value != sliders[0].get_attribute("data-values").split(" ")[0]
+    sliders[1].fill(sliders[1].get_attribute("max"))
+    assert says() != moved and page.errors == []
+    page.page.close()
+
+
+def test_a_slider_in_the_book_has_the_ends_and_the_first_value_of_the_panel_s():
+    number = Number("x", 0.3, 0, 1, 0.01, "a share")
+    values, first = draggable.places(number, 15)
+    assert len(values) <= 16 and (values[0], values[first], values[-1]) == (0, 0.3, 1)
+    powers, first = draggable.places(Number("ξ", 0.01, 0.001, 10, 0.5, "a strength", logarithmic=True), 61)
+    assert powers == [0.001, 0.0032, 0.01, 0.032, 0.1, 0.32, 1.0, 3.2, 10.0] and powers[first] == 0.01
+    whole = Number("n", 3, 1, 9, 0.5, "a number", check=whole_number("n", 1, 9))
+    assert draggable.places(whole, 61) == ([1, 2, 3, 4, 5, 6, 7, 8, 9], 2)
 
 
 @needs_browser

@@ -127,6 +127,18 @@ def test_the_same_seed_gives_the_same_training_and_another_seed_another():
     assert np.allclose(one.curves["xi"], 200 * one.curves["alpha"])
 
 
+def test_to_watch_an_agent_in_training_changes_nothing():
+    settings, seen = settings_for("soft", seed=3, learning_starts=64), []
+    alone = compiled_training.train(settings, episodes=60)
+    watched = compiled_training.train(settings, episodes=60, watch=lambda *each: seen.append(each))
+    assert all(np.array_equal(alone.curves[name], watched.curves[name]) for name in NAMES)
+    ended, agents = zip(*seen, strict=True)
+    assert ended[0] == 0 < ended[-1] < 60 and list(ended) == sorted(ended)
+    here = np.ones((1, SEEN), np.float32)
+    first, last = (each.probabilities(here) for each in (agents[0], agents[-1]))
+    assert not np.array_equal(first, last), "each look is a copy"
+
+
 def test_bootstrapped_agents_get_out_when_the_study_s_do():
     """The study's ten are out in 90 of 100 drives after 286 to 345 episodes (the first window that is)."""
     for seed in range(2):

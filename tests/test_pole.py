@@ -12,7 +12,8 @@ from bootcourse.course.shipped import shipped_experiment
 def test_agents_train_for_some_blocks_with_marks_and_for_one_without(monkeypatch):
     monkeypatch.setattr(pole, "BLOCK", 260)
     monkeypatch.setitem(pole.BLOCKS, "marked", 2)
-    for kind, blocks in (("marked", 2), ("unmarked", 1), ("paid-1", 1)):
+    monkeypatch.setattr(pole, "MORE", 2)
+    for kind, blocks in (("marked", 2), ("unmarked", 1), ("paid-1", 1), ("frozen", 1), ("more-marked", 1)):
         results = pole.train_kind(**pole.cells(seeds=2)[kind])
         assert np.isfinite(results.notes["tests"]).sum(1).tolist() == [1 + blocks] * 2
         assert np.isfinite(results.notes["q"]).all() and (results.measured["most"] > 100).all()
@@ -20,7 +21,7 @@ def test_agents_train_for_some_blocks_with_marks_and_for_one_without(monkeypatch
 
 def test_trainings_of_unequal_length_are_filled_up(monkeypatch):
     lengths = {0: 3, 1: 12}
-    monkeypatch.setattr(pole, "train", lambda kind, seed: ([9.0] * lengths[seed], np.ones(9), 100.0, 500.0))
+    monkeypatch.setattr(pole, "train", lambda kind, seed, blocks: ([9.0] * lengths[seed], np.ones(9), 100.0, 500.0))
     notes = pole.train_kind("marked", 2).notes
     assert notes["tests"].shape == notes["q"].shape == (2, 12)
     assert [np.isfinite(notes[name]).sum(1).tolist() for name in ("tests", "q")] == [[3, 12], [9, 9]]
@@ -40,6 +41,17 @@ def test_after_a_fall_two_rows_say_that_the_pole_stays_fallen_and_none_is_marked
     fallen = [by_hand.row(state + 2, push, 0.5, False, state + 2) for push in (0, 1)]
     assert len(buffer.rows) == 4 and torch.equal(torch.stack(buffer.rows[2:]), torch.stack(fallen))
     assert not any(row[6] for row in buffer.rows)
+
+
+def test_the_targets_of_a_frozen_guess_take_only_a_fallen_poles_value_from_the_untrained_critics():
+    agent, states = worlds.FrozenGuess(seed=0), torch.zeros(3, 4)
+    states[1, 0], states[2, 2] = 2.5, -2.2  # the cart has left its track; the pole leans by 0.22 rad
+    untrained = agent.slow_q(states)
+    with torch.no_grad():
+        for parameter in agent.copies.parameters():
+            parameter += 1
+    changed = (agent.slow_q(states) != untrained).any(-1).any(0)
+    assert changed.tolist() == [True, False, False] == (~worlds.fallen(states)).tolist()
 
 
 def test_two_trained_poles_are_first_shown_where_one_has_fallen():

@@ -88,18 +88,24 @@ def frame(address: str, height: int) -> str:
 
 
 def as_a_page(notebook: Path, to: Path) -> None:
-    """Copy a notebook as it came, with the page that drives in the place of each world, which needs a kernel.
+    """Copy a notebook as it came, with the page that drives in the place of each world, which needs a kernel, and
+    sliders that move on its explorables.
 
     The first word of what JupyterLab folds is bold again.
     """
-    content = json.loads(as_it_came(notebook))
+    from tools import draggable
+
+    content, lesson = json.loads(as_it_came(notebook)), notebook.stem.partition("_")[2]
     for cell in content["cells"]:
+        panel = draggable.explorable_of(lesson, "".join(cell["source"])) if cell["cell_type"] == "code" else None
         if is_folded_text(cell):
             cell["source"] = re.sub(r"\A(\w+\.)\n", r"**\1** ", "".join(cell["source"]))
         for output in cell.get("outputs", []):
             shown = output.get("data", {})
             if address := WORLD.search("".join(shown.get("text/html", ""))):
                 output["data"] = {"text/html": frame(address[1], 750), "text/plain": shown["text/plain"]}
+            elif panel and "data:image/svg+xml" in "".join(shown.get("text/html", "")):
+                output["data"] = {"text/html": draggable.page(panel), "text/plain": shown["text/plain"]}
     to.write_text(json.dumps(content), encoding="utf-8")
 
 

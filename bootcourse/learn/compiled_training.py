@@ -7,6 +7,7 @@ Arguments: agent, batch, s, work, plan, run, memory and curves are records of re
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,6 +36,7 @@ A, R, TERMINATED, MU, NEXT_MU = range(2 * SEEN, 2 * SEEN + 5)  # columns of a ro
 GOLDEN, FIRST, SECOND = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 BY_30, BY_27, BY_31, BY_11 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(11)
 SPACING = 2.0**-53
+WATCHED = 50  # decisions on each road between two looks at an agent in training
 
 
 @vectorised
@@ -291,9 +293,16 @@ def plan_of(settings: Settings, episodes: int) -> np.ndarray:
     return plan
 
 
-def train(settings: Settings, episodes: int = 1000, scenario: Scenario = DEFAULT) -> Trained:
+def train(
+    settings: Settings,
+    episodes: int = 1000,
+    scenario: Scenario = DEFAULT,
+    watch: Callable[[int, Agent], None] | None = None,
+) -> Trained:
     """Train one agent on the trap, taught by the course's rule.
 
+    watch: called before the first update and then every few episodes, with the number of episodes that have ended and
+    the agent as it is then; it changes nothing.
     Its curves are not those of `Training` with this seed, whose random numbers are others. With the same random
     numbers on one road both loops drive and learn the same (tests/test_compiled_training.py).
     Raises BootcourseError for settings that the compiled learner does not accept, and for a scenario of another size.
@@ -311,6 +320,9 @@ def train(settings: Settings, episodes: int = 1000, scenario: Scenario = DEFAULT
     if settings.needs_demonstrations:
         demonstrate_first(runs, memories, s, plan, c, settings.demonstration_episodes)
     while runs["finished"][0] < episodes:
-        advance_first(agents, batches, s, works, plan, runs, memories, curves, c, 1000)  # so that an interrupt acts
+        if watch:
+            watch(int(runs["finished"][0]), records.agent_of(settings, agents, 0))
+        most = WATCHED if watch else 1000  # decisions after which an interrupt acts
+        advance_first(agents, batches, s, works, plan, runs, memories, curves, c, most)
     values = curves["values"][0, :episodes].T.astype(np.float64)
     return Trained(records.agent_of(settings, agents, 0), dict(zip(NAMES, values, strict=True)))

@@ -23,8 +23,8 @@ from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.scenario import DEFAULT
 
 LAST = 10  # decisions whose mean reward goes on for ever after a drive that ran out of time
-WIDTH, HEIGHT = 1052, 416
-WORTH, NEEDED = (44, 92, 990, 150), (44, 300, 990, 76)  # left, top, width and height of a chart, pixels
+WIDTH, HEIGHT = 760, 416
+WORTH, NEEDED = (44, 92, 700, 150), (44, 300, 700, 76)  # left, top, width and height of a chart, pixels
 STEPS = (0.25, 0.5, 1.0, 2.5, 5.0)  # the axes have room for one of these bonuses, so they stay where they are in a drag
 SHOWN = 40  # s of the drive that the charts show: it gets out in them
 ROAD = 10  # its seed, the road of the lessons' examples
@@ -89,12 +89,10 @@ class BonusPanel(Panel):
         settings = replace(Settings(), bonus=c, gamma=self.gamma.value)
         self.seen = bonus_numbers(self.demonstration, self.trapped, settings)
         (title, added), own, other = self._sentences(c), style("rule").colour, style("idle").colour
-        legend = (
-            (4, f"the rule's drive, r + c, c = {c:g}", own, 3, ""),
-            (260, "the rule's drive, r alone", own, 1.6, 'stroke-dasharray="6 4"'),
-            (480, "staying behind, r", other, 2, ""),
-        )
-        parts = [text(4, 20, title, size=14, bold=True), text(640, 54, added)]
+        legend = [(4, "staying behind, r", other, 2, ""), (160, "the rule's drive, r + c", own, 3, "")]
+        if c:
+            legend.append((345, "the rule's drive, r alone", own, 1.6, 'stroke-dasharray="6 4"'))
+        parts = [text(4, 20, title, size=14, bold=True), text(WIDTH - 4, 54, added, "end")]
         for x, name, colour, width, dashes in legend:
             parts += [line(x, 50, x + 26, 50, colour, width, dashes), text(x + 32, 54, name)]
         parts += [part for axes in self._charts(own, other) for part in axes.parts]
@@ -109,24 +107,28 @@ class BonusPanel(Panel):
         highest = plain + max(room, self.c.value) * weight
         worth = SvgAxes(*WORTH, (0, times[-1]), span([*plain, *trapped, *highest, 0.0], 0.1))
         worth.frame("discounted sum of the rewards from here on")
-        worth.line(times, plain, own, 1.1, "--")
+        if self.c.value:
+            worth.line(times, plain, own, 1.1, "--")
         worth.line(times, trapped, other, 1.4)
         worth.line(times, augmented, own, 2)
 
         crossing = np.maximum(crossing, 0.0)  # where it is below 0 the drive is worth more without a bonus
         needed = SvgAxes(*NEEDED, worth.x, (0.0, 1.1 * max(0.05, crossing.max())))
-        needed.frame("the c that the rule's drive needs to be worth more (no line: none)", "time (s)", 3)
+        needed.frame("the smallest c with which the rule's drive is worth more; 0: it needs none", "time (s)", 3)
         needed.fill([*times, times[-1], times[0]], [*crossing, 0.0, 0.0], other, 0.15)
-        needed.line(times, np.where(crossing > 0, crossing, np.nan), INK, 1.2)
+        needed.line(times, crossing, INK, 1.2)
         needed.line([0, times[-1]], [0, 0], QUIET, 0.8)
         return worth, needed
 
     def _sentences(self, c: float) -> tuple[str, str]:
-        """What the numbers say about the whole drive, and what the bonus adds to it."""
-        highest, added = float(self.seen.crossing.max()), c * self.seen.weight[0]
-        title = "Even without a bonus the rule's drive is worth more in each second."
-        if highest > 0:
-            title = f"Only from c = {highest:.2g} on is the rule's drive worth more in each second."
+        """In how many of the seconds shown the rule's drive is worth less, and what the bonus adds to it."""
+        augmented, trapped = (each[: SHOWN * self.demonstration.scenario.clock.decision_rate]
+                              for each in (self.seen.augmented, self.seen.trapped))  # fmt: skip
+        less, added = int((augmented < trapped).sum()), c * self.seen.weight[0]
+        worth = f"With c = {c:g} the rule's drive is worth"
+        title = f"{worth} less than staying behind in {less} of {len(trapped)} seconds."
+        if not less:
+            title = f"{worth} more than staying behind in each of these {len(trapped)} seconds."
         return title, f"The bonus adds c / (1 − γ) = {added:.3g}."
 
 

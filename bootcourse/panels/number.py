@@ -24,7 +24,7 @@ class Number(widgets.VBox):
         self, symbol: str, value: float, low: float, high: float, step: float, help: str, unit: str = "",
         check: Callable[[float], object] = lambda value: None, logarithmic: bool = False,
     ):  # fmt: skip
-        self.check, self.symbol, self.sentence = check, symbol, help
+        self.check, self.symbol, self.unit, self.sentence = check, symbol, unit, help
         self._showing = False  # what `show` writes into the controls is not an entry
         self._dragged = False  # while the slider is moved nobody else moves it: it would stop short of the hand
         self.low, self.high, self.step, self.logarithmic = low, high, step, logarithmic

@@ -39,7 +39,7 @@ class Results:
     tested: dict[str, np.ndarray] = field(default_factory=dict)  # the fields of `Episodes`: (agents, held-out episodes)
     curves: dict[str, np.ndarray] = field(default_factory=dict)  # success, return ...: (agents, training episodes)
     seconds: np.ndarray | None = None  # (agents,) of one core, training and test; NaN where they are not known
-    notes: dict[str, np.ndarray] = field(default_factory=dict)  # of a lesson, taken in training: (agents, points)
+    notes: dict[str, np.ndarray] = field(default_factory=dict)  # of a lesson, taken in training: (agents, points, ...)
     measured: dict[str, np.ndarray] = field(default_factory=dict)  # of a lesson, of trained agents: (agents,)
     weights: dict[str, np.ndarray] = field(default_factory=dict)  # of the first agents, see `weights_of` and `agent`
 
@@ -186,7 +186,8 @@ def _shapes(arrays: dict[str, np.ndarray], parts: dict[str, dict[str, np.ndarray
     shapes |= {f"tested.{f.name}": (n, *tests[0]) for f in fields(Episodes)} if tests else {}
     for part in ("curves", "notes"):
         points = [each.shape[1:2] for each in parts[part].values()][:1]
-        shapes |= {f"{part}.{name}": (n, *points[0]) for name in parts[part]}
+        more = {name: each.shape[2:] if part == "notes" else () for name, each in parts[part].items()}
+        shapes |= {f"{part}.{name}": (n, *points[0], *rest) for name, rest in more.items()}
     shapes |= {f"measured.{name}": (n,) for name in parts["measured"]}
     return shapes | {f"weights.{name}": each.shape for name, each in parts["weights"].items()}
 

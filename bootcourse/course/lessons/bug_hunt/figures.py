@@ -11,16 +11,18 @@ from matplotlib.figure import Figure
 from bootcourse.colours import OTHER
 from bootcourse.course import charts, shipped
 from bootcourse.course.dots import name_rows
-from bootcourse.course.lessons.bug_hunt.bugs import EVERY, LETTERS, Hunt
+from bootcourse.course.lessons.bug_hunt.bugs import EVERY, LETTERS, ROADS, Hunt
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.settings import settings_for
+from bootcourse.panels.bonus import targets
 from bootcourse.plots.figure import axes_at, finish, new_figure
 
 DRIVERS = {"first agent": "healthy", "second agent": "E"}
 HEAD, FOOT = 0.6, 0.5  # inches, above and below the rows of `line_ends`
+FAR = 10.0, 2.0, 2.0, 10.0  # beyond the healthy agent's two seeds, in each column of `line_ends`
 LAST = 8  # values of a probe, of which `line_ends` shows the mean
-PALE = "#CFD5DB"  # the healthy agent
+PALE, PALER = "#B4BDC7", "#E9EDF1"  # the healthy agent, and what is not far from it
 
 
 def most(with_bonus: bool = True) -> float:
@@ -60,7 +62,12 @@ def promises(hunt: Hunt) -> Figure:
     figure = charts.many(probes, title, "updates", what, reference="healthy", limits=limits, level=most())
     for panel in figure.axes:
         panel.axhline(most(False), color=charts.INK, linewidth=1, linestyle=(0, (1, 2)), zorder=1)
-    at_dotted(figure, {f"no bonus: {most(False):.0f}": most(False), f"bonus always: {most():.0f}": most()})
+    names = {f"limit without bonus: {most(False):.0f}": most(False)}
+    at_dotted(figure, {**names, f"limit with the bonus always: {most():.0f}": most()})
+    for panel, (name, (_, values)) in zip(figure.axes, list(probes.items())[1:], strict=True):
+        if (highest := values.max()) > limits[1]:
+            words = f"{name}: up to {highest:.0f}"
+            panel.text(1, 1.05, words, transform=panel.transAxes, ha="right", va="bottom", fontsize=charts.SMALL)
     return figure
 
 
@@ -94,15 +101,16 @@ def line_ends(hunt: Hunt) -> Figure:
     for place, (what, ends) in enumerate(panels.items()):
         ax = axes_at(figure, 0.4 + 1.66 * place, HEAD, 1.45, row * len(LETTERS))
         low, high = min(ends["healthy"]), max(ends["healthy"])
-        ax.axvspan(low, high, color=PALE, linewidth=3, zorder=1)  # its edge shows a narrow band, too
+        ax.axvspan(low - FAR[place], high + FAR[place], color=PALER, linewidth=0, zorder=0)
+        ax.axvspan(low, high, color=PALE, linewidth=2, zorder=1)  # its edge shows a narrow band, too
         for y, name in enumerate(LETTERS):
             ax.scatter(ends[name], [y, y], s=22, color=OTHER.colour, zorder=3, clip_on=False)
         name_rows(ax, LETTERS if place == 0 else [""] * len(LETTERS), what)
         ax.margins(x=0.08)
         said = "; ".join(f"{name}: {', '.join(f'{value:.3g}' for value in ends[name])}" for name in ends)
-        alt.append(f"{what}: {said}")
-    span = f"means of the last 30 episodes or {LAST * EVERY:,} updates"
-    words = f"dots: the agent's two seeds; grey: between the healthy agent's two seeds ({span})"
+        alt.append(f"{what}: {said}; far is more than {FAR[place]:.0f} beyond healthy")
+    span = f"means of 30 episodes or {LAST * EVERY:,} updates"
+    words = f"dots: two seeds; dark grey: between the healthy agent's two; outside light grey: far ({span})"
     figure.text(0.012, 1 - 0.42 / figure.get_figheight(), words, fontsize=charts.SMALL, color=charts.QUIET)
     return finish(figure, title, f"Two dots in each row. {'. '.join(alt)}.".replace("-", "−"))
 
@@ -110,3 +118,26 @@ def line_ends(hunt: Hunt) -> Figure:
 def last(hunt: Hunt, probe: str) -> dict[str, np.ndarray]:
     """The mean of a probe's last `LAST` values, {name: (2 seeds,)}."""
     return {name: hunt.probe(name, probe)[:, -LAST:].mean(axis=1) for name in hunt.names}
+
+
+PROMISED = ["first seed", "promised", "collected", "difference"]
+
+
+def promised_and_collected(hunt: Hunt) -> list[list[str]]:
+    """What an agent's critic promises on its own drives and what they collect, a row for each agent below `PROMISED`.
+
+    Both are means over all seconds of `ROADS`, actions drawn. Collected are the discounted rewards from a second on,
+    without any bonus.
+    """
+    return [[name, *(f"{each:.1f}".replace("-", "−") for each in own_drives(hunt, name))] for name in hunt.names]
+
+
+def own_drives(hunt: Hunt, name: str) -> tuple[float, float, float]:
+    """What an agent's critic promises in its own drives, what these collect, and the difference."""
+    agent, gamma = hunt.agent(name), settings_for("bootstrapped").gamma
+    drives = record(agent.as_policy(np.random.default_rng(0)), ROADS)
+    states = np.concatenate([drive.observations[: len(drive.rewards)] for drive in drives])
+    promised = float((agent.probabilities(states) * agent.q_values(states)).sum(-1).mean())
+    worth = [targets(drive.rewards, gamma, terminated=bool(drive.accident)) for drive in drives]
+    collected = float(np.concatenate(worth).mean())
+    return promised, collected, promised - collected

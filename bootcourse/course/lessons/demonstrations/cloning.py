@@ -123,6 +123,23 @@ def left_in(rows: Tensor) -> Tensor:
     return -rows[:, OF_Y] * Y_SCALE
 
 
+def rows_to_add(of_rule: Tensor, labelled: Tensor) -> dict[str, Tensor]:
+    """Three kinds of the stochastic rule's rows, which have the rule's labels; equally many of each.
+
+    The edge begins where the rule's rows end on the left. Fewest are those left of this place, and all are taken.
+    """
+    left = left_in(labelled)
+    beyond = left > left_in(of_rule).max()
+    kinds = {"others": ~beyond, "near the edge": (left > 1) & ~beyond, "from the edge": beyond}
+    count = int(beyond.sum())
+    return {name: labelled[kind][:: int(kind.sum()) // count][:count] for name, kind in kinds.items()}
+
+
+def with_added(rows: Tensor, more: Tensor) -> Tensor:
+    """These rows, and each of the others five times."""
+    return torch.cat([rows] + 5 * [more])
+
+
 class Trainings:
     """Trainings with DAgger side by side, one for each seed: one more column of a row says to which it belongs."""
 

@@ -16,6 +16,7 @@ from bootcourse.plots.road import draw_road, edges_of
 from bootcourse.road.state import EGO, TRAP_1, X, Y
 
 UNSURE = "#6CC3A0"  # the stochastic rule: the rule's green, lighter
+SEEN = -45, 15  # m from trap 1, of the paths
 
 
 def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title: str) -> Figure:
@@ -25,7 +26,7 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
     for k, (name, some) in enumerate(drives.items()):
         ax = figure.add_axes((0.08, (total - 1.75 - 1.35 * k) / total, 0.88, 0.95 / total))
         places, scenario = [], some[0].scenario
-        draw_road(MplAxes(ax), scenario, -60, 15)
+        draw_road(MplAxes(ax), scenario, *SEEN)
         for drive in some:
             states = drive.states[: int(seconds / drive.scenario.clock.dt) + 1]
             path = np.column_stack([states[:, EGO, X] - states[:, TRAP_1, X], states[:, EGO, Y]])
@@ -35,11 +36,11 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
         plain_axes(ax, f"{name}: {ended} of {len(some)} drives end in an accident", grid="")
         lanes, (top, edge) = range(scenario.road.lanes), edges_of(scenario.road)
         ax.set_yticks(np.array(lanes) * scenario.road.lane_width, [f"lane {lane}" for lane in lanes])
-        ax.set(xlim=(-60, 15), ylim=(edge + 0.6, top - 0.6))
+        ax.set(xlim=SEEN, ylim=(edge + 0.6, top - 0.6))
         last = k == len(drives) - 1
         ax.tick_params(axis="x", labelbottom=last)
         if last:
-            ax.set_xlabel("distance ahead of trap 1 (m)", fontsize=TEXT, color=INK)
+            ax.set_xlabel(f"distance ahead of trap 1 (m); paths are cut at {SEEN[1]} m", fontsize=TEXT, color=INK)
         all_places = np.concatenate(places)
         cells = len(np.unique(np.round(all_places / [2.0, 0.5]), axis=0))
         alt_parts.append(
@@ -59,16 +60,18 @@ def clones(measured: dict[str, np.ndarray]) -> Figure:
     return _two_panels(measured, {0: "agree with their data (%)", 2: "have an accident (%)"}, title)
 
 
-def added(name: str, alone: np.ndarray, fed: dict[str, np.ndarray]) -> Figure:
+def added(name: str, alone: np.ndarray, fed: dict[str, np.ndarray], longer: dict[str, np.ndarray]) -> Figure:
     """What rows added to the rule's change: as `clones`, with the agreement with the rule in the clones' own states.
 
     alone: of the rule's drives, which are called so; fed: of these with others' rows, and last with those of the edge.
+    longer: of the rule's drives alone, after a longer training.
     """
     *others, edge = (values[:, 2].mean() for values in fed.values())
     title = "Accidents, with rows added to the rule's"
     if edge < min(alone[:, 2].mean(), others[0]) / 2:
         title = "Rows from the edge prevent most of the accidents"
-    return _two_panels({name: alone} | fed, {1: "agree in their own states (%)", 2: "have an accident (%)"}, title)
+    rows = {name: alone} | fed | longer
+    return _two_panels(rows, {1: "agree in their own states (%)", 2: "have an accident (%)"}, title)
 
 
 def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str) -> Figure:
@@ -94,62 +97,77 @@ def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title:
 
 BEFORE = 15  # s before an accident that `off_the_road` shows
 DRAWN = 12  # of its drives; all are counted
-PLACES = {-1.0: "1 m right", 0.0: "left lane's\nmiddle", 1.0: "1 m left"}
+PLACES = {-1.0: "1 m right", 0.0: "left lane's\nmiddle", 1.0: "1 m left", 2.0: "2 m left:\nroad's edge"}
 
 
 def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
     """Where the clones' cars were in the last seconds before they left the road on the left, and where they erred.
 
-    A few of the drives, evenly chosen, are drawn; the numbers count all of them.
+    A few of the drives, evenly chosen, are drawn; `errors` counts in all of them.
     """
     ended = [drive for drive in own if cloning.off_on_the_left(drive)]
-    left = cloning.left_in(of_rule)
-    rows = left[left.abs() < 2]  # in the left lane
-    high = rows.max().item()
+    high = cloning.left_in(of_rule).max().item()
     figure = new_figure(3.9)
     ax = figure.add_axes((0.125, 0.14, 0.85, 0.71))
     ax.axhspan(-2, high, color=style("rule").colour, alpha=0.16, linewidth=0)
-    wrong, beyond = [], []
-    drawn = {len(ended) * k // DRAWN for k in range(DRAWN)}
-    for number, drive in enumerate(ended):
+    drawn = [ended[len(ended) * k // DRAWN] for k in range(min(DRAWN, len(ended)))]
+    for drive in drawn:
         clock = drive.scenario.clock
         at = np.arange(len(drive.actions)) - (len(drive.states) - 1) * clock.dt
         place, errs = cloning.metres_left(drive), drive.actions != drive.rule_actions
-        if number in drawn:
-            ax.plot(
-                (np.arange(len(drive.states)) - len(drive.states) + 1) * clock.dt, -drive.states[:, EGO, Y],
-                color=style("bc").colour, linewidth=1.2, alpha=0.6,
-            )  # fmt: skip
-            ax.plot(at[errs], place[errs], "o", color=ALARM, markersize=4, alpha=0.8, markeredgewidth=0)
-        wrong.append(errs)
-        beyond.append(place > high)
-    wrong, beyond = np.concatenate(wrong), np.concatenate(beyond)
-    errs_at = [f"{100 * wrong[where].mean():.0f} %" for where in (beyond, ~beyond)]
+        ax.plot(
+            (np.arange(len(drive.states)) - len(drive.states) + 1) * clock.dt, -drive.states[:, EGO, Y],
+            color=style("bc").colour, linewidth=1.2, alpha=0.6,
+        )  # fmt: skip
+        ax.plot(at[errs], place[errs], "o", color=ALARM, markersize=4, alpha=0.8, markeredgewidth=0)
     ax.axhline(2, color=INK, linewidth=1.5)
     plain_axes(ax, "", grid="")
-    words = {"fontsize": TEXT, "ha": "left"}
-    ax.text(-BEFORE + 0.2, 2.06, "the road's edge", color=INK, va="bottom", **words)
-    green = style("rule").colour
-    ax.text(-BEFORE + 0.2, -1.68, "the rule, in the left lane", color=green, va="bottom", **words)
+    words = {"fontsize": TEXT, "ha": "left", "va": "bottom"}
+    ax.text(-BEFORE + 0.2, -1.68, "green: where the rule drives, in the left lane", color=style("rule").colour, **words)
+    ax.text(-BEFORE + 0.2, -1.94, "red: errors", color=ALARM, **words)
     ax.set(xlim=(-BEFORE, 0.2), ylim=(-2, 2.35))
     ax.set_yticks(list(PLACES), list(PLACES.values()))
-    red = f"red: errors, {errs_at[0]} of decisions left of the band, {errs_at[1]} elsewhere"
-    ax.text(-BEFORE + 0.2, -1.94, red, color=ALARM, va="bottom", **words)
-    below = f"time before the car is off the road (s); lines: {len(drawn)} of {len(ended)} drives; percentages: of all"
-    ax.set_xlabel(below, fontsize=TEXT, color=INK)
-    title = "The clones' cars before they leave the road, and their errors"
-    if wrong[beyond].mean() > 0.9 and wrong.mean() > 0.5:
-        title = "Error after error, the clones drift off the road"
+    ax.set_xlabel("time before the car is off the road (s); some lines lie on each other", fontsize=TEXT, color=INK)
+    title = f"The last {BEFORE} s of {len(drawn)} drives off the left edge, and their errors"
+    (left_of_it, elsewhere), _ = errors(own, of_rule)
     return finish(
         figure, title,
-        f"The last {BEFORE} s of {len(drawn)} of {len(ended)} drives that leave the road on the left. In the left "
-        f"lane the rule's rows reach {high:.1f} m left of its middle. Left of this place "
-        f"{errs_at[0]} of all {len(ended)} drives' decisions are errors, elsewhere {errs_at[1]}.",
+        f"{len(drawn)} of {len(ended)} drives that leave the road on the left. In the left lane the rule's rows reach "
+        f"{high:.1f} m left of its middle. Left of this place {100 * left_of_it:.0f} % of all {len(ended)} drives' "
+        f"decisions are errors, elsewhere {100 * elsewhere:.0f} %.",
     )  # fmt: skip
 
 
-def taught(trainings: np.ndarray, of_rule: np.ndarray) -> Figure:
-    """What DAgger changes: (trainings, rounds + 1, 4) of `cloning.measure`, and (clones, 4) of the rule's 200 drives.
+def errors(own: Sequence[Rollout], of_rule: Tensor) -> np.ndarray:
+    """The share of errors left of all of the rule's rows, and elsewhere: of drives off the left edge, of those that
+    end without an accident, (2, 2).
+    """
+    high, shares = cloning.left_in(of_rule).max().item(), []
+    for some in both_ends(own).values():
+        wrong = np.concatenate([drive.actions != drive.rule_actions for drive in some])
+        beyond = np.concatenate([cloning.metres_left(drive) > high for drive in some])
+        shares.append([wrong[beyond].mean(), wrong[~beyond].mean()])
+    return np.array(shares)
+
+
+def both_ends(own: Sequence[Rollout]) -> dict[str, list[Rollout]]:
+    """The drives that end off the left edge, and those that end without an accident."""
+    ended = [drive for drive in own if cloning.off_on_the_left(drive)]
+    return {"off the left edge": ended, "no accident": [drive for drive in own if not drive.accident]}
+
+
+def error_rows(own: Sequence[Rollout], of_rule: Tensor) -> list[list[str]]:
+    """Rows of a table: how drives end, how many were left of the rule's rows, and their errors there and elsewhere."""
+    high = cloning.left_in(of_rule).max().item()
+    rows = []
+    for (name, some), shares in zip(both_ends(own).items(), errors(own, of_rule), strict=True):
+        there = sum((cloning.metres_left(drive) > high).any() for drive in some)
+        rows.append([f"{name}: {len(some)}", f"{there}", *(f"{100 * share:.0f} %" for share in shares)])
+    return rows
+
+
+def taught(trainings: np.ndarray, alike: np.ndarray) -> Figure:
+    """What DAgger changes: (trainings, rounds + 1, 4) of `cloning.measure`. alike: accidents of clones of 60 drives.
 
     Left the agreement with the rule, right the accidents: a thin line for each training, a thick one for their mean.
     """
@@ -173,11 +191,12 @@ def taught(trainings: np.ndarray, of_rule: np.ndarray) -> Figure:
         ax.set_xticks(drives, ["20 of\nthe rule", *(f"+ {each}\nown" for each in drives[:-1])])
         ends = [(mean[-1, k], *some[k]) for k in some if some[k][0]]
         if 2 in some:
-            crash = 100 * of_rule[:, 2].mean()
+            crash = 100 * alike.mean()
             ax.axhline(crash, color=style("rule").colour, linewidth=1.2, linestyle=(0, (4, 2)))
-            ends = [(crash, "clones of 200 drives of the rule", style("rule").colour)]
+            ends = [(crash, f"{len(alike)} clones of 60 drives of the rule", style("rule").colour)]
         label_ends(ax, ends, wrap=14)
     words = [f"{name} {', '.join(f'{each:.0f}' for each in mean[:, k])} %" for k, (name, _) in lines.items()]
     each = "; then ".join(", ".join(f"{100 * x:.0f}" for x in crash) for crash in trainings[:, :, 2].T)
-    alt = f"On average the clone agrees {', '.join(words)}. Accidents of the three trainings (%): {each}."
+    alt = f"On average the clone agrees {', '.join(words)}. Accidents of the three trainings (%): {each}. "
+    alt += f"{len(alike)} clones of 60 drives of the rule: {100 * alike.mean():.0f} %."
     return finish(figure, title, alt)

@@ -5,9 +5,17 @@ from functools import cache
 import numpy as np
 from torch import Tensor
 
+from bootcourse.course.lessons.demonstrations.cloning import (
+    ACTION,
+    RULE_ACTION,
+    all_at_once,
+    left_in,
+    metres_left,
+)
 from bootcourse.course.lessons.demonstrations.cloning import UPDATES as UPDATES
-from bootcourse.course.lessons.demonstrations.cloning import left_in
-from bootcourse.course.shipped import shipped_results
+from bootcourse.course.shipped import shipped_agents, shipped_experiment, shipped_results
+from bootcourse.episodes.record import record
+from bootcourse.learn.agent import Agent
 from bootcourse.learn.demonstrations import collect
 from bootcourse.policies import stochastic_rule_policy
 from bootcourse.research.results import Results
@@ -24,6 +32,42 @@ def rows() -> dict[str, Tensor]:
 def beyond_the_band() -> int:
     """How many of the stochastic rule's rows are farther left than all of the rule's."""
     return int((left_in(rows()["the stochastic rule"]) > left_in(rows()["the rule"]).max()).sum())
+
+
+def drawn_labels() -> float:
+    """The share of the stochastic rule's rows whose action is not the rule's."""
+    rows_of = rows()["the stochastic rule"]
+    return float((rows_of[:, ACTION] != rows_of[:, RULE_ACTION]).double().mean())
+
+
+@cache
+def fifteen_clones() -> dict[str, Results]:
+    """Fifteen clones of each kind, with other seeds than the lesson's."""
+    return shipped_experiment("clones")
+
+
+def others_crash(kind: str, after: int = -1) -> np.ndarray:
+    """The share of accidents of each of the fifteen clones of a kind; of DAgger's, after so many rounds."""
+    return fifteen_clones()[kind].notes["accidents"][:, after]
+
+
+def others_agree(kind: str, where: str, after: int = -1) -> float:
+    """How often they agree with the rule, on average: "agrees", in its states for DAgger's, or in their "own"."""
+    return float(fifteen_clones()[kind].notes[where][:, after].mean())
+
+
+@cache
+def bc_shipped() -> list[Agent]:
+    """The study's clones of the rule whose weights ship."""
+    return shipped_agents("bc")
+
+
+@cache
+def long_beyond() -> float:
+    """In how many of these clones' drives on 20 roads the car is at any time left of all of the rule's rows."""
+    drives = record(all_at_once(bc_shipped()), [*range(20)] * len(bc_shipped()))
+    high = float(left_in(rows()["the rule"]).max())
+    return float(np.mean([(metres_left(drive) > high).any() for drive in drives]))
 
 
 def by_chance() -> Results:

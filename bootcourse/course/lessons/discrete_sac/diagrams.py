@@ -14,14 +14,34 @@ SAC_PARTS: Mapping[str, tuple] = {  # name -> left, top, lines, tint; each 140 w
 }
 
 
+DECISIONS = [  # what passes while the agent drives, and from the buffer to the critics
+    arrow(230, 50, 150, 50), label(190, 42, "action"),
+    arrow(150, 76, 228, 76), label(190, 96, "state"),
+    arrow(78, 96, 78, 218), label(86, 150, "s, a, r, s′,", "start"), label(86, 168, "terminated", "start"),
+    arrow(150, 252, 228, 252), label(190, 272, "batch"),
+]  # fmt: skip
+
+
+def boxes(*names: str) -> list[str]:
+    """The boxes of these parts."""
+    return [box(left, top, 140, 64, lines, tint) for left, top, lines, tint in (SAC_PARTS[name] for name in names)]
+
+
+def four_parts() -> Diagram:
+    """What acts, what keeps the rows, and what judges."""
+    parts = [*boxes("world", "actor", "buffer", "critics"), *DECISIONS]
+    parts += [arrow(300, 218, 300, 97), label(308, 162, "Q", "start")]
+    alt = (
+        "The actor sends actions to the world and sees its states. What happened goes into the replay buffer. "
+        "Batches of it train the critics, whose Q the actor learns from."
+    )
+    return Diagram(380, 296, parts, alt)
+
+
 def sac_diagram() -> Diagram:
     """Soft actor-critic: what acts, what is learned, what is stored, and what passes between them."""
-    parts = [box(left, top, 140, 64, lines, tint) for left, top, lines, tint in SAC_PARTS.values()]
-    parts += [
-        arrow(230, 50, 150, 50), label(190, 42, "action"),
-        arrow(150, 76, 228, 76), label(190, 96, "state"),
-        arrow(78, 96, 78, 218), label(86, 150, "s, a, r, s′,", "start"), label(86, 168, "terminated", "start"),
-        arrow(150, 252, 228, 252), label(190, 272, "batch"),
+    parts = [
+        *boxes(*SAC_PARTS), *DECISIONS,
         arrow(146, 218, 244, 97), label(206, 158, "states of", "start"), label(206, 176, "the batch", "start"),
         arrow(300, 218, 300, 97), label(308, 200, "min Q", "start"),
         arrow(370, 50, 450, 50), label(411, 42, "entropy"),

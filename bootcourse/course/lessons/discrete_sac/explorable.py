@@ -109,7 +109,7 @@ def overestimated() -> Explorable:
 
 UPDATES, TURN = 400, 0.02  # of the thermostat; what each changes in log α
 NATS, POWERS, TALL = (-1.6, 2.6), (-4.0, 4.0), 396  # the two charts' heights, and the picture's in pixels
-ABOVE, BELOW = (52, 74, 690, 150), (52, 266, 690, 90)  # left, top, width and height of the charts, pixels
+ABOVE, BELOW = (52, 74, 690, 120), (52, 236, 690, 120)  # left, top, width and height of the charts, pixels
 
 
 def thermostat() -> Explorable:

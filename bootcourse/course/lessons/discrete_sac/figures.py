@@ -25,15 +25,15 @@ def descents(ends: Mapping[str, Descent]):
     return table([f"after {STEPS} steps", "π(straight)", "Q(straight)", "loss"], rows)
 
 
-def two_jobs(alphas: Sequence[float], walked: Walked, unpaid: Walked) -> Figure:
+def two_jobs(alphas: Sequence[float], walked: Walked, unpaid: Walked, less: Walked) -> Figure:
     """What α does in the chain's trap: how many learners find the way out, and how sure these then are of taking it.
 
     walked: the learners at each temperature, and last those whose temperature falls from the largest of these;
-    unpaid: the same with a target that holds no pay.
+    unpaid: the same with a target that holds no pay; less: with the pay α (H − log 2).
     """
     names = [*(f"α = {alpha:g}" for alpha in alphas), f"α falls from {alphas[-1]:g}"]
-    names.append("falls, no pay in target")
-    leaves, found = np.vstack([walked.leaves, unpaid.leaves]), np.vstack([walked.found, unpaid.found])
+    names += ["falls, no pay in target", "falls, pay α (H − log 2)"]
+    leaves, found = (np.vstack([getattr(of, part) for of in (walked, unpaid, less)]) for part in ("leaves", "found"))
     parts = {
         "found it, sure of leaving": (found & (leaves > SURE), style("sac").colour),
         "found it, undecided": (found & (leaves <= SURE) & (leaves >= 1 - SURE), PALE),
@@ -54,4 +54,4 @@ def two_jobs(alphas: Sequence[float], walked: Walked, unpaid: Walked) -> Figure:
     name_rows(ax, names, f"of {walked.leaves.shape[1]} learners")
     ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=2, fontsize=SMALL, frameon=False, columnspacing=1.2)
     alt = f"A bar for each kind of learner: {', '.join(names)}. Of each kind, in this order, {'; '.join(alt_parts)}. "
-    return finish(figure, "A falling α leads many out; without the pay in the target, all", alt)
+    return finish(figure, "A falling α leads about half out, and all if the pay cannot lift Q", alt)

@@ -10,9 +10,11 @@ import numpy as np
 import torch
 
 from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START, highest_estimates
+from bootcourse.course.lessons.discrete_sac.own_parts import GAMMA as GAMMA
 from bootcourse.course.lessons.discrete_sac.own_parts import LEARNERS as LEARNERS
-from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, soft_sweeps, walked
+from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, less_paid, soft_sweeps, walked
 from bootcourse.course.lessons.discrete_sac.own_parts import unpaid as unpaid
+from bootcourse.course.lessons.values import chain as chain
 from bootcourse.learn import sac
 
 q = np.array(START)
@@ -27,9 +29,12 @@ def highest(actions: int) -> tuple[float, float]:
     return tuple(float(each[actions - 1]) for each in highest_estimates())
 
 
-def too_high() -> float:
-    """What nine actions, each worth 0, seem to be worth to softmax(Q), if each Q errs by 1: a mean of 4,000 states."""
-    q = np.random.default_rng(0).normal(size=(4000, 9))
+def too_high(critics: int = 1) -> float:
+    """What nine actions, each worth 0, seem to be worth to softmax(Q), if each Q errs by 1: a mean of 4,000 states.
+
+    critics: 1, or 2 of which the smaller estimate counts.
+    """
+    q = np.random.default_rng(0).normal(size=(4000, critics, 9)).min(axis=1)
     return float((np.exp(q) * q).sum(axis=1) @ (1 / np.exp(q).sum(axis=1)) / len(q))
 
 
@@ -38,9 +43,9 @@ def wished() -> float:
     return float(descended(lambda log_pi, q, alpha: -sac.soft_value(log_pi, q, alpha).mean()).q[1])
 
 
-def soft_q(alpha: float) -> np.ndarray:
+def soft_q(alpha: float, value: Callable = sac.soft_value) -> np.ndarray:
     """Q of the chain of lesson [[values]] after 40 sweeps of the soft Bellman equation: (5, 2)."""
-    return soft_sweeps(sac.soft_value, sac.critic_target, alpha).numpy()
+    return soft_sweeps(value, sac.critic_target, alpha).numpy()
 
 
 def leave(alpha: float) -> float:
@@ -59,6 +64,16 @@ def constant(decisions: int = 1000) -> Walked:
 def falling(decisions: int = 1000, value: Callable = sac.soft_value) -> Walked:
     """Learners whose α falls by equal factors from 10 to 0.01. value: V(s) in their target, see `unpaid`."""
     return walked(value, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, decisions))[:, None])
+
+
+@cache
+def others() -> np.ndarray:
+    """How many of four more sets of such learners, which draw other numbers, are sure of leaving in the end."""
+    alphas = torch.tensor(np.geomspace(10, 0.01, 1000))[:, None]
+    return np.array([sure(walked(sac.soft_value, sac.critic_target, alphas, seed))[0] for seed in range(1, 5)])
+
+
+LESS = less_paid(sac.soft_value)  # V(s) with the pay α (H − log 2)
 
 
 @cache

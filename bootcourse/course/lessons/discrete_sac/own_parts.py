@@ -2,6 +2,7 @@
 [[values]]. Neither is a whole SAC: there is no replay buffer, and no network.
 """
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -74,14 +75,19 @@ def unpaid(log_pi: Tensor, q: Tensor, alpha: Tensor) -> Tensor:
     return (log_pi.exp() * q).sum(-1)
 
 
-def walked(value: Callable, target: Callable, alphas: Tensor) -> Walked:
+def less_paid(value: Callable) -> Callable:
+    """V(s) with the pay α (H − log 2), never above 0 for two actions. value: `soft_value`, a student's or ours."""
+    return lambda log_pi, q, alpha: value(log_pi, q, alpha) - alpha * math.log(2)
+
+
+def walked(value: Callable, target: Callable, alphas: Tensor, seed: int = 0) -> Walked:
     """Learners that act by softmax(Q / α) and move Q to the soft target; alphas: (decisions, kinds).
 
-    All kinds draw the same numbers.
+    All kinds draw the same numbers. seed: of these.
     """
     decisions, kinds = alphas.shape
     reward, following = torch.tensor(chain.REWARD), torch.tensor(chain.NEXT)
-    drawn = torch.tensor(np.random.default_rng(0).random((decisions, LEARNERS))).repeat(1, kinds)
+    drawn = torch.tensor(np.random.default_rng(seed).random((decisions, LEARNERS))).repeat(1, kinds)
     alphas, one = alphas.repeat_interleave(LEARNERS, dim=1)[..., None], torch.ones((), dtype=torch.float64)
     each, goes_on = torch.arange(kinds * LEARNERS), torch.zeros(kinds * LEARNERS)
     q, walks = torch.zeros(len(each), *reward.shape, dtype=torch.float64), torch.zeros_like(each)

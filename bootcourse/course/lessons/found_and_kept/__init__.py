@@ -1,3 +1,3 @@
-"""You will count who finds the way out and who keeps it, see what an aid that never ends costs, compute how likely a
-table of single agents is.
+"""You will tell who finds the way out from who keeps it, see what a way out is worth while an agent learns, compute how
+likely a table of single agents is.
 """

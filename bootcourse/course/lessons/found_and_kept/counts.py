@@ -1,4 +1,4 @@
-"""For the lesson: the paper's rows beside ours, and the agents of round 3."""
+"""For the lesson: the paper's rows beside ours, and the agents of round 4."""
 
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.methods import display_name
@@ -9,6 +9,8 @@ from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
 
 BOTH_TABLES = ["", "the paper's success", "the paper's return", "our agents that escape", "our return"]
+DRIVERS = ["demonstrations by", "¼ update for a decision, on four roads", "2 updates, on one road"]
+SYMBOLS = {"the rule": "μ", "the stochastic rule": "π̃"}
 
 
 def printed() -> dict[str, float]:
@@ -24,10 +26,19 @@ def both_tables(study: Results) -> list[list[str]]:
 
 
 def by_updates(driver: str) -> dict[str, Results]:
-    """The four methods' agents of round 3 whose demonstrations this driver gave: {updates for a decision: results}.
+    """The four methods' agents of round 4 whose demonstrations this driver gave: {updates for a decision: results}.
 
     driver: "the rule" or "the stochastic rule".
     """
-    symbol = {"the rule": "μ", "the stochastic rule": "π̃"}[driver]
     settings = clocks.choices(shipped_experiment("clocks")).items()
-    return {updates: agents for (updates, by), agents in settings if by == symbol}
+    return {updates: agents for (updates, by), agents in settings if by == SYMBOLS[driver]}
+
+
+def kept_alone() -> list[list[str]]:
+    """A row for each driver, below `DRIVERS`: how many agents with demonstrations alone keep the way out."""
+
+    def cell(agents: Results) -> str:
+        kept = agents.found_and_kept("demos")[1]
+        return f"{kept.sum()} of {len(kept)}"
+
+    return [[driver, *(cell(by_updates(driver)[updates]) for updates in ("1/4", "2"))] for driver in SYMBOLS]

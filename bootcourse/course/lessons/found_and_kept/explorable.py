@@ -1,22 +1,81 @@
-"""To drag in this lesson: when a way out counts as lost, in four groups of agents: β ends or never does, with the bonus
-or without.
+"""To drag in this lesson: one agent's training; and when a way out counts as lost, in four groups of agents: β ends or
+never does, with the bonus or without.
 """
 
 import numpy as np
 
 from bootcourse.colours import INK, QUIET
 from bootcourse.course import own_code
+from bootcourse.course.lessons.found_and_kept import ways
 from bootcourse.course.shipped import shipped_experiment, shipped_results
+from bootcourse.episodes.record import record
 from bootcourse.methods import style
 from bootcourse.panels.explorable import WIDTH, Explorable
 from bootcourse.panels.number import Number, whole_number
+from bootcourse.plots.road import draw_cars, draw_road, edges_of
 from bootcourse.plots.svg import Drawing, SvgAxes, drawing, line, rect, text, ticks
+from bootcourse.policies import idle_policy
 from bootcourse.research.results import Results
+from bootcourse.road.state import TRAP_1, X
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import HAD, IN_A_ROW, LOST, rolling_means
 
-LEFT, RIGHT, TOP = 124, 536, 84  # pixels: of the bars
+BACK, FRONT = -45.0, 45.0  # m: of the road behind and before trap 1 that is drawn
+SEEN_FIRST = 700  # the training episode with which the picture of one agent's training begins
+TALL_M = DEFAULT.road.lanes * DEFAULT.road.lane_width  # m: the road's width
+LEFT, RIGHT, TOP = 124, 470, 84  # pixels: of the bars
 ROW, TALL, APART = 7, 70, 24  # pixels: a row, a group, the space between two groups
-LOSE, KEEP, EARN = 572, 652, 722  # pixels: the middles of the three columns at the right
+LOSE, KEEP, EARN, CRASH = 510, 582, 652, 718  # pixels: the middles of the four columns at the right
+
+
+def training() -> Explorable:
+    """One agent with demonstrations alone while it learns: its drive beside trap 1, and how often it gets ahead."""
+    agents = shipped_experiment("ways")["demos"]
+    which = int(np.flatnonzero(ways.losers(agents))[0])  # the first that found the way out and ends behind
+    notes, success = {name: each[which] for name, each in agents.notes.items()}, agents.curves["success"][which]
+    at, (share,) = rolling_means(100 * success, IN_A_ROW, len(success))
+    colour, end = style("demos").colour, agents.agents[which]["beta_episodes"]
+    start = record(idle_policy, [ways.SHOWN])[0].states[0]
+    start = start - np.eye(1, start.shape[1], X) * start[TRAP_1, X]  # x counts from trap 1
+
+    def draw(episode: float) -> Drawing:
+        look = round(episode / ways.EVERY)
+        road = SvgAxes(
+            20, 60, WIDTH - 40, (WIDTH - 40) * TALL_M / (FRONT - BACK), (BACK, FRONT), edges_of(DEFAULT.road)[::-1]
+        )
+        draw_road(road, DEFAULT, BACK, FRONT)
+        draw_cars(road, start, DEFAULT, colour, BACK, FRONT, 0.0)
+        ends = _path(road, notes["way"][look], colour)
+        chart = SvgAxes(52, 214, WIDTH - 72, 100, (0.0, float(len(success))), (0.0, 100.0))
+        chart.frame(f"% of the last {IN_A_ROW} training episodes ahead of trap 1", "training episode", rows=2)
+        chart.line(at, share, colour, 1.5)
+        chart.line([end, end], [0, 100], INK, 0.8, "--")
+        chart.words(end + 20, 88, "no demonstrations from here on", QUIET)
+        chart.line([episode, episode], [0, 100], INK, 1.5)
+        ahead = 100 * notes["success"][look]
+        says = f"After {notes['episode'][look]:,.0f} episodes: ahead of trap 1 on {ahead:.0f} % of {ways.ROADS} roads."
+        words = f"the first {ways.SECONDS} s of one drive, seen from trap 1; a dot a second, until {ends}"
+        parts = [text(4, 20, says, size=14, bold=True), text(20, 48, words, fill=QUIET, size=11.5)]
+        return drawing(WIDTH, 356, parts + road.parts + chart.parts, f"{says} The drive shown goes on until {ends}.")
+
+    number = Number("training episode", SEEN_FIRST, 0, len(success), ways.EVERY, "How far the agent has learned.")
+    return Explorable("One agent with demonstrations alone, while it learns", draw, episode=number)
+
+
+def _path(road: SvgAxes, way: np.ndarray, colour: str) -> str:
+    """Draw a way beside trap 1, (seconds, 2); returns where it ends, in words."""
+    driven = way[np.isfinite(way[:, 0])]
+    inside = np.flatnonzero((driven[:, 0] < BACK) | (driven[:, 0] > FRONT))
+    shown = driven[: inside[0] if len(inside) else len(driven)]
+    road.line(*shown.T, colour, 1.4)
+    for x, y in shown:
+        road.dot(x, y, colour)
+    if len(shown) < len(driven):
+        return "it is 45 m ahead" if driven[len(shown), 0] > 0 else "it is 45 m behind"
+    if len(driven) == len(way):
+        return f"second {len(way) - 1}"
+    road.words(*shown[-1], "×", INK, "middle", 16)
+    return f"its accident in second {len(driven) - 1}"
 
 
 def groups() -> dict[str, Results]:
@@ -32,7 +91,7 @@ def groups() -> dict[str, Results]:
 
 
 def losing() -> Explorable:
-    """When each agent has the way out; how many lose it, by a limit; who escapes in the test, and what these earn.
+    """When each agent has the way out; how many lose it, by a limit; and how the ten drive in the test.
 
     Who loses it is counted by the student's `ever_lost`, if it passed its check.
     """
@@ -43,18 +102,20 @@ def losing() -> Explorable:
     for tick in ticks(0, episodes, 4):
         across, _ = axes.at(tick, 0)
         still += [line(across, TOP, across, bottom + 3), text(across, bottom + 15, f"{tick:,.0f}", "middle", QUIET, 11)]
-    columns = (LOSE, "lose it at", "least once"), (KEEP, "escape", "in the test"), (EARN, "and then", "earn")
+    columns = (LOSE, "lose it at", "least once"), (KEEP, "escape in", "the test"), (EARN, "all ten", "earn")
+    columns += ((CRASH, "drives with", "accident"),)
     for x, *words in columns:
         still += [text(x, TOP - 38 + 16 * i, word, "middle", bold=True) for i, word in enumerate(words)]
 
     kept, ends = {}, {}
     for place, (words, results) in enumerate(shown.items()):
         keep = results.found_and_kept("bootstrapped")[1]
-        earned = f"{results.scores('returns')[keep].mean():.0f}"
-        kept[words] = f"{keep.sum()} escape in the test, their return {earned}"
+        earned, crash = (results.scores(each).mean() for each in ("returns", "accident"))
+        kept[words] = f"{keep.sum()} escape in the test; all ten earn {earned:.0f}, {100 * crash:.0f} % accidents"
         top = TOP + place * (TALL + APART)
-        still += _named(words, top) + [text(KEEP, _middle(top), f"{keep.sum()} of {len(keep)}", "middle")]
-        still.append(text(EARN, _middle(top), earned, "middle"))
+        still += _named(words, top)
+        row = {KEEP: f"{keep.sum()} of {len(keep)}", EARN: f"{earned:.0f}", CRASH: f"{100 * crash:.0f} %"}
+        still += [text(x, _middle(top), cell, "middle") for x, cell in row.items()]
         ends[words] = _end_of_beta(axes, top, results)  # over the bars
 
     def draw(limit: float) -> Drawing:

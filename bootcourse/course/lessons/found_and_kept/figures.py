@@ -1,5 +1,5 @@
-"""Figures of the lesson on finding and keeping: one agent's success, who found and kept the way out, and how often
-single agents drive as the paper's.
+"""Figures of the lesson on finding and keeping: who found and kept the way out, what it is worth in training, and how
+often single agents drive as the paper's.
 """
 
 from collections.abc import Mapping
@@ -7,39 +7,41 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.course.charts import lines
+from bootcourse.course.lessons.found_and_kept import ways
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.cells import VARIED
 from bootcourse.research.experiments import clocks
 from bootcourse.research.results import Results
-from bootcourse.statistics import IN_A_ROW, rolling_means
 
 DRAWN_FROM = "2"  # the updates for a decision of the agents that the lesson shows
 
 
-def one_agent(results: Results, which: int, title: str) -> Figure:
-    """Training of one agent of one method: how often it is ahead, its first and last good window, and β's end."""
-    success, end = results.curves["success"][which], results.agents[which]["beta_episodes"]
-    at, (share,) = rolling_means(100 * success, IN_A_ROW, len(success))
-    look = style(results.methods[0])._replace(line="-")
-    words = f"% of the last {IN_A_ROW} episodes"
-    figure = lines(at, {"ahead of trap 1": share}, title, "training episode", words, looks=[look])
-    ax, good = figure.axes[0], np.flatnonzero(share > 50)
-    ax.axvline(end, color=INK, linewidth=1.1, linestyle=(0, (4, 3)), zorder=1)
-    ax.text(end + 25, 90, f"no demonstrations\nafter {end:,}", fontsize=TEXT, color=QUIET, va="center")
-    for place, words, away, side in ((good[0], "found", (8, 9), "left"), (good[-1], "last had it", (-8, -9), "right")):
-        ax.plot(at[place], share[place], "o", color=INK, ms=6, zorder=5)
-        ax.annotate(
-            f"{words}: {at[place]:,.0f}", (at[place], share[place]), away, ha=side, va="center",
-            textcoords="offset points", fontsize=TEXT, color=INK, zorder=4,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1},
-        )  # fmt: skip
-    figure.alt += (
-        f" More than half of a window for the first time at {at[good[0]]:.0f}, the last at {at[good[-1]]:.0f}. A dashed"
-        f" line at {end:,}: no demonstrations after it."
-    )
-    return figure
+def worths(agents: Results, title: str) -> Figure:
+    """What each agent's drives are worth to it while it learns, thick where it gets ahead on most roads."""
+    episode, worth, ahead = (agents.notes[name] for name in ("episode", "worth", "success"))
+    staying, look = ways.staying(agents.agents[0]["gamma"]), style(agents.methods[0])
+    figure = new_figure(3.75)
+    ax = axes_at(figure, 0.55, 0.8, 5.1, 2.05)
+    plain_axes(ax, "worth of a drive at γ = 0.8, without the bonus (mean of 20 roads)")
+    for at, each, share in zip(episode, worth, ahead, strict=True):
+        ax.plot(at, each, color=QUIET, linewidth=0.5, alpha=0.5, zorder=1)
+        ax.plot(at, np.where(share > 0.5, each, np.nan), "-", color=look.colour, linewidth=1.7, alpha=0.85, zorder=2)
+    ax.axhline(staying, color=INK, linewidth=1.1, linestyle=(0, (4, 3)), zorder=3)
+    words, beside = f"staying behind:\n{staying:.2f}", ax.get_yaxis_transform()
+    ax.text(1.01, staying, words, transform=beside, fontsize=TEXT, color=INK, va="center")
+    if (end := agents.agents[0]["beta_episodes"]) is not None:
+        ax.axvline(end, color=QUIET, linewidth=1.1, linestyle=(0, (1, 2)), zorder=1)
+        ax.text(end + 15, 1.84, "no demonstrations from here on", fontsize=TEXT, color=QUIET, va="center")
+    ax.set(xlim=(0, episode.max()), ylim=(0, 1.9))
+    ax.set_xlabel("training episode", fontsize=TEXT, color=INK)
+    key = "thick: gets ahead on most roads; thin grey: does not (worth below 0, after accidents, is cut)"
+    figure.text(0.012, 0.12 / figure.get_figheight(), key, fontsize=TEXT, color=QUIET)
+    alt = ""
+    for look in (ways.BEFORE, ways.EPISODES):
+        each = ", ".join(f"{one:.2f}" for one in np.sort(ways.out(agents, look)))
+        alt += f"At episode {look:,} the ways out of those that get ahead on most roads are worth {each}. "
+    return finish(figure, title, f"{alt}Staying behind is worth {staying:.2f}.")
 
 
 def found_and_kept(results: Results, printed: Mapping[str, float] | None = None) -> Figure:
@@ -91,7 +93,9 @@ def chances(cells: Mapping[str, Results], counted: Mapping[str, float]) -> Figur
     values = [100 * counted[each] for each in updates]
     bars = [[100 * part for part in clocks.pattern(cells[each])[1:]] for each in updates]
     ax.vlines(at, *np.transpose(bars), color=colour, linewidth=2, alpha=0.5)
-    ax.plot(at, values, "o", ms=7, color=colour, zorder=3)
+    for place, (each, value) in enumerate(zip(updates, values, strict=True)):
+        few = min(len(cells[each].of(method)) for method in VARIED) < 10
+        ax.plot(place, value, "o", ms=7, mfc="white" if few else colour, mec=colour, mew=1.6, zorder=3)
     for place, (each, value) in enumerate(zip(updates, values, strict=True)):
         bold = "bold" if each == DRAWN_FROM else "normal"
         ax.text(place + 0.08, value, f"{value:.0f} %", fontsize=TEXT, fontweight=bold, color=INK, va="center")
@@ -104,8 +108,14 @@ def chances(cells: Mapping[str, Results], counted: Mapping[str, float]) -> Figur
         ax.text(x, 98, words, fontsize=TEXT, color=QUIET, ha=side, va="top")
     ax.set(xlim=(-0.5, len(updates) - 0.5), ylim=(0, 100))
     ax.set_xticks(at, [each.replace("1/4", "¼") for each in updates], fontsize=TEXT, color=INK)
-    ax.set_xlabel("updates for a decision; grey: agents of each method", fontsize=TEXT, color=INK, labelpad=20)
-    few, many = (f"{each(values):.0f}" for each in (min, max))
-    title = f"The paper's four rates come in {few} to {many} % of the draws"
+    ax.set_xlabel(
+        "updates for a decision; below: agents of each method (empty dot: fewer than ten)",
+        fontsize=TEXT,
+        color=INK,
+        labelpad=20,
+    )
+    title = f"With {DRAWN_FROM} updates {counted[DRAWN_FROM]:.0%} of the draws give the paper's rates".replace(
+        "%", " %"
+    )
     chance = "; ".join(f"{u} {v:.0f} % [{a:.0f}, {b:.0f}]" for u, v, (a, b) in zip(updates, values, bars, strict=True))
     return finish(figure, title, f"For each number of updates, chance [95 %]: {chance}.")

@@ -6,22 +6,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bootcourse.course.lessons.found_and_kept import counts
+from bootcourse.course.lessons.found_and_kept import counts, ways
 from bootcourse.course.lessons.found_and_kept.explorable import groups
-from bootcourse.course.shipped import shipped_agents
-from bootcourse.episodes.record import record
-from bootcourse.episodes.rollout import Rollout
 from bootcourse.research.cells import VARIED
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.paper import paper_interval
 from bootcourse.research.results import Results
 from bootcourse.research.tables import markdown
-from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, Estimate, lost  # noqa: F401 (for the text)
-from tools.course.known import SETTINGS, clocks, in_training, others, pattern, shipped_experiment, shipped_results
+from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, Estimate, found_after, lost  # noqa: F401 (for the text)
+from tools.course.known import SETTINGS, clocks, others, pattern, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
 STUDY = shipped_results().curves["success"].shape[1]  # training episodes of the study's agents
-SHORTER = study_clocks.TRAINED  # training episodes of the agents of round 3
+SHORTER = study_clocks.TRAINED  # training episodes of the agents of round 4
 ENDS = SETTINGS.beta_episodes  # the episode from which on β is 0
 
 
@@ -52,7 +49,7 @@ def way(results: Results, method: str) -> Counted:
 
 @cache
 def group(words: str) -> Group:
-    """Of round 2: see `groups`; or of the ten others: "others: never", "others: ends"."""
+    """Of round 3: see `groups`; or of the ten others: "others: never", "others: ends"."""
     if words.startswith("others: "):
         cell = {"ends": "", "never": ", β for ever"}[words.removeprefix("others: ")]
         agents = shipped_experiment("stress")[f"bootstrapped{cell}"]
@@ -82,7 +79,7 @@ def others_read() -> float:
 
 @cache
 def given(driver: str) -> list[Estimate]:
-    """How often single agents give the paper's four rates, in each setting of round 3 with this driver."""
+    """How often single agents give the paper's four rates, in each setting of round 4 with this driver."""
     return [pattern(agents) for agents in counts.by_updates(driver).values()]
 
 
@@ -91,20 +88,27 @@ def endless_demonstrations() -> Results:
     return shipped_experiment("ablations")["β for ever"].of("demos")
 
 
+def given_in_words(driver: str) -> str:
+    """`given`, as "3, 11 and 16 %"."""
+    *some, last = (f"{100 * each.value:.0f}" for each in given(driver))
+    return f"{', '.join(some)} and {last} %"
+
+
 def explanations() -> str:
     """What could explain the paper's table, and what was seen of it, as Markdown."""
     ours, lasting = way(of_all(), "demos"), way(endless_demonstrations(), "demos")
+    ten, never = way(others("demos"), "demos"), way(shipped_experiment("stress")["demos, β for ever"], "demos")
     rows = [
         ["1. agents lose the way out",
-         f"Round 2: with demonstrations alone {ours.kept or 'none'} of 10 agents keeps it if β ends, "
-         f"{lasting.kept} keep it if β never ends",
-         "possible for 'demonstrations only', if the paper's β never reached 0"],
+         f"with demonstrations alone {ours.kept} of 10 agents keep it if β ends, {lasting.kept} if β never ends; of "
+         f"ten others {ten.kept} and {never.kept}",
+         "an endless β helps, but is not needed: in Round 4 all ten keep the way out although β ends"],
         ["2. single agents",
          f"one agent drawn from each row of Round 1 gives the four rates in {100 * pattern(of_all()).value:.0f} % of "
          f"the draws; from the ten others of each method, in {100 * others_read():.0f} %",
          "seldom, taken alone"],
         ["3. another training",
-         f"Round 3: in the setting shown they come in {100 * pattern(clocks()['2', 'π̃']).value:.0f} %",
+         f"with 2 updates and the stochastic rule they come in {100 * pattern(clocks()['2', 'π̃']).value:.0f} %",
          "possible for the rates, together with 2"],
         ["4. other traffic", "not tested", "*open*"],
     ]  # fmt: skip
@@ -117,7 +121,7 @@ def returns_with_demonstrations() -> str:
     for words, method in {"alone": "demos", "with both aids": "bootstrapped"}.items():
         paper = paper_interval(method, "returns")
         lowest = [least_earned(method, lasting) for lasting in (False, True)]
-        cells = [f"{'✓ ' if paper.low < each < paper.high else ''}{each:.0f}" for each in lowest]
+        cells = [f"{each:.0f}{' (inside)' if paper.low < each < paper.high else ''}" for each in lowest]
         rows.append([words, f"{paper.low:.0f} to {paper.high:.0f}", *cells])
     heads = ["demonstrations", "the paper's interval over 20 drives", "our lowest: β ends", "our lowest: β never ends"]
     return markdown(heads, rows)
@@ -126,7 +130,7 @@ def returns_with_demonstrations() -> str:
 def least_earned(method: str, lasting: bool) -> float:
     """The lowest return of a method's agent that escapes, of the lesson's sources; lasting: β never ends.
 
-    Of the study, of round 3, of the ablations (round 2 has some), and of the ten others.
+    Of the study, of round 4, of the ablations (round 3 has some), and of the ten others.
     """
     trained = [of_all(), *clocks().values(), *shipped_experiment("ablations").values()]
     trained += shipped_experiment("stress").values()  # the ten others
@@ -135,7 +139,44 @@ def least_earned(method: str, lasting: bool) -> float:
     return float(min(each.scores("returns")[each.scores("success") >= ESCAPES].min(initial=np.inf) for each in chosen))
 
 
-def of_the_agent_shown() -> Rollout:
-    """The first drive of the lesson: of an agent with demonstrations alone, after its training."""
-    best = int(in_training("demos", 700, 900).argmax())
-    return record(shipped_agents("demos")[best].as_policy(), [10])[0]
+@cache
+def watched(cell: str) -> Results:
+    """The agents of round 2 that were looked at in training."""
+    return shipped_experiment("ways")[cell]
+
+
+def stays() -> float:
+    """The worth of staying behind trap 1."""
+    return ways.staying(SETTINGS.gamma)
+
+
+def before(cell: str) -> np.ndarray:
+    """The worths of the ways out, just before β ends."""
+    return ways.out(watched(cell), ways.BEFORE)
+
+
+def _shown() -> int:
+    """Which of the agents is the first picture's."""
+    return int(np.flatnonzero(ways.losers(watched("demos")))[0])
+
+
+def first_had() -> int:
+    """The training episode after which the agent of the first picture had found the way out."""
+    return int(found_after(watched("demos").curves["success"])[_shown()])
+
+
+def gone() -> int:
+    """The look from which on it is behind trap 1 on most roads."""
+    ahead = watched("demos").notes["success"][_shown()] > 0.5
+    return int(np.flatnonzero(ahead)[-1] + 1) * ways.EVERY
+
+
+def reads(method: str) -> float:
+    """The chance that one agent of a method, of round 4's setting, reads as the paper's row."""
+    agents = clocks()["2", "π̃"].of(method)
+    return float(study_clocks.as_printed(agents.scores("success"), method).mean())
+
+
+def of_both(words: str, measure: str) -> float:
+    """The mean score of a group of round 3."""
+    return float(groups()[words].scores(measure).mean())

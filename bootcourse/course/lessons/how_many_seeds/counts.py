@@ -1,13 +1,16 @@
 """Computed for the lesson: two groups of an ablation, and comparisons in which nothing was changed."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from bootcourse.statistics import Estimate, all_resamples, bracketed, iqm
+from bootcourse.research.results import Results
+from bootcourse.statistics import Estimate, all_resamples, bracketed, difference, iqm
 
 ABLATION = ["success, %", "IQM", "the agents, sorted"]
 RESAMPLES = 10_000
+STUDIES, RESOLUTION = 100, 400  # comparisons that are shown; so many are drawn for each
+FIVE = 5  # agents of a group where nothing was changed
 
 
 def ablation(success: dict[str, np.ndarray], interval_of: Callable) -> tuple[list[list[str]], str]:
@@ -17,12 +20,17 @@ def ablation(success: dict[str, np.ndarray], interval_of: Callable) -> tuple[lis
     """
     groups = {name: 100 * np.sort(group) for name, group in success.items()}
     rows = [[name, f"{iqm(each):.0f}", ", ".join(f"{one:.0f}" for one in each)] for name, each in groups.items()]
-    unchanged, changed = groups.values()
-    rng = np.random.default_rng(0)
-    draws = [rng.integers(len(each), size=(RESAMPLES, len(each))) for each in (changed, unchanged)]
-    effect = Estimate(*map(float, interval_of(changed, unchanged, *draws)))
+    effect = effect_of(success, interval_of)
     says = "leaves out 0" if leaves_out_0(effect) else "contains 0"
     return rows, f"Changed less unchanged: {bracketed(effect)} points. The interval {says}."
+
+
+def effect_of(success: Mapping[str, np.ndarray], interval_of: Callable) -> Estimate:
+    """Changed less unchanged, in points: of two groups, the unchanged first."""
+    unchanged, changed = (100 * np.sort(group) for group in success.values())
+    rng = np.random.default_rng(0)
+    draws = [rng.integers(len(each), size=(RESAMPLES, len(each))) for each in (changed, unchanged)]
+    return Estimate(*map(float, interval_of(changed, unchanged, *draws)))
 
 
 def leaves_out_0(effect: Estimate) -> bool:
@@ -39,8 +47,17 @@ def exact_difference(x: np.ndarray, y: np.ndarray) -> Estimate:
     return Estimate(float(iqm(x) - iqm(y)), *map(float, resampled[order[[below, -1 - above]]]))
 
 
-def random_halves(scores: np.ndarray, times: int = 20) -> list[Estimate]:
-    """One half of the scores less the other, split so many times at random, the lowest difference first."""
-    rng = np.random.default_rng(0)
-    splits = (np.split(rng.permutation(scores), 2) for _ in range(times))
-    return sorted(exact_difference(x, y) for x, y in splits)
+def drawn_twice(scores: np.ndarray) -> list[Estimate]:
+    """Five of the scores less five others, both drawn with replacement: comparisons, the lowest difference first.
+
+    Of many comparisons in the order of their differences each 400th is taken, so that these stand for all.
+    """
+    groups = scores[np.random.default_rng(1).integers(len(scores), size=(STUDIES * RESOLUTION, 2, FIVE))]
+    apart = iqm(groups[:, 0]) - iqm(groups[:, 1])
+    return [exact_difference(x, y) for x, y in groups[np.argsort(apart)][RESOLUTION // 2 :: RESOLUTION]]
+
+
+def of_new_agents(new: Mapping[str, Results], agents: int) -> Estimate:
+    """Success (%) of the first so many agents of the experiment `new_agents`: changed less unchanged."""
+    changed, unchanged = (100 * new[group].measured["success"][:agents] for group in ("changed", "as it is"))
+    return difference(changed, unchanged)

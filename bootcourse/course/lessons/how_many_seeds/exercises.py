@@ -34,7 +34,7 @@ def power_cases(rng):
         "`scipy.stats.binom.pmf(np.arange(n + 1), n, rate)` has the chance of each count 0 to n. n follows from the "
         "table's shape: it has n + 1 rows.",
         "`np.outer(k, j)` has the chance of each pair of counts, in the order of the table. Add up those where the "
-        "table says True.",
+        "table says True, in either direction.",
     ),
     mistakes={
         "np.sum(np.outer(k, j)[shown]) -> np.mean(shown)":

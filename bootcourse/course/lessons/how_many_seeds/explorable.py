@@ -46,7 +46,8 @@ def certainty() -> Explorable:
         for count in ticks(0, n, 10):
             counts.parts.append(text(counts.at(count, 0)[0], 191, f"{count:g}", "middle", QUIET, 10.5))
         below = SvgAxes(52, 232, 690, 120, (0.0, 100.0), (0.0, DRAWN))
-        heading = f"% of studies, at each true rate; shaded: believable, both over {RARE:g} %"
+        heading = f"% of studies with {k} or more (left), {k} or fewer (right; cut at {DRAWN:g}); "
+        heading += f"shaded: both over {RARE:g} %"
         below.scale(heading, 4)
         below.fill([low, high, high, low], [0, 0, DRAWN, DRAWN], colour, 0.15)
         below.line([0, 100], [RARE, RARE], INK, 1, "--")
@@ -108,7 +109,7 @@ def studies() -> Explorable:
             disc(354, 182, 8),
             text(370, 186, f"{100 - found} of 100: the test misses it", bold=True),
             rect(346, 206, 16, 16, colour, 'opacity="0.18"'),
-            text(370, 218, "the counts that the test tells apart (p < 0.05)"),
+            text(370, 218, "the counts that the test tells apart, either way (p < 0.05)"),
         ]
         return drawing(WIDTH, 332, [*board.parts, *words], says)
 

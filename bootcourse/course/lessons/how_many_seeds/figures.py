@@ -1,6 +1,6 @@
-"""The figures of the lesson on seeds: each agent's success, and comparisons in which nothing was changed."""
+"""The figures of the lesson on seeds: each agent's success, comparisons without a change, and new agents."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -9,7 +9,7 @@ from bootcourse.colours import INK
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.how_many_seeds import counts
 from bootcourse.methods import display_name, style
-from bootcourse.plots.figure import GRID, QUIET, SMALL, axes_at, finish, new_figure, plain_axes
+from bootcourse.plots.figure import GRID, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
 from bootcourse.statistics import ESCAPES, bracketed
@@ -41,19 +41,42 @@ def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
 
 
 def nothing_changed(results: Results) -> Figure:
-    """The bootstrapped agents split in half many times: each difference of the two IQMs, with its interval."""
-    effects = counts.random_halves(results.of("bootstrapped").scores("returns"))
+    """Five of the bootstrapped agents less five, drawn often: each difference of the two IQMs, with its interval."""
+    effects = counts.drawn_twice(results.of("bootstrapped").scores("returns"))
     wrong = [counts.leaves_out_0(effect) for effect in effects]
-    figure = new_figure(3.1)
-    ax = axes_at(figure, 0.5, 0.75, 6.3, 2.0)
+    figure = new_figure(3.5)
+    ax = axes_at(figure, 0.5, 0.75, 6.3, 2.4)
     plain_axes(ax, "difference of the two IQMs of the return, with its 95 % interval; coloured: leaves out 0")
-    ax.axhline(0, color=INK, linewidth=1.2)
+    ax.axhline(0, color=INK, linewidth=1.2, zorder=4)
     for place, (effect, apart) in enumerate(zip(effects, wrong, strict=True)):
-        colour = style("bootstrapped").colour if apart else QUIET
-        ax.plot([place] * 2, [effect.low, effect.high], color=colour, linewidth=2.5 if apart else 1.2,
-                solid_capstyle="butt")  # fmt: skip
-        ax.plot(place, effect.value, "o", color=colour, markersize=5)
+        colour = style("bootstrapped").colour if apart else "#B8BEC6"
+        ax.plot([place] * 2, [effect.low, effect.high], color=colour, linewidth=2.5, solid_capstyle="butt", zorder=2)
+        ax.plot(place, effect.value, "o", color=colour, markeredgecolor=INK, markeredgewidth=0.4, markersize=3.5)
+    first = wrong.index(True)
+    ax.text(first + 1.2, effects[first].low - 2, bracketed(effects[first]).replace("-", "−"), fontsize=TEXT,
+            color=style("bootstrapped").colour, va="top")  # fmt: skip
+    ax.set_ylim(-165, 150)
     ax.set_xticks([])
     ax.set_xlabel(f"{len(effects)} comparisons, in the order of their differences", fontsize=SMALL, color=INK)
     title = f"Nothing was changed, but in {sum(wrong)} of {len(effects)} comparisons the interval leaves out 0"
-    return finish(figure, title, f"In order: {'; '.join(map(bracketed, effects))}.")
+    out = [bracketed(effect) for effect, apart in zip(effects, wrong, strict=True) if apart]
+    return finish(figure, title, f"Those that leave out 0: {'; '.join(out)}.")
+
+
+def new_agents(new: Mapping[str, Results], success: Mapping[str, np.ndarray], interval_of: Callable) -> Figure:
+    """The student's difference of two groups, and that of 5, 10, 20 and 40 new agents of each: with intervals."""
+    sizes = [5, 10, 20, len(new["changed"])]
+    effects = [counts.effect_of(success, interval_of), *(counts.of_new_agents(new, each) for each in sizes)]
+    names = [f"yours: {len(success['changed'])} of each", *(f"new: {each} of each" for each in sizes)]
+    figure = new_figure(2.9)
+    ax = axes_at(figure, 1.25, 0.45, 4.6, 1.9)
+    ax.axvline(0, color=INK, linewidth=1.2, zorder=1)
+    for row, effect in enumerate(effects):
+        colour = style("bootstrapped").colour if row else QUIET
+        ax.plot([effect.low, effect.high], [row] * 2, color=colour, linewidth=3, solid_capstyle="butt")
+        ax.plot(effect.value, row, "o", color=colour, markersize=7)
+        beside(ax, row, bracketed(effect).replace("-", "−"))
+    name_rows(ax, names, "success: changed less unchanged, in points (IQM, 95 % interval); new: without the bonus")
+    title = f"{sizes[-1]} agents of each group leave no room for a large difference"
+    said = "; ".join(f"{name}, {bracketed(effect)}" for name, effect in zip(names, effects, strict=True))
+    return finish(figure, title, f"Differences: {said}.")

@@ -2,14 +2,14 @@
 
 from collections import Counter
 from functools import cache
-from itertools import combinations, combinations_with_replacement
+from itertools import combinations_with_replacement
 from math import factorial, prod
 
 import numpy as np
 
 from bootcourse.course.lessons.how_many_seeds import counts, explorable  # noqa: F401 (for the expressions)
-from bootcourse.statistics import Estimate, interval, power, rate  # noqa: F401 (the text names rate)
-from tools.course.known import of
+from bootcourse.statistics import Estimate, all_resamples, bracketed, interval, iqm, power, rate  # noqa: F401
+from tools.course.known import of, shipped_experiment
 
 
 def fitting(mean: float, sd: float) -> list[tuple[int, int]]:
@@ -36,16 +36,36 @@ def held(method: str, seeds: int) -> float:
     return share
 
 
-def halves() -> list[Estimate]:
-    """What the figure of random halves shows, the lowest difference first."""
-    return counts.random_halves(of("bootstrapped").scores("returns"))
+@cache
+def twice() -> list[Estimate]:
+    """What the figure without a change shows, the lowest difference first."""
+    return counts.drawn_twice(of("bootstrapped").scores("returns"))
 
 
 @cache
 def leaves_out_0_by_luck() -> float:
-    """In which share of all splits of our ten bootstrapped agents, five against five, the interval leaves out 0."""
+    """How often five of our ten bootstrapped agents less five, both drawn with replacement, leave out 0: exactly.
+
+    The IQM of five is the mean of three: of 220 values that it can have in a resample, each group has the chances.
+    """
     returns = of("bootstrapped").scores("returns")
-    splits = [list(half) for half in combinations(range(10), 5)]
-    return float(
-        np.mean([counts.leaves_out_0(counts.exact_difference(returns[x], np.delete(returns, x))) for x in splits])
-    )
+    groups, chances = all_draws(len(returns))
+    rows, ways = all_resamples(*[1] * counts.FIVE)
+    values, which = np.unique(iqm(returns[groups[:, rows]]).round(9), return_inverse=True)
+    which = which.reshape(len(groups), len(rows))
+    shares = np.stack([np.bincount(row, ways, len(values)) for row in which])
+    not_above = shares @ shares.cumsum(axis=1).T  # [x, y]: how often a resample of y is not above one of x
+    return float(chances @ (np.minimum(not_above, not_above.T) < 0.025) @ chances)
+
+
+def all_draws(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """All ways to draw five of n with replacement, in order (ways, 5), and their chances (ways,)."""
+    groups = list(combinations_with_replacement(range(n), counts.FIVE))
+    orders = [factorial(counts.FIVE) / prod(map(factorial, Counter(group).values())) for group in groups]
+    return np.array(groups), np.array(orders) / n**counts.FIVE
+
+
+@cache
+def new(agents: int) -> Estimate:
+    """The lesson's ablation with so many new agents of each group."""
+    return counts.of_new_agents(shipped_experiment("new-agents"), agents)

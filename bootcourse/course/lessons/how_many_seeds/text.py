@@ -74,8 +74,8 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # ## Round 1: what does eight of ten say?
 #
 # With the soft constraint alone, eight of ten agents escape. If you trained thousands, the share that escapes
-# would be the *true rate*. Which are believable? A rate is too low if, with it, eight or more of ten escape
-# in fewer than 2.5 % of studies.
+# would be the *true rate*. Which true rates are believable? One is too low if at it eight *or more* of ten
+# escape in under 2.5 % of studies. It is too high if eight *or fewer* do.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
 # > **Predict.** Many studies train ten agents each. At a true rate of 50 %, as with ten fair coins, eight or
@@ -97,8 +97,8 @@ predicted("how_many_seeds.1")
 explorable.certainty()
 
 # %% [markdown]
-# **See.** Left of the shaded part, below 44 %, *eight or more* come in under 2.5 % of studies; right of it,
-# above 97 %, *eight or fewer* do. The rates between are believable: the **exact 95 % interval** of 8 out of 10.
+# **See.** Rates below 44 % are too low, rates above 97 % too high. Those between are believable: the
+# **exact 95 % interval** of 8 out of 10 (at either end 2.5 % are left out).
 # <!-- claim: [round(100 * each) for each in
 #   rate(np.arange(10) < 8)[1:]] == [44, 97] -->
 #
@@ -167,7 +167,11 @@ explorable.studies()
 #
 # The share of studies that find a difference is the **power** of the comparison. Compute it before you train:
 # say which difference would matter to you, the **smallest effect of interest**, and take enough agents for a
-# power of 80 %. For 80 against 30 % that is {{ enough(0.8, 0.3) }} of each.
+# power of 80 %. For 80 against 30 % that is {{ enough(0.8, 0.3) }} of each. From 13 to 14 agents the power
+# *falls*, to {{ 100 * power(0.8, 0.3, 14) | .0f }} %: counts are whole numbers, so the shaded region grows in
+# steps. So look beyond the first number that reaches 80 %.
+# <!-- claim: power(0.8, 0.3, 14) < power(0.8, 0.3, 13) and
+#   min(power(0.8, 0.3, n) for n in range(enough(0.8, 0.3), 31)) >= 0.8 -->
 #
 # **Exercise (12 min, ●●○).** Write the power: add up the chances of the filled discs. In each group the
 # number of agents that escape is binomial. `shown[k, j]` is True where the test finds a difference between k
@@ -204,9 +208,9 @@ print(f"{', '.join(f'{each:.0f}' for each in returns)}; mean {returns.mean():.0f
 # at all. Take the mean, and repeat this thousands of times. The middle 95 % of these means are the
 # **bootstrap interval** (nothing to do with bootstrapped SAC).
 #
-# > **Predict.** Suppose that each training yields one of these ten agents, each with the same chance. A
-# > study trains three, and computes their bootstrap interval. In how many of 100 such studies does it contain
-# > {{ of('bootstrapped').scores('returns').mean() | .0f }}, the mean of all ten?
+# > **Predict.** Suppose that each training yields one of these ten agents, each with the same chance; seven of
+# > the ten do well. A study trains three, and computes their bootstrap interval. In how many of 100 such
+# > studies does it contain {{ of('bootstrapped').scores('returns').mean() | .0f }}, the mean of all ten?
 
 # %%
 predict(
@@ -223,9 +227,12 @@ predicted("how_many_seeds.4")
 explorable.intervals()
 
 # %% [markdown]
-# **See.** *Of 100 intervals {{ explorable.holding(3) }} contain the mean, not 95.* In
-# {{ 100 * 0.7**3 | .0f }} of 100 studies all three agents do well. Resampling cannot know that other agents
-# fail, so the interval is short and lies too high: *the shortest intervals miss.* So print the returns.
+# **See.** *Of 100 intervals {{ explorable.holding(3) }} contain the mean, not 95.* In 0.7³ =
+# {{ 100 * 0.7**3 | .0f }} % of studies all three agents do well. Resampling cannot know that other agents
+# fail, so the interval is short and lies too high. In 0.3³ = {{ 100 * 0.3**3 | .0f }} % all three do badly.
+# Together {{ 100 * (0.7**3 + 0.3**3) | .0f }} of 100 miss: *the shortest.* With ten seeds
+# {{ explorable.holding(10) }} of 100 contain the mean, still not 95. Print every agent beside the interval.
+# <!-- claim: 100 - explorable.holding(3) == round(100 * (0.7**3 + 0.3**3)) and explorable.holding(10) < 95 -->
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
 #   of('bootstrapped').scores('returns').mean()).sum() == round(100 * 0.7**3) == 34)(
@@ -251,7 +258,7 @@ check.bootstrap_interval(bootstrap_interval)
 # We compare groups by their **interquartile means** (IQM): sort, leave out the lowest and the highest
 # quarter, and take the mean. One odd agent decides little, but the IQM can hide failures: Round 3's ten have
 # mean {{ of('bootstrapped').scores('returns').mean() | .0f }} and IQM {{
-# iqm(of('bootstrapped').scores('returns')) | .0f }}.
+# iqm(of('bootstrapped').scores('returns')) | .0f }}. So print each agent beside it.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each resample
 # draws both groups anew.
@@ -270,17 +277,18 @@ def difference_interval(x, y, draws_x, draws_y):
 check.difference_interval(difference_interval)
 
 # %% [markdown]
-# Here *nothing* was changed: our ten bootstrapped agents are split at random, twenty times.
+# Here *nothing* is changed. A study draws five of our ten bootstrapped agents, then five again (*uniformly with
+# replacement*), and compares the two groups. The picture shows 100 such studies.
 
 # %%
 bc.show(figures.nothing_changed(study))
 
 # %% [markdown]
-# **See.** Read as an ablation, the first comparison says that a change costs {{ -halves()[0].value | .0f }}
-# points of return. It is luck: of all splits of these ten agents, {{ 100 * leaves_out_0_by_luck() | .0f }} %
-# give an interval that leaves out 0, not 5 %: from few seeds intervals are too short (Round 3).
-# <!-- claim: [counts.leaves_out_0(each) for each in halves()] == [True] * 2 + [False] * 18 -->
-# <!-- claim: round(100 * leaves_out_0_by_luck()) == 9 -->
+# **See.** *In {{ sum(map(counts.leaves_out_0, twice())) }} of these 100 studies the interval leaves out 0, by
+# luck alone.* Read as an ablation, the first says that a change costs {{ -twice()[0].value | .0f }} points of
+# return. (Of all such studies {{ 100 * leaves_out_0_by_luck() | .0f }} % leave out 0; a 95 % interval
+# promises 5.)
+# <!-- claim: counts.leaves_out_0(twice()[0]) and round(100 * leaves_out_0_by_luck()) == 6 -->
 #
 # Train five agents with one number changed and five without. Which group learns the way out sooner?
 # `bonus=0.0` pays no bonus for demonstrated seconds. The score is an agent's success on 200 roads after 150
@@ -299,9 +307,29 @@ interval_of = own_code.yours_or_ours("difference_interval", doing="Comparing")
 table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
-# **Explain.** An interval that contains 0 says neither which group learns earlier nor that both learn alike;
-# one that leaves out 0 may be luck. For an answer train *new* agents, as many as your smallest effect of
-# interest needs.
+# An interval that contains 0 says neither which group learns earlier nor that both learn alike; one that
+# leaves out 0 may be luck. For an answer we trained *new* agents, 40 of each group with `bonus=0.0` as the
+# change. We had decided on 40 before we trained the first.
+# <!-- claim: {len(each) for each in shipped_experiment('new-agents').values()} == {40} -->
+#
+# > **Predict.** How long is the interval of forty agents of each group, beside that of the first ten of them?
+
+# %%
+lengths = ["about as long", "about half as long", "about a quarter as long"]
+predict("how_many_seeds.5", "How long is the interval of forty, beside that of ten?", lengths)
+
+# %%
+predicted("how_many_seeds.5")
+new = shipped.shipped_experiment("new-agents")
+bc.show(figures.new_agents(new, success, interval_of))
+
+# %% [markdown]
+# **See.** *About half as long: its length falls with the square root of the number.* Forty of each differ by
+# {{ bracketed(new(40)).replace('-', '−') }} points, the first five of them by
+# {{ bracketed(new(5)).replace('-', '−') }}. So a large effect of the bonus on how soon they learn is not
+# believable. Whether there is a small one stays open.
+# <!-- claim: -10 < new(40).low < 0 < new(40).high < 25 and
+#   0.4 < (new(40).high - new(40).low) / (new(10).high - new(10).low) < 0.6 -->
 
 # %% [markdown]
 # ### If you try many changes
@@ -311,11 +339,11 @@ table(counts.ABLATION, *counts.ablation(success, interval_of))
 # of comparisons (*Bonferroni*).
 #
 # If we tested all six pairs of methods, Round 2's p of {{ fisher(7, 1) | .3f }} would become
-# {{ 6 * fisher(7, 1) | .2f }}, and not count. A new test does, of ten others of each (lesson
-# [[learning_from_demonstrations]]: trained twice as long):
-# {{ escapers(others('bootstrapped'), 'bootstrapped') }} against {{ escapers(others('sac'), 'sac') }} (p <
-# 0.001).
-# <!-- claim: fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
+# {{ 6 * fisher(7, 1) | .2f }}, and not count. *New* agents decide it, ten of each
+# method, trained twice as long (lesson [[learning_from_demonstrations]]): with both aids
+# {{ escapers(others('bootstrapped'), 'bootstrapped') }} escape, with plain SAC
+# {{ escapers(others('sac'), 'sac') or 'none' }} (p < 0.001, even times six).
+# <!-- claim: 6 * fisher(escapers(others('bootstrapped'), 'bootstrapped'), escapers(others('sac'), 'sac')) < 0.001 -->
 # <!-- claim: fisher(7, 1) < 0.05 < 6 * fisher(7, 1) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -331,6 +359,7 @@ compare_predictions(
         2: f"at {100 * bc.statistics.rate(np.ones(1)).low:.1f} %",
         3: round(100 * bc.statistics.power(0.8, 0.3, 10)),
         4: explorable.holding(3),
+        5: lengths[1],
     },
 )
 
@@ -342,7 +371,8 @@ compare_predictions(
 # <!-- claim: all(escapes(of(m).scores('success')).high - escapes(of(m).scores('success')).low > 0.3
 #   for m in ('sac', 'soft', 'demos', 'bootstrapped')) -->
 # 3. Compute the power before you train, for the smallest effect of interest.
-# 4. A short interval from three seeds may be luck: resampling knows these three alone.
+# 4. A short interval from three seeds may be luck: resampling knows these three alone. An interval half as
+#    long takes about four times as many agents.
 # 5. Where nothing differs, at least one of twenty comparisons probably shows a difference. Name beforehand
 #    the one that counts, or correct each p.
 #

@@ -1,12 +1,17 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from functools import cache
+
 import numpy as np
 
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.course.lessons.learning_from_demonstrations.measures import kinds
+from bootcourse.episodes.record import record
 from bootcourse.panels.bonus import bonus_numbers
+from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, SPEED
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import lost
 from tools.course.known import SETTINGS, by_rule, idle, shipped_results
 
@@ -29,6 +34,11 @@ def in_all(name: str) -> str:
 def of_the_study(name: str) -> str:
     """How many of the study's ten agents with the soft constraint and these demonstrations escape."""
     return measures.escape(_with(name)[0][:1])
+
+
+def of_the_others(name: str) -> str:
+    """How many of the ten others with the soft constraint and these demonstrations escape."""
+    return measures.escape(_with(name)[0][1:])
 
 
 def of_the_paper(method: str) -> str:
@@ -74,3 +84,10 @@ def speeds_of_the_rule() -> np.ndarray:
 def bonus_needed() -> np.ndarray:
     """The smallest c with which the rest of the rule's drive is worth more than staying behind, in each second."""
     return bonus_numbers(by_rule(), idle(), SETTINGS).crossing
+
+
+@cache
+def needed_on(roads: int = 40, seconds: int = 40) -> np.ndarray:
+    """The same on the first roads, in the first seconds: (roads, seconds)."""
+    pairs = zip(*(record(driver, range(roads)) for driver in (rule_policy(DEFAULT), idle_policy)), strict=True)
+    return np.array([bonus_numbers(*pair, SETTINGS).crossing[:seconds] for pair in pairs])

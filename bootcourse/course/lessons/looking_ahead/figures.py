@@ -1,4 +1,4 @@
-"""The figures of this lesson: what looking ahead changes, and what a model costs that is wrong, or learned.
+"""The figures of this lesson: what looking ahead changes, and what a model costs that is late, wrong, or learned.
 
 `each_agent`, `learned` and `wrong_models` take the results of the experiments `look-ahead` and `learned-model`,
 {cell: agents}; their files, in bootcourse.research.experiments, say what was measured.
@@ -23,7 +23,7 @@ from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, axes_at, fini
 from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import CLOSELY, Cell
 from bootcourse.research.results import Results
-from bootcourse.road.state import Accident
+from bootcourse.road.state import EGO, Accident, Y
 from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
 MEANINGS = {  # of the wrong models that the lesson shows, for readers
@@ -34,8 +34,11 @@ MEANINGS = {  # of the wrong models that the lesson shows, for readers
     "the others a second late": "the others where they were a second ago, moved on at their speed",
     "everything a second late": "all as it was a second ago, not moved on",
 }
-ERRORS = [f"{name}: {meaning}" for name, meaning in MEANINGS.items()]  # to choose from
 LEARNED_FORM = "mean of five"  # of the look-ahead in a learned model, as the lesson shows it
+LEARNED_TITLES = {
+    LEARNED_FORM: "No kind of learned model makes the look-ahead safer than the agent alone",
+    "shield": "Used as a shield, the same models make the agents safer, on average",
+}
 COLUMNS = 166, 192  # where the numbers beside the bars of the learned model end
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
 NAMES = {"rollouts": "look-ahead", "shield": "shield"}  # as the lesson calls the forms
@@ -92,10 +95,15 @@ def each_agent(cells: dict[str, Results], base: str) -> Figure:
         plain_axes(ax, words)
         ax.set(xlim=(-0.15, 1.15), ylim=(0, 100))
         ax.set_xticks([0, 1], ["alone", "look-ahead"])
+        for x, ends in enumerate(values.round().astype(int)):
+            for y, lines in zip(*np.unique(ends, return_counts=True), strict=True):
+                if lines > 1:  # lie on each other
+                    side = {"ha": "left", "va": "center", "fontsize": SMALL, "color": QUIET}
+                    ax.text(x + 0.04 if x else x - 0.12, y, f"×{lines}", **side)
         each = ", ".join(f"{before:.0f} to {after:.0f}" for before, after in values.T)
         alt_parts.append(f"{words}: {each}")
     _accident_axis(ax, "y")
-    words = f"a line for each of the {stays.sum()} agents of {display_name(base)} that stay behind; "
+    words = f"a line for each of the {stays.sum()} agents of {display_name(base)} that stay behind (×: so many alike); "
     words += "dark: it crashes more often with the look-ahead"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     alt = f"A line for each of these agents, from alone to with the look-ahead. {'; '.join(alt_parts)}."
@@ -153,12 +161,13 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
     return finish(figure, title, alt)
 
 
-def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
+def learned(computed: dict[str, Results], cells: dict[str, Results], form: str = LEARNED_FORM) -> Figure:
     """Accidents of each agent in a model that it learned, a row for each kind of drives that the model learned from.
 
-    computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone.
+    computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone. form: one
+    of `LEARNED_TITLES`.
     """
-    title = "With each kind of learned model the agents crash more often than alone, on average"
+    title = LEARNED_TITLES[form]
     agents, base = learned_model.together(computed), learned_model.BASE
     alone = per_thousand(cells, Cell(base, "alone"))[: len(agents)]
     controls = {"the agent": agents}
@@ -167,8 +176,8 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
         for share in learned_model.RANDOM
     }
     rows = {"(alone, without a model)": alone}
-    rows |= {name: learned_model.per_thousand(of, LEARNED_FORM, control=True).ravel() for name, of in controls.items()}
-    rows["the agent, then the look-ahead"] = learned_model.per_thousand(agents, LEARNED_FORM)[:, -1]
+    rows |= {name: learned_model.per_thousand(of, form, control=True).ravel() for name, of in controls.items()}
+    rows["the agent, then the look-ahead"] = learned_model.per_thousand(agents, form)[:, -1]
     learned_from = [of.measured["rows"] for of in controls.values()] + [agents.notes["rows"][:, -1]]
     thousands = ["–"] + [f"{of.mean() / 1000:.0f}" for of in learned_from]
     row, alt_parts = 0.46, []
@@ -193,11 +202,9 @@ def learned(computed: dict[str, Results], cells: dict[str, Results]) -> Figure:
     ax.set_xticks([0, 500, 1000], ["0", "500", "1,000"])
     words = "A dot for each agent; filled: it crashes more than alone. Bar: the mean. (Alone: 1,000 drives, else 100.)"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
-    return finish(
-        figure,
-        title,
-        f"Accidents in 1,000 drives with the look-ahead, by what the model learns from. {'; '.join(alt_parts)}.",
-    )
+    doing = "with the look-ahead" if form == LEARNED_FORM else "under the shield"
+    alt = f"Accidents in 1,000 drives {doing}, by what the model learns from. {'; '.join(alt_parts)}."
+    return finish(figure, title, alt)
 
 
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
@@ -234,3 +241,39 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     words = "● look-ahead    □ shield    large: the mean of the agents; small: each agent"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     return finish(figure, title, f"Mean accidents in 1,000 drives. Alone: {of_alone:.1f}. {' '.join(alt_parts)}")
+
+
+STEERS = {"left": "^", "straight": "o", "right": "v"}  # up is left in `late`
+
+
+def late(drives: Mapping[str, Rollout]) -> Figure:
+    """Where across the road the same agent is in two drives with the look-ahead, and how it steers.
+
+    drives: with the road as it is, and late, see `imagined_road.on_time_and_late`.
+    """
+    figure, alt_parts = new_figure(3.5), []
+    ax, road = axes_at(figure, 0.95, 0.95, 5.0, 2.0), next(iter(drives.values())).scenario.road
+    for lane in range(road.lanes + 1):
+        line = (0, (6, 5)) if 0 < lane < road.lanes else "-"
+        ax.axhline((lane - 0.5) * road.lane_width, color=QUIET, linewidth=1.1, linestyle=line, zorder=1)
+    shown = min(len(drive.actions) for drive in drives.values())
+    for (name, drive), colour in zip(drives.items(), (style(CLOSELY[0]).colour, ALARM), strict=True):
+        across = drive.cars[: shown + 1, EGO, Y]
+        ax.plot(across, color=colour, linewidth=1.8, zorder=2)
+        steers = [ACTION_NAMES[action].split()[1] for action in drive.actions[:shown]]
+        for second, (y, steer) in enumerate(zip(across, steers, strict=False)):
+            ax.plot(second, y, marker=STEERS[steer], color=colour, markersize=9, zorder=3)
+        hurt = drive.accident > 0 and len(drive.actions) == shown
+        if hurt:
+            ax.text(shown, across[-1], "✕", ha="center", va="center", fontsize=13, color=colour, fontweight="bold")
+        ax.text(shown + 0.15, across[-1], name, va="center", fontsize=TEXT, color=colour)
+        alt_parts.append(f"{name}: {', '.join(steers)}{'; it leaves the road' if hurt else ''}")
+    ax.set(xlim=(-0.25, shown + 0.1), ylim=((road.lanes - 0.5) * road.lane_width + 0.3, -road.lane_width / 2 - 1.2))
+    ax.set_yticks(np.arange(road.lanes) * road.lane_width, ["left lane", *["middle"] * (road.lanes - 2), "right lane"])
+    plain_axes(ax, "", grid="")
+    ax.set_xlabel("second", fontsize=TEXT, color=INK)
+    words = "▲ steers left    ● straight    ▼ steers right    ✕ off the road"
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
+    return finish(
+        figure, "The late car steers left for a second too long, and leaves the road", f"{'. '.join(alt_parts)}."
+    )

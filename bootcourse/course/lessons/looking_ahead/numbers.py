@@ -7,7 +7,8 @@ import numpy as np
 from bootcourse.course import shipped as course
 from bootcourse.course.lessons.looking_ahead import explorable, figures, imagined_road
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.episodes.lookahead import nine_drives
+from bootcourse.episodes.lookahead import lookahead, nine_drives
+from bootcourse.episodes.models import MODELS
 from bootcourse.episodes.record import Rollout, record
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research.experiments import learned_model
@@ -81,16 +82,15 @@ def led_out(success: np.ndarray) -> int:
     return int((success[outs("sac", "alone") < 0.01] > 0.1).sum())
 
 
-def worst_with_w() -> tuple[int, int, int, int]:
-    """Of the nine, with W: the accidents of the one that has most.
+def without_w() -> tuple[int, int, int]:
+    """Of the nine with the look-ahead without W: their accidents, their drives, and how many get out (`led_out`)."""
+    nine, without = outs("sac", "alone") < 0.01, shipped()[Cell("sac", "rollouts", with_worth=False).name].measured
+    return int(without["accidents"][nine].sum()), int(without["roads"][nine].sum()), led_out(without["success"])
 
-    Without W its accidents, its drives, and in how many of them it is not ahead of trap 1 at the end.
-    """
-    nine = outs("sac", "alone") < 0.01
-    with_w, without = (shipped()[Cell("sac", "rollouts", with_worth=w).name].measured for w in (True, False))
-    ends, worst = with_w["accidents"][nine], int(with_w["accidents"][nine].argmax())
-    hurt, roads, success = (without[of][nine][worst] for of in ("accidents", "roads", "success"))
-    return int(ends[worst]), int(hurt), int(roads), round(roads * (1 - success))
+
+def errors_table() -> str:
+    """The six wrong models and what is wrong in them, as Markdown."""
+    return markdown(["the imagined road", "what is wrong"], [[*pair] for pair in figures.MEANINGS.items()])
 
 
 @cache
@@ -107,6 +107,24 @@ def trapped_futures() -> np.ndarray:
             actions = decide(cars)
         found.append((cars[:, EGO, X] > cars[:, TRAP_1, X]).reshape(-1, N_ACTIONS))
     return np.concatenate(found)
+
+
+@cache
+def late_drives() -> list[Rollout]:
+    """Of PPO's first three agents, on 4 roads each: the drives with the look-ahead in a road that is a second old."""
+    agents = shipped_actors("ppo_cloned")
+    policies = [lookahead(agents[seed].as_policy(), models=MODELS[LATE], seed=seed) for seed in range(3)]
+    return [drive for policy in policies for drive in record(policy, held_out_seeds(15, 4))]
+
+
+def late_ends() -> np.ndarray:
+    """After which decision, counted from 1, each of them ends."""
+    return np.array([len(drive.actions) for drive in late_drives()])
+
+
+def late_repeats() -> bool:
+    """Whether in each of them the second action is the first."""
+    return all(drive.actions[0] == drive.actions[1] for drive in late_drives())
 
 
 class _MovedOn:
@@ -174,9 +192,26 @@ def alone() -> np.ndarray:
     return figures.per_thousand(shipped(), Cell(learned_model.BASE, "alone"))[: len(learning())]
 
 
-def worse_in_last_model() -> int:
-    """How many crash more often with the look-ahead in that last model than alone."""
-    return int((in_last_model() > alone()).sum())
+KINDS = ("last model", None, *learned_model.RANDOM)  # of drives that a model learned from, the figure's lowest first
+
+
+def under_shield(kind: str | float | None) -> np.ndarray:
+    """Accidents in 1,000 drives of each under the shield, in a kind of learned model, (agents,)."""
+    if kind == "last model":
+        return learned_model.per_thousand(learning(), "shield")[:, -1]
+    return learned_model.per_thousand(learning(kind), "shield", control=True).ravel()
+
+
+def overruled(form: str) -> str:
+    """In which share of the decisions the agents' action is replaced: the least and the most of the four kinds."""
+    shares = []
+    for kind in KINDS:
+        last = kind == "last model"
+        of = learning().notes if last else learning(kind).measured
+        changed, decisions = (of[f"{form}, {name}"].reshape(10, -1)[:, -1].sum() for name in ("overruled", "decisions"))
+        shares.append(100 * changed / decisions)
+    low, high = min(shares), max(shares)
+    return f"{low:.0f} to {high:.0f} %"
 
 
 def fewest_worse() -> int:

@@ -9,7 +9,16 @@ from matplotlib.figure import Figure
 from bootcourse.colours import ALARM, OTHER, Style
 from bootcourse.course import charts
 from bootcourse.course.dots import beside, dots, name_rows
-from bootcourse.course.lessons.other_ways.measures import AGENTS, DECISIONS, SECONDS, Episodes, Judged, in_training
+from bootcourse.course.lessons.other_ways.measures import (
+    AGENTS,
+    DECISIONS,
+    SECONDS,
+    Episodes,
+    Judged,
+    in_training,
+    worth_at_most,
+    worth_of_rule,
+)
 from bootcourse.learn.settings import settings_for
 from bootcourse.methods import display_name, style
 from bootcourse.plots.diagrams import Diagram, label
@@ -24,10 +33,10 @@ START, TRAINED, END = 300, 650, 780  # pixels: the training begins and ends, and
 ROW, TOP, THICK = 52, 62, 18
 TAKES = {  # learner: (what it takes, from, until, whether it fades)
     "ppo_cloned": ("a first policy", START - 34, START, False),
-    "bootstrapped": ("a KL, and demonstrations with a bonus", START, TRAINED, True),
+    "bootstrapped": ("a pull to the rule (KL); demonstrations with a bonus", START, TRAINED, True),
     "jsrl": ("the first seconds of each episode", START, TRAINED - 60, True),
     "rlpd": ("half of each batch", START, TRAINED, False),
-    "ibrl": ("demonstrations at first, and the rule's action beside its own", START, END, False),
+    "ibrl": ("demonstrations; the rule's action beside its own", START, END, False),
 }
 MEASURED = ("returns", "accident")  # of each agent in the test
 LONGEST = {SECONDS: 15, DECISIONS: 150_000}  # the ends of the learning curves
@@ -74,20 +83,27 @@ def what_is_taken() -> Diagram:
     return Diagram(END + 10, height, parts, " ".join(alt_parts))
 
 
-def believed(updates: Sequence[int], values: Mapping[str, np.ndarray], bound: float) -> Figure:
-    """Each critic's mean Q of the rule's actions: {agent: (critics, points)}; bound: no drive is worth more."""
+def believed(updates: Sequence[int], values: Mapping[str, np.ndarray], gamma: float) -> Figure:
+    """Each critic's mean Q of the rule's actions, {agent: (critics, points)}, beside what these actions are worth.
+
+    The axis ends a little above what any drive can be worth.
+    """
+    bound, truth = worth_at_most(gamma), worth_of_rule(gamma)
     over = [words for words, each in values.items() if (each[:, -1] > bound).all()]
     whose = {1: "one agent", 2: "two agents"}.get(len(over), "each agent")
     all_of = f"All {len(values[AGENTS[1]])} critics of {whose} pass what any drive can earn"
     title = all_of if over else "No agent's critics all pass what any drive can earn"
     looks = [Style(style("rlpd").colour), OTHER, style("rule")]
-    marks = {f"no drive is worth more than {bound:.0f}": bound}
+    marks = {f"no drive is worth more than {bound:.0f}": bound, f"the rule's drives are worth {truth:.1f}": truth}
     ends = [f"{words}: {each[:, -1].min():.1f} to {each[:, -1].max():.1f}" for words, each in values.items()]
-    alt = f"At the end, {'; '.join(ends)}."
-    apart = max(np.ptp(each, axis=0).max() for each in values.values())
+    worth = f"The rule's actions are worth {truth:.1f}, no drive more than {bound:.0f}"
+    top = 1.25 * bound
+    shown = {words: np.where(each < top, each, np.nan) for words, each in values.items()}
+    apart = max(np.ptp(each, axis=0)[each.max(axis=0) < top].max() for each in values.values())
     label = f"mean Q of the rule's actions: {len(values[AGENTS[1]])} lines for each agent"
     label += ", nearly one on the other" if apart < bound / 8 else ""
-    return charts.lines(updates, values, title, "update", label, looks=looks, marks=marks, alt=alt)
+    alt = f"At the end, {'; '.join(ends)}. {worth}."
+    return charts.lines(updates, shown, title, "update", label, looks=looks, marks=marks, limits=(-2.0, top), alt=alt)
 
 
 def who_chose(driven: Episodes) -> Figure:
@@ -120,6 +136,9 @@ def handing_over(driven: Episodes, h: np.ndarray, judged: Sequence[Judged]) -> F
         fill = look.colour if each.shrinks else "white"
         below.plot(each.episode, each.mean, "o", color=look.colour, markerfacecolor=fill, ms=7, clip_on=False, zorder=3)
         below.plot([each.episode - 1.5, each.episode + 1.5], [each.limit] * 2, color=INK, linewidth=2)
+        if not np.isfinite(each.limit):
+            words = {"textcoords": "offset points", "ha": "center", "fontsize": SMALL, "color": INK}
+            below.annotate("no limit yet", (each.episode, each.mean), (0, -16), **words)
     plain_axes(below, "mean return when h is judged")
     below.set(xlim=(0.5, episodes + 0.5), ylim=(0, 1.25 * max(each.mean for each in judged)))
     below.set_xlabel("training episode", fontsize=TEXT, color=INK)

@@ -4,6 +4,7 @@ At the end, what shipped trainings earned after so many decisions, or seconds of
 """
 
 from collections.abc import Iterable, Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ import torch.nn.functional as F
 from torch import Tensor
 
 from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn import sac
 from bootcourse.learn.networks import mlp
 from bootcourse.learn.replay_buffer import Batch
@@ -31,6 +33,24 @@ SECONDS, DECISIONS = "seconds of computing", "decisions"  # two counts of what a
 def worth_at_most(gamma: float) -> float:
     """What a drive that earns most in each second, for ever, is worth."""
     return earned_at(15, 1) / (1 - gamma)
+
+
+WAY = 20  # decisions at the beginning of a drive, in which the rule leaves the trap
+
+
+@cache
+def by_rule() -> list[Rollout]:
+    """The rule's drives in which the first round asks what critics believe."""
+    return record(rule_policy(DEFAULT), range(20), label="rule")
+
+
+def worth_of_rule(gamma: float) -> float:
+    """What the rule's actions in these states are worth: the mean of the discounted rewards that follow each."""
+    rewards = np.stack([drive.rewards for drive in by_rule()])
+    found = rewards.copy()
+    for t in reversed(range(rewards.shape[1] - 1)):
+        found[:, t] += gamma * found[:, t + 1]
+    return float(found[:, :WAY].mean())
 
 
 def first_normalised(parameters: Sequence[Tensor], x: Tensor) -> Tensor:
@@ -57,9 +77,8 @@ def from_drives_alone(training: Training, updates: Iterable[int]) -> dict[str, n
     training: of three agents, whose critics learn from the rule's drives alone. The first has its layers normalised;
     the last asks for Q of the rule's next action.
     """
-    by_rule = record(rule_policy(DEFAULT), range(20), label="rule")
-    way = torch.tensor(np.concatenate([drive.observations[:20] for drive in by_rule]), dtype=torch.float32)
-    did = torch.tensor(np.concatenate([drive.actions[:20] for drive in by_rule]))
+    way = torch.tensor(np.concatenate([drive.observations[:WAY] for drive in by_rule()]), dtype=torch.float32)
+    did = torch.tensor(np.concatenate([drive.actions[:WAY] for drive in by_rule()]))
     learner, asked, found = training.learner, set(updates), []
     # A classmethod reads the network from the class: a class of its own changes this learner only.
     changed = {"critic_network": staticmethod(first_normalised), "critic_target": last_asks_the_rule}

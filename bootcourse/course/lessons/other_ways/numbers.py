@@ -8,7 +8,10 @@ import numpy as np
 
 from bootcourse.course.lessons.other_ways import figures, measures
 from bootcourse.course.lessons.other_ways.figures import hours_before  # noqa: F401 (for the expressions)
-from bootcourse.course.lessons.other_ways.measures import worth_at_most  # noqa: F401 (for the expressions)
+from bootcourse.course.lessons.other_ways.measures import (  # noqa: F401 (for the expressions)
+    worth_at_most,
+    worth_of_rule,
+)
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
 from bootcourse.episodes.record import record
 from bootcourse.learn.settings import Settings, settings_for
@@ -23,7 +26,7 @@ from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, holm, interval
 from tools.course.known import shipped_experiment
 
-FIRST = BUDGETS[0]
+FIRST, SECOND = BUDGETS[:2]
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
 FIVE_SECONDS = (equal_decisions.SECONDS, measures.SECONDS)  # what a training spends, in each of two counts
 ON_ROAD = (FIRST, measures.DECISIONS)
@@ -60,6 +63,17 @@ def score_at(method: str, budget: int = FIRST) -> Estimate:
 def middle(method: str, budget: int = FIRST) -> float:
     """The interquartile mean of these agents' returns."""
     return score_at(method, budget).value
+
+
+def two_budgets() -> str:
+    """What the agents of each method earn, and in how many % of their drives they crash, at two budgets."""
+    rows = [
+        [display_name(method), *(f"{middle(method, budget):.0f}" for budget in (FIRST, SECOND))]
+        + [f"{100 * at(method, 'accident', budget).mean():.0f}" for budget in (FIRST, SECOND)]
+        for method in TAUGHT
+    ]
+    after = [f"after {budget:,}" for budget in (FIRST, SECOND)]
+    return markdown(["", *(f"return {each}" for each in after), *(f"accidents, %, {each}" for each in after)], rows)
 
 
 @cache

@@ -83,7 +83,8 @@ def smallest_of(q, chosen):
 check.smallest_of(smallest_of)
 
 # %% [markdown]
-# Now three agents learn with your ensemble from the rule's drives alone.
+# Now three agents learn with your ensemble from the rule's drives alone. To see the danger, we leave out the
+# other half of RLPD's batches, the agent's own drives.
 # <!-- claim: 0.05 == 10 * settings_for('rlpd').tau -->
 #
 # 1. *Normalised*, as in RLPD: **layer normalisation** shifts and scales each hidden layer's outputs to mean 0
@@ -102,18 +103,23 @@ predict("other_ways.1", "How many pass 32?", ["none", "some", "all five"])
 # %% tags=["nbval-ignore-output"]
 predicted("other_ways.1")
 torch.set_num_threads(1)  # small matrices are faster on one thread
-settings = bc.settings_for("rlpd", tau=0.05)  # targets ten times as fast: 500 updates will do
-updates = np.arange(0, 501, 25)
+settings = bc.settings_for("rlpd", tau=0.05)  # targets ten times as fast: 1,000 updates will do
+updates = np.arange(0, 1001, 25)
 values = measures.from_drives_alone(own_code.training([settings] * 3), updates)
-bc.show(figures.believed(updates, values, measures.worth_at_most(settings.gamma)))
+bc.show(figures.believed(updates, values, settings.gamma))
 
 # %% [markdown]
-# **See.** (Yours will differ.) The second agent's five critics rise together.
+# **See.** (Yours will differ.) The second agent's five critics rise together, beyond 32 and out of the picture.
+# The first agent's rise, too, more slowly, but beyond the truth: the rule's actions in these states are worth
+# {{ worth_of_rule(settings_for('rlpd').gamma) | .1f }}. So much reward, discounted, follows them in the rule's
+# drives.
+# <!-- claim: abs(worth_of_rule(settings_for('rlpd').gamma) - 7.84) < 0.05 -->
 #
 # **Explain.** All five critics learn from the same target. It contains Q of untried actions, which the
 # critics can only guess; so a guess that is too high raises the next one. The third agent's target asks only
-# about the rule's actions, so it contains no such guess. The first agent's normalised outputs have a fixed
-# size, so a guess can grow only with the last layer's weights.
+# about the rule's actions, so it contains no such guess, and its Q comes towards the truth. The first agent's
+# normalised outputs have a fixed size, so a guess can grow only with the last layer's weights. This slows the
+# error, but *normalised* does not mean right. In RLPD the agent's own drives can correct what remains.
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Ask what a drive of one's own with the untried action would change, and why the third agent learns nothing
@@ -151,7 +157,7 @@ check.better_of_two(better_of_two)
 
 # %% [markdown]
 # > **Predict.** The rule alone has no accident on {{ roads() | , }} held-out roads. Now an agent learns beside
-# > it, with your choice. How many of its first 80 episodes end in an accident?
+# > it, with your choice. At first its Q knows nothing. How many of its first 80 episodes end in an accident?
 # <!-- claim: of('rule').scores('accident').max() == 0 -->
 
 # %%
@@ -216,7 +222,12 @@ bc.show(figures.handing_over(episodes, h, judged))
 
 # %% [markdown]
 # **See.** (Yours will differ.) At first there is no best mean to reach, so h shrinks. Later means are
-# compared with the best so far, and that is low: the rule hands over to an agent that crashes.
+# compared with the best so far, and that is low: the rule hands over to an agent that crashes. (An episode
+# keeps the h with which it began, and eight roads end at different times: so two values of h alternate.)
+#
+# **Explain.** The judgement compares the agent only with itself. It does not ask whether the drives are good.
+# This need not harm for long: the 80 episodes here are {{ share_of_first('jsrl') | .0f }} % of the training in
+# Round 4, and the agent goes on learning after h is 0.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what h does if the teacher is the planner of lesson [[the_barrier]], which is out after ten seconds, and
@@ -253,8 +264,11 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 # {{ share_of_first('jsrl') | .0f }} % of the training.
 #
 # But return is not safety: the five have accidents in {{ accident_shares().min() | .0f }} to
-# {{ accident_shares().max() | .0f }} % of their drives (RLPD's are mostly two agents'), the rule in none.
-# <!-- claim: (lambda one: sum(sorted(one)[-2:]) > 2 * sum(one) / 3)(at('rlpd', 'accident')) -->
+# {{ accident_shares().max() | .0f }} % of their drives, the rule in none. (Of
+# RLPD's accidents, and of IBRL's, two of ten agents have about two thirds.)
+# <!-- claim: all(0.6 < (lambda one: sum(sorted(one)[-2:]) / sum(one))(at(m, 'accident')) < 0.72 for m in
+#   ('rlpd', 'ibrl')) and max((lambda one: sum(sorted(one)[-2:]) / sum(one))(at(m, 'accident')) for m in
+#   TAUGHT if m not in ('rlpd', 'ibrl')) < 0.5 -->
 # <!-- claim: of('rule').episodes('accident').sum() == 0 -->
 # <!-- claim: min(map(middle, TAUGHT)) > 2 * of('rule').scores('returns').mean() -->
 # <!-- claim: min(at(m, 'returns').min() for m in TAUGHT) > of('rule').scores('returns').mean() >
@@ -262,7 +276,13 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 #
 # **Explain.** Ten agents of each cannot tell which of the five earns the most. Tests for the ten pairs,
 # corrected as in lesson [[how_many_seeds]], separate only two: bootstrapped SAC and IBRL both earn more than
-# PPO after cloning.
+# PPO after cloning. Is that a matter of the method, or of the {{ FIRST | , }} decisions? The same agents were
+# tested again after {{ SECOND | , }}:
+#
+# {{ two_budgets() }}
+#
+# Then no test separates any two of the five.
+# <!-- claim: SECOND == 2 * FIRST and min(pairs(SECOND).values()) > 0.2 and len(pairs(SECOND)) == 10 -->
 # <!-- claim: {pair for pair, p in pairs(FIRST).items() if p < 0.05} == {('bootstrapped',
 #   'ppo_cloned'), ('ibrl', 'ppo_cloned')} and len(pairs(FIRST)) == 10 and
 #   all(middle(m) > middle('ppo_cloned') for m in ('bootstrapped',
@@ -292,7 +312,10 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 # %% [markdown]
 # ## Round 5: what if you count seconds?
 #
-# > **Predict.** Now each method computes for {{ equal_decisions.SECONDS }} seconds. Which of the five earns the
+# Now we count the return in training, because only this was measured in every second. There the agents draw
+# their actions, so it is lower than in the test.
+#
+# > **Predict.** Each method computes for {{ equal_decisions.SECONDS }} seconds. Which of the five earns the
 # > most in training?
 
 # %%
@@ -315,8 +338,8 @@ bc.show(figures.two_counts(compared, by_rule.returns.mean()))
 #   training_scores(*ON_ROAD)) -->
 #
 # So take it where decisions cost nothing and time is short. Where each decision takes a second, as on a road,
-# the other four earn more in {{ FIRST / 3600 | .0f }} hours of training (in Round 4's test, clearly only two
-# do).
+# the other four earn more in {{ FIRST / 3600 | .0f }} hours of training. In Round 4's test clearly only two do,
+# and after {{ SECOND / 3600 | .0f }} hours none.
 # <!-- claim: below_all_others('ppo_cloned', FIRST, measures.DECISIONS) -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -339,13 +362,15 @@ compare_predictions(
 #
 # 1. A teacher can give data (RLPD), a start (PPO after cloning), a second opinion (IBRL), the first seconds
 #    (jump-start RL) or a pull (bootstrapped SAC).
-# 2. Five critics with the same target can be wrong together.
+# 2. Five critics with the same target can be wrong together. Layer normalisation slows this, and does not make
+#    them right.
 # 3. In IBRL Q chooses between teacher and agent, and π learns to choose what Q rates high, right or wrong.
 #    Jump-start RL hands over when the return is near its own best, however low.
 # 4. After {{ FIRST | , }} decisions each of the five earns on average more than twice what the rule earns.
 #    Which is best is open; choose by what your teacher can do. All crash more than the rule.
 # 5. In {{ equal_decisions.SECONDS }} s of computing PPO after cloning earns the most in training, in
-#    {{ FIRST / 3600 | .0f }} hours on a road the least.
+#    {{ FIRST / 3600 | .0f }} hours on a road the least. One budget is not enough to judge: after
+#    {{ SECOND / 3600 | .0f }} hours the test no longer tells the five apart.
 #
 # **Three questions to think about**
 # - Your teacher is a person who can drive for one hour. Which of these methods do you choose?

@@ -104,11 +104,17 @@ def fits(policies: Collection[Policy], data: Batch, times: int, gamma: float = 0
     return np.reshape(estimates([*policies] * times, data, starts(), gamma, seeds), (times, -1))
 
 
-def worth(policy: Policy, roads: Sequence[int], gamma: float) -> float:
-    """What it earns in the first `SECONDS`, discounted, on roads that it drives: the mean."""
+def each_second(policy: Policy, roads: Sequence[int]) -> np.ndarray:
+    """What it earns in each of the first `SECONDS` on roads that it drives, the mean, (seconds,)."""
     short = replace(DEFAULT, clock=replace(DEFAULT.clock, decisions=SECONDS))
     drive = steps(policy, one_episode_each(len(roads), short, None), list(roads))
-    return float(np.mean(sum(gamma**t * step.rewards * step.running for t, step in enumerate(drive))))
+    earned = [float(np.mean(step.rewards * step.running)) for step in drive]
+    return np.array(earned + [0.0] * (SECONDS - len(earned)))  # all may have crashed earlier
+
+
+def worth(policy: Policy, roads: Sequence[int], gamma: float) -> float:
+    """What it earns in the first `SECONDS`, discounted, on roads that it drives: the mean."""
+    return float(gamma ** np.arange(SECONDS) @ each_second(policy, roads))
 
 
 def by_set(values: Sequence[float]) -> np.ndarray:

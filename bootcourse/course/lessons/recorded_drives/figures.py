@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from bootcourse.colours import GRID, INK, OTHER, QUIET
 from bootcourse.course import table
 from bootcourse.course.lessons.recorded_drives import choosing
-from bootcourse.course.shipped import beginning, shipped_agents
+from bootcourse.course.shipped import beginning, shipped_agents, shipped_experiment
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.learner import SACLearner
@@ -89,14 +89,17 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
             taken.append(choosing.actions_of(policy, data.states))
             names.append(f"{name}, seed {settings.seed}")
             colours.append(style("cql").colour if name == WITH else OTHER.colour)
-            promise, earns = choosing.promised(policy, choosing.starts()), choosing.worth(policy, range(100), 0.8)
-            says = f"at the start promises {promise:.1f},\nthen earns {earns:.1f}".replace("-", "−")
+            promise = choosing.promised(policy, choosing.starts())
+            earns = choosing.worth(policy, range(100), settings.gamma)
+            says = f"at the start promises {promise:.1f},\nthen earns {earns:.1f} (discounted)".replace("-", "−")
             words.append(f"crashes on {crashes[name][-1]} of 100 roads\n{says}")
     shares = [torch.bincount(each, minlength=9).reshape(3, 3).numpy() / len(each) for each in taken]
     faster = [share[2].sum() for share in shares[1:]]
     title = "What the rule did, and what the agents would do"
     if min(faster) == 1 and all(each == 100 for many in crashes.values() for each in many):
         title = "Both would always accelerate, and crash on every road"
+    elif all(each == 100 for many in crashes.values() for each in many):
+        title = "Both crash on every road"
     elif set(learners) == {WITH} and max(abs(each - shares[0][2].sum()) for each in faster) < 0.15:
         title = "With CQL's term they stay near what the rule did"
     figure, height = new_figure(3.15), 3.15
@@ -105,7 +108,8 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
         fade = LinearSegmentedColormap.from_list("", ["white", colour])
         ax.imshow(share[::-1], cmap=fade, vmin=0, vmax=0.8, aspect="auto")  # "accelerate" on top
         for (row, column), value in np.ndenumerate(share[::-1]):
-            ax.text(column, row, f"{100 * value:.0f} %", ha="center", va="center", fontsize=TEXT, color=INK)
+            ax.text(column, row, f"{100 * value:.0f} %", ha="center", va="center", fontsize=TEXT,
+                    color="white" if value > 0.6 else INK)  # fmt: skip
         ax.set_xticks(range(3), ["left", "straight", "right"])
         ax.set_yticks(range(3), ["accelerate", "keep", "brake"] if place == 0 else [""] * 3)
         ax.tick_params(length=0, labelsize=TEXT, labelcolor=INK)
@@ -128,7 +132,7 @@ def estimates(names: Sequence[str], alike: np.ndarray, fits: Sequence[np.ndarray
     off = np.stack(fits) - truth
     title = "How far is each estimate off?"
     if abs(off[:, alike > 0.8]).max() < 0.1 < 0.4 < abs(off[:, alike < 0.4]).max():
-        title = "Where an agent acts as the data do, both fits are near the truth"
+        title = "Where an agent acts as the data do, both fits are within 0.1 of the truth"
     label = "share of the recorded seconds in which an agent would do what the rule did"
     figure, ax = one_axes(3.7, title, label, "estimate minus truth (above 0: too high); ● first fit, ○ second fit")
     ax.axhline(0, color=INK, linewidth=1)
@@ -151,31 +155,25 @@ def estimates(names: Sequence[str], alike: np.ndarray, fits: Sequence[np.ndarray
     return finish(figure, title, f"For each agent a dot for either fit, joined by a line: {'; '.join(said)}.")
 
 
-def chosen(study: Results, guesses: Sequence[Sequence[float]], truth: Sequence[float]) -> Markdown:
-    """A table, a row for each set of agents: whom each of two fits takes, and who is worth most.
+def eight_seeds() -> Markdown:
+    """A table of the shipped agents of Round 2, a row for each kind: how often they accelerate, and crash."""
+    rows = [
+        [kind, f"{100 * each['accelerate'].min():.0f} to {100 * each['accelerate'].max():.0f} %",
+         ", ".join(f"{many:.0f}" for many in np.sort(each["crashes"]))]
+        for kind, each in ((kind, agents.measured) for kind, agents in shipped_experiment("offline").items())
+    ]  # fmt: skip
+    return table(["", "would accelerate", "crashes on 100 roads, each of eight agents"], rows)
+
+
+def chosen(guesses: Sequence[Sequence[float]], truth: Sequence[float]) -> Markdown:
+    """A table, a row for each set of agents: what each is worth, the most in bold, and whom each of two fits takes.
 
     guesses: of two fits; these and truth: of each agent, one set after the other.
     """
-    score = {
-        name: np.transpose([study.of(method).scores(name) for method in choosing.METHODS])
-        for name in ("returns", "success", "accident")
-    }
-    rows = []
+    names, rows = [display_name(method) for method in choosing.METHODS], []
     for place, (*fits, truly) in enumerate(zip(*map(choosing.by_set, (*guesses, truth)), strict=True)):
-        returns, cells = score["returns"][place], []
-        most, names = truly.argmax(), [display_name(method) for method in choosing.METHODS]
-        for taken in (fit.argmax() for fit in fits):
-            does = _does(score["success"][place, taken], score["accident"][place, taken])
-            mark = "✓" if taken == most else "✗"
-            cells.append(f"{mark} {names[taken]}{'' if (mark, does) == ('✓', 'gets out') else f': {does}'}")
-        best = returns.argmax()
-        apart = "" if best == most else f"; highest return: {names[best]}, {returns[best]:.0f}"
-        rows.append([place + 1, *cells, f"{names[most]}{apart}"])
-    return table(["set", "first fit takes", "second fit takes", "worth most"], rows)
-
-
-def _does(success: float, accident: float) -> str:
-    """What an agent does on the road, by the shares of its drives."""
-    if accident > 0.5:
-        return f"crashes on {100 * accident:.0f} % of the roads"
-    return "gets out" if success > 0.5 else "stays behind trap 1"
+        most = truly.argmax()
+        cells = [f"**{each:.2f}**" if i == most else f"{each:.2f}" for i, each in enumerate(truly)]
+        taken = [f"{'✓' if fit.argmax() == most else '✗'} {names[fit.argmax()]}" for fit in fits]
+        rows.append([place + 1, *cells, *taken])
+    return table(["set", *(f"{name} is worth" for name in names), "first fit takes", "second fit takes"], rows)

@@ -1,19 +1,15 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-import torch
 
-from bootcourse.course.lessons.recorded_drives import choosing
+from bootcourse.course.lessons.recorded_drives import choosing, eight_seeds
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
-from bootcourse.episodes.record import record
-from bootcourse.learn.learner import SACLearner
-from bootcourse.learn.settings import Settings, settings_for, with_seeds
-from bootcourse.learn.training import Training
+from bootcourse.learn.settings import settings_for, with_seeds
+from bootcourse.methods import display_name
 from bootcourse.policies import Policy
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
@@ -65,53 +61,53 @@ def successes() -> np.ndarray:
     return np.array([of(method).scores("success")[:SETS] for method in choosing.METHODS]).T
 
 
-def accelerates(actions: torch.Tensor) -> float:
-    """In which share of the seconds these actions accelerate."""
-    return float((actions >= 6).float().mean())
-
-
 def did() -> float:
     """In which share of the recorded seconds the rule accelerated."""
-    return accelerates(choosing.recorded().actions)
+    return eight_seeds.accelerates(choosing.recorded().actions)
 
 
 class Short(NamedTuple):
-    """What Round 2 says of its two agents, a number of each."""
+    """What Round 2 says of its first two agents, a number of each."""
 
-    accelerate: list[float]  # share of the recorded seconds in which it would
-    crashes: list[int]  # of 100 roads
     promises: list[float]  # mean Q of its actions at 100 starts
     earns: list[float]  # what it is worth from there
 
 
 @cache
-def short(weight: float) -> Short:
-    """Two agents of Round 2, with this weight of CQL's term.
+def short() -> Short:
+    """Two agents of Round 2, of plain Q-learning.
 
     They depend on the processor, a little: the text names no value, and its bounds are wide.
     """
-    settings = with_seeds(settings_for("cql", cql_weight=weight), 2)
-    learner, states = updated(settings, 1000), choosing.recorded().states
+    settings = with_seeds(settings_for("cql", cql_weight=0.0), 2)
+    learner = eight_seeds.learned(settings)
     policies = [learner.agent(row).as_policy(with_q=True) for row in range(2)]
     return Short(
-        [accelerates(choosing.actions_of(policy, states)) for policy in policies],
-        [crashes(policy) for policy in policies],
         [choosing.promised(policy, choosing.starts()) for policy in policies],
         [choosing.worth(policy, range(100), 0.8) for policy in policies],
     )
 
 
-def updated(settings: Sequence[Settings], updates: int) -> SACLearner:
-    """Agents after so many updates from recorded drives, as in the notebook."""
-    training, generators = Training(settings), [np.random.default_rng(each.seed) for each in settings]
-    for _ in range(updates):
-        training.learner.update(training.replay.sample(64, np.ones(len(settings)), generators))
-    return training.learner
+def eight(kind: str, measure: str) -> list[float]:
+    """What was measured of the eight shipped agents of a kind of Round 2."""
+    return shipped_experiment(eight_seeds.NAME)[kind].measured[measure].tolist()
 
 
-def crashes(policy: Policy) -> int:
-    """On how many of 100 roads a driver has an accident."""
-    return sum(drive.accident > 0 for drive in record(policy, range(100)))
+def paid_for(pace: int) -> float:
+    """The mean reward of the recorded seconds in which the rule brakes (-1), keeps its speed (0), accelerates (1)."""
+    data = choosing.recorded()
+    return float(data.rewards[data.actions // 3 - 1 == pace].mean())
+
+
+@cache
+def each_second(method: str) -> np.ndarray:
+    """What set 1's agent of a method earns in each of its first seconds, the mean of 100 roads, (seconds,)."""
+    return choosing.each_second(choosing.agents(0)[display_name(method)], range(100))
+
+
+def discounted_seconds(method: str, gamma: float) -> float:
+    """What these seconds are worth."""
+    return float(gamma ** np.arange(choosing.SECONDS) @ each_second(method))
 
 
 def updates_in_the_study() -> int:

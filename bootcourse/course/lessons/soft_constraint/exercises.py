@@ -102,7 +102,7 @@ def policy_cases(rng):
 
 regularised_policy = exercise(
     "π* = softmax((Q + ξ log π̃) / (α + ξ)), from the objective of Section IV-A",
-    minutes=12, difficulty=3, cases=policy_cases,
+    minutes=13, difficulty=3, cases=policy_cases,
     worked=[
         # two actions, Q equal: π̃ counts with ξ / (α + ξ) = 1/2, so with the roots of 0.8 and 0.2
         ((torch.zeros(1, 2), torch.tensor([[0.8, 0.2]]).log(), 1.0, 1.0), torch.tensor([[2 / 3, 1 / 3]])),
@@ -153,15 +153,15 @@ def loss_cases(rng):
 
 @exercise(
     "-E_s[Σ_a π (Q - α log π) - ξ D_KL], Section IV-A",
-    minutes=5, difficulty=2, cases=loss_cases, slopes=[logits("log_pi"), "q", "kl"],
+    minutes=3, difficulty=1, cases=loss_cases, slopes=[logits("log_pi"), "q", "kl"],
     worked=[
         # two actions, half and half: V = (1 + 3)/2 + 0.5 log 2 - 2 · 0.25
         ((torch.full((1, 2), -math.log(2)), torch.tensor([[1.0, 3.0]]), 0.5, 2.0, torch.tensor([0.25])),
          torch.tensor(-(2 + 0.5 * math.log(2) - 0.5))),
     ],
     hints=(
-        "Write V of each state first: the expectation of Q - α log π under π, minus ξ times its KL.",
-        "The loss is minus the mean of V. Which of `q` and `kl` may not receive a gradient?",
+        "`value` is the soft value of each state. Subtract ξ times the state's KL from it.",
+        "The loss is minus the mean. `q` receives no gradient, but `kl` must: it depends on the policy.",
     ),
     mistakes={
         "q.detach() -> q":
@@ -172,7 +172,7 @@ def loss_cases(rng):
             "V.",
         "xi * kl -> xi * kl.detach()":
             "Your KL has no gradient, so it does not change the actor. Detach Q, not the KL.",
-        "-value -> value":
+        "return -(value -> return (value":
             "This is the value, and training would make it *small*. A loss is minimised: return -V.",
         "xi * kl -> kl": NOT_WEIGHTED,
         "- alpha * log_pi -> + alpha * log_pi": MINUS_ENTROPY,
@@ -181,8 +181,8 @@ def loss_cases(rng):
     },
 )  # fmt: skip
 def constrained_loss(log_pi, q, alpha, xi, kl):
-    value = (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1) - xi * kl
-    return -value.mean()
+    value = (log_pi.exp() * (q.detach() - alpha * log_pi)).sum(-1)
+    return -(value - xi * kl).mean()
 
 
 def target_cases(rng):
@@ -211,7 +211,7 @@ Q_PAIR = torch.tensor([[2.0] * 4 + [9.0] * 5, [5.0] * 4 + [2.0] * 5])[:, None].e
 
 
 @exercise(
-    "y = r + γ (1 - terminated) (V(s') - ξ D_KL(s')), from Equation 15", minutes=10, difficulty=3, cases=target_cases,
+    "y = r + γ (1 - terminated) (V(s') - ξ D_KL(s')), from Equation 15", minutes=11, difficulty=3, cases=target_cases,
     worked=[
         # all actions alike, min Q = 2: V = 2 + 0.5 log 9 - 2 · 0.25; it goes on: 1 + 0.8 V; it ended: -10
         ((torch.tensor([1.0, -10.0]), torch.tensor([0.0, 1.0]), EVEN, Q_PAIR, torch.tensor([0.25, 0.25]),

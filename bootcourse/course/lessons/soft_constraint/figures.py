@@ -44,7 +44,8 @@ FADING = "ξ falls towards 0"  # the study's own agents with the soft constraint
 FLOOR = "ξ falls to 0.1"
 
 # of the kinds of `courses`
-FAULTS = "slow (return {0:.0f}, the rule {1:.0f})", "not found by all", "lost by {2} of {3}, at times"
+FOUND = "found by {4} of {3},\nlost at times by {2}"
+FAULTS = "slow (return {0:.0f}, the rule {1:.0f}),\nlost at times by {2} of {3}", FOUND, FOUND
 PULLS = "strong throughout", "weak throughout", "strong, then none", "strong, then weak"  # of those of `twenty`
 
 
@@ -61,7 +62,8 @@ def courses(kinds: Sequence[str]) -> Figure:
         left = 0.5 + 2.1 * column
         above, below = axes_at(figure, left, 0.95, 1.9, 0.75), axes_at(figure, left, 2.15, 1.9, 1.7)
         earned = changed[kind].of("soft").scores("returns").mean()
-        fault = fault.format(earned, rule, lost(success).sum(), len(success))
+        finders = changed[kind].found_and_kept("soft")[0].sum()
+        fault = fault.format(earned, rule, lost(success).sum(), len(success), finders)
         plain_axes(above, f"{kind}:\n{fault}")
         xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
         until = np.argmax(xi <= 0.101) if kind == FADING else len(xi)
@@ -83,7 +85,7 @@ def courses(kinds: Sequence[str]) -> Figure:
             ax.set(xlim=(0, success.shape[1]), xticks=(500, 1000, 1500))
             ax.tick_params(labelleft=not column, labelbottom=ax is below)
         ahead = f"at last {IN_A_ROW * share[:, -1].mean():.0f} on average"
-        alt.append(f"{kind}: {fault}, {ahead}")
+        alt.append(f"{kind}: {' '.join(fault.split())}, {ahead}")
     words = "mean ξ of ten agents; below, a line for each; return: mean in the test"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     return finish(

@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import torch
 
+from bootcourse.course.lessons.soft_constraint.examples import fast_and_rule
 from bootcourse.course.lessons.soft_constraint.figures import ways_out as ways_out
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
@@ -48,12 +49,6 @@ def kept(agents: Results) -> int:
     return int(agents.found_and_kept("soft")[1].sum())
 
 
-def nearly_escaping() -> float:
-    """The mean success of those of the ten agents whose ξ stays at 2 that find the way out and do not escape."""
-    ahead = stays(2).scores("success")
-    return float(ahead[~stays(2).found_and_kept("soft")[1]].mean())
-
-
 def fast_keepers(agents: Results) -> int:
     """How many of those that kept the way out return more than twice as much as the rule."""
     fast = agents.scores("returns") > 2 * of("rule").scores("returns").mean()
@@ -92,16 +87,27 @@ def crashes(agents: list[Results]) -> float:
 
 
 @cache
-def ways_of_the_panel(xi: float) -> dict[str, Way]:
-    """The panel's three ways on from the start of road 10, with p = 0.9, by their names."""
+def ways_of_the_panel(xi: float, road: int) -> dict[str, Way]:
+    """The panel's three ways on from the start of a road, with p = 0.9, by their names."""
     helped = shipped_agents("soft")[0]
-    drive = record(helped.as_policy(with_q=True), [10])[0]
+    drive = record(helped.as_policy(with_q=True), [road])[0]
     return Ways(drive, helped).at(0, RULE_P, xi, ALPHA)
 
 
-def way(xi: float, whose: str = CHOSEN) -> str:
+def way(xi: float, whose: str = CHOSEN, road: int = 10) -> str:
     """How far one of the panel's three ways gets: "402 m in 40 s"."""
-    return ways_of_the_panel(xi)[whose].words
+    return ways_of_the_panel(xi, road)[whose].words
+
+
+def pays_more() -> float:
+    """How much more reward a second earns a fast agent than the rule, see `examples.fast_seconds`."""
+    fast, rule = (reward for _, reward, _ in fast_and_rule().values())
+    return fast - rule
+
+
+def differs() -> float:
+    """In which share of these seconds a fast agent takes another action than the rule's."""
+    return next(iter(fast_and_rule().values()))[2]
 
 
 def same_until_the_floor() -> bool:

@@ -20,3 +20,25 @@ wrong_lines("""luck
     never sure: min(0.999, solution(good, decisions, tries))
     of eight: 1 - (1 - (good / 8) ** decisions) ** tries
 """)
+
+right_lines("""going_on
+    drive by drive: rests = [row[t:] for row, seconds in zip(rewards, lasted) if seconds > t]
+        sum(gamma**k * r for rest in rests for k, r in enumerate(rest)) / len(rests)
+    weighted: still = lasted > t
+        worths = (rewards[:, t:] * gamma ** np.arange(rewards.shape[1] - t)).sum(axis=1)
+        (worths * still).sum() / still.sum()
+    a mean of each second: rest = rewards[lasted > t].mean(axis=0)[t:]
+        np.dot(rest, np.power(float(gamma), np.arange(len(rest))))
+""")
+
+wrong_lines("""going_on
+    only the next second: rewards[lasted > t, t].mean()
+    only what comes out well: rest = rewards[lasted > t, t:]
+        np.maximum(rest @ gamma ** np.arange(rest.shape[1]), 0).mean()
+    the median: rest = rewards[lasted > t, t:]
+        np.median(rest @ gamma ** np.arange(rest.shape[1]))
+    a mean of each drive's seconds: rest = rewards[lasted > t, t:]
+        (rest * gamma ** np.arange(rest.shape[1])).mean()
+    each drive by itself: rest = rewards[lasted > t, t:]
+        rest @ gamma ** np.arange(rest.shape[1])
+""")

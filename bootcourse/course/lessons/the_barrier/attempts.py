@@ -30,17 +30,11 @@ class Outcome:
         """Σ γ^t r_t from the start of each drive."""
         return self.rewards @ gamma ** np.arange(self.rewards.shape[1])
 
-    def going_on(self, gamma: float, price: float, decisions: int) -> np.ndarray:
-        """What the rest of a drive is worth after 0, 1, … decisions, (decisions + 1,).
-
-        Each is the mean of the drives that have not ended; an accident costs `price`.
-        """
+    def priced(self, price: float) -> np.ndarray:
+        """The rewards where an accident costs `price`, (roads, decisions)."""
         rewards = self.rewards.copy()
         rewards[self.accident, self.lasted[self.accident] - 1] = -price
-        weights, means = gamma ** np.arange(rewards.shape[1]), []
-        for t in range(decisions + 1):
-            means.append((rewards[self.lasted > t, t:] @ weights[: rewards.shape[1] - t]).mean())
-        return np.array(means)
+        return rewards
 
 
 def keep_lane(cars: np.ndarray, speeds: np.ndarray, lanes: np.ndarray) -> np.ndarray:

@@ -88,15 +88,16 @@ def costing(price: float, road: type[TrapVectorEnv] = TrapVectorEnv) -> Callable
 
 
 MIDDLE, CHEAP = "a later start, mid-lane", "accidents cost 1"
-BOTH = "mid-lane, and accidents cost 1"
+BOTH, FREE = "mid-lane, and accidents cost 1", "free accidents"
 KEPT = "a lane keeper and cheap accidents"  # they cost 1, too
+TWICE = ", twice the updates"
 KINDS: dict[str, tuple[Callable, dict]] = {  # what makes the roads, and the settings that differ
     "as it is": (TrapVectorEnv, {}),
     "a lane keeper": (LaneKeeper, {}),
     "a later start": (LaterStart, {}),
     MIDDLE: (MidLaneStart, {}),
     "a later start, η = 1": (LaterStart, {"target_entropy": 1.0}),
-    "free accidents": (costing(0.0), {}),
+    FREE: (costing(0.0), {}),
     CHEAP: (costing(1.0), {}),
     KEPT: (costing(1.0, LaneKeeper), {}),
     BOTH: (costing(1.0, MidLaneStart), {}),
@@ -133,7 +134,12 @@ def train_kind(kind: str, first_seed: int, updates: int) -> Results:
 
 def stressed(kind: str) -> str:
     """The cell of the same kind with other seeds and twice the updates."""
-    return f"{kind}, twice the updates"
+    return kind + TWICE
+
+
+def unstressed(cell: str) -> str:
+    """The kind of a cell, whose road is the same with twice the updates."""
+    return cell.removesuffix(TWICE)
 
 
 CELLS = {kind: {"kind": kind, "first_seed": 0, "updates": UPDATES} for kind in KINDS} | {

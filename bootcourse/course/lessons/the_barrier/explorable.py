@@ -1,10 +1,13 @@
 """To drag in this lesson: what it is worth to go on with lesson 1's plan, second by second: the barrier."""
 
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 
+from bootcourse.course import own_code
 from bootcourse.course.lessons.the_barrier.attempts import PLAN, Outcome, drive
+from bootcourse.course.lessons.the_barrier.exercises import going_on
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.methods import style
 from bootcourse.panels.explorable import Axes, Curve, Explorable, curves
@@ -27,16 +30,25 @@ def by_staying() -> Outcome:
     return drive(idle_policy, held_out_seeds(1, 1))
 
 
-def hill(price: float, gamma: float) -> np.ndarray:
-    """What it is worth to go on with the plan after 0 to 14 s of it, as a multiple of staying at its start."""
-    return by_plan().going_on(gamma, price, SECONDS) / by_staying().values(gamma)[0]
+def hill(price: float, gamma: float, worth_after: Callable[..., float] = going_on.solution) -> np.ndarray:
+    """What it is worth to go on with the plan after 0 to 14 s of it, as a multiple of staying at its start.
+
+    worth_after: the exercise `going_on`.
+    """
+    rewards, lasted = by_plan().priced(price), by_plan().lasted
+    rest = [worth_after(rewards, lasted, gamma, t) for t in range(SECONDS + 1)]
+    return np.array(rest, dtype=float) / by_staying().values(gamma)[0]
 
 
 def barrier() -> Explorable:
-    """What it is worth to go on with the plan, by how many of its seconds are driven, beside staying."""
+    """What it is worth to go on with the plan, by how many of its seconds are driven, beside staying.
+
+    The student's `going_on` draws it if it passed its check.
+    """
+    worth_after = own_code.yours_or_ours("going_on", doing="Drawing")
 
     def draw(price: float, gamma: float) -> Drawing:
-        worth = hill(price, gamma)
+        worth = hill(price, gamma, worth_after)
         lowest = int(worth.argmin())
         dip = f"after {lowest} s {worth[lowest]:.1f}" if lowest else "no dip"
         says = f"Price {price:g}, γ = {gamma:g}: the plan is worth {worth[0]:.1f} times staying, {dip}, "

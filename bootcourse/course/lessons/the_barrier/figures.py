@@ -1,4 +1,4 @@
-"""Figures of the barrier, and a table: when agents got out while they learned, and how they drive in the end."""
+"""Figures of the barrier, and tables: when agents got out while they learned, and how they drive in the end."""
 
 from collections.abc import Mapping, Sequence
 
@@ -8,19 +8,30 @@ from matplotlib.figure import Figure
 from bootcourse.colours import ALARM, PALE
 from bootcourse.course import table
 from bootcourse.course.lessons.the_barrier import easier
+from bootcourse.course.live_curves import LiveCurves
+from bootcourse.learn.training import Training
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
 from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
 
 DARK = style("sac").colour
-
+BLUES = (DARK, "-"), ("#5AA9DB", "--")  # of the agents of each γ
+IDLE = style("idle")
 
 ENDS = {  # how an agent of an easier road ends, in the order of `how_they_end`: its colour
     "escapes, earns more than by staying": DARK,
     "escapes, earns no more": PALE,
-    "does not escape, crashes on most roads": "white",
+    "does not escape, crashes": "white",
     "stays behind": "white",
+}
+ELSE = {  # cells that could overturn the lesson's verdict, in words
+    easier.stressed(easier.MIDDLE): "free lane, an accident costs 10",
+    easier.stressed(easier.CHEAP): "trap, an accident costs 1",
+    easier.stressed(easier.BOTH): "free lane, an accident costs 1",
+    easier.FREE: "trap, accidents are free",
+    easier.KEPT: "trap, lane keeper, an accident costs 1",
+    easier.stressed(easier.KEPT): "trap, lane keeper, an accident costs 1",
 }
 CRASHES = {"marker": "X", "c": ALARM, "edgecolors": "white", "linewidths": 0.5}  # on most roads
 
@@ -33,6 +44,41 @@ def how_they_end(agents: Results, staying: float) -> np.ndarray:
     return np.array([each.sum(axis=1), (each & crashing).sum(axis=1)])
 
 
+class LiveReturns(LiveCurves):
+    """The return of each agent while it learns, in a blue for each γ, and what a car earns that does nothing."""
+
+    def __init__(self, idle: float):
+        super().__init__()
+        self.idle = idle
+
+    def draw(self, training: Training) -> Figure:
+        if not self.updates:
+            self.note(training)
+        returns = np.stack([means["return"] for means in self.means], axis=1)  # (agents, points)
+        best = np.nanmax(returns[:, -1])
+        who = "Neither agent" if len(returns) == 2 else f"None of the {len(returns)} agents"
+        if best < self.idle:
+            title = f"{who} earns as much as a car that does nothing"
+        else:
+            title = f"The best agent earns {best:.0f}, a car that does nothing {self.idle:.0f}"
+        figure = new_figure(2.95)
+        ax = axes_at(figure, 0.45, 0.75, 5.0, 1.75)
+        plain_axes(ax, "return of an episode, mean of an agent's last 50")
+        ax.axhline(self.idle, color=IDLE.colour, linestyle=IDLE.line, linewidth=IDLE.width)
+        ends = [(self.idle, f"does nothing: {self.idle:.1f}", IDLE.colour)]
+        gammas = np.array([settings.gamma for settings in training.settings])
+        for (colour, line), gamma in zip(BLUES, dict.fromkeys(gammas.tolist()), strict=False):
+            for each in returns[gammas == gamma]:
+                ax.plot(self.updates, each, color=colour, linestyle=line, linewidth=2)
+            now = np.nanmean(returns[gammas == gamma, -1])
+            ends.append((now, f"γ = {gamma:g}: {now:.1f}".replace("-", "−"), colour))
+        ax.set(xlim=(0, max(self.updates[-1], 1)))
+        ax.set_xlabel("updates of each agent", fontsize=TEXT, color=INK)
+        label_ends(ax, ends)
+        said = "; ".join(words for _, words, _ in ends)
+        return finish(figure, title, f"After {training.updates:,} updates: {said}.")
+
+
 def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]) -> Figure:
     """A square for each agent, coloured by how it ends, crossed if it crashes on most roads: a block for each kind.
 
@@ -40,9 +86,9 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
     """
     found = {words: how_they_end(trained[kind], easier.staying(kind)) for words, kind in shown.items()}
     rows, columns = (list(dict.fromkeys(words[k] for words in shown)) for k in (0, 1))
-    figure = new_figure(3.55)
-    ax = axes_at(figure, 0, 0.7, figure.get_figwidth(), 2.85)  # in inches
-    ax.set(xlim=(0, figure.get_figwidth()), ylim=(2.85, 0))
+    figure = new_figure(3.75)
+    ax = axes_at(figure, 0, 0.7, figure.get_figwidth(), 3.05)  # in inches
+    ax.set(xlim=(0, figure.get_figwidth()), ylim=(3.05, 0))
     ax.axis("off")
     look = {"marker": "s", "edgecolors": INK, "linewidths": 0.8}
     for column, words in enumerate(columns):
@@ -54,18 +100,20 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
         place = np.arange(sum(ends))
         across, down = x + 0.09 + 0.2 * (place % 10), y + 0.3 + 0.2 * (place // 10)
         ax.scatter(across, down, s=125, c=np.repeat([*ENDS.values()], ends), **look)
-        firsts = np.cumsum((0, *ends[:-1]))
-        crossed = [first + k for first, of in zip(firsts, crashes, strict=True) for k in range(of)]
+        lasts = np.cumsum(ends)  # of each colour those that crash come last
+        crossed = [last - 1 - k for last, of in zip(lasts, crashes, strict=True) for k in range(of)]
         ax.scatter(across[crossed], down[crossed], s=42, **CRASHES)
         verbs = ("escape", "escapes"), ("others crash", "other crashes"), ("stay", "stays")
         counts = sum(ends[:2]), *ends[2:]
         says = ", ".join(f"{n} {verb[int(n == 1)]}" for n, verb in zip(counts, verbs, strict=True))
         ax.text(x, y + 0.06, says, va="center", fontsize=TEXT, color=INK, fontweight="bold")
-    keys = {words: look | {"c": [colour]} for words, colour in [*ENDS.items()][:2]}
-    keys |= {"stays behind": look | {"c": ["white"]}, "crashes on most roads": CRASHES}
+    keys = dict.fromkeys(ENDS, look) | {"a cross: crashes on most roads": None}
     for place, (words, key) in enumerate(keys.items()):
         at = 1.84 + 2.7 * (place % 2), 2.4 + 0.22 * (place // 2)
-        ax.scatter(*at, s=50, **key)
+        if key:
+            ax.scatter(*at, s=70, c=[ENDS[words]], **key)
+        if "crashes" in words:
+            ax.scatter(*at, s=30, **CRASHES)
         ax.text(at[0] + 0.16, at[1], words, va="center", fontsize=SMALL, color=INK)
     both, _ = found[rows[-1], columns[-1]]
     title = f"Cheap accidents and the free lane together: {sum(both[:2])} of {sum(both)} escape, "
@@ -74,6 +122,27 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
     crossed = "; ".join(f"{', '.join(words)}: {sum(counts)}" for words, (_, counts) in found.items())
     alt = f"A square for each agent. {', '.join(ENDS)}: {listed}. A cross: crashes on most roads: {crossed}."
     return finish(figure, title, alt)
+
+
+def what_else(trained: Mapping[str, Results]):
+    """A table of the agents that could overturn the verdict, and how these end. trained: of each of `ELSE`."""
+    rows = []
+    for cell, words in ELSE.items():
+        agents, kind = trained[cell], easier.unstressed(cell)
+        out, crash = agents.scores("success") >= ESCAPES, agents.scores("accident") > 0.5
+        more = agents.scores("returns") > easier.staying(kind)
+        updates = easier.UPDATES * (1 if cell == kind else 2)
+        counts = out.sum(), (out & more).sum(), (~out & more).sum(), crash.sum()
+        rows.append([words, f"{updates:,}", *map(str, counts)])
+    heads = [
+        "start, price",
+        "updates",
+        "escape",
+        "these earn more than by staying",
+        "others earn more",
+        "crash on most roads",
+    ]
+    return table(heads, rows, below="Twenty agents in each row.")
 
 
 def how_they_drive(agents: Sequence, tests: Sequence):

@@ -14,12 +14,17 @@ SPEEDS = np.linspace(0, 4, 81)  # m/s by which the ego is faster than the car ah
 AXES = Axes("faster than the car in the new lane by (m/s)", "gap (m)", (0.0, 10.0))
 
 
+def braking_distance(faster):
+    """The room (m) in which the car brakes to another's speed, from so many m/s more: a number or an array."""
+    step = DEFAULT.clock.dt  # s; in each the car moves at its old speed
+    return faster**2 / (2 * DEFAULT.ego.acceleration) + faster * step / 2
+
+
 def long_enough(t_safe: float) -> tuple[np.ndarray, np.ndarray, float]:
     """At each of the `SPEEDS`, the gap that the rule wants and the distance in which the car brakes (m); and up to
     which of them (m/s) the gap is long enough.
     """
-    step = DEFAULT.clock.dt  # s; in each the car moves at its old speed
-    brakes = SPEEDS**2 / (2 * DEFAULT.ego.acceleration) + SPEEDS * step / 2
+    brakes = braking_distance(SPEEDS)
     wanted = np.array([safety_distance(speed, 0.0, 0.0, t_safe, DEFAULT.rule.floor) for speed in SPEEDS])
     return wanted, brakes, float(SPEEDS[np.maximum.accumulate(brakes > wanted) == 0][-1])
 

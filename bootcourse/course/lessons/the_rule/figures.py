@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM
-from bootcourse.course.lessons.the_rule.explorable import long_enough
-from bootcourse.course.lessons.the_rule.rules import makes_way_at
+from bootcourse.course.lessons.the_rule.explorable import braking_distance, long_enough
+from bootcourse.course.lessons.the_rule.rules import FastChanges, makes_way_at
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import overtaken
@@ -16,6 +16,7 @@ from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure, one_axes, plain_axes
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import Reason, safety_distance
+from bootcourse.scenario import DEFAULT
 
 
 def when_to_change(drive: Rollout) -> Figure:
@@ -36,8 +37,8 @@ def when_to_change(drive: Rollout) -> Figure:
             (needed, "safety distance"),
         ),
         (
-            "printed: closing speed × time > distance (m)",
-            (printed, "closing\nspeed\n× time", ALARM),
+            "printed: closing speed × t_safe > distance (m)",
+            (printed, "closing\nspeed\n× t_safe", ALARM),
             (ahead, "distance"),
         ),
     )
@@ -158,7 +159,7 @@ def crash_over_time(drive: Rollout) -> Figure:
     ax = panel(3.35, "faster than trap 2 (m/s)", (-3, 4))
     ax.plot(drive.times, faster, color=green, linewidth=2.5)
     ax.axhline(safe, color=INK, linewidth=1.5, linestyle="--")
-    ax.text(last + 0.3, safe, "Round 2: more\nis too fast", fontsize=TEXT, color=INK, va="center")
+    ax.text(last + 0.3, safe, "above: brakes in\nmore than the\nasked gap", fontsize=TEXT, color=INK, va="center")
     then = faster[changed * steps]
     ax.plot(changed, then, "o", color=ALARM, markersize=7)
     says = f"{changed} s: changes lane"
@@ -167,8 +168,41 @@ def crash_over_time(drive: Rollout) -> Figure:
     alt = (
         f"Trap 1 is {ahead[0]:.0f} m ahead at first and later up to {ahead.max():.0f} m, beyond the sight of "
         f"{sight:g} m. At {began} s a lane change begins. At {lost} s trap 1 is out of sight, and the car stays in its "
-        f"lane and speeds up. At {changed} s it changes lane {then:.1f} m/s faster than trap 2; more than {safe:g} m/s "
-        f"is too fast to brake in the gap. At {last:g} s the drive ends in an accident."
+        f"lane and speeds up. At {changed} s it changes lane {then:.1f} m/s faster than trap 2; above {safe:g} m/s "
+        f"it brakes in more than the gap that the rule asks for. At {last:g} s the drive ends in an accident."
+    )
+    return finish(figure, title, alt)
+
+
+def tells_apart(changes: FastChanges) -> float:
+    """The gap (m) in the middle between the longest of a drive that crashes and the shortest of one that gets out."""
+    return float((changes.gap[changes.crashed].max() + changes.gap[~changes.crashed].min()) / 2)
+
+
+def room_to_brake(changes: FastChanges) -> Figure:
+    """A dot for each fast lane change: the gap in which it begins, and whether the drive crashes."""
+    crashed, asked = changes.crashed, DEFAULT.rule.t_safe * changes.faster.min()
+    takes, split, green = braking_distance(changes.faster.min()), tells_apart(changes), style("rule").colour
+    title = f"3 m/s faster: with less than {split:.2f} m all {crashed.sum()} crash, "
+    title += f"with more all {(~crashed).sum()} get out"
+    figure, ax = one_axes(2.9, title, "gap to trap 2 when the lane change begins, from bumper to bumper (m)", "", 0.87)
+    rows = (crashed, 1, ALARM, "X", f"{crashed.sum()} crash"), (~crashed, 0, green, "o", f"{(~crashed).sum()} get out")
+    for which, row, colour, marker, words in rows:
+        gaps = np.sort(changes.gap[which])
+        heights = row + 0.09 * (np.arange(len(gaps)) % 5 - 2)  # one above the other, so that none hides another
+        ax.scatter(gaps, heights, c=colour, marker=marker, s=42, edgecolors="white", linewidths=0.5, zorder=3)
+        ax.text(gaps[0] - 0.04, row, words, color=colour, fontsize=TEXT, ha="right", va="center")
+    for gap, words, side in (
+        (asked, f"the rule asks for {asked:.1f} m ", "left"),
+        (takes, f" braking takes {takes:.2f} m", "left"),
+    ):
+        ax.axvline(gap, color=INK, linewidth=1.2, linestyle="--", zorder=1)
+        ax.text(gap + 0.01, 1.62, words.strip(), fontsize=TEXT, color=INK, ha=side, va="center")
+    ax.set(xlim=(4.2, 5.9), ylim=(-0.5, 1.85), yticks=[])
+    alt = (
+        f"{len(crashed)} drives. Those that crash began the lane change with {changes.gap[crashed].min():.2f} to "
+        f"{changes.gap[crashed].max():.2f} m, those that get out with {changes.gap[~crashed].min():.2f} to "
+        f"{changes.gap[~crashed].max():.2f} m. The rule asks for {asked:.1f} m; braking takes {takes:.2f} m."
     )
     return finish(figure, title, alt)
 

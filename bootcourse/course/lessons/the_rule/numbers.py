@@ -5,35 +5,22 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bootcourse.course.lessons.the_rule.explorable import braking_distance as braking_distance
+from bootcourse.course.lessons.the_rule.figures import tells_apart
 from bootcourse.course.lessons.the_rule.rules import ALOOF as ALOOF
-from bootcourse.course.lessons.the_rule.rules import ROADS, makes_way_at, with_numbers
+from bootcourse.course.lessons.the_rule.rules import ROADS, makes_way_at
 from bootcourse.course.lessons.the_rule.rules import as_printed as as_printed
 from bootcourse.course.lessons.the_rule.rules import crash as crash
+from bootcourse.course.lessons.the_rule.rules import decided as decided
 from bootcourse.course.lessons.the_rule.rules import driven as driven
+from bootcourse.course.lessons.the_rule.rules import fast_changes as fast_changes
 from bootcourse.course.lessons.the_rule.rules import recorded as recorded
+from bootcourse.course.lessons.the_rule.rules import sign_turned as sign_turned
 from bootcourse.course.lessons.the_rule.rules import split as split
-from bootcourse.episodes.evaluate import Episodes, drive_episodes
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.policies import PolicyOutput
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SETTLED as SETTLED
-from bootcourse.rule import Reason, rule
-
-
-@cache
-def decided(sight: float, **numbers) -> tuple[np.ndarray, np.ndarray, np.ndarray, Episodes]:
-    """Each decision on the lesson's roads with these numbers: reasons and safety distances (decisions, roads), the cars
-    (decisions, roads, vehicles, 10) that the rule saw, and how the drives end.
-    """
-    scenario, seen = with_numbers(sight, **numbers), []
-
-    def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-        decisions = rule(cars, scenario)
-        seen.append((decisions.reasons, decisions.distances, cars.copy()))
-        return PolicyOutput(decisions.actions)
-
-    episodes = drive_episodes(drive, ROADS, together=len(ROADS))
-    return *map(np.array, zip(*seen, strict=True)), episodes
+from bootcourse.rule import Reason
 
 
 def lost_in_change(floor: float, sight: float = 20.0) -> np.ndarray:
@@ -52,6 +39,25 @@ def called_off(sight: float = 20.0) -> np.ndarray:
     began, lanes = changes.argmax(0), cars[:, :, EGO, LANE]
     completed = lanes[began + 4, roads] < lanes[began, roads]
     return changes.any(0) & ~completed & (reasons[began + 1, roads] == Reason.FREE)
+
+
+def trap_1_after_a_second(sight: float) -> float:
+    """How far ahead trap 1 is (m), at the most, a second after the rule begins its first lane change."""
+    reasons, _, cars, _ = decided(sight)
+    after = (reasons == Reason.CHANGE).argmax(0) + 1
+    return float((cars[:, :, TRAP_1, X] - cars[:, :, EGO, X])[after, np.arange(len(ROADS))].max())
+
+
+def closing_at_change(sight: float, **numbers) -> float:
+    """By how much (m/s) the rule is faster than trap 2, at the most, when it begins a lane change behind it."""
+    reasons, _, cars, _ = decided(sight, **numbers)
+    behind = (reasons == Reason.CHANGE) & (cars[:, :, EGO, LANE] == cars[:, :, TRAP_2, LANE] + 1)
+    return float((cars[:, :, EGO, SPEED] - cars[:, :, TRAP_2, SPEED])[behind].max())
+
+
+def tells() -> float:
+    """The gap (m) that tells the fast changes that crash from those that get out."""
+    return tells_apart(fast_changes())
 
 
 def gap(drive: Rollout, second: int) -> float:

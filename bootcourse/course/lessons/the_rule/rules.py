@@ -7,6 +7,7 @@ import dataclasses
 import math
 from collections.abc import Callable, Mapping
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,11 +16,11 @@ from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seed
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.teachers import toward
-from bootcourse.policies import policy_of, rule_policy
+from bootcourse.policies import PolicyOutput, policy_of, rule_policy
 from bootcourse.road.constants import constants
-from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, X, Y
+from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X, Y
 from bootcourse.road.traffic import FRONT, NOBODY, REAR, look_around, new_around, sort_by_x
-from bootcourse.rule import SETTLED, rule
+from bootcourse.rule import SETTLED, Reason, rule
 from bootcourse.scenario import DEFAULT, Scenario
 
 ROADS = held_out_seeds(1, 200)
@@ -31,6 +32,41 @@ def with_numbers(sight: float = DEFAULT.sight.distance, **numbers) -> Scenario:
     """The scenario in which the rule has another sight, and other numbers of `bootcourse.scenario.Rule`."""
     rule = dataclasses.replace(DEFAULT.rule, **numbers)
     return dataclasses.replace(DEFAULT, rule=rule, sight=dataclasses.replace(DEFAULT.sight, distance=sight))
+
+
+@cache
+def decided(sight: float, **numbers) -> tuple[np.ndarray, np.ndarray, np.ndarray, Episodes]:
+    """Each decision on the lesson's roads with these numbers: reasons and safety distances (decisions, roads), the cars
+    (decisions, roads, vehicles, 10) that the rule saw, and how the drives end.
+    """
+    scenario, seen = with_numbers(sight, **numbers), []
+
+    def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        decisions = rule(cars, scenario)
+        seen.append((decisions.reasons, decisions.distances, cars.copy()))
+        return PolicyOutput(decisions.actions)
+
+    episodes = drive_episodes(drive, ROADS, together=len(ROADS))
+    return *map(np.array, zip(*seen, strict=True)), episodes
+
+
+class FastChanges(NamedTuple):
+    """Lane changes behind trap 2 that begin much faster than it drives, one of each drive."""
+
+    gap: np.ndarray  # m, from bumper to bumper
+    faster: np.ndarray  # m/s
+    crashed: np.ndarray  # bool: the drive ends in an accident
+
+
+def fast_changes(sight: float = 20.0, least: float = 2.5) -> FastChanges:
+    """The first such change, by at least so many m/s, of each of the lesson's drives that has one."""
+    reasons, _, cars, episodes = decided(sight)
+    ego, trap = cars[:, :, EGO], cars[:, :, TRAP_2]
+    faster, gap = ego[..., SPEED] - trap[..., SPEED], trap[..., X] - ego[..., X] - DEFAULT.car.length
+    fast = (reasons == Reason.CHANGE) & (trap[..., LANE] == ego[..., LANE] - 1) & (gap > 0) & (faster > least)
+    roads = np.flatnonzero(fast.any(0))
+    first = fast.argmax(0)[roads], roads
+    return FastChanges(gap[first], faster[first], episodes.accident[roads] > 0)
 
 
 @cache
@@ -117,13 +153,21 @@ def by_hand(speed_of: Callable, distance_of: Callable, has_room: Callable, roads
     return drive_episodes(policy_of(lambda cars: np.array([decide(each) for each in cars])), ROADS[:roads])
 
 
+def without_floor(v_ego, v_current, v_new, t_safe, floor):
+    """The left side of the printed condition, m."""
+    return (v_ego - min(v_current, v_new)) * t_safe
+
+
+@cache
 def as_printed(speed_of: Callable) -> Episodes:
     """The same with the printed condition: change lane if d_s, which has no floor, is longer than the distance."""
+    return by_hand(speed_of, without_floor, lambda dx_front, dx_rear, length, d_s, *rest: d_s > dx_front)
 
-    def distance(v_ego, v_current, v_new, t_safe, floor):
-        return (v_ego - min(v_current, v_new)) * t_safe
 
-    return by_hand(speed_of, distance, lambda dx_front, dx_rear, length, d_s, *rest: d_s > dx_front)
+@cache
+def sign_turned(speed_of: Callable) -> Episodes:
+    """The same with the printed condition turned round, and nothing else changed."""
+    return by_hand(speed_of, without_floor, lambda dx_front, dx_rear, length, d_s, *rest: d_s < dx_front)
 
 
 def timed(decide: Callable[[np.ndarray], np.ndarray]) -> tuple[Episodes, np.ndarray]:

@@ -92,14 +92,16 @@ def gives_up(alone: Mapping[str, np.ndarray]) -> Figure:
               (below, "mean return of these drives", alone["curve"]))  # fmt: skip
     for ax, words, values in panels:
         plain_axes(ax, words)
-        ax.plot(at, values.T, color=style("ppo").colour, linewidth=1, clip_on=False)
+        ax.plot(at, values.T, color=style("ppo").colour, linewidth=0.7, marker="o", ms=2.2, clip_on=False)
         ax.set_xlim(0, at.max())
     above.set(ylim=(0, 10), xticklabels=[])
     straight = driven(idle_policy)[0]
     below.set_ylim(-10, 50)
     below.axhline(straight, color=INK, linewidth=1, linestyle=(0, (1, 2)), zorder=1)
-    below.set_xlabel("decisions in training (thousands); a line for each agent", fontsize=TEXT, color=INK)
-    label_ends(below, [(straight, "keeping straight", INK)])
+    below.set_xlabel(
+        "decisions in training (thousands); a line for each agent, a dot every 50", fontsize=TEXT, color=INK
+    )
+    label_ends(below, [(straight, "keeping straight,\nnothing drawn", INK)])
     share, returns = 100 * alone["escapes"], alone["curve"]
     alt = [
         f"{1000 * at[place, 0]:,.0f} decisions: ahead {share[:, place].min():.0f} to {share[:, place].max():.0f} %, "

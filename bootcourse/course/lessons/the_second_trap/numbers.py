@@ -11,10 +11,16 @@ from bootcourse.course.lessons.the_second_trap import (
 )
 from bootcourse.course.lessons.your_teacher import example_teachers
 from bootcourse.episodes.record import record
+from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import teacher_policy
+from bootcourse.policies import rule_policy
+from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, X
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, discounted, idle, shipped_teachers
+
+DRIVES = ("keeping straight", "this agent", "the rule", "careful")  # on road 10, see `worth`
 
 
 def ppo(kind: str) -> dict:
@@ -61,9 +67,20 @@ def worth(driver: str, gamma: float) -> float:
     drives = {
         "keeping straight": idle,
         "this agent": ppo_drive,
+        "the rule": lambda: record(rule_policy(DEFAULT), [ROAD])[0],
         "careful": lambda: record(teacher_policy(example_teachers.careful), [ROAD])[0],
     }
     return discounted(drives[driver](), gamma)
+
+
+def drives_worth() -> str:
+    """The worth of these drives with PPO's γ and with SAC's, as Markdown."""
+    gammas = [settings_for(method).gamma for method in ("ppo", "sac")]
+    names = {"this agent": "this agent's sprints", "the rule": "the rule's way out", "careful": "`careful`'s way out"}
+    rows = [
+        [names.get(each, each), f"{worth(each, gammas[0]):.0f}", f"{worth(each, gammas[1]):.1f}"] for each in DRIVES
+    ]
+    return markdown(["", f"with PPO's γ = {gammas[0]}", f"with SAC's γ = {gammas[1]}"], rows)
 
 
 def worths() -> list[float]:

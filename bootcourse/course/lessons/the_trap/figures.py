@@ -20,6 +20,7 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT, Scenario
 from bootcourse.statistics import ESCAPES
 
 RIGHT_FIRST = ("keep right", ("keep left", 4), ("keep right", 3))  # the quick way out on road 10, then accelerate
+REST = "#C5CBD2"  # of roads on which nothing happens
 SHADES = ("#8A939B", INK, "#5F6B77")  # brake, keep, accelerate
 
 
@@ -86,18 +87,20 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
 def worth_with_crashes(worths: Mapping[str, tuple[float, float]]) -> Figure:
     """What each way out is worth at γ = 0.8, crashes included, against staying.
 
-    worths: each driver's mean worth, and how often it crashes, which is not shown; the first one stays.
+    worths: each driver's mean worth, and its share of drives that crash. The first driver stays; the rule, a plan and
+    agents follow.
     """
-    title = "At γ = 0.8 only the agent's way is worth more than staying, crashes included"
     (_, (stays, _)), *ways = worths.items()
-    colours = style("rule").colour, INK, style("bootstrapped").colour
-    high, left = 0.5 * len(ways), 1.6
+    pay = sum(worth > stays for _, (worth, _) in ways[2:])
+    title = f"At γ = 0.8 the ways of {pay} of {len(ways) - 2} agents are worth more than staying, crashes included"
+    colours = [style("rule").colour, INK, *[style("bootstrapped").colour] * (len(ways) - 2)]
+    high, left = 0.33 * len(ways), 1.6
     figure, says = new_figure(0.95 + high + 0.6), []
     ax = axes_at(figure, left, 0.95, 3.6, high)
-    for row, ((name, (worth, _)), colour) in enumerate(zip(ways, colours, strict=True)):
-        ax.barh(row, worth, 0.5, color=colour)
-        words = f"{worth:.2f}"
-        ax.text(worth + 0.03, row, words, fontsize=TEXT, color=colour, va="center")
+    for row, ((name, (worth, crashes)), colour) in enumerate(zip(ways, colours, strict=True)):
+        ax.barh(row, worth, 0.6, color=colour)
+        words = f"{worth:.2f}, crashes on {crashes:.0%}"
+        ax.text(1.34, row, words, fontsize=TEXT, color=colour, va="center")
         says.append(f"{name} {words}")
     name_rows(ax, [name for name, _ in ways], "worth at γ = 0.8, the mean of 100 roads (no unit)")
     ax.axvline(stays, color=INK, linestyle="--", linewidth=1.4)
@@ -105,6 +108,22 @@ def worth_with_crashes(worths: Mapping[str, tuple[float, float]]) -> Figure:
     ax.set(xlim=(0, 1.3), xticks=(0, 0.5, 1))
     alt = f"A bar for what each way out is worth; staying is worth {stays:.2f}. {'; '.join(says)}."
     return finish(figure, title, alt)
+
+
+def early_crashes(gaps: np.ndarray, early: np.ndarray) -> Figure:
+    """Roads by how far ahead trap 2 starts (m), and on how many of them the blind plan crashes in second 5."""
+    title = "The blind plan crashes in second 5 only where trap 2 starts close"
+    figure, ax = one_axes(2.9, title, "how far ahead trap 2 starts (m, in steps of 0.2 m)", "held-out roads")
+    edges = np.arange(4.0, gaps.max() + 0.2, 0.2)
+    (all_roads, crashed), left = (np.histogram(each, edges)[0] for each in (gaps, gaps[early])), edges[:-1]
+    look = {"width": 0.17, "align": "edge", "linewidth": 0}
+    ax.bar(left + 0.015, crashed, color=INK, **look)
+    ax.bar(left + 0.015, all_roads - crashed, bottom=crashed, color=REST, **look)
+    ax.text(4.02, all_roads.max() + 9, f"dark: crashes in second 5 ({early.sum()} roads)", fontsize=TEXT, color=INK)
+    ax.text(5.6, all_roads.max() + 9, "light: no crash in second 5", fontsize=TEXT, color=QUIET)
+    ax.set(xlim=(3.95, edges[-1] + 0.05), ylim=(0, all_roads.max() + 17))
+    each = ", ".join(f"{a:.1f} m {c} of {n}" for a, c, n in zip(left, crashed, all_roads, strict=True))
+    return finish(figure, title, f"The roads on which it crashes in second 5, by where trap 2 starts: from {each}.")
 
 
 def path_of(decoded: np.ndarray, seconds: int, scenario: Scenario = DEFAULT) -> np.ndarray:

@@ -7,15 +7,16 @@ import numpy as np
 from bootcourse.course.lessons.the_barrier.attempts import Outcome, drive
 from bootcourse.course.lessons.the_barrier.explorable import by_plan
 from bootcourse.course.lessons.the_trap import driving
-from bootcourse.course.lessons.the_trap.driving import all_plans, on_road
+from bootcourse.course.lessons.the_trap.driving import all_plans, trap_2_starts
 from bootcourse.course.lessons.the_trap.exercises import bearable_risk, reward
 from bootcourse.course.lessons.the_trap.figures import RIGHT_FIRST
 from bootcourse.course.lessons.the_trap.time_step import unhurt
 from bootcourse.course.shipped import shipped_agents
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.policies import plan_policy
+from bootcourse.road.state import EGO, TRAP_2, X, Y
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import by_rule, discounted, escaped_with, idle, shipped_results
@@ -26,9 +27,37 @@ FARTHER = 0.9, 0.95, 0.99  # γ of the study's agents that look farther ahead
 
 
 @cache
-def getting_out(road: int) -> int:
-    """How many of all plans get out unhurt on a road."""
-    return int(on_road(road)(all_plans()).sum())
+def straight() -> np.ndarray:
+    """Which of all plans steer left as often as right, (6561,) bool."""
+    return (all_plans() == 3).sum(axis=1) == (all_plans() == 5).sum(axis=1)
+
+
+@cache
+def all_drives(road: int) -> Episodes:
+    """What comes of all plans on a road."""
+    return driving.drives(all_plans(), road)
+
+
+def unhurt_plans(road: int) -> np.ndarray:
+    """Which of all plans get out unhurt on a road, (6561,) bool."""
+    return (all_drives(road).success > 0) & (all_drives(road).accident == 0)
+
+
+def failing(accident: int, road: int = 7) -> int:
+    """How many of the plans that steer left as often as right end in this accident on a road."""
+    return int((all_drives(road).accident[straight()] == accident).sum())
+
+
+@cache
+def first_crashes() -> tuple[np.ndarray, list[bool]]:
+    """Where trap 2 starts on the roads of the study (m), and whether it is nearest when the plan crashes early.
+
+    The second for each early crash on the first hundred of these roads.
+    """
+    seeds = np.array(held_out_seeds(1, 100))[crashed_early()[:100]].tolist()
+    ends = [drive.states[-1] for drive in record(BLIND, seeds)]
+    nearest = [np.hypot(cars[1:, X] - cars[EGO, X], cars[1:, Y] - cars[EGO, Y]).argmin() + 1 for cars in ends]
+    return trap_2_starts(), [car == TRAP_2 for car in nearest]
 
 
 @cache
@@ -67,6 +96,17 @@ def helped() -> Outcome:
 def worths() -> dict[str, tuple[float, float]]:
     """What the drivers of the last figure are worth, and how often they crash."""
     return driving.worths(reward.solution, PLAN)
+
+
+def with_help() -> list[tuple[float, float]]:
+    """Of the agents with the rule's help in it: what each one's way is worth, and how often it crashes."""
+    return [worths()[f"agent {k} with help"] for k in range(1, 6)]
+
+
+def alone_out() -> np.ndarray:
+    """How often plain SAC's agents that escape crash, (escapers,)."""
+    agents = shipped_results().of("sac")
+    return agents.scores("accident")[agents.scores("success") >= ESCAPES]
 
 
 def crashed_early() -> np.ndarray:

@@ -107,7 +107,7 @@ def cart(middle: float, x: float, angle: float, colour: str) -> list[str]:
 
     return [
         line(middle - 2.4 * METRE, GROUND, middle + 2.4 * METRE, GROUND, QUIET),
-        *(pole(side * limit, QUIET, 1, 'stroke-dasharray="4 4"') for side in (-1, 1)),
         rect(place - 25, top, 50, 18, INK),
         pole(angle, colour, 6),
+        *(pole(side * limit, QUIET, 1, 'stroke-dasharray="4 4"') for side in (-1, 1)),
     ]

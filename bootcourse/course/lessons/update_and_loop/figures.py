@@ -57,17 +57,37 @@ def along_falls(yours: np.ndarray, unmarked: by_hand.SAC) -> Figure:
     return falls(title, yours, "with the bug", unmarked, STRANGERS[1])
 
 
-def with_rows(yours: np.ndarray, added: by_hand.SAC) -> Figure:
-    """The same for an agent with the bug whose buffer has rows of fallen poles."""
-    drop = all(q[-1] < q[0] / 2 for q in (yours, worlds.along_falls(added)))
+def with_rows(yours: np.ndarray, added: by_hand.SAC, stands: float) -> Figure:
+    """The same for an agent with the bug whose buffer has rows of fallen poles. stands: pushes that it balances."""
+    drop = drops(added) and yours[-1] < yours[0] / 2
     title = "With rows of fallen poles Q drops towards the fall, as yours does" if drop else OF_A_FALL
-    return falls(title, yours, "with bug and rows", added, STRANGERS[2])
+    return falls(title, yours, f"bug and rows: stands for {stands:.0f} pushes", added, STRANGERS[2])
 
 
-def falls(title: str, yours: np.ndarray, name: str, agent: by_hand.SAC, look: Style) -> Figure:
-    """A line for this agent and one for the student's, and dotted the most that this agent's Q can be, with its α."""
-    named, looks = {name: worlds.along_falls(agent), "your agent": yours}, [look, OTHER]
-    marks = {f"limit {name} (α = {agent.log_alpha.exp().item():.2f})": worlds.most_possible(agent)}
+def with_frozen_guess(unmarked: by_hand.SAC, frozen: by_hand.SAC, stands: float) -> Figure:
+    """What two agents with the bug expect: one whose guess of a fallen pole stays as it was stands for `stands`."""
+    title = "Where the guess cannot grow, Q drops in spite of the bug" if drops(frozen) else OF_A_FALL
+    name, other = f"guess frozen: stands for {stands:.0f} pushes", ("with the bug", STRANGERS[1])
+    return falls(title, worlds.along_falls(unmarked), name, frozen, STRANGERS[3], other)
+
+
+def drops(agent: by_hand.SAC) -> bool:
+    """Whether Q drops towards the fall by more than a half."""
+    q = worlds.along_falls(agent)
+    return bool(q[-1] < q[0] / 2)
+
+
+def falls(
+    title: str,
+    q: np.ndarray,
+    name: str,
+    agent: by_hand.SAC,
+    look: Style,
+    other: tuple[str, Style] = ("your agent", OTHER),
+) -> Figure:
+    """A line for this agent and one for the other's q, and dotted the most that this agent's Q can be, with its α."""
+    named, looks = {name: worlds.along_falls(agent), other[0]: q}, [look, other[1]]
+    marks = {f"its limit (α = {agent.log_alpha.exp().item():.2f})": worlds.most_possible(agent)}
     says = "; ".join(f"{words}: {q[0]:.3g}, then {q[-1]:.3g}" for words, q in named.items())
     says += "".join(f"; {words}: {most:.3g}" for words, most in marks.items())
     pushes, x_label = np.arange(-worlds.BEFORE, 1), "pushes from the fall (0: the pole has fallen)"

@@ -4,9 +4,10 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons.update_and_loop import by_hand  # noqa: F401 (the text names it)
+from bootcourse.course.lessons.update_and_loop import by_hand
 from bootcourse.course.lessons.update_and_loop.pole import BLOCK, SOLVED
 from bootcourse.course.lessons.update_and_loop.worlds import BEFORE, GAMMA, to_one_side  # noqa: F401 (the text names γ)
+from bootcourse.course.lessons.update_and_loop.worlds import along_falls as along
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.research.problems import cartpole
 from bootcourse.research.results import Results
@@ -33,15 +34,54 @@ def after_a_block(kind: str = "marked") -> np.ndarray:
     return agents(kind).notes["tests"][:, 1]
 
 
+LEARNED = 50  # pushes that an agent balances the pole at least if it has learned something
+
+
+def stood(kind: str) -> np.ndarray:
+    """For how many pushes each agent of a kind balances the pole after its first block, with those of more seeds."""
+    return np.concatenate([after_a_block(each) for each in (kind, f"more-{kind}")])
+
+
+def learned(kind: str) -> str:
+    """How many of these have learned something, in words."""
+    return f"{(stood(kind) > LEARNED).sum()} of {len(stood(kind))}"
+
+
 def spread(kind: str) -> str:
-    """The least and the most of these pushes, in words; one number if they round to the same."""
-    pushes = after_a_block(kind)
-    return " to ".join(dict.fromkeys(f"{each:.0f}" for each in (pushes.min(), pushes.max())))
+    """The least and the most pushes of those that have learned something, in words."""
+    pushes = stood(kind)[stood(kind) > LEARNED]
+    return f"{pushes.min():.0f} to {pushes.max():.0f}" if len(pushes) else "–"
+
+
+def others() -> np.ndarray:
+    """For how many pushes the agents of all kinds balance the pole that have not learned anything."""
+    pushes = np.concatenate([stood(kind) for kind in ("marked", "unmarked", "paid-0", "paid-1", "frozen")])
+    return pushes[pushes <= LEARNED]
 
 
 def along_falls(kind: str = "marked") -> np.ndarray:
     """What each agent of a kind expects along a fall after its first block, (agents, 9): see `worlds.along_falls`."""
     return agents(kind).notes["q"][:, : BEFORE + 1]
+
+
+def expected(kind: str) -> np.ndarray:
+    """The same, with the agents of more seeds."""
+    return np.concatenate([along_falls(each) for each in (kind, f"more-{kind}")])
+
+
+def drop(kind: str) -> bool:
+    """Whether in all these agents Q of a fallen pole is less than a quarter of Q eight pushes before."""
+    return bool((expected(kind)[:, -1] < expected(kind)[:, 0] / 4).all())
+
+
+def worse(by: float = 50) -> int:
+    """How many of those that train to the end balance the pole for so many pushes less in some test than before it."""
+    return sum(bool((np.diff(each) < -by).any()) for each in tests())
+
+
+def first_guess() -> float:
+    """What the untrained critics of the seeds 0 to 4 make of a fallen pole: the largest mean over 40 falls."""
+    return max(abs(float(along(by_hand.SAC(seed))[-1])) for seed in range(len(agents())))
 
 
 def one_sided() -> float:
@@ -72,5 +112,6 @@ def unmarked() -> int:
 
 
 def possible(kind: str) -> int:
-    """How many agents of a kind expect along a fall no more than is possible."""
-    return int((along_falls(kind).max(1) <= agents(kind).measured["most"]).sum())
+    """How many agents of a kind expect along a fall no more than is possible, with those of more seeds."""
+    most = np.concatenate([agents(each).measured["most"] for each in (kind, f"more-{kind}")])
+    return int((expected(kind).max(1) <= most).sum())

@@ -44,7 +44,7 @@ progress("update_and_loop")
 # A cart carries a pole, and each push to the left or right pays 1. An episode ends when the pole falls (it
 # leans by more than {{ fallen_at() | .0f }}°, dashed, or the cart leaves its track), and at the latest after
 # 500 pushes. An untrained agent pushes one cart, and a rule written by hand pushes the other. **Drag** the
-# push back to 0.
+# push back to 0, then forward. From which push on does the left pole only lean further?
 
 # %%
 explorable.two_poles()
@@ -122,8 +122,8 @@ check.ReplayBuffer(ReplayBuffer)
 # > 7. **Steps.** Compute the three losses, then make a gradient step for each.
 # > 8. **Copies.** Q̄ₖ becomes Q̄ₖ + τ (Qₖ − Q̄ₖ), weight by weight.
 #
-# You wrote these functions in lesson [[discrete_sac]]. Their losses hold y, Q and H fixed; the first comment
-# below does so for α.
+# You wrote these functions in lesson [[discrete_sac]]. Their losses hold y, Q and H fixed already. α you detach
+# yourself, in the first line below.
 
 # %%
 own_code.load()
@@ -142,14 +142,16 @@ def update(agent, batch):
     states, next_states (n, 4), actions, rewards, terminated (n,).
     """
     # alpha = agent.log_alpha.exp().detach()
-    # 3. soft_value(log_pi, q, alpha): agent.log_pi(batch.next_states) is (n, 2), and
+    # 3. with torch.no_grad():
+    #    soft_value(log_pi, q, alpha): agent.log_pi(batch.next_states) is (n, 2), and
     #    q = agent.slow_q(batch.next_states).amin(0);
     #    then critic_target(reward, terminated, next_value, agent.gamma)
     # 4. critic_loss(q_pair, action, target): q_pair = agent.q(batch.states) is (2, n, 2)
     # 5. actor_loss(log_pi, q, alpha): both of batch.states, q = agent.q(batch.states).amin(0)
     # 6. temperature_loss(agent.log_alpha, sac.entropy(log_pi), agent.target_entropy): log_pi of 5
     # 7. for each of agent.optimisers (critics, actor, log α): zero_grad, backward of its loss, step
-    # 8. agent.critics.parameters() and agent.copies.parameters(), pair by pair: agent.tau, in place
+    # 8. with torch.no_grad(): for each pair of agent.critics.parameters() and
+    #    agent.copies.parameters(), move the copy in place by agent.tau of the difference
     # solution: the exercise's own
 
 
@@ -218,6 +220,9 @@ figures.small_worlds(right, lost)
 # {{ BLOCK | , }} pushes: from ten fixed starts the agent makes its most probable pushes. A second agent,
 # equal at the start, learns with the bug up to its first test.
 #
+# In the fourth small world the bug left the push right, since both pushes end in the same fallen state. On the
+# pole one push can lead to the fall sooner than the other.
+#
 # > **Predict.** After {{ BLOCK | , }} pushes of training, how long does the second agent balance the pole,
 # > compared with yours?
 
@@ -243,8 +248,9 @@ explorable.trained_poles(agent, unmarked)
 # **See.** **Drag** the push. After {{ BLOCK | , }} pushes of training our five agents with the bug balance
 # the pole for {{ after_a_block('unmarked').max() | .0f }} pushes. Our five without it balance it for
 # {{ after_a_block().min() | .0f }} to {{ after_a_block().max() | .0f }} pushes, and in the end all solve it
-# (thin lines).
-# <!-- claim: fell_at_once() == len(agents('unmarked')) == 5 == len(tests()) == solved() -->
+# (thin lines). {{ worse() }} of these five get worse on the way. That is usual, so we ask for two tests in a row.
+# (The pushes are means of ten starts. The drives show one start.)
+# <!-- claim: fell_at_once() == len(agents('unmarked')) == 5 == len(tests()) == solved() and worse() > 2 -->
 
 # %% [markdown]
 # ## Round 4: why does it fall?
@@ -279,43 +285,68 @@ bc.show(figures.along_falls(expects[0], unmarked))  # both after one block
 # > **Predict.** What do the added rows change?
 
 # %%
-changes = ["nothing", "Q is possible, the pole falls", "Q is possible, the pole stands longer"]
+changes = ["nothing", "Q is possible, the pole falls at once"]
+changes += ["Q is possible, the pole stands longer"]
 predict("update_and_loop.4", "What do the added rows change?", changes)
 
 # %%
 predicted("update_and_loop.4")
 PAID = 0  # what a push pays a fallen pole
 added = worlds.taught(loop, step, worlds.WithFallen(buffer(50_000), PAID), BLOCK, SEED)
-bc.show(figures.with_rows(expects[0], added))
 stands = by_hand.balanced(added)
-print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {tests[1]:.0f}.")
+bc.show(figures.with_rows(expects[0], added, stands))
 
 # %% [markdown]
-# **Explain.** We trained five agents of each kind:
+# **Explain.** The rows tell the critics that a fallen pole earns nothing. In all {{ len(stood('paid-0')) }} agents
+# that we trained so, Q is possible and drops towards the fall. {{ learned('paid-0') }} balance the pole for more
+# than {{ LEARNED }} pushes.
+# <!-- claim: possible('paid-0') == len(stood('paid-0')) and drop('paid-0') -->
 #
-# | agents | Q towards the fall | pushes balanced |
-# | --- | --- | --- |
-# | no bug | drops | {{ spread('marked') }} |
-# | bug | rises, above its limit | {{ spread('unmarked') }} |
-# | bug, added rows pay 0 (true) | drops | {{ spread('paid-0') }} |
-# | bug, added rows pay 1 (false) | stays level | {{ spread('paid-1') }} |
+# But how did Q get so high without them? A high guess for the fallen pole raises the target of the last push
+# and so, in the same network, the guess. **Perhaps Q feeds itself.** To test it, leave the bug in and add no
+# rows. In the targets, let critics that never learn say what a fallen pole is worth (`worlds.FrozenGuess`).
 #
-# *A critic follows its rows, true or false, and makes up the rest.* Here the actor learned only where Q drops
-# towards the fall: a pole that is always pushed to one side stands for {{ one_sided() | .0f }} pushes, too.
-# <!-- claim: spread('unmarked') == spread('paid-1') == f'{one_sided():.0f}' and
-#   all(after_a_block(kind).min() > 80 for kind in ('marked', 'paid-0')) -->
-# <!-- claim: np.abs(along_falls('paid-1') / along_falls('paid-1')[:, :1] - 1).max() < 0.1 -->
-# <!-- claim: all((along_falls(kind)[:, -1] < along_falls(kind)[:, 0] / 4).all()
-#   for kind in ('marked', 'paid-0')) -->
+# > **Predict.** What happens with the bug if its guess is frozen?
+
+# %%
+outcomes = ["Q rises, the pole falls at once", "Q drops, the pole falls at once"]
+outcomes += ["Q drops, the pole stands longer"]
+predict("update_and_loop.5", "With the guess frozen", outcomes)
+
+# %%
+predicted("update_and_loop.5")
+bugged = worlds.Unmarked(buffer(50_000))
+frozen = worlds.taught(loop, step, bugged, BLOCK, SEED, worlds.FrozenGuess)
+stays_up = by_hand.balanced(frozen)
+bc.show(figures.with_frozen_guess(unmarked, frozen, stays_up))
+
+# %% [markdown]
+# **Explain.** **Q did feed itself.** Untrained critics guess that a fallen pole is worth about 0. Frozen, this
+# guess does no harm. Learned, it grew to {{ along_falls('unmarked')[:, -1].min() | .0f }} and more in our five
+# agents with the bug. We trained {{ len(stood('marked')) }} agents of each kind for {{ BLOCK | , }} pushes:
+# <!-- claim: first_guess() < 0.5 < 100 < along_falls('unmarked')[:, -1].min() -->
 #
-# We think that without rows of fallen poles Q fed itself: a high guess for the fallen pole raised the target
-# of the last push and so, in the same network, the guess.
-# <!-- claim: possible('paid-0') == possible('paid-1') == 5 == len(agents('paid-1')) == len(agents('paid-0')) and
-#   after_a_block('paid-0').argmax() == 1 -->
+# | agents | Q towards the fall | balance over {{ LEARNED }} pushes | that is |
+# | --- | --- | --- | --- |
+# | no bug | drops | {{ learned('marked') }} | {{ spread('marked') }} |
+# | bug | rises, above its limit | {{ learned('unmarked') }} | {{ spread('unmarked') }} |
+# | bug, added rows pay 0 (true) | drops | {{ learned('paid-0') }} | {{ spread('paid-0') }} |
+# | bug, added rows pay 1 (false) | stays level | {{ learned('paid-1') }} | {{ spread('paid-1') }} |
+# | bug, guess frozen | drops | {{ learned('frozen') }} | {{ spread('frozen') }} |
+#
+# *A critic follows its rows, true or false, and makes up the rest.* All other agents balance 9 or 10 pushes. That
+# is nothing: a pole that is always pushed to one side stands for {{ one_sided() | .0f }}. So only agents whose Q
+# drops towards the fall had learned, and not all of these: such a Q is needed, but it is not enough.
+# <!-- claim: set(others().round()) == {9, 10} and all(abs(others() - one_sided()) < 1) and
+#   all(10 <= (stood(kind) > LEARNED).sum() < len(stood(kind)) == 15 for kind in ('marked', 'paid-0', 'frozen')) -->
+# <!-- claim: all(drop(kind) for kind in ('marked', 'paid-0', 'frozen')) and
+#   np.abs(expected('paid-1') / expected('paid-1')[:, :1] - 1).max() < 0.12 -->
+# <!-- claim: (expected('unmarked')[:, -1] > 1.2 * expected('unmarked')[:, 0]).all() and possible('unmarked') == 0 and
+#   possible('paid-1') == possible('frozen') == possible('marked') == 15 -->
 
 # %% [markdown] tags=["instructor"] minutes=7
 # A belief to name: "without marks the critics would find the constant" of round 1. They approach it if rows
-# tell them what a fallen pole is worth: let them run the last cell with `PAID = 1`, and ask which line of
+# tell them what a fallen pole is worth: let them run that cell with `PAID = 1`, and ask which line of
 # round 1 Q resembles. (That of the time that is up.) `bootcourse study pole --out DIR` trains our agents
 # again.
 #
@@ -326,14 +357,19 @@ print(f"Pushes balanced: {stands:.0f}; without the rows {with_bug:.0f}; yours {t
 length = lengths[2 - np.digitize(with_bug / tests[1], [0.1, 0.75])]
 compared = fallen[np.digitize(worlds.of_a_fallen_pole(unmarked), [0.9, 1.1])]
 change = changes[worlds.possible(added) * (1 + (stands > 2 * with_bug))]
-compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: compared, 4: change})
+outcome = outcomes[figures.drops(frozen) * (1 + (stays_up > 2 * with_bug))]
+compare_predictions(
+    "update_and_loop",
+    {1: changed[2], 2: length, 3: compared, 4: change, 5: outcome},
+)
 
 # %% [markdown]
 # ## What you now know
 #
 # 1. `terminated` says that nothing more is earned. A time limit does not say so.
 # 2. In a small world you can work out Q and the right push, so a bug can show as a wrong number.
-# 3. A critic makes up what no row tells it. If a Q is above its limit, it is surely wrong.
+# 3. A critic makes up what no row tells it, and its guess can feed itself. A Q above its limit is surely wrong;
+#    below it, it may be wrong, too.
 
 # %% [markdown]
 # **Three questions to think about**

@@ -1,7 +1,9 @@
 """Where an agent of the lesson learns besides the pole: small worlds whose right Q one can work out, rows in which no
-fall is marked, and rows of fallen poles.
+fall is marked, rows of fallen poles, and targets in which a fallen pole's value stays as it was.
 """
 
+import copy
+from collections.abc import Callable
 from functools import cache
 from typing import NamedTuple
 
@@ -103,9 +105,35 @@ class WithFallen(Unmarked):
                 self.buffer.add(torch.cat([row[7:], torch.tensor([push, self.paid, 0]), row[7:]]))
 
 
-def taught(loop, update, buffer, pushes: int, seed: int) -> by_hand.SAC:
-    """A new agent that has learned from the pole. loop, update, buffer: as `learn` has them."""
-    agent = by_hand.SAC(seed)
+class FrozenGuess(by_hand.SAC):
+    """An agent whose targets take a fallen pole's value from critics that never learn: those of the start."""
+
+    def __init__(self, seed: int = 0):
+        super().__init__(seed)
+        self.untrained = copy.deepcopy(self.copies)
+
+    def slow_q(self, states: Tensor) -> Tensor:
+        """Q of both copies, and of both untrained critics where the pole has fallen: (batch, 4) -> (2, batch, 2)."""
+        guess = torch.stack([critic(states) for critic in self.untrained])
+        return torch.where(fallen(states)[:, None], guess, super().slow_q(states))
+
+
+@cache
+def furthest() -> Tensor:
+    """How far a pole may go, as the agent sees its state, (4,): the cart (m), and how much it leans."""
+    env = checks.cartpole().unwrapped
+    far = np.array([env.x_threshold, np.inf, env.theta_threshold_radians, np.inf]) / checks.CARTPOLE_SCALES
+    return torch.from_numpy(far).float()
+
+
+def fallen(states: Tensor) -> Tensor:
+    """In which states the pole has fallen: (batch, 4) -> (batch,)."""
+    return (states.abs() > furthest()).any(-1)
+
+
+def taught(loop, update, buffer, pushes: int, seed: int, kind: Callable = by_hand.SAC) -> by_hand.SAC:
+    """A new agent of that kind that has learned from the pole. loop, update, buffer: as `learn` has them."""
+    agent = kind(seed)
     loop(agent, checks.cartpole(), buffer, update, pushes, np.random.default_rng(seed))
     return agent
 

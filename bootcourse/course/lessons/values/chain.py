@@ -56,6 +56,32 @@ def over_walks(
     return [learn(drawn[:decisions], gamma, 0.3, ()) for decisions in range(0, len(drawn) + 1, EPISODE)]
 
 
+def many(
+    explore: float,
+    gamma: float,
+    learners: int = 300,
+    taught: Sequence[tuple[int, int]] = (),
+    replays: int = 1000,
+) -> np.ndarray:
+    """What `learn_chain` learns, for many learners at once, before each one's first walk and after each: their Q.
+
+    replays: after so many of the first decisions `taught` is replayed. Returns (walks + 1, learners, 5, 2).
+    """
+    drawn = np.array([chances(explore, 1000, seed) for seed in range(learners)])
+    q, s, who = np.zeros((learners, STATES, 2)), np.zeros(learners, dtype=int), np.arange(learners)
+    found = [q.copy()]
+    for t, chance in enumerate(drawn.T):
+        a = np.where(chance < 0, q[who, s].argmax(axis=1), chance)
+        for state, action in [(s, a), *(taught if t < replays else ())]:
+            target = REWARD[state, action] + gamma * q[who, NEXT[state, action]].max(axis=1)
+            q[who, state, action] += 0.3 * (target - q[who, state, action])
+        s = NEXT[s, a]
+        if (t + 1) % EPISODE == 0:
+            s = np.zeros(learners, dtype=int)
+            found.append(q.copy())
+    return np.array(found)
+
+
 def leaves(q: np.ndarray) -> bool:
     """Whether leaving is worth more than staying in the trap, as this Q says."""
     return bool(q[0, 1] > q[0, 0])
@@ -71,6 +97,8 @@ def arrivals(q: np.ndarray) -> np.ndarray:
     return 1 + np.flatnonzero((q[1:, 4] != q[:-1, 4]).any(axis=1))
 
 
-def leaving(explore: float, gamma: float, taught: Sequence[tuple[int, int]] = (), walks: int = 30) -> int:
-    """How many learners end with leaving above staying in the trap."""
-    return sum(map(leaves, learned(explore, gamma, taught, walks)))
+def leaving(
+    explore: float, gamma: float, taught: Sequence[tuple[int, int]] = (), walks: int = 30, replays: int = 1000
+) -> int:
+    """How many of so many learners (`walks`) end with leaving above staying in the trap. Otherwise as in `many`."""
+    return sum(map(leaves, many(explore, gamma, walks, taught, replays)[-1]))

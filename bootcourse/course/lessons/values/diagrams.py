@@ -20,6 +20,7 @@ from bootcourse.plots.figure import (
     axes_at,
     finish,
     new_figure,
+    one_axes,
     wrapped,
 )
 
@@ -93,7 +94,7 @@ def _values(
 
     what: the numbers are, for the alt text.
     """
-    left, top, (wide, high), apart = 1.9, 0.95, CELL, 0.12
+    left, top, (wide, high), apart = 2.1, 0.95, CELL, 0.12
     figure, listed = new_figure(top + len(rows) * high + apart + 0.4), []
     ax = axes_at(figure, left, top, 5 * wide, len(rows) * high + apart)
     ax.set(xlim=(0, 5 * wide), ylim=(len(rows) * high + apart, 0))
@@ -105,7 +106,7 @@ def _values(
         ax.text(-0.12, down + high / 2, name, fontsize=TEXT, color=INK, ha="right", va="center")
         for s in range(5):
             look = {"facecolor": ON.colour if blue[s] else "white", "alpha": 0.55, "edgecolor": QUIET}
-            ax.add_patch(Rectangle((s * wide, down), wide, high, linewidth=0.7, **look))
+            ax.add_patch(Rectangle((s * wide, down), wide, high, linewidth=0.7, clip_on=False, **look))
             words = f"{values[s]:.{digits}f}" if values[s] else "0"
             ax.text((s + 0.5) * wide, down + high / 2, words, fontsize=TEXT + 0.5, color=INK, ha="center", va="center")
         said = (f"{value:.{digits}f}{' (blue)' * bool(is_blue)}" for value, is_blue in zip(values, blue, strict=True))
@@ -162,9 +163,35 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
     rows = {}
     for values, walk in shown:
         arrived = (chain.arrivals(values) <= walk).sum()
-        name = f"{'another: ' * (values is other)}{arrived} arrivals"
+        name = f"{'another, ' * (values is other)}walk {walk}: {arrived} arrivals"
         rows[name] = values[walk].max(axis=1), (values[walk, :, 1] > values[walk, :, 0]) & (np.arange(chain.STATES) < 4)
-    key = "Rows: how many of its walks reached the free road. Number: the larger Q. Blue: that of going on."
+    key = (
+        "Rows: after which walk, and how many had reached the free road. Number: the larger Q. Blue: that of going on."
+    )
     heads = ("trap", "state 1", "state 2", "state 3", "free road")
     title = "Going on must win in state 3, then 2, then 1, before leaving wins"
     return _values(title, rows, 2, key, heads, "The larger Q")
+
+
+def after_arrivals(q: np.ndarray, most: int = 14) -> Figure:
+    """How many learners reach the free road once, twice, ..., and for how many of these leaving then wins.
+
+    q: the Q (5, 2) of each before its first walk and after each, (walks + 1, learners, 5, 2).
+    """
+    title = "Leaving wins only after about ten arrivals, and most learners have fewer"
+    figure, ax = one_axes(3.2, title, "arrivals so far", "learners of C, of 300")
+    times, had, wins = np.arange(1, most + 1), np.zeros(most, dtype=int), np.zeros(most, dtype=int)
+    for learner in range(q.shape[1]):
+        for k, walk in enumerate(chain.arrivals(q[:, learner])[:most]):
+            had[k] += 1
+            wins[k] += chain.leaves(q[walk, learner])
+    for values, colour in ((had, LIGHT), (wins, DARK)):
+        ax.bar(times, values, 0.72, color=colour, linewidth=0)
+    for k, all_of, won in zip(times, had, wins, strict=True):
+        ax.text(k, all_of + 5, f"{won / all_of:.0%}", fontsize=TEXT, color=INK, ha="center")
+    at = {"fontsize": TEXT, "color": INK, "ha": "right"}
+    ax.text(most + 0.4, 0.92 * had[0], "whole bar: learners that have arrived so often", **at)
+    ax.text(most + 0.4, 0.80 * had[0], "dark, and %: right after it leaving is worth more for them", **at)
+    ax.set(xlim=(0.5, most + 0.5), ylim=(0, 1.12 * had[0]), xticks=times)
+    each = ", ".join(f"{k}: {won} of {all_of}" for k, all_of, won in zip(times, had, wins, strict=True))
+    return finish(figure, title, f"For how many learners leaving wins right after an arrival, by its number: {each}.")

@@ -8,9 +8,28 @@ from bootcourse.course.lessons.values import chain, diagrams
 from bootcourse.course.lessons.values.exercises import bellman_sweep, temporal_difference
 
 
+@cache
+def as_c() -> np.ndarray:
+    """The Q of 300 learners of C before their first walk and after each, (walks + 1, 300, 5, 2)."""
+    return chain.many(0.5, 0.8)
+
+
+@cache
+def wins_after(arrivals: int) -> list[bool]:
+    """Whether leaving wins right after this arrival, of each of those learners that has arrived so often."""
+    walks = {k: chain.arrivals(as_c()[:, k]) for k in range(300)}
+    return [chain.leaves(as_c()[each[arrivals - 1], k]) for k, each in walks.items() if len(each) >= arrivals]
+
+
+def goes_on(replays: int) -> int:
+    """How many of 30 learners as E go on in the states 1 to 3 after a walk, if replays follow so many decisions."""
+    q = chain.many(0.1, 0.8, 30, chain.WAY_OUT, replays)[1]
+    return int((q[:, 1:4, 1] > q[:, 1:4, 0]).all(axis=1).sum())
+
+
 def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
     """How many learners of the barrier's chain have decided on its free road, whose every decision pays 1."""
-    return sum(map(chain.has_been_free, chain.learned(explore, gamma, walks=walks)))
+    return sum(map(chain.has_been_free, chain.many(explore, gamma, walks)[-1]))
 
 
 def sweeps(times: int, gamma: float) -> np.ndarray:
@@ -55,17 +74,6 @@ def arrivals(seed: int) -> np.ndarray:
 def walks_until(state: int, seed: int = 1) -> int:
     """After how many of them it goes on in a state, or leaves the trap (0), for good."""
     return int((arrivals(seed) <= diagrams.goes_on_from(walks(seed), state)).sum())
-
-
-@cache
-def needed_walks() -> list[int]:
-    """How many walks to the free road each of C's learners that leave needed."""
-    return [walks_until(0, seed) for seed in range(30) if chain.leaves(walks(seed)[-1])]
-
-
-def arrived_seldom() -> int:
-    """How many of C's learners reach the free road in one or two walks, and do not learn to leave."""
-    return sum(0 < len(arrivals(seed)) < 3 and not chain.leaves(walks(seed)[-1]) for seed in range(30))
 
 
 def unpaid_leave(explore: float) -> int:

@@ -18,12 +18,20 @@
 # - write a learner that finds these values from its own decisions: Q-learning;
 # - say why such a learner can stay in a trap although leaving is worth more.
 #
-# **Time** 55 minutes. **It builds on** lesson [[the_trap]].
+# **Time** 57 minutes. **It builds on** lesson [[the_trap]].
 
 # %%
 import bootcourse as bc
 import numpy as np
-from bootcourse.course import check, compare_predictions, own_code, predict, predicted, progress
+from bootcourse.course import (
+    check,
+    compare_predictions,
+    own_code,
+    predict,
+    predicted,
+    progress,
+    table,
+)
 from bootcourse.course.lessons.values import chain, diagrams, explorable
 
 progress("values")
@@ -37,7 +45,8 @@ progress("values")
 # <!-- claim: chain.REWARD.tolist() == [[0.16, 0], [0, 0], [0, 0], [0, 0], [1, 1]] and
 #   chain.NEXT.tolist() == [[0, 1], [0, 2], [0, 3], [0, 4], [4, 4]] and chain.EPISODE == 20 -->
 #
-# **Drag** what the trap pays, and then γ: when is leaving worth more?
+# **Drag** what the trap pays until staying is worth more. Set it back to 0.16, and drag γ: below which γ is staying
+# worth more?
 
 # %%
 explorable.worths()
@@ -54,7 +63,7 @@ explorable.worths()
 #
 # $$ G = r_0 + \gamma\, r_1 + \gamma^2\, r_2 + \dots $$
 #
-# **Exercise (4 min, ●○○).** Write it.
+# **Exercise (4 min, ●○○).** Write it, for a list of rewards that ends.
 
 
 # %%
@@ -70,7 +79,8 @@ check.discounted_return(discounted_return)
 # %% [markdown]
 # Staying is worth $0.16 + 0.16\,\gamma + 0.16\,\gamma^2 + \dots = 0.16 / (1 - \gamma)$. Leaving pays nothing
 # for four decisions, and then 1 at each: it is worth $\gamma^4 / (1 - \gamma)$. So leaving is worth more
-# where $\gamma^4 > 0.16$.
+# where $\gamma^4 > 0.16$: above γ = {{ 0.16 ** 0.25 | .2f }}. At γ = 0.8 it is, while the trap pays less than
+# {{ 0.8 ** 4 | .2f }}.
 #
 # > **Predict.** The way out gets one state longer. From which γ on is leaving worth more now?
 
@@ -91,7 +101,8 @@ print(f"γ = {min(better):.2f}")
 # %% [markdown]
 # ## Round 2: a value from the next value
 #
-# A **state** says all that matters for what comes next (this makes a *Markov decision process*, MDP).
+# A **state** says all that matters for what comes next. A problem with such states, actions and rewards is a
+# *Markov decision process* (MDP).
 #
 # The **value** of action a in state s, **Q(s, a)**, is the discounted return if you take a once and then act
 # as well as possible. A state is worth the larger of its two Q. On the chain nothing is left to chance, so
@@ -156,7 +167,7 @@ bc.show(diagrams.sweeps(found))
 # $Q(s, a) \leftarrow Q(s, a) + \text{step} \cdot \delta$. The **step**, also called *learning rate*, is 0.3
 # here.
 #
-# **Exercise (4 min, ●○○).** Write the difference.
+# **Exercise (4 min, ●○○).** Write δ for one decision, from the table `q`.
 
 
 # %%
@@ -272,9 +283,19 @@ found = {kind: chain.learned(*how, learn=learn) for kind, how in kinds.items()}
 bc.show(diagrams.who_leaves(found))
 
 # %% [markdown]
-# **Explain.** In A none learns to leave, although leaving is worth more. On the way out you lose the trap's
-# pay, and only the end pays: this is a **barrier**. A longer view (B) does not help: no learner of A or B
-# reached the free road.
+# **Explain.** In 1,000 decisions action 1 is drawn at random four times in a row about 1,000 · (ε / 2)⁴ times:
+# in A {{ 1000 * 0.05 ** 4 | .3f }} times, in C {{ 1000 * 0.25 ** 4 | .0f }} times, in D
+# {{ 1000 * 0.5 ** 4 | .0f }} times. Round 3 needed five walks to bring the value to the trap. A and C have fewer,
+# D has many more.
+#
+# In A none learns to leave, although leaving is worth more. On the way out you lose the trap's pay, and only the
+# end pays: this is a **barrier**. A longer view (B) does not help: no learner of A or B reached the free road.
+# Nor does it help those that arrive. Of 300 learners with ε = 0.5 {{ leaving(0.5, 0.8, walks=300) }} leave at
+# γ = 0.8, but only {{ leaving(0.5, 0.95, walks=300) }} at γ = 0.95. A likely reason: the free road's Q rises by at
+# most 0.3 a decision, and at γ = 0.95 turning back is worth up to {{ 0.95 * 0.16 / 0.05 | .2f }} instead of
+# {{ 0.8 * 0.16 / 0.2 | .2f }}.
+# <!-- claim: 2 * leaving(0.5, 0.95, walks=300) < leaving(0.5, 0.8, walks=300) -->
+# <!-- claim: free_road_seen(0.5, 0.95, 300) > 250 < free_road_seen(0.5, 0.8, 300) -->
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
 # <!-- claim: not any(q[:4].argmax(axis=1).any() for q in chain.learned(0.1, 0.8)) -->
 # <!-- claim: free_road_seen(0.1, 0.8) == free_road_seen(0.1, 0.95) == 0 -->
@@ -285,24 +306,26 @@ bc.show(diagrams.who_leaves(found))
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == 30 -->
 #
 # In C {{ free_road_seen(0.5, 0.8) }} of the thirty reach the free road, but only {{ leaving(0.5, 0.8) }}
-# learn to leave. Of the others {{ arrived_seldom() }} arrive only once or twice. Arriving once is not enough.
-# Two that arrive:
-# <!-- claim: min(needed_walks()) > 2 -->
+# learn to leave: arriving once is not enough. Here are two that arrive:
+# <!-- claim: not any(wins_after(1)) -->
 
 # %%
 bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed in (16, 1)]))
 
 # %% [markdown]
-# **Explain.** The state before learns only from a state's *larger* Q: the number in the table.
+# **Explain.** A decision learns only from the *larger* Q of the state that it leads to. That is the number in the
+# table.
 #
-# 1. *Blocked* (last row). In state 3 turning back is still worth more, so the free road's
-#    {{ walks(16)[-1][4].max() | .2f }} goes no farther. The trap sees only what turning back pays: 0.8 · 0.8
+# 1. *Blocked* (last row). It, too, arrived twice, in walks {{ arrivals(16)[0] }} and {{ arrivals(16)[1] }}. In the
+#    walks after that it turned back again and again, until turning back was worth
+#    {{ walks(16)[-1][3, 0] | .2f }} in state 3. So the free road's {{ walks(16)[-1][4].max() | .2f }} goes no
+#    farther. The trap sees only what turning back pays: 0.8 · 0.8
 #    · {{ 0.16 / 0.2 | .2f }} = {{ 0.8**2 * 0.16 / 0.2 | .2f }}, less than staying's {{ 0.16 / 0.2 | .2f }}.
-# 2. *Opened* (rows 1 to 3). The arrivals raise the blue cell farthest left, until the state before turns
-#    blue, too: 3, 2, 1.
+# 2. *Opened* (rows 1 to 3). Where the cell is blue, the free road's value passes on to the state before. So the
+#    blue moves left: 3, then 2, then 1.
 # 3. *Through* (row 4). Only then does leaving rise past {{ 0.16 / 0.2 | .2f }}.
 #
-# <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] -->
+# <!-- claim: walks(16)[-1][3, 1] < walks(16)[-1][3, 0] and walks(16)[9][3, 0] < 0.4 -->
 # <!-- claim: walks_until(0) == 8 and len(arrivals(16)) == 2 -->
 # <!-- claim: all(abs(q[0, 1] - 0.8**2 * 0.16 / 0.2) < 0.01 and q[1, 1] < q[1, 0] and abs(q[1, 0] - 0.8 * 0.16 / 0.2)
 #   < 0.01 for seed in (1, 16) for q in chain.over_walks(0.5, 0.8, seed)[12:36]) -->
@@ -310,15 +333,54 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # <!-- claim: chain.has_been_free(chain.over_walks(0.5, 0.8, 16)[-1]) and
 #   not chain.leaves(chain.over_walks(0.5, 0.8, 16)[-1]) -->
 # <!-- claim: 0 < leaving(0.5, 0.8) < free_road_seen(0.5, 0.8) and leaving(1.0, 0.8) == 30 -->
+#
+# How often must a learner arrive? Here are 300 learners as in C:
+# <!-- claim: np.allclose(chain.many(0.5, 0.8, 3)[-1], chain.learned(0.5, 0.8, walks=3)) -->
 
-# %% [markdown] tags=["instructor"] minutes=3
+# %%
+bc.show(diagrams.after_arrivals(chain.many(explore=0.5, gamma=0.8, learners=300)))
+
+# %% [markdown]
+# **See.** Six arrivals are too few for each of the {{ len(wins_after(6)) }} learners that have had so many.
+# Thirteen are enough for all {{ len(wins_after(13)) }}. More than half of the 300 have six arrivals or fewer.
+# <!-- claim: not any(wins_after(6)) and all(wins_after(13)) and len(wins_after(7)) < 150 -->
+#
+# Must a demonstration be replayed as often? So far E's learners replay it after each of 1,000 decisions. Now they
+# stop after the first n decisions.
+#
+# > **Predict.** E's ε is 0.1: a single action 1 in the trap is drawn often, four in a row are not. Round 3 shows
+# > how far back each walk carries a value. Which is the smallest n with which more than half of thirty learners
+# > learn to leave?
+
+# %%
+choices = ["1", "4", "40", "400"]
+predict("values.5", "Which is the smallest n with which more than half leave?", choices)
+
+# %%
+predicted("values.5")
+firsts, rows = (1, 2, 3, 4, 5, 10), []  # n: try others
+for order, way in (("forwards", chain.WAY_OUT), ("backwards", chain.WAY_OUT[::-1])):
+    left = [chain.leaving(0.1, 0.8, way, replays=n) for n in firsts]
+    rows.append([order, *map(str, left)])
+table(["learners of thirty that leave, if it is replayed", *(f"n = {n}" for n in firsts)], rows)
+
+# %% [markdown]
+# **Explain.** Four replays carry the value back to state 1. In the states 1 to 3 going on then wins, and one
+# random action 1 in the trap is enough to reach the free road. Learned backwards, one replay does this.
+# <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT, replays=3) < 10 < 15 < leaving(0.1, 0.8, chain.WAY_OUT, replays=4) -->
+# <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT[::-1], replays=1) > 15 -->
+# <!-- claim: goes_on(4) > 25 and goes_on(3) < 5 -->
+
+# %% [markdown] tags=["instructor"] minutes=5
+# Let them explain with the table of Round 3 why forwards 4 replays do about as much as one backwards.
+#
 # What happens at the last decision separates two ideas that lesson [[update_and_loop]] needs: an accident
 # *terminates* (nothing follows), the end of the time *truncates* (we stop looking).
 
 # %%
 compare_predictions(
     "values",
-    {1: round(0.16**0.2, 2), 2: "5", 3: "in 4 alone", 4: "D and E"},
+    {1: round(0.16**0.2, 2), 2: "5", 3: "in 4 alone", 4: "D and E", 5: "4"},
 )
 
 # %% [markdown]
@@ -331,7 +393,7 @@ compare_predictions(
 # 4. Learned forwards, a walk straight out carries a value one state back. The value gets past a state only if
 #    going on is worth more there than turning back.
 # 5. None of A's thirty learners gets past the barrier. More random decisions help, and so does a
-#    demonstration.
+#    demonstration, even if it is replayed only a few times.
 #
 # **Three questions to think about**
 # - If staying in the trap paid nothing, would more learners of A learn to leave? And of C?

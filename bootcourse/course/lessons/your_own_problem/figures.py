@@ -1,6 +1,7 @@
 """Drives of MountainCar and DoorKey, and what ships of other problems (research/elsewhere.py)."""
 
 from collections.abc import Mapping, Sequence
+from functools import cache
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -88,6 +89,7 @@ def beside_teachers(rows: Mapping[str, tuple[str, str]], title: str) -> Figure:
             ax.plot([own] * 2, [place - 0.36, place + 0.36], color=ALARM, linewidth=3, zorder=2)
             dots(ax, scores, place, style("bc").colour, size=13)
             alt.append(f"{name.replace(chr(10), ' ').capitalize()}: clones {scores.mean():.3g}, teacher {own:.3g}.")
+        ax.set_xlim(around(problem))
         ax.set_yticks(range(len(rows)), rows if column == 0 else [""] * len(rows))
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
         ax.set_ylim(len(rows) - 0.5, -0.5)
@@ -96,6 +98,16 @@ def beside_teachers(rows: Mapping[str, tuple[str, str]], title: str) -> Figure:
         figure.text(x, 0.8, words, fontsize=TEXT, color=colour, fontweight="bold")
     figure.text(0.58, 0.04, "return", ha="center", fontsize=TEXT, color=INK)
     return finish(figure, title, " ".join(alt))
+
+
+@cache
+def around(problem: str) -> tuple[float, float]:
+    """The limits of returns on a problem, the same in all figures of its teachers and clones."""
+    kinds = [("random", "returns"), ("random", "drawn_returns"), ("systematic", "returns")]
+    every = [cells().scores(problem, teacher, "cloning", measure) for teacher, measure in kinds]
+    every += [[cells().mean(problem, teacher, "the teacher")] for teacher in ("good", "random", "systematic")]
+    low, high = np.min(np.concatenate(every)), np.max(np.concatenate(every))
+    return low - 0.06 * (high - low), high + 0.06 * (high - low)
 
 
 def bonuses() -> Figure:
@@ -121,7 +133,7 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
 
     tested: by decisions in training, the agents and what each earns. The cart rests in the middle.
     """
-    title = "On their way to the teacher's rule they pass a better one"
+    title = "As the agents' lines turn upright, their return rises, then falls"
     figure, alt = new_figure(3.4), []
     angle, speed = np.linspace(-0.2, 0.2, 81), np.linspace(-1.5, 1.5, 81)
     at = np.zeros((81, 81, 4), dtype=np.float32)
@@ -137,7 +149,6 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
             low, high = (speed[(right[:, x] >= 0.5).argmax()] for x in (30, 50))
             slopes.append((low - high) / (angle[50] - angle[30]))
         ax.axvline(0, color=rule, linewidth=2.5, zorder=1)
-        ax.plot(angle, -angle, color=INK, linewidth=1.2, linestyle="--")
         ax.set_xticks([-0.2, 0, 0.2], ["−0.2", "0", "0.2"])
         ax.set_yticks([-1, 0, 1], ["−1", "0", "1"])
         ax.set_xlabel("angle (rad)", fontsize=TEXT, color=INK)
@@ -145,9 +156,14 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
         alt.append(f"after {decisions:,} decisions by {falls}")
         ax.text(-0.19, -1.4, "push left", fontsize=TEXT, color=INK)
         ax.text(0.19, 1.2, "push right", ha="right", fontsize=TEXT, color=INK)
-    keys = {"five agents": soft, "the teacher": rule, "dashes: angle + speed = 0": INK}
-    for x, (words, colour) in zip((0.072, 0.23, 0.39), keys.items(), strict=True):
+    for x, (words, colour) in zip((0.072, 0.23), {"five agents": soft, "the teacher": rule}.items(), strict=True):
         figure.text(x, 0.8, words, fontsize=TEXT, color=colour)
     figure.text(0.012, 0.4, "speed (rad/s)", rotation=90, va="center", fontsize=TEXT, color=INK)
-    figure.text(0.012, 0.03, "angle and speed of the pole; return: mean over the agents", fontsize=SMALL, color=INK)
+    figure.text(
+        0.012,
+        0.03,
+        "angle and speed of the pole; the cart rests in the middle; return: mean over the agents",
+        fontsize=SMALL,
+        color=INK,
+    )
     return finish(figure, title, f"Edges fall, in rad/s a rad: {'; '.join(alt)}. The teacher's is upright.")

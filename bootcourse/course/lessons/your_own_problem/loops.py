@@ -1,6 +1,6 @@
 """How a rule climbs the hill of MountainCar, where a teacher loops in DoorKey, and what agents learn from each."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 
 import gymnasium as gym
@@ -9,6 +9,7 @@ from gymnasium.vector import VectorEnv
 from gymnasium.wrappers.vector import TransformReward
 from torch import Tensor
 
+from bootcourse.comparison import Comparison
 from bootcourse.course.lessons.your_teacher.driven_out import (
     NOT_SAME,
     NOT_WHOLE,
@@ -24,7 +25,9 @@ from bootcourse.learn.demonstrations import Demonstrations, demonstrate
 from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.learn.teachers import Rule, teacher_policy
 from bootcourse.learn.training import Training
+from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research.problems import PROBLEMS, DoorKey
+from bootcourse.statistics import interval
 
 MakeEnvs = Callable[[int], VectorEnv]
 MOST_EPISODES = 50_000  # of a training that ends after so many decisions
@@ -126,9 +129,9 @@ def earns(rule: Rule, make_env: MakeEnvs) -> float:
 
 @cache
 def trained(
-    budgets: tuple[int, ...], make_env: MakeEnvs, teacher: Rule, pays: float, gamma: float
+    budgets: tuple[int, ...], make_env: MakeEnvs, teacher: Rule, pays: float, gamma: float, seeds: int = 5
 ) -> dict[int, tuple[list[Agent], np.ndarray]]:
-    """Five agents with the soft constraint, after so many decisions each: (they, what they earn).
+    """Agents with the soft constraint, after so many decisions each: (they, what they earn).
 
     pays: the share of each reward that they get in training, 0 for none; the test counts the environment's reward.
     """
@@ -136,7 +139,7 @@ def trained(
     def paid(n: int) -> VectorEnv:
         return TransformReward(copies_of(make_env, n), lambda rewards: pays * rewards)
 
-    settings = with_seeds(settings_for("soft", gamma=gamma), 5)
+    settings = with_seeds(settings_for("soft", gamma=gamma), seeds)
     training = Training(settings, episodes=MOST_EPISODES, make_env=paid, teacher=teacher)
     tested, held_out = {}, held_out_seeds(1, 5)
     for budget in budgets:
@@ -146,9 +149,42 @@ def trained(
     return tested
 
 
+def without_the_cart(policy: Policy) -> Policy:
+    """A policy of CartPole that sees a cart at rest in the middle, wherever the cart is."""
+
+    def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        seen = observations * np.array([0, 0, 1, 1], dtype=observations.dtype)
+        return policy(seen, seen)
+
+    return drive
+
+
+def cart_hidden(agents: Sequence[Agent], make_env: MakeEnvs) -> np.ndarray:
+    """What agents of CartPole earn in the test if they do not see the cart, (agents,)."""
+    policies, held_out = [without_the_cart(agent.as_policy()) for agent in agents], held_out_seeds(1, 5)
+    return np.array([drive_episodes(each, held_out, make_env=make_env).returns.mean() for each in policies])
+
+
 def returns(*arguments, **settings) -> dict[int, int]:
     """What the agents of `trained` earn, the mean over agents by decisions in training."""
     return {decisions: round(earned.mean()) for decisions, (_, earned) in trained(*arguments, **settings).items()}
+
+
+def brief(compared: Comparison) -> tuple[list[str], list[list[str]]]:
+    """A comparison as a short table, (headings, rows): means over agents with 95 % intervals, in whole numbers."""
+
+    def words(values: np.ndarray) -> str:
+        value, low, high = (f"{round(part)}".replace("-", "−") for part in interval(values))
+        return f"{value} [{low}, {high}]"
+
+    measures = {"success, % [95 %]": ("success", 100), "return [95 %]": ("returns", 1)}
+    found = {
+        heading: [scale * compared.scores(name, measure) for name in compared.results]
+        for heading, (measure, scale) in measures.items()
+    }
+    known = {heading: each for heading, each in found.items() if not np.isnan(each).any()}
+    rows = [[name, *map(words, each)] for name, *each in zip(compared.results, *known.values(), strict=True)]
+    return ["", *known], rows
 
 
 def shown(problem: str) -> Demonstrations:

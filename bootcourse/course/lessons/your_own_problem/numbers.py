@@ -2,13 +2,13 @@
 
 from functools import cache
 
-import gymnasium as gym
 import numpy as np
-from gymnasium.vector import VectorEnv
 
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import explorable, loops  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, cells, entries
+from bootcourse.course.lessons.your_own_problem.unpaid import BUDGETS, NAME, angle_rule, pole
+from bootcourse.course.shipped import shipped_experiment
 from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
 from bootcourse.research.equal_decisions import BOARD  # noqa: F401
 from bootcourse.research.problems import PROBLEMS  # noqa: F401
@@ -25,19 +25,33 @@ def score(problem: str, teacher: str, method: str, measure: str = "success") -> 
     return cells().mean(problem, teacher, method, measure)
 
 
-def pole(n: int) -> VectorEnv:
-    """CartPole, as the lesson makes it."""
-    return gym.make_vec("CartPole-v1", n, vectorization_mode="sync")
+def unpaid(measure: str, decisions: int, kind: str = "without reward") -> np.ndarray:
+    """What was measured of each of ten agents after so many decisions, (agents,), see unpaid.py."""
+    return shipped_experiment(NAME)[kind].notes[measure][:, BUDGETS.index(decisions)]
+
+
+def by_budget() -> str:
+    """What they earn after each budget of the lesson and a longer one, means, as Markdown."""
+    budgets = (500, 1_000, 3_000, 8_000)
+    lines = {
+        "return without reward": lambda n: unpaid("returns", n),
+        "return with reward": lambda n: unpaid("returns", n, "with reward"),
+        "without reward, the cart hidden in the test": lambda n: unpaid("hidden", n),
+        "without reward: decisions like the teacher's, %": lambda n: 100 * unpaid("copied", n),
+    }
+    rows = [[words, *(f"{of(n).mean():.0f}" for n in budgets)] for words, of in lines.items()]
+    return markdown(["decisions in training", *(f"{n:,}" for n in budgets)], rows)
+
+
+@cache
+def teacher_earns() -> float:
+    """What the angle rule earns on CartPole."""
+    return loops.earns(angle_rule, pole)
 
 
 def earned(teacher: str) -> float:
     """What a teacher of MountainCar earns."""
     return score("mountain-car", teacher, "the teacher", "returns")
-
-
-def speed_rule_earns() -> float:
-    """What the rule of CartPole earns that pushes to the side of angle + speed, as the picture of the edges has it."""
-    return loops.earns(lambda seen: int(seen[2] + seen[3] > 0), pole)
 
 
 def by_bonus(teacher: str, measure: str = "drawn_success") -> np.ndarray:

@@ -44,6 +44,11 @@ def racer(cars: np.ndarray, scenario: Scenario) -> int:
     return toward(cars, 20.0, 0, scenario) if cars[EGO, LANE] == 0 else careful(cars, scenario)
 
 
+def slower_racer(cars: np.ndarray, scenario: Scenario) -> int:
+    """The racer with one number changed: 15 m/s in place of 20."""
+    return toward(cars, 15.0, 0, scenario) if cars[EGO, LANE] == 0 else careful(cars, scenario)
+
+
 def two_speeds(slow: float, fast: float) -> Rule:
     """A rule that looks at no other car: `slow` (m/s) and one lane to the left, and `fast` on the free lane."""
 

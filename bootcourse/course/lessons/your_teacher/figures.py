@@ -30,9 +30,9 @@ SIX = {  # teacher of the experiment `teachers`: the name of its row
 }
 PARTS = {  # as the lesson lists them: what they learn from, of a drive's three parts
     "all": ("all", "■■■"),
-    "lane": ("only the free lane", "■■□"),
-    "accident": ("only the accident", "■□■"),
-    "cut": ("neither", "■□□"),
+    "lane": ("without the accident", "■■□"),
+    "accident": ("without the free lane", "■□■"),
+    "cut": ("without both", "■□□"),
 }
 
 
@@ -85,6 +85,14 @@ def students(groups: Mapping[str, Mapping[str, np.ndarray]], verdicts: Mapping[s
     return in_rows(title, groups, methods, "success", verdicts=verdicts)
 
 
+def one_number() -> Figure:
+    """The return of each agent alone, of each of the racer's students, and of those of the racer at 15 m/s: dots."""
+    named = {"alone": taught_agents.ALONE, "racer, 20 m/s": "racer", "racer, 15 m/s": taught_agents.SLOWER}
+    groups = {words: taught_agents.shipped(teacher) for words, teacher in named.items()}
+    title = "With 15 m/s in place of 20, each of the racer's students earns more"
+    return in_rows(title, groups, ["sac", "bootstrapped", "bootstrapped"], "returns")
+
+
 def of_six_teachers(computed: Cells) -> Figure:
     """The students' success in the experiment `teachers`; left of it what their teachers' drives show."""
     title = "All students of half random escape, though all its drives crash"
@@ -102,7 +110,7 @@ def all_parts(computed: Mapping[str, Results]) -> Figure:
     """
     title = "Most students get out if their drives show the free lane, few if not"
     groups = {f"{name}  {marks}": scores(computed[kind]) for kind, (name, marks) in PARTS.items()}
-    return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in PARTS], "success", left=1.9)
+    return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in PARTS], "success", left=2.15, width=2.5)
 
 
 def chosen(kept: Callable[[np.ndarray], np.ndarray]) -> Markdown:
@@ -124,18 +132,19 @@ def in_rows(
     methods: Sequence[str],
     drawn: str,
     left: float = 1.25,
+    width: float = 2.8,
     verdicts: Mapping[str, Mapping[str, str]] | None = None,
     of_drives: tuple[tuple[str, str], Mapping[str, tuple[str, str]]] | None = None,
 ) -> Figure:
     """A dot for each agent at its success (%) or return, a row for each group; beside it what the group reached.
 
-    groups: {name: `scores`}; methods: of each group, for its colour; drawn: "success" or "returns"; left: inches;
-    of_drives: two headings, {name: cells} about the teacher's drives, left of the dots and in place of its students'
-    accidents.
+    groups: {name: `scores`}; methods: of each group, for its colour; drawn: "success" or "returns"; left, width: in
+    inches; of_drives: two headings, {name: cells} about the teacher's drives, left of the dots and in place of its
+    students' accidents.
     """
     row, alt_parts, is_success = 0.42, [], drawn == "success"
     figure = new_figure(HEAD + row * len(groups) + FOOT)
-    ax = axes_at(figure, left, HEAD, 2.8, row * len(groups))
+    ax = axes_at(figure, left, HEAD, width, row * len(groups))
     if is_success:
         ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
     for place, ((name, group), method) in enumerate(zip(groups.items(), methods, strict=True)):
@@ -161,7 +170,7 @@ def in_rows(
     name_rows(ax, list(groups), of_success if is_success else "return of an agent after training; filled: it escapes")
     if of_drives:
         ax.tick_params(axis="y", pad=126)
-    ax.set_xlim((-2, 102) if is_success else (0, None))
+    ax.set_xlim((-2, 102) if is_success else (min(0, *(group["returns"].min() - 3 for group in groups.values())), None))
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
 
 

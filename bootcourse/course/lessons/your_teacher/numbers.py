@@ -7,7 +7,7 @@ import numpy as np
 
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_teacher import crashes, example_teachers, free_lane, taught_agents
-from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
+from bootcourse.course.lessons.your_teacher.driven_out import BEHIND, OUT, drive_out  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.your_teacher.exercises import without_a_look
 from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
 from bootcourse.research.experiments.teacher_worth import TAUGHT  # noqa: F401 (the text names it)
@@ -106,9 +106,11 @@ def escape_of(teachers: list[str]) -> int:
     return sum(worth()[teacher, "bootstrapped"].escapers("bootstrapped") for teacher in teachers)
 
 
-def taught_returns(teacher: str) -> float:
-    """What the ten bootstrapped students of one of these teachers earn on average."""
-    return worth()[teacher, "bootstrapped"].scores("returns").mean()
+def taught_returns(teacher: str, escaped: bool = False) -> float:
+    """What the ten bootstrapped students of one of these teachers earn on average, or those of them that escape."""
+    agents = worth()[teacher, "bootstrapped"]
+    returns = agents.scores("returns")
+    return (returns[agents.scores("success") >= ESCAPES] if escaped else returns).mean()
 
 
 def worth() -> dict:

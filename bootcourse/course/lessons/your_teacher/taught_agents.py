@@ -1,4 +1,4 @@
-"""Ten students each of the rule and of five other teachers, and ten agents that learn alone.
+"""Ten students each of the rule and of six other teachers, and ten agents that learn alone.
 
     bootcourse study students --out DIR    # some minutes
 
@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from bootcourse.course.lessons.your_teacher.example_teachers import careful, racer, reckless, timid
+from bootcourse.course.lessons.your_teacher.example_teachers import careful, racer, reckless, slower_racer, timid
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
@@ -44,6 +44,8 @@ def near_sighted(cars: np.ndarray, scenario: Scenario) -> np.ndarray:
 
 TEACHERS = {"the rule": course_rule, f"the rule, {NEAR:g} m": near_sighted}
 TEACHERS |= {teacher.__name__: teacher for teacher in (careful, timid, reckless, racer)}
+SLOWER = "racer at 15"  # m/s in the free lane, in place of 20
+TEACHERS[SLOWER] = slower_racer
 SHOWN = ("the rule", "careful", "timid", "racer")  # in the lesson; the experiment has them all
 ALONE = "alone"  # agents without a teacher, as plain SAC
 RACER_LONG, LONG = "racer, long", 40_000  # updates, after which both aids have faded
