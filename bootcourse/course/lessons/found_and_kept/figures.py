@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.course.lessons.found_and_kept import ways
+from bootcourse.course.shipped import shipped_experiment
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.cells import VARIED
@@ -17,8 +18,19 @@ from bootcourse.research.results import Results
 DRAWN_FROM = "2"  # the updates for a decision of the agents that the lesson shows
 
 
-def worths(agents: Results, title: str) -> Figure:
-    """What each agent's drives are worth to it while it learns, thick where it gets ahead on most roads."""
+WORTHS = {  # the title of each picture
+    "demos": "Just before the bonus ends, the ways out are worth less than staying",
+    "demos, β for ever": "If the bonus never ends, they keep a way out that does not pay",
+    "bootstrapped": "With both aids, too, the way out pays only after the bonus has gone",
+}
+
+
+def worths(cell: str) -> Figure:
+    """What each agent's drives are worth to it while it learns, thick where it gets ahead on most roads.
+
+    cell: of the experiment `ways`.
+    """
+    agents = shipped_experiment("ways")[cell]
     episode, worth, ahead = (agents.notes[name] for name in ("episode", "worth", "success"))
     staying, look = ways.staying(agents.agents[0]["gamma"]), style(agents.methods[0])
     figure = new_figure(3.75)
@@ -41,7 +53,7 @@ def worths(agents: Results, title: str) -> Figure:
     for look in (ways.BEFORE, ways.EPISODES):
         each = ", ".join(f"{one:.2f}" for one in np.sort(ways.out(agents, look)))
         alt += f"At episode {look:,} the ways out of those that get ahead on most roads are worth {each}. "
-    return finish(figure, title, f"{alt}Staying behind is worth {staying:.2f}.")
+    return finish(figure, WORTHS[cell], f"{alt}Staying behind is worth {staying:.2f}.")
 
 
 def found_and_kept(results: Results, printed: Mapping[str, float] | None = None) -> Figure:

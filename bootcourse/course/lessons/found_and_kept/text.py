@@ -33,7 +33,6 @@ from bootcourse.course import (
     predict,
     predicted,
     progress,
-    shipped,
     table,
 )
 from bootcourse.course.lessons.found_and_kept import counts, explorable, figures
@@ -98,9 +97,7 @@ predict("found_and_kept.1", "What are their ways out worth?", worth)
 
 # %%
 predicted("found_and_kept.1")
-watched = shipped.shipped_experiment("ways")
-title = "Just before the bonus ends, the ways out are worth less than staying"
-bc.show(figures.worths(watched["demos"], title))
+bc.show(figures.worths("demos"))
 
 # %% [markdown]
 # **See.** *Less than staying*: the agents have learned the rule's way, which is slow (lesson
@@ -130,8 +127,7 @@ predict("found_and_kept.2", "What becomes of their way out?", becomes)
 
 # %%
 predicted("found_and_kept.2")
-title = "If the bonus never ends, they keep a way out that does not pay"
-bc.show(figures.worths(watched["demos, β for ever"], title))
+bc.show(figures.worths("demos, β for ever"))
 
 # %% [markdown]
 # **See.** *They keep it, and it stays worth less than staying*: so it is with six of the seven agents that have it at
@@ -214,8 +210,7 @@ explorable.losing()
 # Round 2's picture for ten agents with both aids, and β that ends:
 
 # %%
-title = "With both aids, too, the way out pays only after the bonus has gone"
-bc.show(figures.worths(watched["bootstrapped"], title))
+bc.show(figures.worths("bootstrapped"))
 
 # %% [markdown]
 # **See.** Before β ends their way out is worth less than staying, too. At the end nine of ten have one that is worth

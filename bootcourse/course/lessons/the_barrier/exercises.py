@@ -52,7 +52,7 @@ def going_on_cases(rng):
     yield DRIVES[:1], LASTED[:1], 0.8, 2
     yield DRIVES, LASTED, 1.0, 1
     for _ in range(40):
-        drives, seconds = rng.integers(2, 30), rng.integers(3, 60)
+        drives, seconds = rng.integers(2, 200), rng.integers(3, 60)
         lasted = rng.integers(1, seconds + 1, drives)
         rewards = np.where(np.arange(seconds) < lasted[:, None], rng.uniform(0, 1, (drives, seconds)), 0.0)
         crashed = rng.random(drives) < 0.5
