@@ -13,7 +13,7 @@ def test_agents_train_for_some_blocks_with_marks_and_for_one_without(monkeypatch
     monkeypatch.setattr(pole, "BLOCK", 260)
     monkeypatch.setitem(pole.BLOCKS, "marked", 2)
     monkeypatch.setattr(pole, "MORE", 2)
-    for kind, blocks in (("marked", 2), ("unmarked", 1), ("paid-1", 1), ("frozen", 1), ("more-marked", 1)):
+    for kind, blocks in (("marked", 2), ("unmarked", 1), ("paid-1", 1), ("frozen-30", 1), ("more-marked", 1)):
         results = pole.train_kind(**pole.cells(seeds=2)[kind])
         assert np.isfinite(results.notes["tests"]).sum(1).tolist() == [1 + blocks] * 2
         assert np.isfinite(results.notes["q"]).all() and (results.measured["most"] > 100).all()
@@ -52,6 +52,8 @@ def test_the_targets_of_a_frozen_guess_take_only_a_fallen_poles_value_from_the_u
             parameter += 1
     changed = (agent.slow_q(states) != untrained).any(-1).any(0)
     assert changed.tolist() == [True, False, False] == (~worlds.fallen(states)).tolist()
+    at_30 = worlds.FrozenAt30(seed=0).slow_q(states)
+    assert (at_30[:, 1:] == 30).all() and torch.equal(at_30[:, 0], untrained[:, 0])
 
 
 def test_two_trained_poles_are_first_shown_where_one_has_fallen():

@@ -9,12 +9,13 @@ learns from as many drives, all of them without a look-ahead. The numbers were s
 and nothing was tuned; every round is tested.
 """
 
+from functools import cache
 from itertools import product
 from pathlib import Path
 
 import numpy as np
 
-from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.road_model import FORMS, ImaginedAhead, Transitions, learned_from, transitions_of
 from bootcourse.policies import Policy, PolicyOutput, random_policy
@@ -108,6 +109,14 @@ def per_thousand(agents: Results, form: str, control: bool = False) -> np.ndarra
     """Accidents in 1,000 drives of each agent after each round, (agents, rounds); (agents, 1) of the control."""
     of = agents.measured if control else agents.notes
     return 1000 * (of[f"{form}, accidents"] / of[f"{form}, roads"]).reshape(len(agents), -1)
+
+
+@cache
+def alone(seeds: int = AGENTS, tests: int = TESTS) -> tuple[float, ...]:
+    """Accidents in 1,000 drives of each agent alone, on the roads of the tests."""
+    roads = held_out_seeds(HELD_OUT, tests)
+    driven = [drive_episodes(agent.as_policy(), roads) for agent in agents_of(BASE, seeds, Path())]
+    return tuple(float(1000 * (each.accident > 0).mean()) for each in driven)
 
 
 def rows(tried: Computed, look_ahead: Computed) -> tuple[list[str], list[list[str]]]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
 
 from bootcourse.colours import OTHER
 from bootcourse.course import charts, shipped
@@ -22,6 +23,7 @@ DRIVERS = {"first agent": "healthy", "second agent": "E"}
 HEAD, FOOT = 0.6, 0.5  # inches, above and below the rows of `line_ends`
 FAR = 10.0, 2.0, 2.0, 10.0  # beyond the healthy agent's two seeds, in each column of `line_ends`
 LAST = 8  # values of a probe, of which `line_ends` shows the mean
+LINEAR = 20  # of the promise: above it the axis is logarithmic
 PALE, PALER = "#B4BDC7", "#E9EDF1"  # the healthy agent, and what is not far from it
 
 
@@ -57,17 +59,17 @@ def accidents(hunt: Hunt) -> Figure:
 def promises(hunt: Hunt) -> Figure:
     """Mean of Σ π Q in seconds that the rule drove."""
     title = "What the critic promises"
-    what = "promise Σ π Q, cut off at 20"
-    probes, limits = hunt.probes("promise"), (-2, 20)
-    figure = charts.many(probes, title, "updates", what, reference="healthy", limits=limits, level=most())
+    what = f"promise Σ π Q, logarithmic above {LINEAR}"
+    limits = (-2, 200)
+    figure = charts.many(hunt.probes("promise"), title, "updates", what, "healthy", limits, level=most())
     for panel in figure.axes:
+        panel.set_yscale("symlog", linthresh=LINEAR, linscale=2)
+        panel.set(ylim=limits, yticks=(0, 10, 20, 100))
+        panel.yaxis.set_major_formatter("{x:g}")
+        panel.yaxis.set_minor_locator(NullLocator())
         panel.axhline(most(False), color=charts.INK, linewidth=1, linestyle=(0, (1, 2)), zorder=1)
     names = {f"limit without bonus: {most(False):.0f}": most(False)}
     at_dotted(figure, {**names, f"limit with the bonus always: {most():.0f}": most()})
-    for panel, (name, (_, values)) in zip(figure.axes, list(probes.items())[1:], strict=True):
-        if (highest := values.max()) > limits[1]:
-            words = f"{name}: up to {highest:.0f}"
-            panel.text(1, 1.05, words, transform=panel.transAxes, ha="right", va="bottom", fontsize=charts.SMALL)
     return figure
 
 
@@ -85,6 +87,12 @@ def rarest(hunt: Hunt) -> Figure:
     return charts.many(hunt.probes("rarest"), title, "updates", what, reference="healthy")
 
 
+def likeliest(hunt: Hunt) -> Figure:
+    """How often the likeliest of the nine actions is the rule's, in the same seconds."""
+    title = "How often the policy's likeliest action is the rule's"
+    return charts.many(hunt.probes("alike"), title, "updates", "share of the seconds", reference="healthy")
+
+
 def line_ends(hunt: Hunt) -> Figure:
     """Where the lines of the four pictures above end: a row for each agent, a column for each picture.
 
@@ -94,7 +102,7 @@ def line_ends(hunt: Hunt) -> Figure:
         "return (Round 1)": hunt.at_the_end("return"),
         "Q at own accidents (2)": last(hunt, "end"),
         "promise (3)": last(hunt, "promise"),
-        "rarest action, ln (4)": last(hunt, "rarest"),
+        "ln of rarest action (4)": last(hunt, "rarest"),
     }
     title, row, alt = "Where the lines end", 0.27, []
     figure = new_figure(HEAD + row * len(LETTERS) + FOOT)
@@ -120,24 +128,28 @@ def last(hunt: Hunt, probe: str) -> dict[str, np.ndarray]:
     return {name: hunt.probe(name, probe)[:, -LAST:].mean(axis=1) for name in hunt.names}
 
 
-PROMISED = ["first seed", "promised", "collected", "difference"]
+PROMISED = ["first seed", "promised", "collected", "difference", "collected, with a bonus in every second"]
 
 
 def promised_and_collected(hunt: Hunt) -> list[list[str]]:
     """What an agent's critic promises on its own drives and what they collect, a row for each agent below `PROMISED`.
 
-    Both are means over all seconds of `ROADS`, actions drawn. Collected are the discounted rewards from a second on,
-    without any bonus.
+    All are means over all seconds of `ROADS`, actions drawn. Collected are the discounted rewards from a second on,
+    without any bonus; in the last column each second pays the bonus, too.
     """
     return [[name, *(f"{each:.1f}".replace("-", "−") for each in own_drives(hunt, name))] for name in hunt.names]
 
 
-def own_drives(hunt: Hunt, name: str) -> tuple[float, float, float]:
-    """What an agent's critic promises in its own drives, what these collect, and the difference."""
-    agent, gamma = hunt.agent(name), settings_for("bootstrapped").gamma
+def own_drives(hunt: Hunt, name: str) -> tuple[float, float, float, float]:
+    """What an agent's critic promises in its own drives, what these collect, the difference; with bonuses collected."""
+    agent, settings = hunt.agent(name), settings_for("bootstrapped")
     drives = record(agent.as_policy(np.random.default_rng(0)), ROADS)
     states = np.concatenate([drive.observations[: len(drive.rewards)] for drive in drives])
     promised = float((agent.probabilities(states) * agent.q_values(states)).sum(-1).mean())
-    worth = [targets(drive.rewards, gamma, terminated=bool(drive.accident)) for drive in drives]
-    collected = float(np.concatenate(worth).mean())
-    return promised, collected, promised - collected
+    without, with_bonus = (
+        float(
+            np.concatenate([targets(d.rewards + c, settings.gamma, terminated=d.accident > 0) for d in drives]).mean()
+        )
+        for c in (0.0, settings.bonus)
+    )
+    return promised, without, promised - without, with_bonus

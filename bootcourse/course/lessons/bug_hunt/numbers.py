@@ -100,14 +100,15 @@ def episodes(name: str) -> np.ndarray:
     return np.isfinite(hunt().curve(name, "return")).sum(axis=1)
 
 
-def of_the_study(first: int, last: int) -> float:
-    """The return of the study's ten agents, whose code is healthy, in these training episodes: their mean."""
-    return float(shipped_results().of("bootstrapped").curves["return"][:, first:last].mean())
+def of_the_study(first: int, last: int, what: str = "return") -> float:
+    """The return of the study's ten agents, whose code is healthy, in these training episodes, or their accidents."""
+    values = shipped_results().of("bootstrapped").curves[what][:, first:last]
+    return float((values > 0 if what == "accident" else values).mean())
 
 
 @cache
-def own_drives(name: str) -> tuple[float, float, float]:
-    """What an agent's critic promises in its own drives, what these collect, and the difference."""
+def own_drives(name: str) -> tuple[float, float, float, float]:
+    """What an agent's critic promises in its own drives, what these collect, the difference; with bonuses collected."""
     return figures.own_drives(hunt(), name)
 
 

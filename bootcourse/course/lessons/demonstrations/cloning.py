@@ -135,9 +135,9 @@ def rows_to_add(of_rule: Tensor, labelled: Tensor) -> dict[str, Tensor]:
     return {name: labelled[kind][:: int(kind.sum()) // count][:count] for name, kind in kinds.items()}
 
 
-def with_added(rows: Tensor, more: Tensor) -> Tensor:
-    """These rows, and each of the others five times."""
-    return torch.cat([rows] + 5 * [more])
+def with_added(rows: Tensor, more: Tensor, copies: int = 5) -> Tensor:
+    """These rows, and each of the others so many times."""
+    return torch.cat([rows] + copies * [more])
 
 
 class Trainings:

@@ -56,7 +56,7 @@ def clones(measured: dict[str, np.ndarray]) -> Figure:
     agrees, crash = (np.array([values[:, k].mean() for values in measured.values()]) for k in (0, 2))
     title = "Agreement with the data, and accidents"
     if agrees.argmax() == crash.argmax() and (agrees[1], crash[1]) == (agrees[1:].max(), crash[1:].max()):
-        title = "The clones that agree most with their data crash most"
+        title = "Agreement with its own data says little about a clone's driving"
     return _two_panels(measured, {0: "agree with their data (%)", 2: "have an accident (%)"}, title)
 
 
@@ -71,7 +71,7 @@ def added(name: str, alone: np.ndarray, fed: dict[str, np.ndarray], longer: dict
     if edge < min(alone[:, 2].mean(), others[0]) / 2:
         title = "Rows from the edge prevent most of the accidents"
     rows = {name: alone} | fed | longer
-    return _two_panels(rows, {1: "agree in their own states (%)", 2: "have an accident (%)"}, title)
+    return _two_panels(rows, {1: "agree with the rule, own states (%)", 2: "have an accident (%)"}, title)
 
 
 def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str) -> Figure:
@@ -96,21 +96,21 @@ def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title:
 
 
 BEFORE = 15  # s before an accident that `off_the_road` shows
-DRAWN = 12  # of its drives; all are counted
+DRAWN = 6  # of its drives, which differ most; the table counts all
 PLACES = {-1.0: "1 m right", 0.0: "left lane's\nmiddle", 1.0: "1 m left", 2.0: "2 m left:\nroad's edge"}
 
 
 def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
     """Where the clones' cars were in the last seconds before they left the road on the left, and where they erred.
 
-    A few of the drives, evenly chosen, are drawn; `errors` counts in all of them.
+    A few of the drives, see `unlike`, are drawn; `errors` counts in all of them.
     """
     ended = [drive for drive in own if cloning.off_on_the_left(drive)]
     high = cloning.left_in(of_rule).max().item()
     figure = new_figure(3.9)
     ax = figure.add_axes((0.125, 0.14, 0.85, 0.71))
     ax.axhspan(-2, high, color=style("rule").colour, alpha=0.16, linewidth=0)
-    drawn = [ended[len(ended) * k // DRAWN] for k in range(min(DRAWN, len(ended)))]
+    drawn = unlike(ended, DRAWN)
     for drive in drawn:
         clock = drive.scenario.clock
         at = np.arange(len(drive.actions)) - (len(drive.states) - 1) * clock.dt
@@ -127,15 +127,30 @@ def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
     ax.text(-BEFORE + 0.2, -1.94, "red: errors", color=ALARM, **words)
     ax.set(xlim=(-BEFORE, 0.2), ylim=(-2, 2.35))
     ax.set_yticks(list(PLACES), list(PLACES.values()))
-    ax.set_xlabel("time before the car is off the road (s); some lines lie on each other", fontsize=TEXT, color=INK)
-    title = f"The last {BEFORE} s of {len(drawn)} drives off the left edge, and their errors"
+    words = f"time before the car is off the road (s); {len(drawn)} of {len(ended)} drives"
+    ax.set_xlabel(words, fontsize=TEXT, color=INK)
     (left_of_it, elsewhere), _ = errors(own, of_rule)
+    title = f"The last {BEFORE} s of {len(drawn)} drives off the left edge, and their errors"
+    if left_of_it > 0.9:
+        title = "Left of the green band nearly every decision is an error"
     return finish(
         figure, title,
         f"{len(drawn)} of {len(ended)} drives that leave the road on the left. In the left lane the rule's rows reach "
         f"{high:.1f} m left of its middle. Left of this place {100 * left_of_it:.0f} % of all {len(ended)} drives' "
         f"decisions are errors, elsewhere {100 * elsewhere:.0f} %.",
     )  # fmt: skip
+
+
+def unlike(drives: Sequence[Rollout], count: int) -> list[Rollout]:
+    """Drives that are in the left lane all their last seconds, each as far as possible from those before it."""
+    steps = BEFORE * drives[0].scenario.clock.simulation_rate
+    paths = {k: each.states[-steps:, EGO, Y] for k, each in enumerate(drives) if len(each.states) >= steps}
+    paths = {k: path for k, path in paths.items() if path.max() < 2} or paths
+    chosen = list(paths)[:1]
+    while len(chosen) < min(count, len(paths)):
+        apart = {k: min(np.abs(path - paths[other]).mean() for other in chosen) for k, path in paths.items()}
+        chosen.append(max(apart, key=apart.get))
+    return [drives[k] for k in chosen]
 
 
 def errors(own: Sequence[Rollout], of_rule: Tensor) -> np.ndarray:
@@ -166,6 +181,14 @@ def error_rows(own: Sequence[Rollout], of_rule: Tensor) -> list[list[str]]:
     return rows
 
 
+def came_back(own: Sequence[Rollout], of_rule: Tensor) -> str:
+    """How many of the drives that were at any time left of the rule's rows end without an accident."""
+    high = cloning.left_in(of_rule).max().item()
+    there = [drive for drive in own if (cloning.metres_left(drive) > high).any()]
+    back = sum(not drive.accident for drive in there)
+    return f"Left of all of the rule's rows were {len(there)} drives; {back} of them end without an accident."
+
+
 def taught(trainings: np.ndarray, alike: np.ndarray) -> Figure:
     """What DAgger changes: (trainings, rounds + 1, 4) of `cloning.measure`. alike: accidents of clones of 60 drives.
 
@@ -188,12 +211,14 @@ def taught(trainings: np.ndarray, alike: np.ndarray) -> Figure:
             ax.plot(drives, 100 * trainings[:, :, k].T, color=colour, linewidth=0.8, alpha=0.7)
             ax.plot(drives, mean[:, k], color=colour, linewidth=2.2, marker="o", markersize=4)
         ax.set(xlim=(drives[0] - 2, drives[-1] + 2), ylim=(-3, 103))
-        ax.set_xticks(drives, ["20 of\nthe rule", *(f"+ {each}\nown" for each in drives[:-1])])
+        ax.set_xticks(drives, ["20 drives\nof the rule", *(f"+ {each} of\nthe clone" for each in drives[:-1])])
         ends = [(mean[-1, k], *some[k]) for k in some if some[k][0]]
         if 2 in some:
             crash = 100 * alike.mean()
             ax.axhline(crash, color=style("rule").colour, linewidth=1.2, linestyle=(0, (4, 2)))
-            ends = [(crash, f"{len(alike)} clones of 60 drives of the rule", style("rule").colour)]
+            low, high = 100 * alike.min(), 100 * alike.max()
+            words = f"{len(alike)} clones of 60 drives of the rule ({low:.0f} to {high:.0f} %)"
+            ends = [(crash, words, style("rule").colour)]
         label_ends(ax, ends, wrap=14)
     words = [f"{name} {', '.join(f'{each:.0f}' for each in mean[:, k])} %" for k, (name, _) in lines.items()]
     each = "; then ".join(", ".join(f"{100 * x:.0f}" for x in crash) for crash in trainings[:, :, 2].T)

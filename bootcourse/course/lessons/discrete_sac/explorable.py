@@ -11,13 +11,13 @@ from scipy.stats import norm
 from bootcourse.colours import INK, OTHER
 from bootcourse.learn import sac
 from bootcourse.methods import style
-from bootcourse.panels.explorable import WIDTH, Axes, Curve, Explorable, bars, curves, legend
+from bootcourse.panels.explorable import WIDTH, Axes, Curve, Explorable, curves, legend
 from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing, SvgAxes, drawing, text
 
 ACTIONS = ("left", "straight", "right")
 START, ALPHA = (0.9, 1.0, 0.5), 0.3  # Q of these actions and α, as the panel opens
-AXES = Axes("", "probability of each action", (0.0, 1.0))
+CHANCES, STACK = (52, 62, 370, 190), (478, 62, 264, 190)  # left, top, width and height of the charts, pixels
 
 
 def undecided() -> Explorable:
@@ -28,17 +28,39 @@ def undecided() -> Explorable:
         log_pi = sac.log_policy(q / alpha)
         entropy, value = float(sac.entropy(log_pi)), float(sac.soft_value(log_pi, q, temperature))
         says = f"Its entropy is {entropy:.2f} nats, and the state is worth {value:.2f}."
-        return bars(
-            says, AXES, ACTIONS, {"the best policy for these numbers": Curve(log_pi.exp()[0], style("sac").colour)}
+        chances, best = SvgAxes(*CHANCES, (0.0, 3.0), (0.0, 1.0)), float(q.max())
+        chances.scale("probability of each action, by the best policy")
+        for place, chance in enumerate(log_pi.exp()[0].tolist()):
+            _bar(chances, place + 0.15, place + 0.85, 0, chance, style("sac").colour)
+        worth = SvgAxes(*STACK, (0.0, 1.0), (0.0, 1.5 * max(1.0, best, value / 1.4)))
+        worth.scale("what the state is worth")
+        _bar(worth, 0.1, 0.45, 0, value - alpha * entropy, style("sac").colour)
+        _bar(worth, 0.1, 0.45, value - alpha * entropy, value, OTHER.colour)
+        worth.line([0.0, 0.52], [best, best], INK, 1.2, "--")
+        names = (
+            ("mean of Q", style("sac").colour),
+            ("pay, α · entropy", OTHER.colour),
+            (f"dashed: {best:g}, if it is", INK),
         )
+        key = [text(STACK[0] + 0.56 * STACK[2], 110 + 20 * row, words, "start", colour, 12)
+               for row, (words, colour) in enumerate(names)]  # fmt: skip
+        key.append(text(STACK[0] + 0.56 * STACK[2], 164, "sure of the best", "start", INK, 12))
+        under = [text(chances.at(place + 0.5, 0)[0], CHANCES[1] + CHANCES[3] + 16, name, "middle", INK, 12)
+                 for place, name in enumerate(ACTIONS)]  # fmt: skip
+        parts = [text(4, 20, says, size=14, bold=True), *chances.parts, *worth.parts, *key, *under]
+        return drawing(WIDTH, CHANCES[1] + CHANCES[3] + 30, parts, says)
 
     values = {
         name: Number(f"Q({name})", start, 0, 2, 0.05, f"What it is worth to go {name} now.")
         for name, start in zip(ACTIONS, START, strict=True)
     }
     help = "The temperature: what one nat of indecision is worth."
-    alpha = Number("α", ALPHA, 0.01, 10, 0.05, help, logarithmic=True)
+    alpha = Number("α", ALPHA, 0.03, 3, 0.05, help, logarithmic=True)  # 0.3 is one of the page's positions
     return Explorable("What does an agent do that is paid for being undecided?", draw, alpha=alpha, **values)
+
+
+def _bar(chart: SvgAxes, left: float, right: float, low: float, high: float, colour: str) -> None:
+    chart.fill([left, right, right, left], [low, low, high, high], colour)
 
 
 NEXT, REWARD, GAMMA = (1.0, 3.0), 1.0, 0.9  # Q of two actions in s', the reward before it, the discount

@@ -25,13 +25,13 @@ def descents(ends: Mapping[str, Descent]):
     return table([f"after {STEPS} steps", "π(straight)", "Q(straight)", "loss"], rows)
 
 
-def two_jobs(alphas: Sequence[float], walked: Walked, unpaid: Walked, less: Walked) -> Figure:
+def two_jobs(alphas: Sequence[float], start: float, walked: Walked, unpaid: Walked, less: Walked) -> Figure:
     """What α does in the chain's trap: how many learners find the way out, and how sure these then are of taking it.
 
-    walked: the learners at each temperature, and last those whose temperature falls from the largest of these;
+    walked: the learners at each temperature, and last those whose temperature falls from `start`;
     unpaid: the same with a target that holds no pay; less: with the pay α (H − log 2).
     """
-    names = [*(f"α = {alpha:g}" for alpha in alphas), f"α falls from {alphas[-1]:g}"]
+    names = [*(f"α = {alpha:g}" for alpha in alphas), f"α falls from {start:g}"]
     names += ["falls, no pay in target", "falls, pay α (H − log 2)"]
     leaves, found = (np.vstack([getattr(of, part) for of in (walked, unpaid, less)]) for part in ("leaves", "found"))
     parts = {
@@ -40,7 +40,9 @@ def two_jobs(alphas: Sequence[float], walked: Walked, unpaid: Walked, less: Walk
         "found it, sure of staying": (found & (leaves < 1 - SURE), OTHER.colour),
         "never found it": (~found, "white"),
     }
-    row, before, alt_parts = 0.36, np.zeros(len(names)), []
+    counts = (found & (leaves > SURE)).sum(axis=1)
+    title = f"Sure of leaving: {counts[:-3].max()} at most if α is constant, {counts[-3]} if it falls"
+    row, before, alt_parts = 0.33, np.zeros(len(names)), []
     figure = new_figure(0.95 + row * len(names) + 0.6)
     ax = axes_at(figure, 1.6, 0.95, 3.9, row * len(names))
     for words, (of, colour) in parts.items():
@@ -48,10 +50,10 @@ def two_jobs(alphas: Sequence[float], walked: Walked, unpaid: Walked, less: Walk
         ax.barh(names, of.sum(axis=1), 0.72, left=before, label=words, **look)
         before += of.sum(axis=1)
         alt_parts.append(f"{words}: {', '.join(map(str, of.sum(axis=1)))}")
-    for place, count in enumerate((found & (leaves > SURE)).sum(axis=1)):
+    for place, count in enumerate(counts):
         look = {"fontsize": TEXT, "color": style("sac").colour, "va": "center"}
         ax.text(before[place] + 5, place, f"{count} sure of leaving", **look)
     name_rows(ax, names, f"of {walked.leaves.shape[1]} learners")
     ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.08), ncols=2, fontsize=SMALL, frameon=False, columnspacing=1.2)
     alt = f"A bar for each kind of learner: {', '.join(names)}. Of each kind, in this order, {'; '.join(alt_parts)}. "
-    return finish(figure, "A falling α leads about half out, and all if the pay cannot lift Q", alt)
+    return finish(figure, title, alt)

@@ -21,7 +21,7 @@ q = np.array(START)
 pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
 BY_Q = pi @ q
 WORTH = BY_Q - ALPHA * pi @ np.log(pi)
-ALPHAS = (0.01, 0.1, 0.15, 0.2, 0.25, 1, 10)  # constant temperatures: Round 4's and more
+ALPHAS = (0.01, 0.1, 0.15, 0.2, 0.25, 0.3, 1, 10)  # constant temperatures: Round 4's and more
 
 
 def highest(actions: int) -> tuple[float, float]:
@@ -61,9 +61,9 @@ def constant(decisions: int = 1000) -> Walked:
 
 
 @cache
-def falling(decisions: int = 1000, value: Callable = sac.soft_value) -> Walked:
-    """Learners whose α falls by equal factors from 10 to 0.01. value: V(s) in their target, see `unpaid`."""
-    return walked(value, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, decisions))[:, None])
+def falling(decisions: int = 1000, value: Callable = sac.soft_value, start: float = 10) -> Walked:
+    """Learners whose α falls by equal factors from `start` to 0.01. value: V(s) in their target, see `unpaid`."""
+    return walked(value, sac.critic_target, torch.tensor(np.geomspace(start, 0.01, decisions))[:, None])
 
 
 @cache

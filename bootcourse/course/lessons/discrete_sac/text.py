@@ -22,6 +22,8 @@
 # Bellman equation of lesson [[values]].
 
 # %%
+import math
+
 import bootcourse as bc
 import torch
 from bootcourse.course import check, compare_predictions, own_code, predict, predicted, progress
@@ -54,7 +56,8 @@ bc.show(diagrams.four_parts())
 #
 # An agent can go left, straight or right. By its estimates going straight is worth {{ q[1] | g }}, left
 # {{ q[0] | g }} and right {{ q[2] | g }}. Early estimates are poor, so the agent should **explore**. SAC pays
-# it α times its **entropy**, which says how undecided it is. α is called the **temperature**.
+# it α times its **entropy**, which says how undecided it is: 0 if it is sure of one action, otherwise more. α is
+# called the **temperature**.
 #
 # > **Predict.** The agent chooses the probabilities that make the mean of Q plus the pay as large as possible. The
 # > state is worth that largest sum: how much?
@@ -82,8 +85,7 @@ explorable.undecided()
 #
 # $$ \mathcal{H}(\pi(\cdot|s)) = -\sum_a \pi(a|s) \log \pi(a|s) $$
 #
-# It lies between 0, where the agent is sure of one action, and log n, where all n actions are equally likely.
-# So it is **never negative**.
+# It is **never negative**, and at most log n, where all n actions are equally likely.
 # <!-- claim: 0 == float(sac.entropy(torch.tensor([1.0]).log())) <
 #   float(sac.entropy(torch.full((9,), 1 / 9).log())) < math.log(9) + 1e-6 -->
 #
@@ -92,9 +94,9 @@ explorable.undecided()
 # $$ V(s) = \sum_a \pi(a|s)\, Q(s,a) + \alpha\, \mathcal{H}(\pi(\cdot|s)) $$
 #
 # Which policy makes it largest? At the best one nothing is gained by moving probability from one action to
-# another: the slope of Q(a) π(a) − α π(a) log π(a) in π(a) is the same for each action. So Q(a) − α log π(a)
-# is the same number for each, and π is the policy in the panel, a *softmax*:
-# $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$. That same number is then V.
+# another: the slope of Q(a) π(a) − α π(a) log π(a) in π(a), Q(a) − α log π(a) − α, is the same for each. So
+# Q(a) − α log π(a) is also the same for each, and its mean under π is V. Then π is the panel's policy, a *softmax*:
+# $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$.
 # <!-- claim: np.ptp(q - ALPHA * np.log(pi)) < 1e-9 and abs((q - ALPHA * np.log(pi))[0] - WORTH) < 1e-9 -->
 #
 # **Exercise (4 min, ●○○).** Write the soft value.
@@ -165,8 +167,9 @@ def critic_target(reward, terminated, next_value, gamma):
 check.critic_target(critic_target)
 
 # %% [markdown]
-# V(s') is computed with the target critics (*target networks*). Each update moves their weights a small share
-# τ ("tau") of the way to the critics' weights, so the target moves slowly.
+# If y came from the critics themselves, each update would also move the goal that it steps towards. So SAC keeps a
+# slow copy of each critic, its *target critic* (*target network*), and computes V(s') with the copies: each update
+# moves their weights a small share τ ("tau") of the way to the critics' weights.
 #
 # **Exercise (6 min, ●●○).** Write the loss of both critics: for each the mean over the batch of
 # $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action taken. Hold y fixed: no gradient may run
@@ -238,8 +241,8 @@ def actor_loss(log_pi, q, alpha):
 check.actor_loss(actor_loss)
 
 # %% [markdown]
-# Now take 100 gradient steps down your actor's loss: they move the policy. Then take 100 down the same loss
-# without `detach`: they move Q, too. Does Q(straight) then stay at 1, rise to about 2, or rise without end?
+# Now take 100 gradient steps down your actor's loss, and 100 down the same loss without `detach`: these move Q, too.
+# Does Q(straight) then stay at 1, rise to about 2, or rise without end?
 
 # %%
 value, loss = own_code.yours_or_ours("soft_value", "actor_loss", doing="Descending")
@@ -248,7 +251,8 @@ figures.descents({"your loss": own_parts.descended(loss), "Q not detached": bare
 
 # %% [markdown]
 # **See.** Your loss finds the softmax of Round 1. Without `detach` Q(straight) rises by almost 1 a step, without
-# end, although it is no better than before: the loss's slope in it is −π(straight).
+# end, although it is no better than before: the loss's slope in it is −π(straight). Where each part has its own
+# optimiser, Q would not move at once, but these gradients would add to the critics' next step unless cleared.
 # <!-- claim: 90 < wished() < 100 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -265,44 +269,55 @@ figures.descents({"your loss": own_parts.descended(loss), "Q not detached": bare
 #
 # A learner must *find* the free road, and then *take* the way to it.
 #
-# > **Predict.** Take a small α (0.01), a large one (10), and one that falls from 10 to 0.01. With which of
-# > the three do the most learners end *sure of leaving* the trap (π above {{ SURE }})?
+# > **Predict.** Keep α as it is from the first decision to the last. With which α do more than half end *sure of
+# > leaving* the trap (π above {{ SURE }})?
 
 # %%
-kinds = ["a small one", "a large one", "one that falls"]
-predict("discrete_sac.4", "With which α do the most learners end sure of leaving?", kinds)
+kinds = ["0.01", "0.3 or 1", "10", "none of these"]
+predict("discrete_sac.4", "With which constant α do more than half end sure of leaving?", kinds)
+
+# %% [markdown]
+# The last rows let α fall from `start` to 0.01. Try other starts: 100, 1, 0.3.
 
 # %%
 predicted("discrete_sac.4")
 value, target = own_code.yours_or_ours("soft_value", "critic_target", doing="Walking")
-constant = torch.tensor([0.01, 10], dtype=torch.float64)
-falling = torch.logspace(1, -2, 1000, dtype=torch.float64)[:, None]
+constant = torch.tensor([0.01, 0.3, 1, 10], dtype=torch.float64)
+start = 10  # where the falling α begins: try others
+falling = torch.logspace(math.log10(start), -2, 1000, dtype=torch.float64)[:, None]
 alphas = torch.cat([constant.expand(1000, -1), falling], 1)  # a column for each kind of learner
 walked = own_parts.walked(value, target, alphas)
 unpaid = own_parts.walked(own_parts.unpaid, target, falling)  # V without the pay
 less = own_parts.walked(own_parts.less_paid(value), target, falling)  # the pay α (H − log 2)
-bc.show(figures.two_jobs(constant.tolist(), walked, unpaid, less))
+bc.show(figures.two_jobs(constant.tolist(), start, walked, unpaid, less))
 
 # %% [markdown]
-# **Explain.** The one that falls. **α does two jobs.** It decides how much a learner *tries*: with a small α
-# few find the free road, and all end sure of *staying*. And it decides how surely a learner *takes* the way
-# out: with α = 10 nearly all find the free road, but all act almost at random to the end. With α falling from
-# 10 about half find it and end sure of leaving; over 4,000 decisions {{ sure(falling(4000))[0] }} of
-# {{ LEARNERS }} do.
+# **Explain.** None of these. **α does two jobs.** It decides how much a learner *tries*: with α = 0.01 few find the
+# free road, and all end sure of *staying*. And it decides how surely a learner *takes* the way out: from α = 0.3 on
+# most find the free road, but nearly all stay undecided. With α falling from 10 about half find it and end sure of
+# leaving; over 4,000 decisions {{ sure(falling(4000))[0] }} of {{ LEARNERS }} do.
 # <!-- claim: sure(constant()).max() < LEARNERS / 8 and 0.4 < min(sure(falling())[0], *others()) / LEARNERS and
 #   max(sure(falling())[0], *others()) / LEARNERS < 0.6 -->
 # <!-- claim: constant().leaves[0].max() < 1 - SURE and abs(constant().leaves[-1] - 0.5).max() < 0.04 -->
+# <!-- claim: constant().found[5:].mean(axis=1).min() > 0.6 and sure(constant())[5:].max() < LEARNERS / 15 and
+#   (constant().leaves[5:] > 1 - SURE).all() -->
 # <!-- claim: sure(constant(4000)).max() < sure(falling(4000))[0] / 2 -->
 #
 # **Why not all?** An undecided learner is paid in every state, and the pay is in the target. So from Q = 0 **Q
 # grows where the learner is**, and at first that is the trap: {{ begun().decided[..., 0].mean() | .0f }} of the
 # first hundred decisions, against {{ begun().decided[..., 4].mean() | .0f }} on the free road. Then staying's Q
-# is {{ begun().q[..., 0, 0].mean() | .0f }}, and the free road's only {{ begun().q[..., 4, :].mean() | .0f }}. (α is 5
-# by then, and {{ soft_q(5)[4].mean() | .0f }} would be right.)
+# is {{ begun().q[..., 0, 0].mean() | .0f }}, and the free road's only {{ begun().q[..., 4, :].mean() | .0f }}. By then
+# α is 5, and right would be {{ soft_q(5)[0, 0] | .0f }} for staying and {{ soft_q(5)[4].mean() | .0f }} for the free
+# road, whose Q has come only a third of the way.
+# <!-- claim: 0.75 < begun().q[..., 0, 0].mean() / soft_q(5)[0, 0] < 0.9 and
+#   0.3 < begun().q[..., 4, :].mean() / soft_q(5)[4].mean() < 0.4 -->
 #
-# The last two rows test this. With no pay in the target all leave. And with the pay α (H − log 2), which is 0 for
-# an even policy, all leave, too. Each decision pays α log 2 less, wherever it is, so at a given α the same policy
-# is best. Only the growth is gone.
+# The last two rows test this. With no pay in the target all leave. With the pay α (H − log 2), which is 0 for an even
+# policy, all leave, too: each decision pays α log 2 less, so at a given α the same policy is best, and only the growth
+# is gone. But α must begin high enough: with that pay {{ sure(falling(value=LESS, start=1))[0] }} leave if it falls
+# from 1, and {{ sure(falling(value=LESS, start=0.3))[0] }} if it falls from 0.3.
+# <!-- claim: sure(falling(value=LESS, start=0.3))[0] < LEARNERS / 3 < LEARNERS * 0.75 <
+#   sure(falling(value=LESS, start=1))[0] < LEARNERS -->
 # <!-- claim: begun().decided[..., 0].mean() > 3 * begun().decided[..., 4].mean() -->
 # <!-- claim: abs(10 * 0.001 ** (99 / 999) - 5) < 0.1 and begun().q[..., 4, :].mean() < soft_q(5)[4].min() / 2 -->
 # <!-- claim: begun().q[begun().found, 0, 0].mean() > begun().q[begun().found, 4].max(axis=-1).mean() -->
@@ -312,8 +327,7 @@ bc.show(figures.two_jobs(constant.tolist(), walked, unpaid, less))
 #   begun(LESS).q[..., 0, 0].mean() < begun(LESS).q[..., 4, :].mean() / 5 -->
 #
 # **Does the pay lead out of the trap, then?** Only in part: it makes a learner try, but it also makes the
-# trap look good. On our road one of ten agents of plain SAC escapes. Do the others not find a way out, or not
-# take it? Lesson [[the_barrier]] asks.
+# trap look good. On our road one of ten agents of plain SAC escapes. Lesson [[the_barrier]] asks why.
 # <!-- claim: len(of('sac')) == 10 and escaped('sac') == 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=2
@@ -337,8 +351,7 @@ courses = ["falls, and stops at H = η", "rises for ever", "falls for ever", "mo
 predict("discrete_sac.5", "What does α do with η = −1?", courses)
 
 # %% [markdown]
-# **Drag** η. Here α begins at 1, and each update moves it by 2 %: down while the entropy is above η, up while it
-# is below. For which η does α come to rest?
+# **Drag** η. Here α begins at 1, and each update moves it by 2 %. For which η does α come to rest?
 
 # %%
 predicted("discrete_sac.5")
@@ -346,14 +359,45 @@ explorable.thermostat()
 
 # %% [markdown]
 # **Explain.** α falls for ever, because the entropy is never negative and so always above η = −1. α can come
-# to rest if η is between 0 and log 9 = {{ math.log(9) | .3f }}. (If three best actions tie, the entropy stays
-# above log 3, so η must, too.)
+# to rest if η is between 0 and log 9 = {{ math.log(9) | .3f }}.
 # <!-- claim: SETTINGS.target_entropy < 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # The answer to discuss is "falls, and stops at η", as a thermostat in a room does. Ask which entropy would
 # have to be reached. It helps to write the range, 0 to log 9, on the board before anybody answers. The paper
 # gives no reason for −1; with continuous actions, whose entropy can be negative, such targets are usual.
+
+# %%
+compare_predictions(
+    "discrete_sac",
+    {1: choices[2], 2: targets[0], 3: places[2], 4: kinds[3], 5: courses[2]},
+)
+
+# %% [markdown]
+# ## What you now know
+#
+# This is all of SAC:
+
+# %%
+bc.show(diagrams.sac_diagram())
+
+# %% [markdown]
+# 1. The soft value is the policy's mean Q plus α times its entropy; softmax(Q / α) makes it largest.
+# 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed.
+# 3. The highest of many estimates is too high, so SAC uses the smaller of two critics.
+# 4. The actor's loss is minus the soft value, with Q held fixed.
+# 5. On the chain an α that falls from 10 leads about half out in 1,000 decisions, and all if the pay cannot lift Q. A
+#    thermostat can rest if η is between 0 and log n.
+
+# %% [markdown]
+# **Three questions to think about**
+# - What would η = log 9 do to an agent on the road?
+# - What could lower the critics' loss if y were not held fixed?
+# - On the road α begins at {{ SETTINGS.alpha_init }}. What could a higher start cost?
+#
+# **Read on**: Haarnoja et al., SAC (arXiv 1801.01290) and its thermostat (arXiv 1812.05905); Fujimoto et al.,
+# the smaller of two critics (TD3, arXiv 1802.09477); Christodoulou, SAC for discrete actions (arXiv
+# 1910.07207); Xu et al., its target entropy (arXiv 2112.02852).
 
 # %% [markdown]
 # ## Further: the thermostat's loss
@@ -375,38 +419,6 @@ def temperature_loss(log_alpha, state_entropy, target_entropy):
 
 
 check.temperature_loss(temperature_loss)
-
-# %%
-compare_predictions(
-    "discrete_sac",
-    {1: choices[2], 2: targets[0], 3: places[2], 4: kinds[2], 5: courses[2]},
-)
-
-# %% [markdown]
-# ## What you now know
-#
-# This is all of SAC. Find the arrows that bring your functions what they take.
-
-# %%
-bc.show(diagrams.sac_diagram())
-
-# %% [markdown]
-# 1. The soft value is the policy's mean Q plus α times its entropy; softmax(Q / α) makes it largest.
-# 2. The critics are fitted to r + γ (1 − terminated) V(s'), held fixed.
-# 3. The highest of many estimates is too high, so SAC uses the smaller of two critics.
-# 4. The actor's loss is minus the soft value, with Q held fixed.
-# 5. On the chain a falling α leads about half out in 1,000 decisions, and nearly all in 4,000. If the pay cannot
-#    lift Q where the learner is, 1,000 are enough. A thermostat can rest if η is between 0 and log n.
-
-# %% [markdown]
-# **Three questions to think about**
-# - What would η = log 9 do to an agent on the road?
-# - What could lower the critics' loss if y were not held fixed?
-# - On the road α begins at {{ SETTINGS.alpha_init }}. What could a higher start cost?
-#
-# **Read on**: Haarnoja et al., SAC (arXiv 1801.01290) and its thermostat (arXiv 1812.05905); Fujimoto et al.,
-# the smaller of two critics (TD3, arXiv 1802.09477); Christodoulou, SAC for discrete actions (arXiv
-# 1910.07207); Xu et al., its target entropy (arXiv 2112.02852).
 
 # %% [markdown] tags=["instructor"] minutes=4
 # *Answers to the three questions.* **η = log 9** is the largest entropy of nine actions. While the policy is

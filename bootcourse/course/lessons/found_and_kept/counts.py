@@ -9,7 +9,6 @@ from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
 
 BOTH_TABLES = ["", "the paper's success", "the paper's return", "our agents that escape", "our return"]
-DRIVERS = ["demonstrations by", "¼ update for a decision, on four roads", "2 updates, on one road"]
 SYMBOLS = {"the rule": "μ", "the stochastic rule": "π̃"}
 
 
@@ -32,13 +31,3 @@ def by_updates(driver: str) -> dict[str, Results]:
     """
     settings = clocks.choices(shipped_experiment("clocks")).items()
     return {updates: agents for (updates, by), agents in settings if by == SYMBOLS[driver]}
-
-
-def kept_alone() -> list[list[str]]:
-    """A row for each driver, below `DRIVERS`: how many agents with demonstrations alone keep the way out."""
-
-    def cell(agents: Results) -> str:
-        kept = agents.found_and_kept("demos")[1]
-        return f"{kept.sum()} of {len(kept)}"
-
-    return [[driver, *(cell(by_updates(driver)[updates]) for updates in ("1/4", "2"))] for driver in SYMBOLS]

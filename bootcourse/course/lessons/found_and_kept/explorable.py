@@ -31,7 +31,7 @@ LOSE, KEEP, EARN, CRASH = 510, 582, 652, 718  # pixels: the middles of the four 
 def training() -> Explorable:
     """One agent with demonstrations alone while it learns: its drive beside trap 1, and how often it gets ahead."""
     agents = shipped_experiment("ways")["demos"]
-    which = int(np.flatnonzero(ways.losers(agents))[0])  # the first that found the way out and ends behind
+    which = ways.gives_up(agents)
     notes, success = {name: each[which] for name, each in agents.notes.items()}, agents.curves["success"][which]
     at, (share,) = rolling_means(100 * success, IN_A_ROW, len(success))
     colour, end = style("demos").colour, agents.agents[which]["beta_episodes"]

@@ -19,10 +19,11 @@ DRAWN_FROM = "2"  # the updates for a decision of the agents that the lesson sho
 
 
 WORTHS = {  # the title of each picture
-    "demos": "Just before the bonus ends, the ways out are worth less than staying",
+    "demos": "Just before the bonus ends, most ways out are worth less than staying",
     "demos, β for ever": "If the bonus never ends, they keep a way out that does not pay",
-    "bootstrapped": "With both aids, too, the way out pays only after the bonus has gone",
+    "bootstrapped": "With both aids the ways out pay more and more as the bonus ends",
 }
+FIRST_SHOWN = 400  # the training episode with which the pictures of worth begin
 
 
 def worths(cell: str) -> Figure:
@@ -33,26 +34,32 @@ def worths(cell: str) -> Figure:
     agents = shipped_experiment("ways")[cell]
     episode, worth, ahead = (agents.notes[name] for name in ("episode", "worth", "success"))
     staying, look = ways.staying(agents.agents[0]["gamma"]), style(agents.methods[0])
-    figure = new_figure(3.75)
-    ax = axes_at(figure, 0.55, 0.8, 5.1, 2.05)
-    plain_axes(ax, "worth of a drive at γ = 0.8, without the bonus (mean of 20 roads)")
+    figure = new_figure(4.0)
+    ax = axes_at(figure, 0.55, 0.8, 5.1, 2.3)
+    plain_axes(ax, f"worth of a drive at γ = 0.8, without the bonus (mean of {ways.ROADS} roads)")
     for at, each, share in zip(episode, worth, ahead, strict=True):
-        ax.plot(at, each, color=QUIET, linewidth=0.5, alpha=0.5, zorder=1)
-        ax.plot(at, np.where(share > 0.5, each, np.nan), "-", color=look.colour, linewidth=1.7, alpha=0.85, zorder=2)
+        ax.plot(at, each, color=QUIET, linewidth=0.5, alpha=0.4, zorder=1)
+        ax.plot(at, np.where(share > 0.5, each, np.nan), "-", color=look.colour, linewidth=1.3, alpha=0.8, zorder=2)
+    had = ways.at(agents, ways.BEFORE, "success") > 0.5
+    place = episode[had, np.argmax(episode[had] > ways.BEFORE, axis=1) - 1]
+    ax.plot(place, ways.at(agents, ways.BEFORE)[had], "o", ms=4, color=INK, zorder=4)
     ax.axhline(staying, color=INK, linewidth=1.1, linestyle=(0, (4, 3)), zorder=3)
     words, beside = f"staying behind:\n{staying:.2f}", ax.get_yaxis_transform()
     ax.text(1.01, staying, words, transform=beside, fontsize=TEXT, color=INK, va="center")
     if (end := agents.agents[0]["beta_episodes"]) is not None:
         ax.axvline(end, color=QUIET, linewidth=1.1, linestyle=(0, (1, 2)), zorder=1)
-        ax.text(end + 15, 1.84, "no demonstrations from here on", fontsize=TEXT, color=QUIET, va="center")
-    ax.set(xlim=(0, episode.max()), ylim=(0, 1.9))
+        ax.text(end + 15, 1.82, "no demonstrations from here on", fontsize=TEXT, color=QUIET, va="center")
+    ax.set(xlim=(FIRST_SHOWN, episode.max()), ylim=(0, 1.9))
     ax.set_xlabel("training episode", fontsize=TEXT, color=INK)
-    key = "thick: gets ahead on most roads; thin grey: does not (worth below 0, after accidents, is cut)"
+    key = (
+        "Thick: the agent gets ahead on most roads; dot: so just before episode 1,000.\n"
+        "Thin grey: it does not. (Worths below 0, after accidents, are cut.)"
+    )
     figure.text(0.012, 0.12 / figure.get_figheight(), key, fontsize=TEXT, color=QUIET)
     alt = ""
-    for look in (ways.BEFORE, ways.EPISODES):
-        each = ", ".join(f"{one:.2f}" for one in np.sort(ways.out(agents, look)))
-        alt += f"At episode {look:,} the ways out of those that get ahead on most roads are worth {each}. "
+    for last, name in ((ways.BEFORE, "Just before episode 1,000"), (ways.EPISODES, f"At episode {ways.EPISODES:,}")):
+        each = ", ".join(f"{one:.2f}" for one in np.sort(ways.out(agents, last)))
+        alt += f"{name} the ways out of those that get ahead on most roads are worth {each}. "
     return finish(figure, WORTHS[cell], f"{alt}Staying behind is worth {staying:.2f}.")
 
 

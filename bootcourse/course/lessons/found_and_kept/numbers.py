@@ -5,16 +5,21 @@ from math import prod
 from typing import NamedTuple
 
 import numpy as np
+from scipy import stats
 
 from bootcourse.course.lessons.found_and_kept import counts, ways
 from bootcourse.course.lessons.found_and_kept.explorable import groups
+from bootcourse.episodes.record import record
+from bootcourse.policies import rule_policy
 from bootcourse.research.cells import VARIED
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.paper import paper_interval
 from bootcourse.research.results import Results
 from bootcourse.research.tables import markdown
+from bootcourse.road.state import EGO, TRAP_1, X
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, Estimate, found_after, lost  # noqa: F401 (for the text)
-from tools.course.known import SETTINGS, clocks, others, pattern, shipped_experiment, shipped_results
+from tools.course.known import ROAD, SETTINGS, clocks, others, pattern, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
 STUDY = shipped_results().curves["success"].shape[1]  # training episodes of the study's agents
@@ -157,7 +162,7 @@ def before(cell: str) -> np.ndarray:
 
 def _shown() -> int:
     """Which of the agents is the first picture's."""
-    return int(np.flatnonzero(ways.losers(watched("demos")))[0])
+    return ways.gives_up(watched("demos"))
 
 
 def first_had() -> int:
@@ -169,6 +174,54 @@ def gone() -> int:
     """The look from which on it is behind trap 1 on most roads."""
     ahead = watched("demos").notes["success"][_shown()] > 0.5
     return int(np.flatnonzero(ahead)[-1] + 1) * ways.EVERY
+
+
+def of_first(episode: int) -> float:
+    """What the drives of the first picture's agent are worth at a look."""
+    return float(watched("demos").notes["worth"][_shown()][episode // ways.EVERY])
+
+
+def fates(cell: str) -> tuple[int, int, int]:
+    """Of the agents with a way out just before β ends: how many end ahead, behind and unhurt, and with accidents."""
+    agents = watched(cell)
+    had = ways.at(agents, ways.BEFORE, "success") > 0.5
+    ahead, hurt = (agents.notes[name][had, -1] > 0.5 for name in ("success", "accident"))
+    return int(ahead.sum()), int((~ahead & ~hurt).sum()), int((~ahead & hurt).sum())
+
+
+def still(cell: str) -> np.ndarray:
+    """The worths at the end of those that end ahead."""
+    agents = watched(cell)
+    had = ways.at(agents, ways.BEFORE, "success") > 0.5
+    return agents.notes["worth"][had & (agents.notes["success"][:, -1] > 0.5), -1]
+
+
+def early() -> np.ndarray:
+    """The worths of the ways out with both aids at episode 500."""
+    return ways.out(watched("bootstrapped"), 500 + ways.EVERY // 2)
+
+
+def at_the_end(cell: str) -> np.ndarray:
+    """The worths of all ways out at the end."""
+    return ways.out(watched(cell), ways.EPISODES)
+
+
+def fisher_of_fates() -> float:
+    """p of Fisher's exact test: of those with a way out before β ends, do more end ahead if it never ends?"""
+    rows = [(ahead, len(before(cell)) - ahead) for cell in ("demos", "demos, β for ever") for ahead in fates(cell)[:1]]
+    return float(stats.fisher_exact(rows).pvalue)
+
+
+@cache
+def rule_ahead() -> int:
+    """The second after which the rule is ahead of trap 1 on the road that most lessons show."""
+    states = record(rule_policy(DEFAULT), [ROAD])[0].states[:: DEFAULT.clock.steps]
+    return int(np.argmax(states[:, EGO, X] > states[:, TRAP_1, X]))
+
+
+def others_earn(cell: str) -> float:
+    """The mean return of the ten others of a kind."""
+    return float(shipped_experiment("stress")[cell].scores("returns").mean())
 
 
 def reads(method: str) -> float:

@@ -42,16 +42,17 @@ progress("found_and_kept")
 # %% [markdown]
 # ## Look first
 #
-# Below an agent learns with demonstrations alone, without the soft constraint. **Drag** through its training.
-# When does it drive out? What does it do at the end?
+# Below an agent learns with demonstrations alone, without the soft constraint (one of thirty, chosen because it
+# gives up the way out just when the demonstrations end). **Drag** through its training. When does it drive out?
+# What does it do at the end?
 
 # %%
 explorable.training()
 
 # %% [markdown]
-# *It finds the way out near episode {{ round(first_had(), -1) }}. From episode {{ gone() }} on it stays behind trap 1.*
-# At the end it drives like an agent that never found the way out.
-# <!-- claim: 400 < first_had() < 500 and 850 < gone() < ENDS -->
+# *It finds the way out near episode {{ round(first_had(), -1) }}. After the demonstrations have ended, it stays behind
+# trap 1.* At the end it drives like an agent that never found the way out. *Why does it give it up?*
+# <!-- claim: 500 < first_had() < 560 and 1000 < gone() < 1100 -->
 #
 # Two words for this:
 #
@@ -88,11 +89,16 @@ bc.show(figures.found_and_kept(study))
 # [[the_trap]]). While demonstrations last, a demonstrated second pays the bonus, too. From episode
 # {{ ENDS | , }} on only the road pays.
 #
-# > **Predict.** Look at the *ten others* just before that. What are their ways out worth, if you leave out the bonus?
-# > Staying behind is worth {{ stays() | .2f }}.
+# {{ len(watched('demos')) }} agents with demonstrations alone (the *ten others*, and more like them) drove
+# {{ ways.ROADS }} roads after every {{ ways.EVERY }} training episodes. Take those that get ahead on most roads just
+# before the bonus ends.
+#
+# > **Predict.** What are their ways out worth, the bonus not counted? Staying behind is worth {{ stays() | .2f }}. The
+# > rule, whom they imitate, needs {{ rule_ahead() }} s to get ahead of trap 1, and at γ = 0.8 the first ten seconds
+# > have nine tenths of the weight.
 
 # %%
-worth = ["less than staying behind", "about as much", "more than staying behind"]
+worth = ["most are worth less than staying", "about half are", "most are worth more"]
 predict("found_and_kept.1", "What are their ways out worth?", worth)
 
 # %%
@@ -100,43 +106,47 @@ predicted("found_and_kept.1")
 bc.show(figures.worths("demos"))
 
 # %% [markdown]
-# **See.** *Less than staying*: the agents have learned the rule's way, which is slow (lesson
-# [[learning_from_demonstrations]]). When the bonus runs out, two things are worth more: to stay behind, or to drive
-# out faster. By the end five agents have a way out that is worth more than 1. The other five are not ahead.
+# **See.** *Most are worth less than staying*: {{ (before('demos') < stays()).sum() }} of {{ len(before('demos')) }}.
+# So without the bonus the road gives an agent no reason to keep such a way. By episode 2,000 the
+# {{ len(before('demos')) }} have gone two ways. {{ fates('demos')[0] }} are still ahead, all but one on ways that are
+# worth more than 1: they are faster now. {{ fates('demos')[1] }} stay behind, unhurt, and one crashes.
+# <!-- claim: (before('demos') < stays()).sum() >= len(before('demos')) - 1 and fates('demos') == (8, 7, 1) -->
+# <!-- claim: (still('demos') > 1).sum() == 7 == len(still('demos')) - 1 -->
 #
-# So the agent of the first picture need not have *forgotten* anything: at its γ, what it lost was worth less than what
-# it did then.
-# <!-- claim: before('demos').max() < stays() and len(before('demos')) > 3 -->
-# <!-- claim: 1 < ways.out(watched('demos'), 2000).min() and len(ways.out(watched('demos'), 2000)) == 5 -->
+# So the agent of the first picture need not have *forgotten* its way out. At episode 1,000 it was worth
+# {{ of_first(1000) | .2f }}; what the agent did instead was worth {{ of_first(1100) | .2f }} at episode 1,100 and
+# {{ of_first(2000) | .2f }} at the end.
+# <!-- claim: of_first(1000) < of_first(1100) < of_first(2000) -->
 
 # %% [markdown] tags=["instructor"] minutes=6
-# Let the class say, before the picture, what an agent gains that goes back to staying, at each side of the dashed line:
-# with the bonus, and without it. An agent is not forgetful: it follows its objective, and the objective has changed.
+# Let the class say, before the picture, what an agent gains that goes back to staying, at each side of the dotted line:
+# with the bonus, and without it. An agent need not be forgetful: it follows its objective, and the objective has
+# changed.
 
 # %% [markdown]
-# > **Predict.** For ten more agents β never ends: their demonstrations, and the bonus, go on. What becomes of their
-# > way out?
+# > **Predict.** For as many more agents β never ends: their demonstrations, and the bonus, go on. What becomes of their
+# > ways out?
 
 # %%
 becomes = [
-    "they lose it, too: staying is worth more",
-    "they keep it, and it stays worth less than staying",
-    "they keep it, and it becomes worth more than staying",
+    "most lose it, too: staying is worth more",
+    "most keep it, and it stays worth less than staying",
+    "most keep it, and it becomes worth more than staying",
 ]
-predict("found_and_kept.2", "What becomes of their way out?", becomes)
+predict("found_and_kept.2", "What becomes of their ways out?", becomes)
 
 # %%
 predicted("found_and_kept.2")
 bc.show(figures.worths("demos, β for ever"))
 
 # %% [markdown]
-# **See.** *They keep it, and it stays worth less than staying*: so it is with six of the seven agents that have it at
-# the end. So β's end is what made the others leave it. With β two things end, the demonstrations and their bonus.
-# Which of them holds the agents out? Round 3 parts the two.
-# <!-- claim: (ways.out(watched('demos, β for ever'), 2000) < stays()).sum() == 6 and
-#   len(ways.out(watched('demos, β for ever'), 2000)) == 7 and not ways.losers(watched('demos, β for ever')).any() -->
-# <!-- claim: {a['beta_episodes'] for a in watched('demos, β for ever').agents} == {None} and {a['seed'] for a in
-#   watched('demos').agents} == {a['seed'] for a in watched('demos, β for ever').agents} -->
+# **See.** *Most keep it, and it stays worth less than staying.* Of the {{ len(before('demos, β for ever')) }} that have
+# one before episode 1,000, {{ fates('demos, β for ever')[0] }} are ahead at episode 2,000; of those whose β ended,
+# {{ fates('demos')[0] }} of {{ len(before('demos')) }} were (p = {{ fisher_of_fates() | .3f }}). At the end
+# {{ (at_the_end('demos, β for ever') < stays()).sum() }} of {{ len(at_the_end('demos, β for ever')) }} ways out are
+# worth less than staying.
+#
+# With β two things end, the demonstrations and their bonus. Which of them holds the agents out? Round 3 parts the two.
 
 # %% [markdown]
 # ## Round 3: and with both aids?
@@ -153,6 +163,8 @@ bc.show(figures.worths("demos, β for ever"))
 # | found | the training | more than half of a window of {{ WINDOW }} are ahead |
 # | **lost** | the training | {{ HAD }} or more of a window are ahead, and at any time later {{ LOST }} or fewer |
 # | kept | the test | found, and the agent escapes |
+#
+# So an agent can lose the way out, find it again, and count as kept.
 # <!-- claim: LOST == WINDOW / 2 -->
 #
 # **Exercise (12 min, ●●●).** With `had` for {{ HAD }} and `limit` for {{ LOST }}, which agents ever lose the
@@ -197,13 +209,21 @@ explorable.losing()
 #   lost_least_if_both(5, 35) -->
 #
 # *Another group earns more.* With the endless bonus agents drive as slowly as the rule, and all ten earn
-# {{ group('β never ends, bonus').earned.mean() | .0f }}. Where β ends and no bonus is paid,
-# {{ group('β ends, no bonus').lost.sum() }} lose the way out at some time, but all ten escape in the test and earn
-# {{ group('β ends, no bonus').earned.mean() | .0f }}. Never to
-# lose it and to be good at the end are two aims.
-# <!-- claim: group('β ends, no bonus').keep.all() -->
-# <!-- claim: max(group(g).earned.mean() for g in groups()) == group('β ends, no bonus').earned.mean() >
-#   group('β never ends, bonus').earned.mean() + 40 -->
+# {{ group('β never ends, bonus').earned.mean() | .0f }}; where β ends, they earn more.
+#
+# *Does a bonus that ends help?* Here the ten without it earn more ({{ group('β ends, no bonus').earned.mean() | .0f }}
+# against {{ group('β ends, bonus').earned.mean() | .0f }}). Ten others of each kind, trained twice as long, turn the
+# order round: {{ others_earn('bootstrapped, c = 0') | .0f }} without it, {{ others_earn('bootstrapped') | .0f }} with
+# it. So that stays open. That agents lose the way out least with the endless bonus is seen in both:
+# {{ group('others: never').lost.sum() }} of the ten others lose it, and all ten of each of the other two kinds.
+# <!-- claim: group('others: never').lost.sum() == 2 and group('others: ends').lost.all() and
+#   lost(shipped_experiment('stress')['bootstrapped, c = 0'].curves['success']).all() -->
+# <!-- claim: others_earn('bootstrapped, c = 0') < others_earn('bootstrapped') and group('β ends, no
+#   bonus').earned.mean() > group('β ends, bonus').earned.mean() -->
+# <!-- claim: others_earn('bootstrapped, β for ever') < min(others_earn('bootstrapped'), others_earn('bootstrapped, c =
+#   0')) -->
+# <!-- claim: group('β never ends, bonus').earned.mean() + 20 < min(group(g).earned.mean() for g in ('β ends, bonus', 'β
+#   ends, no bonus')) -->
 # <!-- claim: abs(of_both('β never ends, bonus', 'speed') - of('rule').scores('speed').mean()) < 1.5 -->
 # <!-- claim: earn('others: never') + 20 < earn('others: ends') -->
 #
@@ -213,10 +233,14 @@ explorable.losing()
 bc.show(figures.worths("bootstrapped"))
 
 # %% [markdown]
-# **See.** Before β ends their way out is worth less than staying, too. At the end nine of ten have one that is worth
-# more than 1; of those with demonstrations alone five have.
-# <!-- claim: before('bootstrapped').max() < stays() and len(before('bootstrapped')) == 9 and
-#   len(ways.out(watched('bootstrapped'), 2000)) == 9 and ways.out(watched('bootstrapped'), 2000).min() > 1 -->
+# **See.** *All ten have a way out at episode 500, and it becomes worth more as β falls*: {{ early().min() | .2f }} to
+# {{ early().max() | .2f }} then, {{ before('bootstrapped').min() | .2f }} to
+# {{ before('bootstrapped').max() | .2f }} just before episode 1,000, and
+# {{ at_the_end('bootstrapped').min() | .1f }} to
+# {{ at_the_end('bootstrapped').max() | .1f }} at the end, for the nine that have one. They find it so early that
+# they have time to make it faster.
+# <!-- claim: len(early()) == 10 and len(at_the_end('bootstrapped')) == 9 and early().max() <
+#   before('bootstrapped').min() and before('bootstrapped').max() < at_the_end('bootstrapped').min() -->
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Return to the guesses from the start. Ask why the picture may not be quoted as "without demonstrations
@@ -236,8 +260,12 @@ table(counts.BOTH_TABLES, counts.both_tables(study))
 # %% [markdown]
 # With one aid alone, the paper's agents get out with demonstrations, ours with the soft constraint. The paper does not
 # say how many updates it makes for a decision, or how many agents stand behind a rate. Its demonstrations are driven by
-# the stochastic rule, ours by the rule. So we trained again, {{ SHORTER | , }} episodes, with other updates and with
-# either driver. Of the agents with demonstrations *alone* these keep the way out:
+# the stochastic rule, ours by the rule. Our study trains on four roads at once and makes one update for four decisions:
+# ¼. On one road it can make one, two or four.
+#
+# So we trained {{ SHORTER | , }} episodes with each of these, and with either driver. Here are the four methods with 2
+# updates and the stochastic rule. (We chose this setting *after* seeing all eight, so it suggests an explanation, and
+# does not test it.)
 # <!-- claim: escaped('demos') == 0 < escaped('soft') and PRINTED['demos']['success'].mean == 100
 #   and PRINTED['soft']['success'].mean == 0 -->
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 -->
@@ -248,13 +276,6 @@ table(counts.BOTH_TABLES, counts.both_tables(study))
 # <!-- claim: {r.curves['success'].shape[1] for r in clocks().values()} == {SHORTER} and
 #   {a['beta_episodes'] for r in clocks().values() for m in ('demos', 'bootstrapped') for a in
 #   r.of(m).agents} == {ENDS} -->
-
-# %%
-table(counts.DRIVERS, counts.kept_alone())
-
-# %% [markdown]
-# All four methods, with 2 updates and the stochastic rule (of eight settings we chose this one *after* seeing all, so
-# it suggests an explanation, and does not test it):
 
 # %%
 cells = counts.by_updates("the stochastic rule")
@@ -347,8 +368,8 @@ compare_predictions(
 # ## What you now know
 #
 # 1. Finding the way out and keeping it are two things, and one rate at the end mixes them.
-# 2. While the bonus was paid, the way out that agents learned from the rule was worth less than staying. When it
-#    ended, those that had found a faster way kept it, and the others went back.
+# 2. Just before the bonus ended, most ways out were worth less than staying. Afterwards half of these agents had a
+#    faster one, and most of the others stayed behind.
 # 3. If the bonus never ends, agents lose the way out least, and stay as slow as the rule.
 # <!-- claim: 0 < group('others: never').lost.sum() < group('others: ends').lost.sum() -->
 # 4. You can compute how likely a table of single agents is.

@@ -26,20 +26,19 @@ from bootcourse.research.results import Results, agent_entries
 from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, X, Y
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import found
 
 EPISODES, EVERY, ROADS = 2000, 50, 20
-BEFORE = 950  # the last look before β ends
-SHOWN, SECONDS = 10, 60  # the road of the drive that is kept, and how much of it
-CELLS = ("demos", "demos, β for ever", "bootstrapped")
+BEFORE = 999  # the last look before β ends: at most so many episodes
+SHOWN, SECONDS = 10, 40  # the road of the drive that is kept, and how much of it
+CELLS = {"demos": 30, "demos, β for ever": 30, "bootstrapped": 10}  # and how many agents
 SECTION = f"""Every {EVERY} training episodes the ten others drive {ROADS} held-out roads by their most probable
 actions. A drive's worth is its discounted reward without the bonus, at the agent's own γ.
 """
 
 
-def cells(seeds: int = 10, episodes: int = EPISODES) -> dict[str, dict]:
+def cells(episodes: int = EPISODES) -> dict[str, dict]:
     """Agents with demonstrations whose share β ends or never ends, and with both aids."""
-    return {cell: {"kind": cell, "seeds": seeds, "episodes": episodes} for cell in CELLS}
+    return {cell: {"kind": cell, "seeds": seeds, "episodes": episodes} for cell, seeds in CELLS.items()}
 
 
 def watched(kind: str, seeds: int, episodes: int) -> Results:
@@ -61,7 +60,8 @@ def watched(kind: str, seeds: int, episodes: int) -> Results:
                 seen.append((finished, *looked_at(agent)))
 
         trained = compiled_training.train(one, episodes, watch=look)
-        looks.append([*seen, (episodes, *looked_at(trained.agent))])
+        end = (episodes, *looked_at(trained.agent))
+        looks.append([*seen, *[end] * (episodes // EVERY + 1 - len(seen))])  # the last episodes may end together
         curves.append(trained.curves["success"])
     names = ("episode", "worth", "success", "return", "accident", "way")
     notes = {name: np.array([[row[i] for row in each] for each in looks], np.float32) for i, name in enumerate(names)}
@@ -92,7 +92,7 @@ def section(computed: dict[str, Computed], folder: Path) -> list[str]:
     for kind, agents in computed["ways"].items():
         worths = [", ".join(f"{each:.2f}" for each in sorted(out(agents, look))) for look in (BEFORE, EPISODES)]
         rows.append([kind, *worths, f"{(at(agents, EPISODES, 'success') > 0.5).sum()} of {len(agents)}"])
-    headings = ["agents", *(f"worth of the ways out at episode {look:,}" for look in (BEFORE, EPISODES)), "ahead then"]
+    headings = ["agents", "worth of the ways out just before β ends", f"at episode {EPISODES:,}", "ahead then"]
     idle = f"Staying behind is worth {staying(settings_for('demos').gamma):.2f}.\n"
     return ["## What the way out is worth in training\n", SECTION + idle, markdown(headings, rows)]
 
@@ -102,9 +102,11 @@ def staying(gamma: float) -> float:
     return float(discounted_values(idle_policy, [SHOWN], DEFAULT, gamma)[0])
 
 
-def losers(agents: Results) -> np.ndarray:
-    """Which agents found the way out in their training and are behind trap 1 at its end, (agents,) bool."""
-    return found(agents.curves["success"]) & (agents.notes["success"][:, -1] < 0.5)
+def gives_up(agents: Results) -> int:
+    """The first agent that gets ahead on most roads when β ends and, from 100 episodes later on, on few."""
+    ahead, looks = agents.notes["success"] > 0.5, np.arange(agents.notes["success"].shape[1]) * EVERY
+    end = EPISODES // 2
+    return int(np.flatnonzero(ahead[:, looks == end].all(axis=1) & ~ahead[:, looks >= end + 100].any(axis=1))[0])
 
 
 def out(agents: Results, episode: int) -> np.ndarray:

@@ -22,7 +22,15 @@ def ablation(success: dict[str, np.ndarray], interval_of: Callable) -> tuple[lis
     rows = [[name, f"{iqm(each):.0f}", ", ".join(f"{one:.0f}" for one in each)] for name, each in groups.items()]
     effect = effect_of(success, interval_of)
     says = "leaves out 0" if leaves_out_0(effect) else "contains 0"
-    return rows, f"Changed less unchanged: {bracketed(effect)} points. The interval {says}."
+    return rows, f"Changed less unchanged: {with_ends(effect)} points. The interval {says}."
+
+
+def with_ends(effect: Estimate) -> str:
+    """ "-4 [-12, 3]"; with a decimal if an end rounds to 0, so that one reads whether 0 is inside: "28 [0.2, 85.2]"."""
+    value, low, high = effect
+    if 0 in (round(low), round(high)) and high - low >= 10:
+        return f"{value:.0f} [{low:.1f}, {high:.1f}]"
+    return bracketed(effect)
 
 
 def effect_of(success: Mapping[str, np.ndarray], interval_of: Callable) -> Estimate:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bootcourse.colours import INK
@@ -12,12 +13,12 @@ from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.results import Results
 from bootcourse.research.tables import escaped
-from bootcourse.statistics import ESCAPES, bracketed
+from bootcourse.statistics import ESCAPES
 
 
 def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
     """Each agent's success on the held-out roads as a dot, one row for each method; filled if it escapes."""
-    height = 1.15 + 0.75 * len(methods)
+    height = 1.15 + 0.6 * len(methods)
     figure, alt_parts = new_figure(height), []
     ax = figure.add_axes((0.24, 0.5 / height, 0.57, 1 - 1.1 / height))
     ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
@@ -29,15 +30,23 @@ def who_escapes(results: Results, methods: Sequence[str]) -> Figure:
         one = (success >= 100 * ESCAPES).sum() == 1
         words = f"{escaped(results, method)} escape{'s' if one else ''}"
         beside(ax, row, words)
+        ax.texts[-1].set_fontsize(TEXT)
         alt_parts.append(f"{display_name(method)}: {', '.join(f'{each:.0f}' for each in success)} %")
     words = f"success of an agent on the held-out roads (%); filled: {100 * ESCAPES:.0f} % or more (dashed), it escapes"
     name_rows(ax, [display_name(method) for method in methods], words)
+    in_large_letters(ax)
     ax.set_xlim(-2, 102)
     everyone = np.concatenate([results.of(method).scores("success") for method in methods])
     split = int(((everyone > 0.9) | (everyone < 0.1)).sum())
     who = f"each of {split} agents gets out" if split == len(everyone) else f"{split} of {len(everyone)} agents get out"
     title = f"Here success is all or nothing: {who} on over 90 % of the roads or on under 10 %"
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt_parts)}.")
+
+
+def in_large_letters(ax: Axes) -> None:
+    """The numbers of the scale below, and what they mean, as large as the rows' names."""
+    ax.tick_params(axis="x", labelsize=TEXT)
+    ax.xaxis.label.set_fontsize(TEXT)
 
 
 def nothing_changed(results: Results) -> Figure:
@@ -53,13 +62,13 @@ def nothing_changed(results: Results) -> Figure:
         ax.plot([place] * 2, [effect.low, effect.high], color=colour, linewidth=2.5, solid_capstyle="butt", zorder=2)
         ax.plot(place, effect.value, "o", color=colour, markeredgecolor=INK, markeredgewidth=0.4, markersize=3.5)
     first = wrong.index(True)
-    ax.text(first + 1.2, effects[first].low - 2, bracketed(effects[first]).replace("-", "−"), fontsize=TEXT,
+    ax.text(first + 1.2, effects[first].low - 2, counts.with_ends(effects[first]).replace("-", "−"), fontsize=TEXT,
             color=style("bootstrapped").colour, va="top")  # fmt: skip
     ax.set_ylim(-165, 150)
     ax.set_xticks([])
     ax.set_xlabel(f"{len(effects)} comparisons, in the order of their differences", fontsize=SMALL, color=INK)
     title = f"Nothing was changed, but in {sum(wrong)} of {len(effects)} comparisons the interval leaves out 0"
-    out = [bracketed(effect) for effect, apart in zip(effects, wrong, strict=True) if apart]
+    out = [counts.with_ends(effect) for effect, apart in zip(effects, wrong, strict=True) if apart]
     return finish(figure, title, f"Those that leave out 0: {'; '.join(out)}.")
 
 
@@ -75,8 +84,10 @@ def new_agents(new: Mapping[str, Results], success: Mapping[str, np.ndarray], in
         colour = style("bootstrapped").colour if row else QUIET
         ax.plot([effect.low, effect.high], [row] * 2, color=colour, linewidth=3, solid_capstyle="butt")
         ax.plot(effect.value, row, "o", color=colour, markersize=7)
-        beside(ax, row, bracketed(effect).replace("-", "−"))
+        beside(ax, row, counts.with_ends(effect).replace("-", "−"))
+        ax.texts[-1].set_fontsize(TEXT)
     name_rows(ax, names, "success: changed less unchanged, in points (IQM, 95 % interval); new: without the bonus")
-    title = f"{sizes[-1]} agents of each group leave no room for a large difference"
-    said = "; ".join(f"{name}, {bracketed(effect)}" for name, effect in zip(names, effects, strict=True))
+    in_large_letters(ax)
+    title = f"With {sizes[-1]} of each, a difference above {effects[-1].high:.0f} points is not believable"
+    said = "; ".join(f"{name}, {counts.with_ends(effect)}" for name, effect in zip(names, effects, strict=True))
     return finish(figure, title, f"Differences: {said}.")

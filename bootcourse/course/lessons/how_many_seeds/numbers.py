@@ -69,3 +69,13 @@ def all_draws(n: int) -> tuple[np.ndarray, np.ndarray]:
 def new(agents: int) -> Estimate:
     """The lesson's ablation with so many new agents of each group."""
     return counts.of_new_agents(shipped_experiment("new-agents"), agents)
+
+
+def length(agents: int) -> float:
+    """How long its interval is, in points."""
+    return new(agents).high - new(agents).low
+
+
+def unchanged() -> float:
+    """The IQM of the success (%) of all new agents of the group in which nothing was changed."""
+    return float(iqm(100 * shipped_experiment("new-agents")["as it is"].measured["success"]))

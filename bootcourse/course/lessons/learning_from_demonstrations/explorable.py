@@ -14,13 +14,17 @@ from bootcourse.scenario import ACTION_NAMES
 
 OTHERS, EDGE = "#B8BEC6", "#5F6B77"  # the actions that were not demonstrated, and the margin on them
 LOWEST = -3.0  # bars below it are cut off
+MOST, VISIBLE = 2.0, 1.0  # the largest margin; bars this high can be seen
 HALF = 0.36  # of a bar's width; the bars stand 1 apart
 
 
 def nine_values(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
     """The Q of the nine actions in each of a drive's first seconds, and above all but the rule's a margin to drag."""
     q, did = agent.q_values(drive.observations[:seconds]), drive.rule_actions[:seconds]
-    y = (min(0.0, max(float(q.min()), LOWEST)), 1.08 * float(q.max()) + 2.0)
+    y = (min(0.0, max(float(q.min()), LOWEST)), max(0.5, float(q.max()) + MOST))
+    of_rule = q[np.arange(len(q)), did]
+    leads = of_rule - np.where(np.arange(q.shape[1]) == did[:, None], -np.inf, q).max(1)
+    first = int((leads + np.minimum(0.0, np.abs(of_rule) - VISIBLE)).argmax()) + 1  # its bar can be seen, and it leads
 
     def draw(second: float, margin: float) -> Drawing:
         values, mine = q[round(second) - 1], int(did[round(second) - 1])
@@ -37,7 +41,8 @@ def nine_values(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
             low, high = np.clip([value, value + margin], *y)
             chart.fill(sides, [0.0, 0.0, low, low], style("demos").colour if place == mine else OTHERS)
             if margin and place != mine:
-                chart.fill(sides, [low, low, high, high], "none", edge=EDGE)
+                chart.line([place + 0.5] * 2, [low, high], EDGE, 1.0)
+                chart.line([place + 0.5 - HALF / 2, place + 0.5 + HALF / 2], [high, high], EDGE, 1.0)
         chart.line([0, len(values)], [0.0, 0.0], INK, 0.8)
         for level in levels:
             chart.line([0, len(values)], [level, level], QUIET, 0.8, "--")
@@ -52,6 +57,8 @@ def nine_values(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
         head = [text(4, 20, says, size=14, bold=True), text(520, 46, apart), *legend(names)]
         return drawing(WIDTH, HEIGHT, [*head, *chart.parts, *under], f"{says} {apart[0].upper()}{apart[1:]}.")
 
-    second = Number("second", min(6, seconds), 1, seconds, 1, "Of the rule's drive.")
-    margin = Number("margin", 1, 0, 2, 0.1, f"On each other action; the paper's is {settings_for('margin').margin:g}.")
+    second = Number("second", first, 1, seconds, 1, "Of the rule's drive.")
+    margin = Number(
+        "margin", 1, 0, MOST, 0.1, f"On each other action; the paper's is {settings_for('margin').margin:g}."
+    )
     return Explorable("What a critic thinks of the nine actions", draw, second=second, margin=margin)

@@ -9,17 +9,16 @@ from matplotlib.patches import Rectangle
 from bootcourse.colours import INK, QUIET
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.course.live_curves import LiveWayOut
-from bootcourse.episodes.evaluate import evaluate
 from bootcourse.learn.bootstrap import demonstration_share
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import style
 from bootcourse.plots.figure import SMALL, TEXT, axes_at, finish, new_figure, plain_axes
-from bootcourse.policies import rule_policy
+from bootcourse.research.report import rule_results
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import rolling_means
 
-WINDOW, LAST, ROADS = 50, 1200, 200  # episodes of a mean; until which episode they are drawn; roads of the rule
+WINDOW, LAST, ROADS = 50, 1200, 1000  # episodes of a mean; until which episode they are drawn; roads of the rule
 NO_BONUS = "#332288"
 SIDE = 0.82  # of a row's box; the boxes stand 1 apart
 
@@ -63,7 +62,7 @@ def returns(groups: dict[str, Results], others: dict[str, Results]) -> Figure:
     others: ten other agents of each group, whose success alone is drawn, thin.
     """
     title = "With the bonus agents earn only the rule's return until episode 500"
-    figure, rule, said = new_figure(4.8), evaluate(rule_policy(DEFAULT), ROADS, seed=8).returns.value, []
+    figure, rule, said = new_figure(4.8), rule_results(DEFAULT, ROADS).scores("returns").mean(), []
     above, below = (axes_at(figure, 0.5, top, 4.9, tall) for top, tall in ((0.75, 2.0), (3.1, 1.1)))
     plain_axes(above, f"return, no bonus counted: mean of ten agents and {WINDOW} episodes")
     plain_axes(below, "success (% of these episodes); thin: the ten others")
@@ -82,7 +81,7 @@ def returns(groups: dict[str, Results], others: dict[str, Results]) -> Figure:
             below.plot(at, 100 * share.mean(axis=0), color=colour, linewidth=width, alpha=opacity)
     above.axhline(rule, color=style("rule").colour, linewidth=1, linestyle=(0, (2, 2)))
     says = {"fontsize": SMALL, "color": style("rule").colour, "ha": "right", "va": "top"}
-    above.text(ends_at - 8, rule - 3, f"the rule: {rule:.0f} on {ROADS} roads", **says)
+    above.text(ends_at - 8, rule - 3, f"the rule: {rule:.0f} on {ROADS:,} roads", **says)
     above.axvspan(300, 500, color=style("demos").colour, alpha=0.2, linewidth=0)
     for ax in (above, below):
         ax.axvline(ends_at, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)

@@ -91,6 +91,31 @@ def behind(agent: Agent, drive: Rollout, seconds: int) -> int:
     return int((_leads(agent, drive, seconds)[2] < 0).sum())
 
 
+def says_ahead(agent: Agent, drive: Rollout, seconds: int) -> str:
+    """`behind` as a sentence."""
+    return f"Another action has the largest Q in {behind(agent, drive, seconds)} of {seconds} seconds."
+
+
+RAISED = [
+    "demonstrations",
+    "mean of nine Q",
+    "Q of the rule's action",
+    "its lead over the best other",
+    "another is ahead",
+]
+
+
+def raised(agents: dict[str, Agent], drive: Rollout, seconds: int) -> list[list[str]]:
+    """A row below `RAISED` for each agent: means of a drive's first seconds."""
+    rows = []
+    for name, agent in agents.items():
+        q, did, lead = _leads(agent, drive, seconds)
+        of_rule = q.gather(-1, did[:, None])
+        counted = f"{behind(agent, drive, seconds)} of {seconds} s"
+        rows.append([name, *(f"{each.mean():.1f}".replace("-", "−") for each in (q, of_rule, lead)), counted])
+    return rows
+
+
 def _leads(agent: Agent, drive: Rollout, seconds: int) -> tuple[Tensor, Tensor, Tensor]:
     """An agent's Q in a drive's first seconds, the demonstrated actions, and by how much these lead the others."""
     q = torch.from_numpy(agent.q_values(drive.observations[:seconds]))

@@ -1,10 +1,10 @@
-"""To drag in this lesson: from which of a drive's decisions one other action would have saved it."""
+"""To drag in this lesson: at which of a drive's decisions another action keeps the car unhurt for a while."""
 
 from dataclasses import replace
 
 import numpy as np
 
-from bootcourse.episodes.lookahead import nine_drives
+from bootcourse.episodes.lookahead import HORIZON, nine_drives
 from bootcourse.episodes.record import Rollout
 from bootcourse.methods import style
 from bootcourse.panels.explorable import WIDTH, Explorable
@@ -23,14 +23,14 @@ CAR = 1.5  # a car is drawn so much longer than it is, to be seen
 HEAD, FOOT = 32, 82  # pixels above and below the road
 
 
-def ways_out(drive: Rollout, policy: Policy) -> np.ndarray:
-    """For each decision, how many of its nine imagined drives end without an accident, (decisions,)."""
-    return (nine_drives(drive.cars, policy, drive.scenario).accidents == 0).sum(axis=1)
+def ways_out(drive: Rollout, policy: Policy, seconds: int = HORIZON) -> np.ndarray:
+    """For each decision, how many of its nine imagined drives have no accident for so long, (decisions,)."""
+    return (nine_drives(drive.cars, policy, drive.scenario, seconds).accidents == 0).sum(axis=1)
 
 
-def last_chance(drive: Rollout, policy: Policy) -> int:
-    """The last decision, counted from 1, at which another action leads to a drive without an accident."""
-    return int(np.flatnonzero(ways_out(drive, policy))[-1]) + 1
+def last_chance(drive: Rollout, policy: Policy, seconds: int = HORIZON) -> int:
+    """The last decision, counted from 1, at which an action leads to a drive without an accident for so long."""
+    return int(np.flatnonzero(ways_out(drive, policy, seconds))[-1]) + 1
 
 
 def futures(drive: Rollout, policy: Policy) -> Explorable:
@@ -68,4 +68,4 @@ def futures(drive: Rollout, policy: Policy) -> Explorable:
 
     first, help = max(decisions - SHOWN + 1, 1), "Each of the nine actions is tried here; then the agent drives on."
     number = Number("decision", max(decisions - 5, first), first, decisions, 1, help)
-    return Explorable("How late can one other action save this drive?", draw, decision=number)
+    return Explorable("How late can another action keep the car unhurt for ten seconds?", draw, decision=number)

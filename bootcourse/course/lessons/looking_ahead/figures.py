@@ -135,7 +135,7 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
     title = f"The model promises {values[now, best]:.0f}; on the true road this action {how}"
     if not misled.any():
         title = "The model's best of nine ends well"
-    ax, at = axes_at(figure, 1.35, 0.8, 4.0, 2.95), np.arange(N_ACTIONS)
+    ax, at = axes_at(figure, 1.35, 0.8, 3.5, 2.95), np.arange(N_ACTIONS)
     colours = [ALARM if end else style("bootstrapped").colour for end in ends]
     ax.barh(at - 0.19, values[now], 0.34, facecolor="white", edgecolor=INK, linewidth=0.9)
     ax.barh(at + 0.19, true[now], 0.34, color=colours)
@@ -144,9 +144,10 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
         look = {"color": ALARM if ends[row] else INK, "fontweight": "bold" if row == best else "normal"}
         for x, words in zip(COLUMNS, pair, strict=True):
             ax.text(x, row, words, va="center", ha="right", fontsize=TEXT, **look)
-        if row == best:
-            ax.text(COLUMNS[1] + 5, row, "← chosen", va="center", fontsize=TEXT, **look)
-        alt_parts.append(f"{name}: {' and '.join(pair)}{', chosen' if row == best else ''}")
+        marks = ["chosen"] * bool(row == best) + ["the agent's"] * bool(row == drive.actions[now])
+        if marks:
+            ax.text(COLUMNS[1] + 5, row, f"← {', '.join(marks)}", va="center", fontsize=TEXT, **look)
+        alt_parts.append(", ".join([f"{name}: {' and '.join(pair)}", *marks]))
     for x, words in zip(COLUMNS, ("model", "true road"), strict=True):
         ax.text(x, -0.75, words, va="center", ha="right", fontsize=SMALL, color=QUIET)
     plain_axes(ax, "", grid="x")
@@ -161,15 +162,14 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
     return finish(figure, title, alt)
 
 
-def learned(computed: dict[str, Results], cells: dict[str, Results], form: str = LEARNED_FORM) -> Figure:
+def learned(computed: dict[str, Results], form: str = LEARNED_FORM) -> Figure:
     """Accidents of each agent in a model that it learned, a row for each kind of drives that the model learned from.
 
-    computed: the cells of `learned-model`; cells: those of the look-ahead, which drove the same agents alone. form: one
-    of `LEARNED_TITLES`.
+    computed: the cells of `learned-model`. form: one of `LEARNED_TITLES`.
     """
     title = LEARNED_TITLES[form]
     agents, base = learned_model.together(computed), learned_model.BASE
-    alone = per_thousand(cells, Cell(base, "alone"))[: len(agents)]
+    alone = np.array(learned_model.alone())
     controls = {"the agent": agents}
     controls |= {
         f"{100 * share:.0f} % of its actions random": learned_model.together(computed, share)
@@ -200,7 +200,7 @@ def learned(computed: dict[str, Results], cells: dict[str, Results], form: str =
         ax.text(x, -0.75, words, color=QUIET, **on_the_left)
     ax.set(xlim=(0, 1000))
     ax.set_xticks([0, 500, 1000], ["0", "500", "1,000"])
-    words = "A dot for each agent; filled: it crashes more than alone. Bar: the mean. (Alone: 1,000 drives, else 100.)"
+    words = "A dot for each agent; filled: it crashes more than alone. Bar: the mean. Each drove the same 100 roads."
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     doing = "with the look-ahead" if form == LEARNED_FORM else "under the shield"
     alt = f"Accidents in 1,000 drives {doing}, by what the model learns from. {'; '.join(alt_parts)}."
@@ -251,8 +251,8 @@ def late(drives: Mapping[str, Rollout]) -> Figure:
 
     drives: with the road as it is, and late, see `imagined_road.on_time_and_late`.
     """
-    figure, alt_parts = new_figure(3.5), []
-    ax, road = axes_at(figure, 0.95, 0.95, 5.0, 2.0), next(iter(drives.values())).scenario.road
+    figure, alt_parts = new_figure(3.2), []
+    ax, road = axes_at(figure, 0.95, 0.6, 5.0, 2.0), next(iter(drives.values())).scenario.road
     for lane in range(road.lanes + 1):
         line = (0, (6, 5)) if 0 < lane < road.lanes else "-"
         ax.axhline((lane - 0.5) * road.lane_width, color=QUIET, linewidth=1.1, linestyle=line, zorder=1)
@@ -273,7 +273,7 @@ def late(drives: Mapping[str, Rollout]) -> Figure:
     plain_axes(ax, "", grid="")
     ax.set_xlabel("second", fontsize=TEXT, color=INK)
     words = "▲ steers left    ● straight    ▼ steers right    ✕ off the road"
-    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
+    figure.text(0.95 / figure.get_figwidth(), 2.75 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     return finish(
         figure, "The late car steers left for a second too long, and leaves the road", f"{'. '.join(alt_parts)}."
     )

@@ -72,6 +72,17 @@ def worse_than_alone(base: str, form: str = "rollouts") -> int:
     return sum(per_thousand(base, form, model) > per_thousand(base, "alone") for model in WRONG)
 
 
+def with_error(base: str) -> list[float]:
+    """Accidents in 1,000 drives of a base policy with the look-ahead, in each of these models: the fewest first."""
+    return sorted(per_thousand(base, model=model) for model in WRONG)
+
+
+def three_decisions() -> float:
+    """Those of PPO's agents that look three decisions ahead in the exact model."""
+    of = shipped()[Cell("ppo_cloned", "rollouts", horizon=3).name].measured
+    return float(1000 * of["accidents"].sum() / of["roads"].sum())
+
+
 def worths() -> np.ndarray:
     """W at every speed that the car can have."""
     return imagined_road.worth(np.linspace(0, DEFAULT.ego.max_speed, 401))
@@ -82,10 +93,16 @@ def led_out(success: np.ndarray) -> int:
     return int((success[outs("sac", "alone") < 0.01] > 0.1).sum())
 
 
-def without_w() -> tuple[int, int, int]:
-    """Of the nine with the look-ahead without W: their accidents, their drives, and how many get out (`led_out`)."""
+def without_w() -> tuple[int, int]:
+    """Of the nine with the look-ahead without W: their accidents, and their drives."""
     nine, without = outs("sac", "alone") < 0.01, shipped()[Cell("sac", "rollouts", with_worth=False).name].measured
-    return int(without["accidents"][nine].sum()), int(without["roads"][nine].sum()), led_out(without["success"])
+    return int(without["accidents"][nine].sum()), int(without["roads"][nine].sum())
+
+
+def two_worst_without_w() -> np.ndarray:
+    """Without W, the share of drives that end ahead of trap 1, of those two with the most accidents with W."""
+    crashes = np.where(outs("sac", "alone") < 0.01, each("sac", "rollouts", "accidents"), -1)
+    return shipped()[Cell("sac", "rollouts", with_worth=False).name].measured["success"][np.argsort(crashes)[-2:]]
 
 
 def errors_table() -> str:
@@ -188,8 +205,8 @@ def learned_without(share: float | None = None) -> float:
 
 
 def alone() -> np.ndarray:
-    """Those of the same agents alone, (agents,)."""
-    return figures.per_thousand(shipped(), Cell(learned_model.BASE, "alone"))[: len(learning())]
+    """Those of the same agents alone, on the same roads, (agents,)."""
+    return np.array(learned_model.alone())
 
 
 KINDS = ("last model", None, *learned_model.RANDOM)  # of drives that a model learned from, the figure's lowest first
@@ -249,9 +266,9 @@ def first_collision() -> Rollout:
 
 
 @cache
-def ways_out() -> list[int]:
-    """In this drive, for each decision: how many of its nine futures have no accident."""
-    return explorable.ways_out(first_collision(), first_agent()).tolist()
+def ways_out(seconds: int = 10) -> list[int]:
+    """In this drive, for each decision: how many of its nine futures have no accident for so long."""
+    return explorable.ways_out(first_collision(), first_agent(), seconds).tolist()
 
 
 def in_right_lane(drive: Rollout) -> np.ndarray:

@@ -68,7 +68,7 @@ bc.recording([drive], height=360)
 # > unhurt for ten seconds?
 
 # %%
-question = "Which is the last decision that can save the drive?"
+question = "Which is the last decision that keeps the car unhurt for ten seconds?"
 predict("looking_ahead.1", question, unit=f"of {len(drive.actions)}")
 
 # %% [markdown]
@@ -79,19 +79,29 @@ predicted("looking_ahead.1")
 explorable.futures(drive, agent.as_policy())
 
 # %% [markdown]
-# **See.** Decision {{ len(ways_out()) - 1 }}, the last but one, can still save the drive: two of its nine
-# futures have no accident.
+# **See.** At decision {{ len(ways_out()) - 1 }}, the last but one, two of the nine futures still have no
+# accident for ten seconds. Do these two cars stay unhurt? We let the futures go on for longer:
 # <!-- claim: len(ways_out()) == 19 and ways_out()[-2:] == [2, 0] -->
+
+# %% tags=["nbval-ignore-output"]
+for seconds in (10, 40, 100):
+    last = explorable.last_chance(drive, agent.as_policy(), seconds)
+    print(f"unhurt for {seconds} seconds: decision {last} is the last chance")
+
+# %% [markdown]
+# **See.** Over 100 seconds the last chance comes much earlier; both futures of decision
+# {{ len(ways_out()) - 1 }} end in an accident. So one changed decision this late is not enough. The look-ahead
+# below chooses anew at each decision.
+# <!-- claim: ways_out(100)[-2] == 0 and not any(ways_out(100)[11:]) -->
 #
 # Such an imagined drive is called a **rollout**. It gives its first action the value
 #
 # $$ \hat Q(s, a) = \sum_{k=0}^{h-1} \gamma^k r_k + \gamma^h\, W(v_h) $$
 #
 # The **horizon** h is the number of decisions in the rollout, the first included; here γ = 1. An accident
-# ends the sum, and W is not added. W ({{ worths().min() | .0f }} to {{ worths().max() | .0f }}) is what a
-# whole episode on an empty road earns that begins with the rollout's last speed. It is the same at every
-# moment of the drive, even near the end, since it only has to rank the nine: a rollout without an accident is
-# worth more than one with, and of two a faster last speed is worth more.
+# ends the sum, and W is not added. W(v) is what a whole episode on an empty road earns from the speed v,
+# {{ worths().min() | .0f }} to {{ worths().max() | .0f }}. We use the same W early and late in the drive. It
+# only has to rank the nine actions: unhurt before hurt, and a faster last speed before a slower one.
 #
 # **Exercise (18 min, ●●●).** Write $\hat Q$ for all nine actions and many roads at once. You have
 # - `imagined_road.step(cars, actions)`: one decision. It returns the next cars, the rewards, and whether this
@@ -182,12 +192,14 @@ bc.show(figures.each_agent(study, "sac"))
 #
 # *Why some crash more.* The look-ahead maximises the return, and all nine earn more with it than alone. With
 # γ = 1, exact rollouts to the end and no W it earns no less than the base policy (**policy improvement**),
-# but it may still crash more. Besides, our rollouts end after ten seconds, and W assumes an empty road for
-# the rest. Without W the nine have {{ without_w()[0] }} accident in {{ without_w()[1] }} drives, but only
-# {{ without_w()[2] }} instead of {{ led_out(outs('sac')) }} get out.
+# but it may still crash more.
+#
+# *Is it W, which assumes an empty road?* Without W the nine have only {{ without_w()[0] }} accident in
+# {{ without_w()[1] }} drives. But then the two agents with the most accidents stay behind again, so this test
+# does not tell.
 # <!-- claim: (lambda nine: (each('sac', 'rollouts', 'returns') > each('sac', 'alone', 'returns'))[nine].all() and
 #   nine.sum() == 9)(outs('sac', 'alone') < 0.01) -->
-# <!-- claim: without_w()[0] == 1 and without_w()[2] < led_out(outs('sac')) -->
+# <!-- claim: without_w()[0] == 1 and two_worst_without_w().max() < 0.02 -->
 # <!-- claim: set(each('sac', 'rollouts', 'roads')) == {1000} -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -252,9 +264,19 @@ bc.show(figures.wrong_models(study))
 
 # %% [markdown]
 # **See.** With {{ worse_than_alone('ppo_cloned') }} of the six the agents crash more often with the look-ahead
-# than alone, on average; with the shield with only {{ worse_than_alone('ppo_cloned', 'shield') }}. With everything a
-# second late, each of the {{ drives('ppo_cloned', model=LATE) | , }} drives with the look-ahead ends in an
-# accident. This is how one of them ends:
+# than alone, on average; with the shield with only {{ worse_than_alone('ppo_cloned', 'shield') }}.
+#
+# How good a model has to be depends on the driver. Agents of Round 1's kind, alone
+# {{ per_thousand('bootstrapped', 'alone') | .0f }} accidents in 1,000 drives, crash *less* with five of the six
+# errors: with the look-ahead in {{ with_error('bootstrapped')[0] | .0f }} to
+# {{ with_error('bootstrapped')[-2] | .0f }}. And the exact model does not help if the look is too short: with
+# rollouts of three decisions PPO's agents crash in {{ three_decisions() | .0f }} of 1,000 drives, with ten in
+# none.
+# <!-- claim: worse_than_alone('bootstrapped') == 1 and len(with_error('bootstrapped')) == 6 -->
+# <!-- claim: three_decisions() > 2 * per_thousand('ppo_cloned', 'alone') -->
+#
+# With everything a second late, each of the {{ drives('ppo_cloned', model=LATE) | , }} drives of PPO's agents
+# with the look-ahead ends in an accident. This is how one of them ends:
 # <!-- claim: accidents('ppo_cloned') == accidents('ppo_cloned', 'shield') == 0 -->
 # <!-- claim: accidents('ppo_cloned', model=LATE) == drives('ppo_cloned', model=LATE) -->
 # <!-- claim: len(WRONG) == 6 and len(each('ppo_cloned', 'alone', 'roads')) == 10 and
@@ -289,8 +311,8 @@ bc.show(figures.late(imagined_road.on_time_and_late(rare, road)))
 # %% [markdown]
 # ## Round 4: a model that is learned
 #
-# A car has no simulator, but it has its own drives. From an observation and an action small networks learn to
-# predict the next observation, the reward, and whether an accident ends the drive.
+# A car has no simulator, but it has its own drives. From an observation and an action five small networks,
+# whose mean counts, learn to predict the next observation, the reward, and whether an accident ends the drive.
 #
 # Round 1's agent, of the paper's method, learns such a model from 200 of its drives. Where does the model
 # first mislead the look-ahead on Round 1's drive?
@@ -302,12 +324,14 @@ bc.show(figures.promised(agent, learned, drive))
 
 # %% [markdown]
 # **See.** Here the car is in the right lane, so steering right can leave the road. The model does not expect
-# this: of the agent's {{ right_lane()[0] | , }} decisions in this lane none went right.
+# this: of the agent's {{ right_lane()[0] | , }} decisions in this lane none went right. The agent's own action
+# keeps the car unhurt for ten seconds.
 # <!-- claim: right_lane()[1] == 0 and in_right_lane(first_collision())[:3].all() and
-#   steered_off_the_road()[:3].all() -->
+#   steered_off_the_road()[:3].all() and len(ways_out()) > 13 -->
 #
 # > **Predict.** Now ten such agents each learn a model from {{ learned_model.ROUNDS * learned_model.DRIVES }}
-# > drives. Whose drives should these be, so that with the look-ahead they crash least, on average?
+# > drives. Random actions show all nine, but a drive with many of them ends soon. Whose drives should it learn
+# > from, so that with the look-ahead the agents crash least, on average?
 # <!-- claim: len(learning()) == 10 and learned_model.DRIVES == 200 and learned_model.ROUNDS == 4 -->
 
 # %%
@@ -321,7 +345,7 @@ predict("looking_ahead.4", "Whose drives make the best model for the look-ahead?
 
 # %%
 predicted("looking_ahead.4")
-bc.show(figures.learned(shipped_experiment("learned-model"), study))
+bc.show(figures.learned(shipped_experiment("learned-model")))
 
 # %% [markdown]
 # **See.** The agent's own drives hold the most decisions, but with their model every drive crashes. With the
@@ -348,8 +372,8 @@ bc.show(figures.learned(shipped_experiment("learned-model"), study))
 # <!-- claim: (np.diff(learned_model.per_thousand(learning(), figures.LEARNED_FORM).mean(axis=0)) < 0).all() -->
 #
 # > **Predict.** Now the *shield* drives in the same models: it follows the agent, and takes the best of nine
-# > only where the five networks expect an accident of the agent's own action. Do the agents crash more often
-# > than alone, on average?
+# > only where the five networks on average give the agent's own action more than an even chance of an accident
+# > within ten decisions. Do the agents crash more often than alone, on average?
 
 # %%
 choices = ["yes, in all four kinds of models", "in some kinds", "no, less often in all four"]
@@ -357,16 +381,15 @@ predict("looking_ahead.5", "Do they crash more often under the shield than alone
 
 # %%
 predicted("looking_ahead.5")
-bc.show(figures.learned(shipped_experiment("learned-model"), study, "shield"))
+bc.show(figures.learned(shipped_experiment("learned-model"), "shield"))
 
 # %% [markdown]
-# **See.** They crash less on average in each kind of model, and in three of the four kinds each of the ten
-# agents does. Most of the gain is that of the four agents that crash most alone. The shield helps even in the
-# model in which every drive of the look-ahead crashed.
+# **See.** They crash less on average in each kind of model. Nearly all of the gain is that of the four agents
+# that crash most alone. The others crash about as often as alone, except some in the model from 30 % random
+# actions. The shield helps even in the model in which every drive of the look-ahead crashed.
 # <!-- claim: max(under_shield(kind).mean() for kind in KINDS) < alone().mean() -->
-# <!-- claim: sum((under_shield(kind) < alone()).all() for kind in KINDS) == 3 and (under_shield(None) <
-#   alone()).all() -->
-# <!-- claim: all((alone() - under_shield(kind))[np.argsort(alone())[-4:]].sum() > 0.6 * (alone() -
+# <!-- claim: [(under_shield(kind) - alone()).max() < 25 for kind in KINDS] == [True, True, True, False] -->
+# <!-- claim: all((alone() - under_shield(kind))[np.argsort(alone())[-4:]].sum() > 0.9 * (alone() -
 #   under_shield(kind)).sum() for kind in KINDS) -->
 #
 # **Explain.** We think: the look-ahead takes the action with the highest value, and so the ones that the model
@@ -394,11 +417,12 @@ compare_predictions(
 #
 # 1. A rollout takes one action, follows a policy, and adds an estimate of what comes after.
 # 2. The look-ahead takes the best of nine, without training. It improved the return, but not always the
-#    safety. A chain of changed decisions led some agents out, where no single one did.
-# 3. With a wrong model the look-ahead can be worse than none; the shield less often is.
+#    safety. A chain of changed decisions led some agents out, where no single one did within ten seconds.
+# 3. With a wrong model the look-ahead can be worse than none, above all for a driver that rarely crashes alone;
+#    the shield less often is.
 # 4. In a learned model the look-ahead picks actions that the model has hardly seen. Its own drives show them
 #    to the next model. That helps, but after 800 drives it is not safer than the agent alone. Used only as a
-#    shield, the same models make the agents safer.
+#    shield, the same models make the agents safer on average.
 #
 # **Three questions to think about**
 # - A car is two seconds late. How could it look ahead without an error?

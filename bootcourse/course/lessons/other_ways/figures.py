@@ -56,14 +56,15 @@ def what_is_taken() -> Diagram:
 
     Hollow: how long the rule drives before.
     """
-    height = TOP + ROW * len(TAKES) + 4
-    says = "A teacher can help before, during or after training (thinner: less and less)"
+    height = TOP + ROW * len(TAKES) + 24
+    says = "A teacher can help before, during or after training"
     parts = [label(8, 18, says, "start", bold=True)]
     middles = {"before": START - 72, "training": (START + TRAINED) / 2, "after": (TRAINED + END) / 2}
     parts += [label(x, 40, words) for words, x in middles.items()]
     for x in (START, TRAINED):
         dash = 'stroke="currentColor" stroke-dasharray="4 4" opacity="0.6"'
-        parts.append(f'<line x1="{x}" y1="46" x2="{x}" y2="{height}" {dash}/>')
+        parts.append(f'<line x1="{x}" y1="46" x2="{x}" y2="{height - 20}" {dash}/>')
+    parts += [label(START, height - 4, "a bar that gets thinner: the help fades", "start")]
     alt_parts = ["A teacher can help before, during or after training."]
     for i, (method, (words, first, last, fades)) in enumerate(TAKES.items()):
         learner, top = display_name(method), TOP + ROW * i + 18

@@ -23,7 +23,7 @@ from bootcourse.research.results import Results
 from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import Estimate, holm, interval
+from bootcourse.statistics import Estimate, holm, interval, iqm
 from tools.course.known import shipped_experiment
 
 FIRST, SECOND = BUDGETS[:2]
@@ -73,14 +73,18 @@ def two_budgets() -> str:
         for method in TAUGHT
     ]
     after = [f"after {budget:,}" for budget in (FIRST, SECOND)]
-    return markdown(["", *(f"return {each}" for each in after), *(f"accidents, %, {each}" for each in after)], rows)
+    heads = [
+        *(f"return (interquartile mean) {each}" for each in after),
+        *(f"accidents, % (mean), {each}" for each in after),
+    ]
+    return markdown(["", *heads], rows)
 
 
 @cache
-def pairs(budget: int) -> dict[tuple[str, str], float]:
-    """{a pair of the methods with a teacher: p of the rank test of their returns, after Holm}."""
+def pairs(budget: int, measure: str = "returns") -> dict[tuple[str, str], float]:
+    """{a pair of the methods with a teacher: p of the rank test of their returns, or another measure, after Holm}."""
     of = list(combinations([method for method in compared() if method in TAUGHT], 2))
-    p = [p_value(*(at(method, "returns", budget) for method in pair)) for pair in of]
+    p = [p_value(*(at(method, measure, budget) for method in pair)) for pair in of]
     return {pair: float(each) for pair, each in zip(of, holm(p), strict=True)}
 
 
@@ -120,6 +124,11 @@ def accident_shares() -> np.ndarray:
 def training_scores(spent: float, count: str) -> dict[str, Estimate]:
     """{method with a teacher: the interquartile mean of its returns in training by then}."""
     return {method: interval(measures.in_training(later(method), spent, count)) for method in TAUGHT}
+
+
+def by_then(method: str, seconds: float) -> float:
+    """The interquartile mean of its returns in training after so many seconds of computing."""
+    return iqm(measures.in_training(later(method), seconds, measures.SECONDS))
 
 
 def thousands_made(method: str) -> float:

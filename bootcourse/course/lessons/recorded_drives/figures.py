@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from bootcourse.colours import GRID, INK, OTHER, QUIET
 from bootcourse.course import table
 from bootcourse.course.lessons.recorded_drives import choosing
+from bootcourse.course.lessons.recorded_drives.eight_seeds import RULES_NEXT
 from bootcourse.course.shipped import beginning, shipped_agents, shipped_experiment
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
@@ -24,7 +25,7 @@ from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 
 ROAD = 9  # of the held-out ones: chosen for GAIL's drive
-WITH = "with CQL's term"
+WITH, IN_TARGET = "with CQL's term", "rule's a' in the target"
 LABELS = {  # where a method's name stands in `estimates`: x, y, side
     "bc": (99, 0.1, "right"), "cql": (99, -0.2, "right"), "gail": (39, -0.35, "left"),
     "sac": (21, 1.25, "left"), "bootstrapped": (26, -0.57, "left"),
@@ -65,6 +66,7 @@ def returns(study: Results) -> Figure:
             alt.append(f"one is ahead of trap 1 on {100 * ahead[worst]:.0f} %,\nin an accident on {hurt[worst]:.0f} %")
             ax.text(earns[worst] + 1, hurt[worst], alt[-1], fontsize=TEXT, color=look.colour, va="center")
     ax.set_ylim(-2, 104)
+    ax.tick_params(labelsize=TEXT)
     ax.yaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")
     words = "; ".join(alt).replace("\n", " ")
     return finish(figure, title, f"A dot for each agent. {words}. The rule's return is {by_rule:.1f}.")
@@ -158,7 +160,8 @@ def estimates(names: Sequence[str], alike: np.ndarray, fits: Sequence[np.ndarray
 def eight_seeds() -> Markdown:
     """A table of the shipped agents of Round 2, a row for each kind: how often they accelerate, and crash."""
     rows = [
-        [kind, f"{100 * each['accelerate'].min():.0f} to {100 * each['accelerate'].max():.0f} %",
+        [IN_TARGET if kind == RULES_NEXT else kind,
+         f"{100 * each['accelerate'].min():.0f} to {100 * each['accelerate'].max():.0f} %",
          ", ".join(f"{many:.0f}" for many in np.sort(each["crashes"]))]
         for kind, each in ((kind, agents.measured) for kind, agents in shipped_experiment("offline").items())
     ]  # fmt: skip
@@ -170,10 +173,10 @@ def chosen(guesses: Sequence[Sequence[float]], truth: Sequence[float]) -> Markdo
 
     guesses: of two fits; these and truth: of each agent, one set after the other.
     """
-    names, rows = [display_name(method) for method in choosing.METHODS], []
+    names, rows = ["clone", "CQL", "GAIL", "plain SAC", "bootstrapped"], []  # as in `choosing.METHODS`
     for place, (*fits, truly) in enumerate(zip(*map(choosing.by_set, (*guesses, truth)), strict=True)):
         most = truly.argmax()
         cells = [f"**{each:.2f}**" if i == most else f"{each:.2f}" for i, each in enumerate(truly)]
         taken = [f"{'✓' if fit.argmax() == most else '✗'} {names[fit.argmax()]}" for fit in fits]
         rows.append([place + 1, *cells, *taken])
-    return table(["set", *(f"{name} is worth" for name in names), "first fit takes", "second fit takes"], rows)
+    return table(["set", *names, "first fit takes", "second fit takes"], rows)

@@ -8,9 +8,9 @@ import numpy as np
 from bootcourse.course.lessons.recorded_drives import choosing, eight_seeds
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
-from bootcourse.learn.settings import settings_for, with_seeds
 from bootcourse.methods import display_name
 from bootcourse.policies import Policy
+from bootcourse.road.observation import DX_SCALE, EGO_NAMES, NEIGHBOUR_NAMES, Y_SCALE
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import of, shipped_experiment
@@ -69,6 +69,7 @@ def did() -> float:
 class Short(NamedTuple):
     """What Round 2 says of its first two agents, a number of each."""
 
+    left: list[float]  # in which share of the recorded seconds it would steer left
     promises: list[float]  # mean Q of its actions at 100 starts
     earns: list[float]  # what it is worth from there
 
@@ -79,10 +80,11 @@ def short() -> Short:
 
     They depend on the processor, a little: the text names no value, and its bounds are wide.
     """
-    settings = with_seeds(settings_for("cql", cql_weight=0.0), 2)
-    learner = eight_seeds.learned(settings)
+    learner = eight_seeds.learned(eight_seeds.training_of("Q-learning", 2))
     policies = [learner.agent(row).as_policy(with_q=True) for row in range(2)]
+    decided = [choosing.actions_of(policy, choosing.recorded().states) for policy in policies]
     return Short(
+        [float((actions % 3 == 0).float().mean()) for actions in decided],
         [choosing.promised(policy, choosing.starts()) for policy in policies],
         [choosing.worth(policy, range(100), 0.8) for policy in policies],
     )
@@ -97,6 +99,14 @@ def paid_for(pace: int) -> float:
     """The mean reward of the recorded seconds in which the rule brakes (-1), keeps its speed (0), accelerates (1)."""
     data = choosing.recorded()
     return float(data.rewards[data.actions // 3 - 1 == pace].mean())
+
+
+def gap_of_faster() -> float:
+    """The smallest gap (m) to a car ahead, less than half a lane aside, where the rule accelerates."""
+    data = choosing.recorded()
+    cars = data.states[data.actions >= 6, len(EGO_NAMES) :].reshape(-1, DEFAULT.sight.neighbours, len(NEIGHBOUR_NAMES))
+    there, ahead, aside = cars[..., 0] > 0, DX_SCALE * cars[..., 1], Y_SCALE * cars[..., 2]
+    return float(ahead[there & (ahead > 0) & (aside.abs() < DEFAULT.road.lane_width / 2)].min())
 
 
 @cache

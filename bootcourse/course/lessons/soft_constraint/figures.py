@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 from matplotlib.figure import Figure
 
-from bootcourse.colours import INK, QUIET
+from bootcourse.colours import ALARM, INK, QUIET
 from bootcourse.course import shipped
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.live_curves import LiveWayOut
@@ -76,8 +76,12 @@ def courses(kinds: Sequence[str]) -> Figure:
         above.set_yticks((0.1, 2), ("ξ = 0.1", "ξ = 2"))
         above.minorticks_off()
         episodes, share = rolling_means(success, IN_A_ROW, success.shape[1])
-        plain_axes(below, "" if column else f"of the last {IN_A_ROW} training episodes (actions drawn), ended ahead")
-        below.plot(episodes, IN_A_ROW * share.T, color=colour, linewidth=0.8, alpha=0.7)
+        plain_axes(
+            below, "" if column else f"of the last {IN_A_ROW} training episodes (each action drawn from π), ended ahead"
+        )
+        for line, losing in zip(IN_A_ROW * share, lost(success), strict=True):
+            look = {"color": ALARM, "zorder": 3} if losing else {"color": colour}
+            below.plot(episodes, line, linewidth=0.8, alpha=0.7, **look)
         below.axhline(IN_A_ROW / 2, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
         below.set(ylim=(0, IN_A_ROW + 1))
         below.set_xlabel("training episode", fontsize=SMALL, color=INK)
@@ -86,7 +90,7 @@ def courses(kinds: Sequence[str]) -> Figure:
             ax.tick_params(labelleft=not column, labelbottom=ax is below)
         ahead = f"at last {IN_A_ROW * share[:, -1].mean():.0f} on average"
         alt.append(f"{kind}: {' '.join(fault.split())}, {ahead}")
-    words = "mean ξ of ten agents; below, a line for each; return: mean in the test"
+    words = "mean ξ of ten agents; below, a line for each, red if it loses the way out; return: mean in the test"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
     return finish(
         figure,

@@ -20,7 +20,7 @@ from bootcourse.scenario import DEFAULT
 
 
 def when_to_change(drive: Rollout) -> Figure:
-    """In the first lane, our condition and the printed one, each as what has to rise above what."""
+    """In the first lane, our condition and the printed one, each as what has to rise above what; turned, below."""
     scenario, green = drive.scenario, style("rule").colour
     states = drive.states[: 1 + int(np.argmax(drive.states[:, EGO, LANE] != drive.states[0, EGO, LANE]))]
     seconds = np.arange(len(states)) * scenario.clock.dt
@@ -32,12 +32,12 @@ def when_to_change(drive: Rollout) -> Figure:
     figure = new_figure(3.2)
     panels = (
         (
-            "ours: the gap > the safety distance (m)",
+            "ours: true where green is above dashed (m)",
             (gap, "gap to trap 2,\nbumper to bumper", green),
             (needed, "safety distance"),
         ),
         (
-            "printed: closing speed × t_safe > distance (m)",
+            "printed: true where red is above dashed (m)",
             (printed, "closing\nspeed\n× t_safe", ALARM),
             (ahead, "distance"),
         ),
@@ -55,12 +55,23 @@ def when_to_change(drive: Rollout) -> Figure:
             ax.plot(seconds[first], gap[first], "o", color=colour, markersize=7)
             place = {"textcoords": "offset points", "ha": "right", "fontsize": TEXT, "color": colour}
             ax.annotate("room: change", (seconds[first], gap[first]), xytext=(-4, 10), **place)
+        else:
+            ax.text(
+                0.2,
+                ahead[0] + 8.4,
+                "sign turned: true where\nred is below dashed",
+                fontsize=TEXT,
+                color=INK,
+                va="center",
+            )
     alt = (
         f"Over {seconds[-1]:g} s. Ours: the gap grows from {gap[0]:.1f} to {gap[-1]:.1f} m, above the safety distance "
         f"of {needed[first]:.1f} m from {seconds[first]:g} s on. Printed: the left side goes from {printed[0]:.1f} to "
-        f"{printed[-1]:.1f} m, the right side from {ahead[0]:.1f} to {ahead[-1]:.1f} m."
+        f"{printed[-1]:.1f} m, the right side from {ahead[0]:.1f} to {ahead[-1]:.1f} m. "
+        "With its sign turned it is true from 0 s on."
     )
-    return finish(figure, f"Ours is true from {seconds[first]:g} s on, the printed condition never", alt)
+    title = f"Ours is true from {seconds[first]:g} s on, with the sign turned from 0 s on"
+    return finish(figure, title, alt)
 
 
 def speed_over_time(drive: Rollout) -> Figure:

@@ -9,6 +9,7 @@ from bootcourse.course.lessons.the_rule.explorable import braking_distance as br
 from bootcourse.course.lessons.the_rule.figures import tells_apart
 from bootcourse.course.lessons.the_rule.rules import ALOOF as ALOOF
 from bootcourse.course.lessons.the_rule.rules import ROADS, makes_way_at
+from bootcourse.course.lessons.the_rule.rules import always_true as always_true
 from bootcourse.course.lessons.the_rule.rules import as_printed as as_printed
 from bootcourse.course.lessons.the_rule.rules import crash as crash
 from bootcourse.course.lessons.the_rule.rules import decided as decided

@@ -1,14 +1,14 @@
-"""To drag in this lesson: how far a speed swings around that of the traps, and λ."""
+"""To drag in this lesson: how far a speed swings around that of the traps; λ and how long a car falls back."""
 
 from collections.abc import Callable
 
 import numpy as np
 
-from bootcourse.colours import GRID, INK, QUIET
+from bootcourse.colours import GRID, INK, OTHER, QUIET
 from bootcourse.learn.settings import settings_for
 from bootcourse.methods import style
 from bootcourse.panels.explorable import HEIGHT, WIDTH, Curve, Explorable, legend
-from bootcourse.panels.number import Number
+from bootcourse.panels.number import Number, whole_number
 from bootcourse.plots.svg import Drawing, SvgAxes, drawing, text
 from bootcourse.road.formulas import speed_reward
 from bootcourse.scenario import DEFAULT
@@ -63,35 +63,41 @@ def sprints() -> Explorable:
     return Explorable("What does changing pay?", draw, swing=swing)
 
 
-def surprises() -> np.ndarray:
-    """r_v of each second less that of a steady 10 m/s, while a car falls back and then sprints: (seconds,)."""
-    turn = [MEAN - MOST] * HALF + [MEAN + MOST] * HALF
+def surprises(half: int = HALF) -> np.ndarray:
+    """r_v of each second less that of a steady 10 m/s; a car falls back and then sprints, half seconds each."""
+    turn = [MEAN - MOST] * half + [MEAN + MOST] * half
     return np.array([speed_reward(v) for v in turn]) - speed_reward(MEAN)
 
 
-def weighted(lam: float) -> np.ndarray:
+def weighted(lam: float, half: int = HALF) -> np.ndarray:
     """The terms of the first second's advantage, (seconds,), with PPO's γ."""
-    return surprises() * (settings_for("ppo").gamma * lam) ** np.arange(2 * HALF)
+    return surprises(half) * (settings_for("ppo").gamma * lam) ** np.arange(2 * half)
 
 
 def later() -> Explorable:
-    """What each later second adds to the advantage of falling back, while λ grows."""
+    """What each later second adds to the advantage of falling back, while λ grows, or both parts of the drive."""
+    seen = settings_for("ppo").horizon  # decisions, after which PPO's data end
 
-    def draw(lam: float) -> Drawing:
-        terms = weighted(lam)
+    def draw(lam: float, half: float) -> Drawing:
+        terms, fulls, end = weighted(lam, int(half)), surprises(int(half)), 2.0 * half
         looks = "better" if terms.sum() > 0 else "worse"
         says = f"λ = {lam:g}: A = {terms.sum():.2f}. Falling back looks {looks} than a steady {MEAN:g} m/s."
-        chart = SvgAxes(52, 62, 690, 190, (0.0, 2.0 * HALF), (-0.25, 1.1))
+        chart = SvgAxes(52, 62, 690, 190, (0.0, end), (-0.25, 1.1))
         chart.frame("surprise of a second: filled, as it counts; outlined, in full", "time, s")
-        for second, (term, full) in enumerate(zip(terms, surprises(), strict=True)):
+        for second, (term, full) in enumerate(zip(terms, fulls, strict=True)):
             x = [second + 0.12, second + 0.88, second + 0.88, second + 0.12]
+            chart.fill(x, [0, 0, term, term], style("ppo").colour if term > 0 else OTHER.colour)
             chart.fill(x, [0, 0, full, full], "none", edge=QUIET)
-            chart.fill(x, [0, 0, term, term], style("ppo").colour if term > 0 else INK)
-        chart.line([0, 2 * HALF], [0, 0], INK, 0.8)
-        chart.words(HALF / 2, 0.12, f"falls back, {MEAN - MOST:g} m/s", INK, "middle", 8)
-        chart.words(HALF * 1.5, 0.97, f"sprints, {MEAN + MOST:g} m/s", INK, "middle", 8)
+        chart.line([0, end], [0, 0], INK, 0.8)
+        chart.words(half / 2, 0.12, f"falls back, {MEAN - MOST:g} m/s", INK, "middle", 8)
+        chart.words(half * 1.5, 0.97, f"sprints, {MEAN + MOST:g} m/s", INK, "middle", 8)
+        if end > seen:
+            says += f" In PPO's {seen} s: {terms[:seen].sum():.2f}."
+            chart.line([seen, seen], [-0.25, 1.1], INK, 1.2, "--")
         says = says.replace("-", "−")
         return drawing(WIDTH, HEIGHT, [text(4, 20, says, size=14, bold=True), *chart.parts], says)
 
     lam = Number("λ", 0.95, 0, 1, 0.05, "So much each second counts, compared with the one before it (times γ).")
-    return Explorable("Which later surprises count?", draw, lam=lam)
+    says, check = "So long the car falls back, and so long it sprints.", whole_number("seconds", 5, 40)
+    half = Number("seconds", HALF, 5, 40, 1, says, "s", check=check)
+    return Explorable("Which later surprises count?", draw, lam=lam, half=half)

@@ -7,6 +7,7 @@ import torch
 from matplotlib.figure import Figure
 
 from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, compared, driven
+from bootcourse.episodes.rollout import Rollout, series
 from bootcourse.learn.ppo import clipped_loss
 from bootcourse.methods import style
 from bootcourse.plots.figure import (
@@ -21,6 +22,7 @@ from bootcourse.plots.figure import (
     one_axes,
     plain_axes,
 )
+from bootcourse.plots.traces import traces
 from bootcourse.policies import idle_policy
 
 RATIOS = np.linspace(0.3, 1.7, 141)
@@ -51,6 +53,20 @@ def plane(clone: tuple[float, float], trained: tuple[float, float]) -> Figure:
     ax.annotate("your clone", (x, y), (0, -15), textcoords="offset points", ha="center", fontsize=TEXT, color=INK)
     alt.append(f"your clone: return {x:.0f}, ahead on {y:.0f} %, then {to_x:.0f}, {to_y:.0f} %")
     return finish(figure, title, f"A dot for each agent. {'; '.join(alt)}.")
+
+
+def speed_and_distance(drive: Rollout) -> Figure:
+    """Its speed and how far it is ahead of trap 1 over time; named is where it is the furthest behind."""
+    title = "This agent sprints and falls back, again and again, and does not pass trap 1"
+    figure = traces(drive, title=title, what=("speed", "distance"))
+    times, ahead = series(drive, "distance")
+    lowest, ax = int(np.argmin(ahead)), figure.axes[1]
+    words = f"{-ahead[lowest]:.0f} m behind"
+    look = {"textcoords": "offset points", "ha": "center", "va": "bottom", "fontsize": SMALL, "color": INK}
+    ax.annotate(words, (times[lowest], ahead[lowest]), (0, 20), **look)
+    ax.plot(times[lowest], ahead[lowest], "o", color=INK, ms=4, zorder=5)
+    figure.alt += f" At {times[lowest]:.0f} s it is {words}."
+    return figure
 
 
 def hinges(clip: float) -> Figure:

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from bootcourse.colours import OTHER
 from bootcourse.course.dots import name_rows
+from bootcourse.course.lessons.the_trap.driving import Worth
 from bootcourse.episodes.evaluate import Episodes
 from bootcourse.methods import METHODS, style
 from bootcourse.plots.canvas import MplAxes
@@ -84,29 +85,31 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
     return finish(figure, f"In {seconds} s steering moves the car {least:.1f} to {most:.1f} m sideways", alt)
 
 
-def worth_with_crashes(worths: Mapping[str, tuple[float, float]]) -> Figure:
-    """What each way out is worth at γ = 0.8, crashes included, against staying.
+def worth_with_crashes(worths: Mapping[str, Worth]) -> Figure:
+    """What each way out is worth at γ = 0.8, crashes included and if they paid 0, against doing nothing.
 
-    worths: each driver's mean worth, and its share of drives that crash. The first driver stays; the rule, a plan and
-    agents follow.
+    worths: the first driver does nothing; the rule, a plan and agents follow, and two of plain SAC's agents.
     """
-    (_, (stays, _)), *ways = worths.items()
-    pay = sum(worth > stays for _, (worth, _) in ways[2:])
-    title = f"At γ = 0.8 the ways of {pay} of {len(ways) - 2} agents are worth more than staying, crashes included"
-    colours = [style("rule").colour, INK, *[style("bootstrapped").colour] * (len(ways) - 2)]
-    high, left = 0.33 * len(ways), 1.6
+    (_, nothing), *ways = worths.items()
+    title = "At γ = 0.8 crashes cost the blind plan much, and the agents little"
+    helped = len(ways) - 4
+    colours = [style("rule").colour, INK, *[style("bootstrapped").colour] * helped, *[style("sac").colour] * 2]
+    high, left = 0.31 * len(ways), 2.1
     figure, says = new_figure(0.95 + high + 0.6), []
-    ax = axes_at(figure, left, 0.95, 3.6, high)
-    for row, ((name, (worth, crashes)), colour) in enumerate(zip(ways, colours, strict=True)):
-        ax.barh(row, worth, 0.6, color=colour)
-        words = f"{worth:.2f}, crashes on {crashes:.0%}"
-        ax.text(1.34, row, words, fontsize=TEXT, color=colour, va="center")
-        says.append(f"{name} {words}")
-    name_rows(ax, [name for name, _ in ways], "worth at γ = 0.8, the mean of 100 roads (no unit)")
-    ax.axvline(stays, color=INK, linestyle="--", linewidth=1.4)
-    ax.text(stays, -0.62, f"staying: {stays:.2f}", fontsize=TEXT, color=INK, ha="center", va="bottom")
-    ax.set(xlim=(0, 1.3), xticks=(0, 0.5, 1))
-    alt = f"A bar for what each way out is worth; staying is worth {stays:.2f}. {'; '.join(says)}."
+    ax = axes_at(figure, left, 0.95, 3.2, high)
+    for row, ((name, way), colour) in enumerate(zip(ways, colours, strict=True)):
+        ax.barh(row, way.unpaid, 0.6, color="white", edgecolor=colour, linewidth=1.2)
+        ax.barh(row, way.worth, 0.6, color=colour, edgecolor=colour, linewidth=1.2)
+        words = f"{way.worth:.2f}, crashes on {way.crashes:.0%}"
+        ax.text(1.36, row, words, fontsize=TEXT, color=colour, va="center")
+        says.append(f"{name} {words} ({way.unpaid:.2f} if these paid 0)")
+    xlabel = "worth at γ = 0.8, the mean of 100 roads (open bar: if its crashes paid 0)"
+    name_rows(ax, [name for name, _ in ways], xlabel)
+    ax.axvline(nothing.worth, color=INK, linestyle="--", linewidth=1.4)
+    words = f"doing nothing: {nothing.worth:.2f}"
+    ax.text(nothing.worth, -0.62, words, fontsize=TEXT, color=INK, ha="center", va="bottom")
+    ax.set(xlim=(0, 1.33), xticks=(0, 0.5, 1))
+    alt = f"A bar for what each way is worth; doing nothing is worth {nothing.worth:.2f}. {'; '.join(says)}."
     return finish(figure, title, alt)
 
 
@@ -160,7 +163,8 @@ def what_they_learned(study: Results, plan: Episodes) -> Figure:
         ax.annotate(name, (crash, earned), xytext=(8, -3), textcoords="offset points", fontsize=TEXT, color=colour)
         listed.append(f"{name} {earned:.0f} ({crash:.0f} %)")
     words = (
-        (14, 124, "with the rule's help: 7 agents escape", "bootstrapped"), (8, 20, "plain SAC: 8 agents stay", "sac"),
+        (14, 124, "with the rule's help: 7 agents escape", "bootstrapped"),
+        (8, 20, "plain SAC: 8 agents stay (7 circles lie together)", "sac"),
         (42, 75, "plain SAC: 1 escapes", "sac"), (97, -10, "plain SAC: 1 always crashes", "sac"),
         (97, 2, "with help: 2 always crash", "bootstrapped"), (64, 52, "with help: 1 often crashes", "bootstrapped"),
     )  # fmt: skip

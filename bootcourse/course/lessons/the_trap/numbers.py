@@ -93,13 +93,13 @@ def helped() -> Outcome:
 
 
 @cache
-def worths() -> dict[str, tuple[float, float]]:
+def worths() -> dict[str, driving.Worth]:
     """What the drivers of the last figure are worth, and how often they crash."""
     return driving.worths(reward.solution, PLAN)
 
 
-def with_help() -> list[tuple[float, float]]:
-    """Of the agents with the rule's help in it: what each one's way is worth, and how often it crashes."""
+def with_help() -> list[driving.Worth]:
+    """The agents with the rule's help in it."""
     return [worths()[f"agent {k} with help"] for k in range(1, 6)]
 
 

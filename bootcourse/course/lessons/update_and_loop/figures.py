@@ -65,9 +65,11 @@ def with_rows(yours: np.ndarray, added: by_hand.SAC, stands: float) -> Figure:
 
 
 def with_frozen_guess(unmarked: by_hand.SAC, frozen: by_hand.SAC, stands: float) -> Figure:
-    """What two agents with the bug expect: one whose guess of a fallen pole stays as it was stands for `stands`."""
-    title = "Where the guess cannot grow, Q drops in spite of the bug" if drops(frozen) else OF_A_FALL
-    name, other = f"guess frozen: stands for {stands:.0f} pushes", ("with the bug", STRANGERS[1])
+    """What two agents with the bug expect: one whose guess of a fallen pole is frozen at 30 stands for `stands`."""
+    title = (
+        "Where the guess cannot grow, Q stays possible, in spite of the bug" if worlds.possible(frozen) else OF_A_FALL
+    )
+    name, other = f"frozen at 30: stands for {stands:.0f} pushes", ("with the bug", STRANGERS[1])
     return falls(title, worlds.along_falls(unmarked), name, frozen, STRANGERS[3], other)
 
 
@@ -85,9 +87,14 @@ def falls(
     look: Style,
     other: tuple[str, Style] = ("your agent", OTHER),
 ) -> Figure:
-    """A line for this agent and one for the other's q, and dotted the most that this agent's Q can be, with its α."""
+    """A line for this agent and one for the other's q, and dotted the most that this agent's Q can be, with its α.
+
+    name: of this agent; what follows a colon is not in the name of its limit.
+    """
     named, looks = {name: worlds.along_falls(agent), other[0]: q}, [look, other[1]]
-    marks = {f"its limit (α = {agent.log_alpha.exp().item():.2f})": worlds.most_possible(agent)}
+    marks = {
+        f"limit of “{name.partition(':')[0]}” (α = {agent.log_alpha.exp().item():.2f})": worlds.most_possible(agent)
+    }
     says = "; ".join(f"{words}: {q[0]:.3g}, then {q[-1]:.3g}" for words, q in named.items())
     says += "".join(f"; {words}: {most:.3g}" for words, most in marks.items())
     pushes, x_label = np.arange(-worlds.BEFORE, 1), "pushes from the fall (0: the pole has fallen)"

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.update_and_loop import by_hand
-from bootcourse.course.lessons.update_and_loop.pole import BLOCK, SOLVED
+from bootcourse.course.lessons.update_and_loop.pole import BLOCK, KINDS, SOLVED
 from bootcourse.course.lessons.update_and_loop.worlds import BEFORE, GAMMA, to_one_side  # noqa: F401 (the text names γ)
 from bootcourse.course.lessons.update_and_loop.worlds import along_falls as along
 from bootcourse.course.shipped import shipped_experiment
@@ -55,7 +55,7 @@ def spread(kind: str) -> str:
 
 def others() -> np.ndarray:
     """For how many pushes the agents of all kinds balance the pole that have not learned anything."""
-    pushes = np.concatenate([stood(kind) for kind in ("marked", "unmarked", "paid-0", "paid-1", "frozen")])
+    pushes = np.concatenate([stood(kind) for kind in KINDS])
     return pushes[pushes <= LEARNED]
 
 

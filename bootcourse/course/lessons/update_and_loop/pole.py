@@ -1,10 +1,10 @@
 """Do agents with the exercises' answers solve the pole, and what do they expect if no fall is marked?
 
-    bootcourse study pole --out DIR    # about five minutes
+    bootcourse study pole --out DIR    # about six minutes
 
-In two kinds no fall is marked, but rows of fallen poles are added (`worlds.WithFallen`); in one the guess of a fallen
-pole is frozen (`worlds.FrozenGuess`). With marks agents train until two tests in a row reach gymnasium's mark; ten more
-of each kind train for one block. Other processors round otherwise, and may give other tests.
+In two kinds no fall is marked, but rows of fallen poles are added (`worlds.WithFallen`); in two the guess of a fallen
+pole is frozen (`worlds.FrozenGuess`), in one of these at 30. With marks agents train until two tests in a row reach
+gymnasium's mark; ten more of each kind train for one block. Other processors round otherwise, and may give other tests.
 """
 
 from functools import partial
@@ -22,14 +22,17 @@ from bootcourse.research.tables import markdown
 
 NAME = "pole"
 BLOCK, SOLVED = 2_000, 475  # pushes from one test to the next; gymnasium's mark
-BLOCKS = {"marked": 30, "unmarked": 1, "paid-0": 1, "paid-1": 1, "frozen": 1}  # cell: the most blocks of a training
+KINDS = ("marked", "unmarked", "paid-0", "paid-1", "frozen", "frozen-30")
+BLOCKS = dict.fromkeys(KINDS, 1) | {"marked": 30}  # cell: the most blocks of a training
 BUFFERS = {  # what keeps the rows
     "marked": lambda buffer: buffer,
     "unmarked": worlds.Unmarked,
     "paid-0": partial(worlds.WithFallen, paid=0),
     "paid-1": partial(worlds.WithFallen, paid=1),
     "frozen": worlds.Unmarked,
+    "frozen-30": worlds.Unmarked,
 }
+FROZEN = {"frozen": worlds.FrozenGuess, "frozen-30": worlds.FrozenAt30}  # agents whose guess of a fallen pole is
 MORE = 10  # agents of each kind that train for one block only
 
 
@@ -64,7 +67,7 @@ def train(kind: str, seed: int, blocks: int) -> tuple[list[float], np.ndarray, f
     Returns its tests, before the training and after each block; after the first block Q along a fall, see
     `worlds.along_falls`, and the most that Q can be; after the training a mean of 100 episodes.
     """
-    agent = worlds.FrozenGuess(seed) if kind == "frozen" else by_hand.SAC(seed)
+    agent = FROZEN.get(kind, by_hand.SAC)(seed)
     rng, env = np.random.default_rng(seed), cartpole()
     kept, tests, expected = BUFFERS[kind](exercises.ReplayBuffer.solution(50_000)), [by_hand.balanced(agent)], ()
     while min(tests[-2:]) < SOLVED and len(tests) <= blocks:
@@ -90,7 +93,8 @@ def section(computed: dict[str, Computed], folder: Path) -> list[str]:
 ABOUT = f"""Agents of the lesson on the update and the loop, trained with the answers to its exercises. Pushes balanced:
 after training, a mean of 100 episodes of at most 500 pushes. Q: after {BLOCK:,} pushes, a mean of 40 falls. Paid 0 and
 1: no fall is marked, but rows are added that say what a push pays a fallen pole, which stays fallen. Frozen: no fall
-is marked, and critics that never learn say what a fallen pole is worth. More: other seeds, {BLOCK:,} pushes.
+is marked, and critics that never learn say what a fallen pole is worth; frozen-30: it is always 30. More: other seeds,
+{BLOCK:,} pushes.
 """
 
 EXPERIMENT = Experiment(NAME, cells, results_of(train_kind), section=section)

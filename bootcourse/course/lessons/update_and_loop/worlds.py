@@ -112,10 +112,21 @@ class FrozenGuess(by_hand.SAC):
         super().__init__(seed)
         self.untrained = copy.deepcopy(self.copies)
 
+    def guess(self, states: Tensor) -> Tensor:
+        """Q of both untrained critics: (batch, 4) -> (2, batch, 2)."""
+        return torch.stack([critic(states) for critic in self.untrained])
+
     def slow_q(self, states: Tensor) -> Tensor:
-        """Q of both copies, and of both untrained critics where the pole has fallen: (batch, 4) -> (2, batch, 2)."""
-        guess = torch.stack([critic(states) for critic in self.untrained])
-        return torch.where(fallen(states)[:, None], guess, super().slow_q(states))
+        """Q of both copies, and the guess where the pole has fallen: (batch, 4) -> (2, batch, 2)."""
+        return torch.where(fallen(states)[:, None], self.guess(states), super().slow_q(states))
+
+
+class FrozenAt30(FrozenGuess):
+    """An agent whose targets say that a fallen pole is worth 30, whatever it learns."""
+
+    def guess(self, states: Tensor) -> Tensor:
+        """30 for each: (batch, 4) -> (2, batch, 2)."""
+        return torch.full((2, len(states), by_hand.SIZES[1]), 30.0)
 
 
 @cache

@@ -89,10 +89,12 @@ def _values(
     key: str,
     heads: Sequence[str] = ("trap: Q(0, 1)", "Q(1, 1)", "Q(2, 1)", "Q(3, 1)", "free: Q(4, 1)"),
     what: str = "The value of going on",
+    alone: int = -1,
 ) -> Figure:
-    """A row of numbers for each name: one for each state, and which of them are blue. The last row stands apart.
+    """A row of cells for each name: a number for each state, or two (5, 2), and which cells are blue.
 
-    what: the numbers are, for the alt text.
+    what: the numbers are, for the alt text; alone: the row that stands apart, the first (0) or the last (-1). Of the
+    free road's two numbers the larger is shown: both actions stay there.
     """
     left, top, (wide, high), apart = 2.1, 0.95, CELL, 0.12
     figure, listed = new_figure(top + len(rows) * high + apart + 0.4), []
@@ -102,17 +104,23 @@ def _values(
     for s, name in enumerate(heads):
         ax.text((s + 0.5) * wide, -0.08, name, fontsize=TEXT, color=INK, ha="center", va="bottom")
     for k, (name, (values, blue)) in enumerate(rows.items()):
-        down = k * high + apart * (k == len(rows) - 1)
+        down = k * high + apart * (k > 0 if alone == 0 else k == len(rows) - 1)
+        words = [_numbers(each if s < 4 else np.max(each), digits) for s, each in enumerate(values)]
         ax.text(-0.12, down + high / 2, name, fontsize=TEXT, color=INK, ha="right", va="center")
         for s in range(5):
             look = {"facecolor": ON.colour if blue[s] else "white", "alpha": 0.55, "edgecolor": QUIET}
             ax.add_patch(Rectangle((s * wide, down), wide, high, linewidth=0.7, clip_on=False, **look))
-            words = f"{values[s]:.{digits}f}" if values[s] else "0"
-            ax.text((s + 0.5) * wide, down + high / 2, words, fontsize=TEXT + 0.5, color=INK, ha="center", va="center")
-        said = (f"{value:.{digits}f}{' (blue)' * bool(is_blue)}" for value, is_blue in zip(values, blue, strict=True))
+            size = TEXT - 0.5 if "|" in words[s] else TEXT + 0.5
+            ax.text((s + 0.5) * wide, down + high / 2, words[s], fontsize=size, color=INK, ha="center", va="center")
+        said = (f"{word}{' (blue)' * bool(is_blue)}" for word, is_blue in zip(words, blue, strict=True))
         listed.append(f"{name}: {', '.join(said)}")
     figure.text(0.012, 0.06, key, fontsize=SMALL, color=QUIET)
     return finish(figure, title, f"{what} in the states 0 to 4. {key} {'; '.join(listed)}.")
+
+
+def _numbers(of: np.ndarray, digits: int) -> str:
+    """One number, or two with a line between; 0 without digits."""
+    return " | ".join(f"{number:.{digits}f}" if number else "0" for number in np.atleast_1d(of))
 
 
 def who_leaves(found: Mapping[str, Sequence[np.ndarray]]) -> Figure:
@@ -152,25 +160,23 @@ def goes_on_from(q: np.ndarray, state: int) -> int:
 
 
 def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
-    """Each state's larger Q of a learner that learns to leave, when it goes on in 3, 2, 1 and 0 for good, and at the
-    end of another.
+    """Both Q of a learner at its end that does not learn to leave, and of one that does, when it goes on in 3, 2, 1
+    and 0 for good, and at its end.
 
-    both: the Q (5, 2) of each after each walk, the zeros before included; first the other one's.
+    both: the Q (5, 2) of each after each walk, the zeros before included.
     """
-    other, q = map(np.array, both)
+    blocked, q = map(np.array, both)
     ends = [min(goes_on_from(q, state), len(q) - 1) for state in (3, 2, 1, 0)]
-    shown = [*((q, walk) for walk in [*ends, len(q) - 1]), (other, len(other) - 1)]
+    shown = [(blocked, len(blocked) - 1), *((q, walk) for walk in [*ends, len(q) - 1])]
     rows = {}
     for values, walk in shown:
         arrived = (chain.arrivals(values) <= walk).sum()
-        name = f"{'another, ' * (values is other)}walk {walk}: {arrived} arrivals"
-        rows[name] = values[walk].max(axis=1), (values[walk, :, 1] > values[walk, :, 0]) & (np.arange(chain.STATES) < 4)
-    key = (
-        "Rows: after which walk, and how many had reached the free road. Number: the larger Q. Blue: that of going on."
-    )
+        name = f"{'blocked' if values is blocked else 'opened'}, walk {walk}: {arrived} arrivals"
+        rows[name] = values[walk], (values[walk, :, 1] > values[walk, :, 0]) & (np.arange(chain.STATES) < 4)
+    key = "Cells: Q of action 0 | Q of action 1; of the free road's the larger. Blue: going on is worth more."
     heads = ("trap", "state 1", "state 2", "state 3", "free road")
     title = "Going on must win in state 3, then 2, then 1, before leaving wins"
-    return _values(title, rows, 2, key, heads, "The larger Q")
+    return _values(title, rows, 3, key, heads, "The Q of both actions", alone=0)
 
 
 def after_arrivals(q: np.ndarray, most: int = 14) -> Figure:

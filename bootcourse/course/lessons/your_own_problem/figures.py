@@ -96,7 +96,8 @@ def beside_teachers(rows: Mapping[str, tuple[str, str]], title: str) -> Figure:
     keys = {"this teacher": ALARM, "its ten clones": style("bc").colour, "the good teacher": good_colour}
     for x, (words, colour) in zip((0.165, 0.34, 0.53), keys.items(), strict=True):
         figure.text(x, 0.8, words, fontsize=TEXT, color=colour, fontweight="bold")
-    figure.text(0.58, 0.04, "return", ha="center", fontsize=TEXT, color=INK)
+    figure.text(0.58, 0.1, "return, on a scale of its own for each", ha="center", fontsize=TEXT, color=INK)
+    figure.text(0.012, 0.03, "A dot's height only keeps the dots apart.", fontsize=SMALL, color=INK)
     return finish(figure, title, " ".join(alt))
 
 

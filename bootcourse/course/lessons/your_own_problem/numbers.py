@@ -11,7 +11,7 @@ from bootcourse.course.lessons.your_own_problem.unpaid import BUDGETS, NAME, ang
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
 from bootcourse.research.equal_decisions import BOARD  # noqa: F401
-from bootcourse.research.problems import PROBLEMS  # noqa: F401
+from bootcourse.research.problems import PICK_UP, PROBLEMS, DoorKey  # noqa: F401
 from bootcourse.research.tables import markdown
 from bootcourse.statistics import iqm
 from tools.course.known import of
@@ -60,7 +60,7 @@ def by_bonus(teacher: str, measure: str = "drawn_success") -> np.ndarray:
 
 
 def loops_table() -> str:
-    """How many drives of DoorKey reach the goal with c = 2, by drawn actions, as Markdown."""
+    """How many drives of DoorKey reach the goal with c = 2, by drawn and by most probable actions, as Markdown."""
     kinds = [
         ("random teacher", "yes", "yes", "random", "both"),
         ("random teacher, only drives to the goal", "no", "yes", "random", elsewhere.WITHOUT_LOOPS),
@@ -68,8 +68,12 @@ def loops_table() -> str:
         ("good teacher", "no", "no", "good", "demonstrations"),
         ("none (plain SAC)", "–", "–", "none", "SAC"),
     ]
-    rows = [[*words, f"{100 * score('doorkey', teacher, how, 'drawn_success'):.0f}"] for *words, teacher, how in kinds]
-    heads = ["demonstrations", "loops", "soft constraint", "goals"]
+    measures = ("drawn_success", "success")
+    rows = [
+        [*words, *(f"{100 * score('doorkey', teacher, how, of):.0f}" for of in measures)]
+        for *words, teacher, how in kinds
+    ]
+    heads = ["demonstrations", "loops", "soft constraint", "goals, drawn actions", "goals, most probable actions"]
     return markdown(heads, rows)
 
 
@@ -103,6 +107,12 @@ def wrong_states() -> int:
     """How many states these wrong labels are of."""
     seen, taught, _, good = labels("doorkey")
     return loops.states(seen[taught != good])
+
+
+def answer_in_the_loop() -> int:
+    """What DoorKey's random teacher answers in the state that the lesson's drive does not leave."""
+    state = np.array([loops.drive_in_a_loop()[-1]])
+    return int(PROBLEMS["doorkey"].teachers()["random"](DoorKey(1).show(state, np.zeros(1)))[0])
 
 
 def outvoted(problem: str) -> np.ndarray:

@@ -86,11 +86,13 @@ methods = {
 }
 how = {"seeds": 5, "tests": 5, "progress": False}
 car, teacher = PROBLEMS["mountain-car"].make_env, loops.teacher(climb)
+print(f"the rule itself earns {loops.earns(teacher, car):.0f}")
 table(*loops.brief(bc.compare(methods, decisions=1_000, make_env=car, teacher=teacher, **how)))
 
 # %% [markdown]
-# **See.** (Yours will differ.) Without a teacher no drive reaches the flag; with your rule most do. But the
-# clone, which saw no reward, earns no less than the soft constraint. So far the rule did the work.
+# **See.** (Yours will differ.) Without a teacher no drive reaches the flag; with your rule most do. A drive
+# that reaches it sooner earns more. The clone, which saw no reward, earns no less than the soft constraint. So
+# far the rule did the work.
 # <!-- claim: score('mountain-car', 'good', 'SAC') == 0 and min(score('mountain-car', 'good', m) for
 #   m in ('cloning', 'soft')) > 0.9 -->
 #
@@ -129,7 +131,8 @@ table(*loops.brief(bc.compare(methods, decisions=1_000, make_env=my_env, teacher
 # > **Predict.** We test them after 500, 1,000 and 3,000 decisions. How do they compare with the rule?
 
 # %%
-choices = ["they earn less", "about as much, once they copy it", "far more, most of all on the way"]
+more = "more, most after 1,000 decisions"
+choices = ["less", "about as much", "more, most after 3,000 decisions", more]
 predict("your_own_problem.1", "What do agents without reward earn?", choices)
 
 # %% tags=["nbval-ignore-output"]
@@ -173,12 +176,13 @@ table(["the cart", *(f"agent {i}" for i in range(1, 6))], rows)
 # drives early, although their teacher ignores the cart.
 # <!-- claim: unpaid('hidden', 3_000).min() > 450 and unpaid('returns', 3_000).max() < 400 -->
 #
-# **Explain.** The answer to the cart makes them better copies. We have ten such agents. In their drives the
-# cart moves to one side when the pole turns to the other (correlation
-# {{ f"{unpaid('together', 3_000).mean():.2f}".replace('-', '−') }}), so an answer to the cart's speed can
-# cancel one to the pole's, and the angle is left. They do as their teacher in
-# {{ 100 * unpaid('copied', 3_000).mean() | .0f }} % of their decisions; in the same states with the cart
-# hidden, in {{ 100 * unpaid('copied hidden', 3_000).mean() | .0f }} %. But this teacher earns only
+# **Explain.** The reaction to the cart makes them better copies. We have ten such agents. They do as their
+# teacher in {{ 100 * unpaid('copied', 3_000).mean() | .0f }} % of their decisions; in the same states with the
+# cart hidden, in {{ 100 * unpaid('copied hidden', 3_000).mean() | .0f }} %. How can that be? The teacher acts by
+# the angle alone, but the agents also react to the pole's speed. In their drives the cart moves to one side
+# when the pole turns to the other (correlation
+# {{ f"{unpaid('together', 3_000).mean():.2f}".replace('-', '−') }}). If an agent reacts to both speeds in the
+# same way, the two reactions can cancel, so that only the angle decides. But this teacher earns only
 # {{ teacher_earns() | .0f }}.
 # <!-- claim: unpaid('together', 3_000).mean() < -0.7 and unpaid('copied', 3_000).mean() > unpaid('copied
 #   hidden', 3_000).mean() + 0.15 and teacher_earns() < 60 -->
@@ -196,7 +200,9 @@ for pays, gamma in ((0, 0), (1, 0.99)):  # on yours
 #
 # {{ by_budget() }}
 #
-# After 8,000 decisions the reward helps: with it each of the ten earns more than each of the ten without.
+# After 8,000 decisions the reward helps: with it each of the ten earns more than each of the ten without. But
+# they earned more after 1,000, on average. To stop at the best budget, find it on other roads than the test's.
+# <!-- claim: unpaid('returns', 1_000, 'with reward').mean() > 2 * unpaid('returns', 8_000, 'with reward').mean() -->
 # <!-- claim: unpaid('returns', 8_000, 'with reward').min() > unpaid('returns', 8_000).max() -->
 # <!-- claim: all(abs(unpaid('returns', n, 'with reward').mean() - unpaid('returns', n).mean()) < 60 for n in
 #   (500, 1_000, 3_000)) and len(unpaid('returns', 500)) == len(unpaid('returns', 500, 'with reward')) == 10 -->
@@ -280,6 +286,10 @@ bc.show(figures.clones_that_draw())
 bc.show(figures.room(loops.drive_in_a_loop(), "Here DoorKey's random teacher ends in a loop"))
 
 # %% [markdown]
+# **See.** The agent stands still: here the teacher answers "pick up", which changes nothing. So it answers the
+# same again, and gives one wrong label {{ loops.drive_in_a_loop().count(loops.drive_in_a_loop()[-1]) }} times.
+# <!-- claim: answer_in_the_loop() == PICK_UP -->
+#
 # How many of the teacher's wrong labels does the clone outvote?
 
 # %% tags=["nbval-ignore-output"]
@@ -289,9 +299,9 @@ for name in ("mountain-car", "doorkey"):
     print(f"{name}: {len(seen):,} labels, {loops.states(seen):,} states, {outvoted:.0%} outvoted")
 
 # %% [markdown]
-# **See.** A vote helps where similar states need the same action. On MountainCar
-# {{ 100 * like_the_nearest('mountain-car') | .0f }} % of the states need the same action as their nearest
-# state, in DoorKey only {{ 100 * like_the_nearest('doorkey') | .0f }} %.
+# **See.** A vote helps where similar states need the same action. In
+# {{ 100 * like_the_nearest('mountain-car') | .0f }} % of MountainCar's states the nearest state does, in DoorKey
+# only in {{ 100 * like_the_nearest('doorkey') | .0f }} %.
 # <!-- claim: like_the_nearest('mountain-car') > 0.9 and like_the_nearest('doorkey') < 0.5 -->
 # <!-- claim: outvoted('mountain-car').mean() > 0.9 and not outvoted('doorkey').any() -->
 # <!-- claim: [len(seen) > 50 * loops.states(seen) for seen, *_ in map(labels, ('mountain-car',
@@ -310,7 +320,8 @@ print(f"{len(seen):,} labels, {loops.states(seen):,} states")
 # ## Round 5: what pays in a loop?
 #
 # > **Predict.** Agents get both aids from DoorKey's random teacher, soft constraint and demonstrations, with
-# > the paper's bonus, c = 2. Do they reach the goal more often than plain SAC?
+# > the paper's bonus, c = 2. In the test they draw their actions. Do they reach the goal more often than plain
+# > SAC?
 
 # %%
 choices = ["less often than plain SAC", "about as often", "more often"]
@@ -324,6 +335,13 @@ bc.show(figures.bonuses())
 # **See.** With c = 2 and a flawed teacher hardly any drive reaches the goal, with the good teacher nearly
 # all. Each decision of a demonstration earns c, so a loop earns it again and again. In Round 4's drives
 # {{ wrong_states() }} wrong states hold {{ 100 * wrong_labels() | .0f }} % of the labels.
+#
+# That is with drawn actions. With the most probable ones the random teacher's agents reach the goal in
+# {{ 100 * by_bonus('random', 'success')[0] | .0f }} of 100 drives at c = 0, in
+# {{ 100 * by_bonus('random', 'success')[3] | .0f }} at 0.3 and in
+# {{ 100 * by_bonus('random', 'success')[-1] | .0f }} at 2; plain SAC in
+# {{ 100 * score('doorkey', 'none', 'SAC') | .0f }}. So the bonus is not all that harms.
+# <!-- claim: by_bonus('random', 'success').max() < score('doorkey', 'none', 'SAC') - 0.2 -->
 # <!-- claim: wrong_labels() > 0.8 and wrong_states() < 10 -->
 # <!-- claim: all(np.diff(by_bonus(t)).max() < 0 and round(100 * by_bonus(t)[-1]) == 0 for t in
 #   ('random', 'systematic')) and by_bonus('good').min() > 0.99 -->
@@ -355,23 +373,20 @@ check.drowning_bonus(drowning_bonus)
 # with the way's length), on MountainCar
 # {{ drowning_bonus(-1, 0, 120, PROBLEMS['mountain-car'].gamma) | .0f }}.
 #
-# The threshold is a warning, not a forecast. Above it, a critic that knew both worths exactly would prefer
-# the loop. It leaves out that critics are not exact, and that the soft constraint pulls, too. At c = 0.3, ten
-# times DoorKey's, {{ 100 * by_bonus('random')[3] | .0f }} % of the drives with the random teacher still reach
-# the goal. On MountainCar with c = 2 {{ 100 * score('mountain-car', 'random', 'both') | .0f }} % of those with
-# the random teacher reach the flag ({{ 100 * score('mountain-car', 'good', 'both') | .0f }} % with the good
-# one).
-# <!-- claim: score('mountain-car', 'random', 'both') > 0.9 and score('mountain-car', 'good', 'both') > 0.8 -->
+# The threshold is a warning, not a forecast: at c = 0.3, ten times DoorKey's,
+# {{ 100 * by_bonus('random')[3] | .0f }} % of the drives with the random teacher still reach the goal.
 # <!-- claim: list(BONUSES)[3] == 'c = 0.3' and 9 < 0.3 / drowning_bonus(0, 1, 1, 0.97) < 11 -->
 # <!-- claim: math.isclose(drowning_bonus(0, 1, 1, 0.97), drowning_bonus(0, 1, 90, 0.97)) -->
 #
-# **Is it the loop?** With c = 2 and drawn actions, goals in 100 drives:
+# **Is it the loop?** With c = 2, goals in 100 drives:
 #
 # {{ loops_table() }}
 #
-# Without loops the agents reach the goal again. But the bonus can harm without a loop: with demonstrations
-# alone the good teacher's agents reach no goal; with c = 0 they do in
-# {{ 100 * score('doorkey', 'good', 'demonstrations, c = 0', 'drawn_success') | .0f }} drives.
+# Without loops the agents reach the goal again if they draw their actions. With the most probable ones they
+# stay far below plain SAC; why is open. And the bonus can harm without a loop: with demonstrations alone the
+# good teacher's agents reach no goal; with c = 0 they do in
+# {{ 100 * score('doorkey', 'good', 'demonstrations, c = 0', 'drawn_success') | .0f }} drives, drawn.
+# <!-- claim: score('doorkey', 'random', elsewhere.WITHOUT_LOOPS) < 0.5 * score('doorkey', 'none', 'SAC') -->
 # <!-- claim: score('doorkey', 'random', elsewhere.WITHOUT_LOOPS, 'drawn_success') > 0.8 and score('doorkey',
 #   'random', 'both', 'drawn_success') == 0 -->
 # <!-- claim: all(score('doorkey', 'good', 'demonstrations', of) == 0 for of in ('success', 'drawn_success')) and
@@ -386,18 +401,12 @@ print(f"MountainCar: {at:.2f}")
 # Ask for a bonus that cannot be earned in a circle. A potential (lesson [[the_second_trap]]) is one: what a
 # circle gains it gives back. Ask how a bonus harms without a demonstrated loop. *Perhaps* the agent closes a
 # loop of its own: a demonstrated decision, which pays c, and the way back.
-#
-# By most probable actions the random teacher's agents without loops reach the goal in
-# {{ 100 * score('doorkey', 'random', elsewhere.WITHOUT_LOOPS) | .0f }} of 100 drives, plain SAC in
-# {{ 100 * score('doorkey', 'none', 'SAC') | .0f }}. Why they stay behind, even with c = 0, is open.
-# <!-- claim: max(score('doorkey', 'random', elsewhere.WITHOUT_LOOPS), by_bonus('random', 'success')[0]) <
-#   score('doorkey', 'none', 'SAC') - 0.2 -->
 
 # %%
 compare_predictions(
     "your_own_problem",
     {
-        1: "far more, most of all on the way",
+        1: more,
         2: "almost 500",
         3: "about as much as the good one",
         4: "about as much as their teacher",
@@ -409,15 +418,16 @@ compare_predictions(
 # ## Finale: the challenge
 #
 # Train five drivers for the course's road, with any learner, teacher and training reward. Our entries with a
-# teacher earn {{ entry_scores()[0] | .0f }} to {{ entry_scores()[-3] | .0f }}, those without
-# {{ entry_scores()[-2] | .0f }} and {{ entry_scores()[-1] | .0f }}.
+# teacher earn {{ entry_scores()[0] | .0f }} to {{ entry_scores()[-3] | .0f }}. Without one PPO earns
+# {{ entry_scores()[-2] | .0f }}, plain SAC {{ entry_scores()[-1] | .0f }}.
 #
 # - **Budget**: five agents of one setting, seeds 0 to 4; {{ BOARD | , }} decisions each; demonstrations are
 #   free.
 # - **Test**: 1,000 held-out roads, drawn when all have handed in; most probable actions. If yours asks its
 #   teacher there, say so.
 # - **Hand in**: one page, and the folder that `bc.save_runs(enter(200_000), "challenge")` writes.
-# - **Clone**: an entry with a teacher must beat the teacher's clone (that of the course's rule earns
+# - **Bar**: an entry with a teacher must beat plain SAC, {{ entry_scores()[-1] | .0f }}, else it has not shown
+#   that it needs the teacher, and the teacher's clone (that of the course's rule earns
 #   {{ clone_earns() | .0f }}).
 #
 # **The page** says what you predicted, what you changed and why, and what failed, and answers the five

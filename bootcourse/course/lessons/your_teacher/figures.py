@@ -7,11 +7,13 @@ from IPython.display import Markdown
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from bootcourse.colours import ALARM
 from bootcourse.course import table
 from bootcourse.course.dots import beside, dots, name_rows
 from bootcourse.course.lessons.your_teacher import crashes, example_teachers, free_lane, taught_agents
+from bootcourse.learn.teachers import Rule
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, axes_at, finish, new_figure
+from bootcourse.plots.figure import INK, QUIET, SMALL, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.experiments.teacher_worth import Cells
 from bootcourse.research.results import Results
 from bootcourse.research.teachers import TEACHERS as STUDIED
@@ -38,10 +40,18 @@ PARTS = {  # as the lesson lists them: what they learn from, of a drive's three 
 
 def exam_of_all() -> Markdown:
     """A table of how the teachers drive themselves."""
-    rows = []
     rules = {name: taught_agents.TEACHERS[name] for name in taught_agents.SHOWN}
-    for name, rule in (rules | {"half random": STUDIED["random-50"].rule}).items():
-        driven = example_teachers.examine(rule).episodes
+    return exams(rules | {"half random": STUDIED["random-50"].rule})
+
+
+def exams(rules: Mapping[str, Rule]) -> Markdown:
+    """A table of how rules drive on the exam's roads, {name: rule}; in place of it what is wrong with one."""
+    rows = []
+    for name, rule in rules.items():
+        exam = example_teachers.examine(rule)
+        if exam.episodes is None:
+            return Markdown(f"{name}: {exam}")
+        driven = exam.episodes
         shares = (100 * driven.success.mean(), 100 * np.mean(driven.accident > 0))
         rows.append([name, *(f"{share:.0f}" for share in shares), f"{driven.returns.mean():.0f}"])
     return table([f"{len(driven.success)} roads", "gets out (ends ahead), %", "accidents, %", "return"], rows)
@@ -111,6 +121,50 @@ def all_parts(computed: Mapping[str, Results]) -> Figure:
     title = "Most students get out if their drives show the free lane, few if not"
     groups = {f"{name}  {marks}": scores(computed[kind]) for kind, (name, marks) in PARTS.items()}
     return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in PARTS], "success", left=2.15, width=2.5)
+
+
+def two_aids(computed: Mapping[str, Results]) -> Figure:
+    """The same for the agents that learn from all, with both aids, and without the one or the other."""
+    title = "Without the bonus fewer students get out; without the labels hardly fewer"
+    named = {"all": "all", "without the bonus c": "no-bonus", "without the labels": "no-labels"}
+    groups = {words: scores(computed[kind]) for words, kind in named.items()}
+    return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in named.values()], "success", left=1.55)
+
+
+def three_parts() -> Figure:
+    """A drive that crashes after it has reached the free lane: its lane over time; below, what a group gets of it."""
+    title = "Three parts of a drive, and what each group learns from"
+    lanes = shown_lanes()
+    first, end, row = int(np.argmax(lanes == 0)), len(lanes), 0.34
+    figure = new_figure(3.5)
+    ax = axes_at(figure, 1.6, 0.65, 5.0, 0.75)
+    plain_axes(ax, "")
+    ax.step(range(end), lanes, where="post", color=INK, linewidth=1.8)
+    ax.plot(end - 1, lanes[-1], "x", color=ALARM, ms=9, markeredgewidth=2.2, zorder=3)
+    ax.set(xlim=(0, end), ylim=(2.4, -0.4), yticks=(0, 1, 2), yticklabels=("free lane, 0", "1", "2"), xticks=())
+    parts = {"before the free lane": (0, first), "from the free lane on": (first, end - 1), "accident": (end - 1, end)}
+    below = axes_at(figure, 1.6, 1.62, 5.0, row * len(PARTS))
+    colour = style("bootstrapped").colour
+    for place, (_, marks) in enumerate(PARTS.values()):
+        for mark, (left, right) in zip(marks, parts.values(), strict=True):
+            look = {"color": colour} if mark == "■" else {"facecolor": "none", "edgecolor": QUIET, "linewidth": 0.6}
+            below.barh(place, right - left - 0.12, left=left + 0.06, height=0.5, **look)
+    name_rows(below, [name for name, _ in PARTS.values()], "filled: learned from; one decision a second")
+    below.set(xlim=(0, end), xticks=())
+    for words, (left, right) in parts.items():
+        at, side = (end, "right") if words == "accident" else ((left + right) / 2, "center")
+        ax.annotate(words, (at, 1.04), xycoords=("data", "axes fraction"), ha=side, fontsize=SMALL, color=QUIET)
+        for panel in (ax, below):
+            panel.axvline(right, color=QUIET, linewidth=0.8, linestyle=(0, (2, 2)), zorder=1)
+    learned = "; ".join(f"{name}: {marks}" for name, marks in PARTS.values())
+    alt = f"A drive of {end} s, in the free lane from {first} s on, with {len(parts)} parts. {learned}."
+    return finish(figure, title, alt)
+
+
+def shown_lanes() -> np.ndarray:
+    """The ego's lane in each second of the drive that `three_parts` shows: the first with four seconds in each part."""
+    drives = map(crashes.lanes_of, crashes.crashed())
+    return next(lanes for lanes in drives if 4 <= (lanes == 0).sum() and 4 <= np.argmax(lanes == 0) and len(lanes) < 20)
 
 
 def chosen(kept: Callable[[np.ndarray], np.ndarray]) -> Markdown:

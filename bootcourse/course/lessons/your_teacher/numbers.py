@@ -96,6 +96,18 @@ def crash_shown(kind: str) -> bool:
     return bool(p[[*others].index(kind)] < 0.05)
 
 
+def crash_p(kind: str) -> float:
+    """The rank test's p of their success against that of the agents that learn from all."""
+    agents = shipped_experiment("crashes")
+    return taught_agents.p_value(agents[kind].scores("success"), agents["all"].scores("success"))
+
+
+def half_random_against_rule(score: str) -> float:
+    """The rank test's p of "success" or "returns" of half random's ten students and the rule's."""
+    both = (worth()[teacher, "bootstrapped"].scores(score) for teacher in ("random-50", "rule"))
+    return taught_agents.p_value(*both)
+
+
 def in_free_lane(teacher: str) -> float:
     """The share of the drives of one of the study's teachers that reach the free lane."""
     return free_lane.shown(teacher)[0]
@@ -106,11 +118,9 @@ def escape_of(teachers: list[str]) -> int:
     return sum(worth()[teacher, "bootstrapped"].escapers("bootstrapped") for teacher in teachers)
 
 
-def taught_returns(teacher: str, escaped: bool = False) -> float:
-    """What the ten bootstrapped students of one of these teachers earn on average, or those of them that escape."""
-    agents = worth()[teacher, "bootstrapped"]
-    returns = agents.scores("returns")
-    return (returns[agents.scores("success") >= ESCAPES] if escaped else returns).mean()
+def taught_returns(teacher: str) -> float:
+    """What the ten bootstrapped students of one of these teachers earn on average."""
+    return worth()[teacher, "bootstrapped"].scores("returns").mean()
 
 
 def worth() -> dict:
