@@ -18,7 +18,7 @@ from bootcourse.panels.number import Number
 from bootcourse.plots.svg import printed
 
 CALL = re.compile(r"explorable\.(\w+)\(\)$")
-PLACES = {1: 61, 2: 15, 3: 7, 4: 5}  # of each slider, at most, where a panel has so many
+PLACES = {1: 41, 2: 13, 3: 6, 4: 4}  # of each slider, at most, where a panel has so many
 BETWEEN = re.compile(r"(?<=>)(?=<)")
 
 

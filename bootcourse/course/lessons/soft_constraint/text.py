@@ -117,7 +117,7 @@ table(["policy", "its KL (nats)"], examples.three_agents())
 
 # %%
 def soft_constraint(log_pi, rule_action, p):
-    """KL(π || rule), nats. log_pi: (batch, 9); rule_action: (batch,); p: float. Returns (batch,)."""
+    """KL(π || rule), nats. log_pi: (batch, 9), rule_action: (batch,), p: float -> (batch,)."""
     # solution: the exercise's own
 
 
