@@ -209,7 +209,7 @@ explorable.losing()
 #   lost_least_if_both(5, 35) -->
 #
 # *Another group earns more.* With the endless bonus agents drive as slowly as the rule, and all ten earn
-# {{ group('β never ends, bonus').earned.mean() | .0f }}; where β ends, they earn more.
+# {{ group('β never ends, bonus').earned.mean() | .0f }}; the two groups whose β ends earn more.
 #
 # *Does a bonus that ends help?* Here the ten without it earn more ({{ group('β ends, no bonus').earned.mean() | .0f }}
 # against {{ group('β ends, bonus').earned.mean() | .0f }}). Ten others of each kind, trained twice as long, turn the
@@ -236,9 +236,8 @@ bc.show(figures.worths("bootstrapped"))
 # **See.** *All ten have a way out at episode 500, and it becomes worth more as β falls*: {{ early().min() | .2f }} to
 # {{ early().max() | .2f }} then, {{ before('bootstrapped').min() | .2f }} to
 # {{ before('bootstrapped').max() | .2f }} just before episode 1,000, and
-# {{ at_the_end('bootstrapped').min() | .1f }} to
-# {{ at_the_end('bootstrapped').max() | .1f }} at the end, for the nine that have one. They find it so early that
-# they have time to make it faster.
+# {{ at_the_end('bootstrapped').min() | .1f }} to {{ at_the_end('bootstrapped').max() | .1f }} at the end, for the nine
+# that have one.
 # <!-- claim: len(early()) == 10 and len(at_the_end('bootstrapped')) == 9 and early().max() <
 #   before('bootstrapped').min() and before('bootstrapped').max() < at_the_end('bootstrapped').min() -->
 
@@ -337,7 +336,7 @@ bc.show(figures.chances(cells, chance))
 #
 # *The case stays open*: single agents and another training together can give the paper's four *rates*. Its *returns*
 # with demonstrations we hardly ever reach: ours are higher. Here the paper's interval stands beside the lowest return
-# of any of our agents that escape, in all trainings of the course:
+# of an agent that escapes, in this lesson's trainings and the report's ablations:
 #
 # {{ returns_with_demonstrations() }}
 #
