@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.figure import Figure
 
+from bootcourse.colours import TRAP
 from bootcourse.course.lessons.found_and_kept import ways
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.methods import display_name, style
@@ -19,7 +20,7 @@ DRAWN_FROM = "2"  # the updates for a decision of the agents that the lesson sho
 
 
 WORTHS = {  # the title of each picture
-    "demos": "Just before the bonus ends, most ways out are worth less than staying",
+    "demos": "Just before the bonus ends, the ways out are worth less than staying",
     "demos, β for ever": "If the bonus never ends, they keep a way out that does not pay",
     "bootstrapped": "With both aids the ways out pay more and more as the bonus ends",
 }
@@ -37,10 +38,11 @@ def worths(cell: str) -> Figure:
     figure = new_figure(4.0)
     ax = axes_at(figure, 0.55, 0.8, 5.1, 2.3)
     plain_axes(ax, f"worth of a drive at γ = 0.8, without the bonus (mean of {ways.ROADS} roads)")
-    for at, each, share in zip(episode, worth, ahead, strict=True):
-        ax.plot(at, each, color=QUIET, linewidth=0.5, alpha=0.4, zorder=1)
-        ax.plot(at, np.where(share > 0.5, each, np.nan), "-", color=look.colour, linewidth=1.3, alpha=0.8, zorder=2)
-    had = ways.at(agents, ways.BEFORE, "success") > 0.5
+    had, ends = ways.at(agents, ways.BEFORE, "success") > 0.5, ahead[:, -1] > 0.5
+    for at, each, share, out in zip(*(part[had | ends] for part in (episode, worth, ahead, ends)), strict=True):
+        colour = look.colour if out else TRAP
+        ax.plot(at, each, color=colour, linewidth=0.5 if out else 0.9, alpha=0.5, zorder=1)
+        ax.plot(at, np.where(share > 0.5, each, np.nan), "-", color=colour, linewidth=1.3, alpha=0.8, zorder=2)
     place = episode[had, np.argmax(episode[had] > ways.BEFORE, axis=1) - 1]
     ax.plot(place, ways.at(agents, ways.BEFORE)[had], "o", ms=4, color=INK, zorder=4)
     ax.axhline(staying, color=INK, linewidth=1.1, linestyle=(0, (4, 3)), zorder=3)
@@ -51,9 +53,10 @@ def worths(cell: str) -> Figure:
         ax.text(end + 15, 1.82, "no demonstrations from here on", fontsize=TEXT, color=QUIET, va="center")
     ax.set(xlim=(FIRST_SHOWN, episode.max()), ylim=(0, 1.9))
     ax.set_xlabel("training episode", fontsize=TEXT, color=INK)
+    others = "" if ends[had].all() else " Dark red: at the end it does not."
     key = (
-        "Thick: the agent gets ahead on most roads; dot: so just before episode 1,000.\n"
-        "Thin grey: it does not. (Worths below 0, after accidents, are cut.)"
+        f"Thick: the agent gets ahead on most roads; dot: so just before episode 1,000.{others}\n"
+        "Left out: agents that do so neither then nor at the end. (Worths below 0, after accidents, are cut.)"
     )
     figure.text(0.012, 0.12 / figure.get_figheight(), key, fontsize=TEXT, color=QUIET)
     alt = ""

@@ -120,28 +120,17 @@ def explanations() -> str:
     return markdown(["what could explain it", "what we saw", "so"], rows)
 
 
-def returns_with_demonstrations() -> str:
-    """The paper's interval of the return beside `least_earned`, as Markdown."""
-    rows = []
-    for words, method in {"alone": "demos", "with both aids": "bootstrapped"}.items():
-        paper = paper_interval(method, "returns")
-        lowest = [least_earned(method, lasting) for lasting in (False, True)]
-        cells = [f"{each:.0f}{' (inside)' if paper.low < each < paper.high else ''}" for each in lowest]
-        rows.append([words, f"{paper.low:.0f} to {paper.high:.0f}", *cells])
-    heads = ["demonstrations", "the paper's interval over 20 drives", "our lowest: β ends", "our lowest: β never ends"]
-    return markdown(heads, rows)
-
-
-def least_earned(method: str, lasting: bool) -> float:
-    """The lowest return of a method's agent that escapes, of the lesson's sources; lasting: β never ends.
+def inside(method: str) -> str:
+    """How many of a method's agents that escape earn a return in the paper's interval, as "1 of 117".
 
     Of the study, of round 4, of the ablations (round 3 has some), and of the ten others.
     """
     trained = [of_all(), *clocks().values(), *shipped_experiment("ablations").values()]
     trained += shipped_experiment("stress").values()  # the ten others
     helped = [each.of(method) for each in trained if method in each.methods]
-    chosen = [each for each in helped if (each.agents[0]["beta_episodes"] is None) == lasting]
-    return float(min(each.scores("returns")[each.scores("success") >= ESCAPES].min(initial=np.inf) for each in chosen))
+    earned = np.concatenate([each.scores("returns")[each.scores("success") >= ESCAPES] for each in helped])
+    paper = paper_interval(method, "returns")
+    return f"{((earned > paper.low) & (earned < paper.high)).sum()} of {len(earned)}"
 
 
 @cache
@@ -187,6 +176,26 @@ def fates(cell: str) -> tuple[int, int, int]:
     had = ways.at(agents, ways.BEFORE, "success") > 0.5
     ahead, hurt = (agents.notes[name][had, -1] > 0.5 for name in ("success", "accident"))
     return int(ahead.sum()), int((~ahead & ~hurt).sum()), int((~ahead & hurt).sum())
+
+
+def at_look(name: str, ahead: bool) -> np.ndarray:
+    """What was noted just before β ended of those who had a way out then, and end ahead, or do not."""
+    agents = watched("demos")
+    had = ways.at(agents, ways.BEFORE, "success") > 0.5
+    return ways.at(agents, ways.BEFORE, name)[had & ((agents.notes["success"][:, -1] > 0.5) == ahead)]
+
+
+def crash_on_the_way_back() -> int:
+    """How many of those who stay behind, unhurt, crash on half of the roads or more at a look near β's end."""
+    agents, looks = watched("demos"), slice(950 // ways.EVERY, 1150 // ways.EVERY + 1)
+    had, ahead = ways.at(agents, ways.BEFORE, "success") > 0.5, agents.notes["success"][:, -1] > 0.5
+    back = had & ~ahead & (agents.notes["accident"][:, -1] < 0.5)
+    return int((agents.notes["accident"][back, looks] >= 0.5).any(axis=1).sum())
+
+
+def group_scores(words: str, measure: str) -> np.ndarray:
+    """The scores of a group of round 3, (agents,)."""
+    return groups()[words].scores(measure)
 
 
 def still(cell: str) -> np.ndarray:

@@ -13,7 +13,7 @@ from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, SPEED
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import lost
-from tools.course.known import SETTINGS, by_rule, idle, shipped_results
+from tools.course.known import SETTINGS, by_rule, idle, shipped_experiment, shipped_results
 
 
 def _with(name: str) -> tuple[list[Results], list[Results]]:
@@ -91,3 +91,8 @@ def needed_on(roads: int = 40, seconds: int = 40) -> np.ndarray:
     """The same on the first roads, in the first seconds: (roads, seconds)."""
     pairs = zip(*(record(driver, range(roads)) for driver in (rule_policy(DEFAULT), idle_policy)), strict=True)
     return np.array([bonus_numbers(*pair, SETTINGS).crossing[:seconds] for pair in pairs])
+
+
+def with_neither() -> np.ndarray:
+    """The returns of the study's agents with the soft constraint and demonstrations, without bonus or margin loss."""
+    return shipped_experiment("ablations")["c = 0"].of("bootstrapped").scores("returns")

@@ -372,11 +372,13 @@ table(measures.PUSHED, measures.pushed(loss, helped, by_rule, seconds=20))
 #   .tolist() == [1] and bootstrap.paper_q_filter(torch.tensor([[0.0, 2, 3]]), torch.tensor([1])).tolist() == [0] -->
 #
 # *The paper finds the bonus better than this loss* in its training curves. *The study does not*, in tests after
-# training. With the soft constraint the ten agents with the loss return
-# {{ of('margin_soft').scores('returns').mean() | .0f }} on average and crash in
-# {{ 100 * of('margin_soft').scores('accident').mean() | .0f }} % of their drives, those with the bonus
-# {{ of('bootstrapped').scores('returns').mean() | .0f }} and
-# {{ 100 * of('bootstrapped').scores('accident').mean() | .0f }} %. So many escape:
+# training. With the soft constraint the ten agents with the loss all return
+# {{ of('margin_soft').scores('returns').min() | .0f }} to {{ of('margin_soft').scores('returns').max() | .0f }}.
+# Of those with the bonus seven do about as well, and three lose the way out. But with neither all ten return
+# {{ with_neither().min() | .0f }} to {{ with_neither().max() | .0f }}: nothing shows here that the loss helps. So
+# many escape:
+# <!-- claim: (lambda paid: paid[3] > 120 > 60 > paid[2])(np.sort(of('bootstrapped').scores('returns'))) and
+#   with_neither().min() > 120 and of('margin_soft').scores('returns').min() > 120 -->
 #
 # | demonstrations with | soft constraint: study | others | without it: study | others |
 # |---|---|---|---|---|
