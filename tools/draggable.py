@@ -55,13 +55,10 @@ def page(panel: Explorable) -> Markup:
     """The panel's sliders and pictures."""
     along = {name: places(number, PLACES[len(panel.numbers)]) for name, number in panel.numbers.items()}
     parts: dict[str, int] = {}
-    pictures = [
-        [
-            parts.setdefault(part, len(parts))
-            for part in BETWEEN.split(drawn(panel, dict(zip(along, values, strict=True))))
-        ]
-        for values in product(*(values for values, _ in along.values()))
-    ]
+    pictures = []
+    for values in product(*(values for values, _ in along.values())):
+        picture = printed(panel.draw(**dict(zip(along, values, strict=True)))).decode()
+        pictures.append([parts.setdefault(part, len(parts)) for part in BETWEEN.split(picture)])
     rows = Markup("").join(slider(panel.numbers[name], *each) for name, each in along.items())
     held = json.dumps({"parts": list(parts), "pictures": pictures}, separators=(",", ":")).replace("</", "<\\/")
     data = html('<script type="application/json">{}</script>', Markup(held))
@@ -71,11 +68,6 @@ def page(panel: Explorable) -> Markup:
         Markup(printed(panel.svg).decode()),
         data,
     )
-
-
-def drawn(panel: Explorable, values: dict[str, float]) -> str:
-    """The panel's picture at these values, for a reader outside JupyterLab."""
-    return printed(panel.draw(**values)).decode()
 
 
 def slider(number: Number, values: list[float], first: int) -> Markup:

@@ -1,8 +1,9 @@
 """What the way out is worth to an agent while it learns.
 
-    bootcourse study ways --out DIR    # some ten minutes of one core
+    bootcourse study ways --out DIR    # some fifteen minutes of one core
 
-The agents are the *ten others* of each method (research/experiments/stress.py), over as many episodes as the study has.
+The first ten agents of each kind are the *ten others* (research/experiments/stress.py); with demonstrations alone there
+are twenty more. They train for as many episodes as the study's.
 Every `EVERY` episodes each drives the same roads by its most probable actions. Their worth is Equation 2 with the
 learner's own γ; the bonus is not counted. Of each look one drive is kept, beside trap 1, to be shown.
 """
@@ -31,8 +32,9 @@ EPISODES, EVERY, ROADS = 2000, 50, 20
 BEFORE = 999  # the last look before β ends: at most so many episodes
 SHOWN, SECONDS = 10, 40  # the road of the drive that is kept, and how much of it
 CELLS = {"demos": 30, "demos, β for ever": 30, "bootstrapped": 10}  # and how many agents
-SECTION = f"""Every {EVERY} training episodes the ten others drive {ROADS} held-out roads by their most probable
-actions. A drive's worth is its discounted reward without the bonus, at the agent's own γ.
+SECTION = f"""Every {EVERY} training episodes agents drive {ROADS} held-out roads by their most probable actions. The
+first ten of each kind are those trained for twice the episodes (below), here up to episode {EPISODES:,}. A drive's
+worth is its discounted reward without the bonus, at the agent's own γ.
 """
 
 

@@ -169,7 +169,7 @@ def room_to_change(dx_front, dx_rear, length, d_s, v_ego, v_rear, t_safe, floor)
     """True where a lane change has room, ahead and behind.
 
     dx_front, dx_rear: distances to the new cars ahead and behind, centre to centre, positive, m,
-    infinite for nobody; a gap is this distance - length, a car's. d_s, floor: m; speeds: m/s.
+    infinite where no car is; gap: distance less a car's length. d_s, floor: m; speeds: m/s.
     """
     # solution: the exercise's own
 
@@ -205,8 +205,8 @@ predicted("the_rule.2")
 bc.show(figures.when_to_change(drive))
 
 # %% [markdown]
-# **Explain.** At 0 s nobody is faster, so the left side is 0, and any distance is longer: the condition is true
-# with trap 2 beside you.
+# **Explain.** At 0 s both cars are equally fast, so closing speed × t_safe is 0. Every distance is larger, so the
+# condition is true with trap 2 still beside you.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Do the misprint on the board: write Equation 13 as printed, $d_{13} = d_s + \Delta x_\text{current} - \Delta
