@@ -13,8 +13,7 @@ from bootcourse.course.lessons import COURSE, LESSONS
 from bootcourse.course.lessons.learning_from_demonstrations.explorable import nine_values
 from bootcourse.course.lessons.looking_ahead import explorable as futures
 from bootcourse.course.lessons.other_ways.figures import two_counts
-from bootcourse.course.lessons.the_barrier.explorable import hill
-from bootcourse.course.lessons.the_trap.numbers import worth_of_plan
+from bootcourse.course.lessons.the_barrier.explorable import by_plan, hill
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.learn import sac
 from bootcourse.learn.bootstrap import large_margin_loss, regularised_policy
@@ -90,8 +89,8 @@ def test_the_numbers_in_the_sentences_are_those_of_the_library():
     assert f"Its entropy is {sac.entropy(log_pi).item():.2f} nats" in panel.svg.alt
     low, high = 100 * np.array(rate(np.arange(10) < 8)[1:])
     assert f"{low:.0f} to {high:.0f} %" in shown("how_many_seeds").svg.alt
-    panel, of_staying = shown("the_barrier"), worth_of_plan(0.8) / discounted(idle(), 0.8)
-    assert abs(hill(10, 0.8)[0] - of_staying) < 1e-4, "what lesson 1 says of the same plan"
+    panel, of_staying = shown("the_barrier"), by_plan().values(0.8).mean() / discounted(idle(), 0.8)
+    assert abs(hill(10, 0.8)[0] - of_staying) < 1e-4
     for price, gamma in ((10, 0.8), (1, 0.8), (10, 0.95), (0, 0.95)):
         for name, value in (("price", price), ("gamma", gamma)):
             from_page(panel.numbers[name].slider, value=value)

@@ -12,11 +12,10 @@ from matplotlib.ticker import NullLocator
 from bootcourse.colours import OTHER
 from bootcourse.course import charts, shipped
 from bootcourse.course.dots import name_rows
-from bootcourse.course.lessons.bug_hunt.bugs import EVERY, LETTERS, ROADS, Hunt
+from bootcourse.course.lessons.bug_hunt.bugs import EVERY, LETTERS, Hunt
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.settings import settings_for
-from bootcourse.panels.bonus import targets
 from bootcourse.plots.figure import axes_at, finish, new_figure
 
 DRIVERS = {"first agent": "healthy", "second agent": "E"}
@@ -126,30 +125,3 @@ def line_ends(hunt: Hunt) -> Figure:
 def last(hunt: Hunt, probe: str) -> dict[str, np.ndarray]:
     """The mean of a probe's last `LAST` values, {name: (2 seeds,)}."""
     return {name: hunt.probe(name, probe)[:, -LAST:].mean(axis=1) for name in hunt.names}
-
-
-PROMISED = ["first seed", "promised", "collected", "difference", "collected, with a bonus in every second"]
-
-
-def promised_and_collected(hunt: Hunt) -> list[list[str]]:
-    """What an agent's critic promises on its own drives and what they collect, a row for each agent below `PROMISED`.
-
-    All are means over all seconds of `ROADS`, actions drawn. Collected are the discounted rewards from a second on,
-    without any bonus; in the last column each second pays the bonus, too.
-    """
-    return [[name, *(f"{each:.1f}".replace("-", "−") for each in own_drives(hunt, name))] for name in hunt.names]
-
-
-def own_drives(hunt: Hunt, name: str) -> tuple[float, float, float, float]:
-    """What an agent's critic promises in its own drives, what these collect, the difference; with bonuses collected."""
-    agent, settings = hunt.agent(name), settings_for("bootstrapped")
-    drives = record(agent.as_policy(np.random.default_rng(0)), ROADS)
-    states = np.concatenate([drive.observations[: len(drive.rewards)] for drive in drives])
-    promised = float((agent.probabilities(states) * agent.q_values(states)).sum(-1).mean())
-    without, with_bonus = (
-        float(
-            np.concatenate([targets(d.rewards + c, settings.gamma, terminated=d.accident > 0) for d in drives]).mean()
-        )
-        for c in (0.0, settings.bonus)
-    )
-    return promised, without, promised - without, with_bonus

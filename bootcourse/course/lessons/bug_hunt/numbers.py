@@ -10,9 +10,8 @@ from bootcourse.course.lessons.bug_hunt.target_probe import unmasks
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.replay_buffer import Batch
-from bootcourse.policies import rule_policy, stochastic_rule_policy
+from bootcourse.policies import stochastic_rule_policy
 from bootcourse.scenario import DEFAULT
-from tools.course.known import shipped_results
 
 hunt = cache(bugs.Hunt)  # the agents of the bug hunt
 
@@ -38,11 +37,6 @@ def ends(name: str) -> float:
 def late(name: str, what: str) -> list[int]:
     """In how many of its last 30 training episodes each of an agent's two seeds had a success or an accident."""
     return [round(30 * share) for share in hunt().at_the_end(what)[name]]
-
-
-def accidents(name: str) -> np.ndarray:
-    """How many accidents each of an agent's two seeds had in its training, (2,)."""
-    return np.nansum(hunt().curve(name, "accident"), axis=1)
 
 
 @cache
@@ -93,29 +87,3 @@ def alike(name: str, first: int, last: int) -> float:
 def found() -> set[str]:
     """The bugs that the test of the target finds in untrained learners."""
     return {bug for bug in bugs.LEARNERS if unmasks(bugs.target_of(bug))}
-
-
-def episodes(name: str) -> np.ndarray:
-    """How many episodes each of an agent's two seeds drove in its training, (2,)."""
-    return np.isfinite(hunt().curve(name, "return")).sum(axis=1)
-
-
-def of_the_study(first: int, last: int, what: str = "return") -> float:
-    """The return of the study's ten agents, whose code is healthy, in these training episodes, or their accidents."""
-    values = shipped_results().of("bootstrapped").curves[what][:, first:last]
-    return float((values > 0 if what == "accident" else values).mean())
-
-
-@cache
-def own_drives(name: str) -> tuple[float, float, float, float]:
-    """What an agent's critic promises in its own drives, what these collect, the difference; with bonuses collected."""
-    return figures.own_drives(hunt(), name)
-
-
-@cache
-def rarest_is_the_rule_s() -> float:
-    """In which share of the rule's seconds an agent's rarest action is the rule's, the largest of the seven agents."""
-    by_rule = record(rule_policy(DEFAULT), bugs.ROADS)
-    states = np.concatenate([drive.observations[: len(drive.rule_actions)] for drive in by_rule])
-    rule = np.concatenate([drive.rule_actions for drive in by_rule])
-    return max(float((hunt().agent(n).probabilities(states).argmin(-1) == rule).mean()) for n in hunt().names)

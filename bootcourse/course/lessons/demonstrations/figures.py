@@ -1,5 +1,6 @@
 """Figures of demonstrations: where demonstrators were, and how clones drive."""
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -8,10 +9,11 @@ from torch import Tensor
 
 from bootcourse.colours import ALARM
 from bootcourse.course.lessons.demonstrations import cloning
+from bootcourse.course.shipped import shipped_experiment
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.methods import style
 from bootcourse.plots.canvas import MplAxes
-from bootcourse.plots.figure import INK, TEXT, finish, label_ends, new_figure, plain_axes
+from bootcourse.plots.figure import INK, SMALL, TEXT, finish, label_ends, new_figure, plain_axes
 from bootcourse.plots.road import draw_road, edges_of
 from bootcourse.road.state import EGO, TRAP_1, X, Y
 
@@ -74,23 +76,36 @@ def added(name: str, alone: np.ndarray, fed: dict[str, np.ndarray], longer: dict
     return _two_panels(rows, {1: "agree with the rule, own states (%)", 2: "have an accident (%)"}, title)
 
 
+SHIPPED = {0: "agrees", 1: "own", 2: "accidents"}  # what the columns of `cloning.measure` are called there
+
+
 def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str) -> Figure:
-    """A row for each name, a panel for each of two columns of `cloning.measure`."""
-    figure = new_figure(1.0 + 0.5 * len(measured))
+    """A row for each name, a panel for each of two columns of `cloning.measure`.
+
+    A square: the mean of the fifteen clones that ship, of the kinds of which some do.
+    """
+    figure, fifteen = new_figure(1.3 + 0.55 * len(measured)), shipped_experiment("clones")
     alt_parts = {name: [] for name in measured}
     height = figure.get_figheight()
     for place, (k, label) in enumerate(columns.items()):
-        ax = figure.add_axes((0.27 + 0.37 * place, 0.3 / height, 0.34, 1 - 0.95 / height))
+        ax = figure.add_axes((0.27 + 0.37 * place, 0.6 / height, 0.34, 1 - 1.25 / height))
         for row, (name, values) in enumerate(measured.items()):
             shown = 100 * values[:, k]
             ax.plot(shown, np.full(len(shown), row), "o", color=style("bc").colour, markersize=5, alpha=0.55)
             ax.plot(shown.mean(), row, "|", color=INK, markersize=15, markeredgewidth=2)
-            ax.text(shown.mean(), row - 0.32, f"{shown.mean():.0f}", fontsize=TEXT, color=INK, ha="center")
             alt_parts[name].append(f"{label.removesuffix(' (%)')} {shown.mean():.0f} %".replace("\n", " "))
+            kind = re.sub(r"\+ \d+ ", "", name)
+            if kind in fifteen:
+                mean = 100 * fifteen[kind].notes[SHIPPED[k]].mean()
+                ax.plot(mean, row + 0.27, "s", color="none", markeredgecolor=INK, markersize=5)
+                alt_parts[name][-1] += f" (fifteen others {mean:.0f} %)"
+            ax.text(shown.mean(), row - 0.32, f"{shown.mean():.0f}", fontsize=TEXT, color=INK, ha="center")
         plain_axes(ax, label.replace("\n", " "), grid="x")
         ax.set_yticks(range(len(measured)), list(measured) if place == 0 else [""] * len(measured))
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
         ax.set(xlim=(-4, 104), ylim=(len(measured) - 0.5, -0.7))
+    words = "a dot: a clone; a bar: their mean; a square: the mean of fifteen other clones"
+    figure.text(0.27, 0.12 / height, words, fontsize=SMALL, color=INK)
     words = "; ".join(f"{name}: {', '.join(parts)}" for name, parts in alt_parts.items())
     return finish(figure, title, f"Clones' means, by data. {words}.")
 
@@ -179,14 +194,6 @@ def error_rows(own: Sequence[Rollout], of_rule: Tensor) -> list[list[str]]:
         there = sum((cloning.metres_left(drive) > high).any() for drive in some)
         rows.append([f"{name}: {len(some)}", f"{there}", *(f"{100 * share:.0f} %" for share in shares)])
     return rows
-
-
-def came_back(own: Sequence[Rollout], of_rule: Tensor) -> str:
-    """How many of the drives that were at any time left of the rule's rows end without an accident."""
-    high = cloning.left_in(of_rule).max().item()
-    there = [drive for drive in own if (cloning.metres_left(drive) > high).any()]
-    back = sum(not drive.accident for drive in there)
-    return f"Left of all of the rule's rows were {len(there)} drives; {back} of them end without an accident."
 
 
 def taught(trainings: np.ndarray, alike: np.ndarray) -> Figure:

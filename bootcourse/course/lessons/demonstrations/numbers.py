@@ -5,14 +5,12 @@ from functools import cache
 import numpy as np
 from torch import Tensor
 
+from bootcourse.course.lessons.demonstrations.cloning import UPDATES as UPDATES
 from bootcourse.course.lessons.demonstrations.cloning import (
-    ACTION,
-    RULE_ACTION,
     all_at_once,
     left_in,
     metres_left,
 )
-from bootcourse.course.lessons.demonstrations.cloning import UPDATES as UPDATES
 from bootcourse.course.shipped import shipped_agents, shipped_experiment, shipped_results
 from bootcourse.episodes.record import record
 from bootcourse.learn.agent import Agent
@@ -32,12 +30,6 @@ def rows() -> dict[str, Tensor]:
 def beyond_the_band() -> int:
     """How many of the stochastic rule's rows are farther left than all of the rule's."""
     return int((left_in(rows()["the stochastic rule"]) > left_in(rows()["the rule"]).max()).sum())
-
-
-def drawn_labels() -> float:
-    """The share of the stochastic rule's rows whose action is not the rule's."""
-    rows_of = rows()["the stochastic rule"]
-    return float((rows_of[:, ACTION] != rows_of[:, RULE_ACTION]).double().mean())
 
 
 @cache

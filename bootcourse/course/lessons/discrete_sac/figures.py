@@ -25,15 +25,14 @@ def descents(ends: Mapping[str, Descent]):
     return table([f"after {STEPS} steps", "π(straight)", "Q(straight)", "loss"], rows)
 
 
-def two_jobs(alphas: Sequence[float], start: float, walked: Walked, unpaid: Walked, less: Walked) -> Figure:
+def two_jobs(alphas: Sequence[float], start: float, walked: Walked, unpaid: Walked) -> Figure:
     """What α does in the chain's trap: how many learners find the way out, and how sure these then are of taking it.
 
     walked: the learners at each temperature, and last those whose temperature falls from `start`;
-    unpaid: the same with a target that holds no pay; less: with the pay α (H − log 2).
+    unpaid: the same with a target that holds no pay.
     """
-    names = [*(f"α = {alpha:g}" for alpha in alphas), f"α falls from {start:g}"]
-    names += ["falls, no pay in target", "falls, pay α (H − log 2)"]
-    leaves, found = (np.vstack([getattr(of, part) for of in (walked, unpaid, less)]) for part in ("leaves", "found"))
+    names = [*(f"α = {alpha:g}" for alpha in alphas), f"α falls from {start:g}", "falls, no pay in target"]
+    leaves, found = (np.vstack([getattr(of, part) for of in (walked, unpaid)]) for part in ("leaves", "found"))
     parts = {
         "found it, sure of leaving": (found & (leaves > SURE), style("sac").colour),
         "found it, undecided": (found & (leaves <= SURE) & (leaves >= 1 - SURE), PALE),
@@ -41,7 +40,7 @@ def two_jobs(alphas: Sequence[float], start: float, walked: Walked, unpaid: Walk
         "never found it": (~found, "white"),
     }
     counts = (found & (leaves > SURE)).sum(axis=1)
-    title = f"Sure of leaving: {counts[:-3].max()} at most if α is constant, {counts[-3]} if it falls"
+    title = f"Sure of leaving: {counts[:-2].max()} at most if α is constant, {counts[-2]} if it falls"
     row, before, alt_parts = 0.33, np.zeros(len(names)), []
     figure = new_figure(0.95 + row * len(names) + 0.6)
     ax = axes_at(figure, 1.6, 0.95, 3.9, row * len(names))

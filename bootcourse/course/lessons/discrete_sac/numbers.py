@@ -12,15 +12,14 @@ import torch
 from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START, highest_estimates
 from bootcourse.course.lessons.discrete_sac.own_parts import GAMMA as GAMMA
 from bootcourse.course.lessons.discrete_sac.own_parts import LEARNERS as LEARNERS
-from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, less_paid, soft_sweeps, walked
+from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, soft_sweeps, walked
 from bootcourse.course.lessons.discrete_sac.own_parts import unpaid as unpaid
-from bootcourse.course.lessons.values import chain as chain
 from bootcourse.learn import sac
 
 q = np.array(START)
 pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
-BY_Q = pi @ q
-WORTH = BY_Q - ALPHA * pi @ np.log(pi)
+WORTH = pi @ q - ALPHA * pi @ np.log(pi)
+DECISIONS = 1000  # of each learner in the chain
 ALPHAS = (0.01, 0.1, 0.15, 0.2, 0.25, 0.3, 1, 10)  # constant temperatures: Round 4's and more
 
 
@@ -43,9 +42,9 @@ def wished() -> float:
     return float(descended(lambda log_pi, q, alpha: -sac.soft_value(log_pi, q, alpha).mean()).q[1])
 
 
-def soft_q(alpha: float, value: Callable = sac.soft_value) -> np.ndarray:
+def soft_q(alpha: float) -> np.ndarray:
     """Q of the chain of lesson [[values]] after 40 sweeps of the soft Bellman equation: (5, 2)."""
-    return soft_sweeps(value, sac.critic_target, alpha).numpy()
+    return soft_sweeps(sac.soft_value, sac.critic_target, alpha).numpy()
 
 
 def leave(alpha: float) -> float:
@@ -55,31 +54,32 @@ def leave(alpha: float) -> float:
 
 
 @cache
-def constant(decisions: int = 1000) -> Walked:
+def constant() -> Walked:
     """The chain's learners at each of the ALPHAS, which stay."""
-    return walked(sac.soft_value, sac.critic_target, torch.tensor(ALPHAS, dtype=torch.float64).expand(decisions, -1))
+    return walked(sac.soft_value, sac.critic_target, torch.tensor(ALPHAS, dtype=torch.float64).expand(DECISIONS, -1))
 
 
 @cache
-def falling(decisions: int = 1000, value: Callable = sac.soft_value, start: float = 10) -> Walked:
+def falling(value: Callable = sac.soft_value, start: float = 10, seed: int = 0) -> Walked:
     """Learners whose α falls by equal factors from `start` to 0.01. value: V(s) in their target, see `unpaid`."""
-    return walked(value, sac.critic_target, torch.tensor(np.geomspace(start, 0.01, decisions))[:, None])
+    return walked(value, sac.critic_target, torch.tensor(np.geomspace(start, 0.01, DECISIONS))[:, None], seed)
 
 
-@cache
-def others() -> np.ndarray:
+def others() -> list[int]:
     """How many of four more sets of such learners, which draw other numbers, are sure of leaving in the end."""
-    alphas = torch.tensor(np.geomspace(10, 0.01, 1000))[:, None]
-    return np.array([sure(walked(sac.soft_value, sac.critic_target, alphas, seed))[0] for seed in range(1, 5)])
-
-
-LESS = less_paid(sac.soft_value)  # V(s) with the pay α (H − log 2)
+    return [int(sure(falling(seed=seed))[0]) for seed in range(1, 5)]
 
 
 @cache
 def begun(value: Callable = sac.soft_value) -> Walked:
     """The learners whose α falls from 10 to 0.01 in 1,000 decisions, after the first 100."""
-    return walked(value, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, 1000)[:100, None]))
+    return walked(value, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, DECISIONS)[:100, None]))
+
+
+def early(value: Callable = sac.soft_value) -> tuple[float, float]:
+    """The mean Q then of staying, and on the free road, of the learners that have been there."""
+    q = begun(value).q[begun(value).found]
+    return q[:, 0, 0].mean(), q[:, 4].mean()
 
 
 def sure(of: Walked) -> np.ndarray:

@@ -2,7 +2,6 @@
 [[values]]. Neither is a whole SAC: there is no replay buffer, and no network.
 """
 
-import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -73,11 +72,6 @@ class Walked(NamedTuple):
 def unpaid(log_pi: Tensor, q: Tensor, alpha: Tensor) -> Tensor:
     """V(s) without the pay, to put in the place of `soft_value`: the mean of Q under the policy, (batch,)."""
     return (log_pi.exp() * q).sum(-1)
-
-
-def less_paid(value: Callable) -> Callable:
-    """V(s) with the pay α (H − log 2), never above 0 for two actions. value: `soft_value`, a student's or ours."""
-    return lambda log_pi, q, alpha: value(log_pi, q, alpha) - alpha * math.log(2)
 
 
 def walked(value: Callable, target: Callable, alphas: Tensor, seed: int = 0) -> Walked:

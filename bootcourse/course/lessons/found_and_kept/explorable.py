@@ -25,7 +25,7 @@ SEEN_FIRST = 700  # the training episode with which the picture of one agent's t
 TALL_M = DEFAULT.road.lanes * DEFAULT.road.lane_width  # m: the road's width
 LEFT, RIGHT, TOP = 124, 470, 84  # pixels: of the bars
 ROW, TALL, APART = 7, 70, 24  # pixels: a row, a group, the space between two groups
-LOSE, KEEP, EARN, CRASH = 510, 582, 652, 718  # pixels: the middles of the four columns at the right
+LOSE, KEEP, EARN, CRASH = 508, 578, 646, 718  # pixels: the middles of the four columns at the right
 
 
 def training() -> Explorable:
@@ -129,7 +129,7 @@ def losing() -> Explorable:
         counted = f"{', '.join(map(str, some))} and {last}"
         says = f"Lost at {limit:.0f} of {IN_A_ROW} or fewer: from top to bottom {counted} of ten lose it."
         parts.append(text(4, 20, says, size=14, bold=True))
-        bars = f"bar: in training, more than {limit:.0f} of the last {IN_A_ROW} ahead"
+        bars = f"bar: more than {limit:.0f} of the last {IN_A_ROW} ahead"
         parts.append(text(LEFT, TOP - 22, bars, bold=True))
         in_all = "; ".join(f"{words}: {count} lose it at least once, {kept[words]}" for words, count in losers.items())
         return drawing(WIDTH, bottom + 38, still + parts, f"{says} {in_all}.")

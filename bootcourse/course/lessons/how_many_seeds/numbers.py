@@ -8,7 +8,7 @@ from math import factorial, prod
 import numpy as np
 
 from bootcourse.course.lessons.how_many_seeds import counts, explorable  # noqa: F401 (for the expressions)
-from bootcourse.statistics import Estimate, all_resamples, bracketed, interval, iqm, power, rate  # noqa: F401
+from bootcourse.statistics import Estimate, bracketed, difference, interval, iqm, power, rate  # noqa: F401
 from tools.course.known import of, shipped_experiment
 
 
@@ -43,29 +43,6 @@ def twice() -> list[Estimate]:
 
 
 @cache
-def leaves_out_0_by_luck() -> float:
-    """How often five of our ten bootstrapped agents less five, both drawn with replacement, leave out 0: exactly.
-
-    The IQM of five is the mean of three: of 220 values that it can have in a resample, each group has the chances.
-    """
-    returns = of("bootstrapped").scores("returns")
-    groups, chances = all_draws(len(returns))
-    rows, ways = all_resamples(*[1] * counts.FIVE)
-    values, which = np.unique(iqm(returns[groups[:, rows]]).round(9), return_inverse=True)
-    which = which.reshape(len(groups), len(rows))
-    shares = np.stack([np.bincount(row, ways, len(values)) for row in which])
-    not_above = shares @ shares.cumsum(axis=1).T  # [x, y]: how often a resample of y is not above one of x
-    return float(chances @ (np.minimum(not_above, not_above.T) < 0.025) @ chances)
-
-
-def all_draws(n: int) -> tuple[np.ndarray, np.ndarray]:
-    """All ways to draw five of n with replacement, in order (ways, 5), and their chances (ways,)."""
-    groups = list(combinations_with_replacement(range(n), counts.FIVE))
-    orders = [factorial(counts.FIVE) / prod(map(factorial, Counter(group).values())) for group in groups]
-    return np.array(groups), np.array(orders) / n**counts.FIVE
-
-
-@cache
 def new(agents: int) -> Estimate:
     """The lesson's ablation with so many new agents of each group."""
     return counts.of_new_agents(shipped_experiment("new-agents"), agents)
@@ -74,6 +51,14 @@ def new(agents: int) -> Estimate:
 def length(agents: int) -> float:
     """How long its interval is, in points."""
     return new(agents).high - new(agents).low
+
+
+@cache
+def fives() -> np.ndarray:
+    """How long the intervals of the new agents are, in points, five of each group at a time: (8,), the first first."""
+    groups = [100 * shipped_experiment("new-agents")[name].measured["success"] for name in ("changed", "as it is")]
+    pairs = zip(*(np.split(each, len(each) // counts.FIVE) for each in groups), strict=True)
+    return np.array([effect.high - effect.low for effect in (difference(*pair) for pair in pairs)])
 
 
 def unchanged() -> float:

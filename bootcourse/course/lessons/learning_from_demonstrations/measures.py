@@ -1,4 +1,4 @@
-"""Measured for the lesson: who finds the way out, who escapes, and in which states a margin loss counts."""
+"""Measured for the lesson: who finds the way out, who escapes, what the bonus costs, where a margin loss counts."""
 
 from collections.abc import Callable, Sequence
 from functools import cache
@@ -62,57 +62,15 @@ def _all_and_parts(agents: Sequence[Results]) -> str:
     return f"**{escape(agents)}** ({parts})" if len(agents) > 1 else f"**{escape(agents)}**"
 
 
-COST = [
-    "ten agents with",
-    "return, episodes 300 to 500",
-    "success, 450 to 500: study (others)",
-    "success, 1,000 to 1,050: study (others)",
-]
+COST = ["ten agents with", "return, episodes 300 to 500", "success, 300 to 600", "success of the ten others"]
 
 
 def cost() -> list[list[str]]:
     """What the bonus costs and keeps, below `COST`: means of the study's ten agents, and of the ten others."""
-    study, others = paid_and_not()
     rows = []
-    for name, agents in study.items():
-        earned = f"{agents.curves['return'][:, 300:500].mean():.0f}"
-        rows.append([name, earned, *(_share(agents, others[name], first) for first in (450, 1000))])
-    return rows
-
-
-def _share(agents: Results, others: Results, first: int) -> str:
-    """How many of fifty training episodes succeed, "55 % (86 %)"."""
-    own, theirs = (100 * each.curves["success"][:, first : first + 50].mean() for each in (agents, others))
-    return f"{own:.0f} % ({theirs:.0f} %)"
-
-
-def behind(agent: Agent, drive: Rollout, seconds: int) -> int:
-    """In how many of a drive's first seconds the agent gives another action than the rule's the largest Q."""
-    return int((_leads(agent, drive, seconds)[2] < 0).sum())
-
-
-def says_ahead(agent: Agent, drive: Rollout, seconds: int) -> str:
-    """`behind` as a sentence."""
-    return f"Another action has the largest Q in {behind(agent, drive, seconds)} of {seconds} seconds."
-
-
-RAISED = [
-    "demonstrations",
-    "mean of nine Q",
-    "Q of the rule's action",
-    "its lead over the best other",
-    "another is ahead",
-]
-
-
-def raised(agents: dict[str, Agent], drive: Rollout, seconds: int) -> list[list[str]]:
-    """A row below `RAISED` for each agent: means of a drive's first seconds."""
-    rows = []
-    for name, agent in agents.items():
-        q, did, lead = _leads(agent, drive, seconds)
-        of_rule = q.gather(-1, did[:, None])
-        counted = f"{behind(agent, drive, seconds)} of {seconds} s"
-        rows.append([name, *(f"{each.mean():.1f}".replace("-", "−") for each in (q, of_rule, lead)), counted])
+    for name, *tens in zip(("c = 2", "c = 0"), *(group.values() for group in paid_and_not()), strict=True):
+        earned = f"{tens[0].curves['return'][:, 300:500].mean():.0f}"
+        rows.append([name, earned, *(f"{100 * ten.curves['success'][:, 300:600].mean():.0f} %" for ten in tens)])
     return rows
 
 

@@ -10,10 +10,9 @@ from bootcourse.episodes.record import record
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.research.results import Results
-from bootcourse.road.state import EGO, SPEED
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import lost
-from tools.course.known import SETTINGS, by_rule, idle, shipped_experiment, shipped_results
+from tools.course.known import SETTINGS, by_rule, idle, shipped_results
 
 
 def _with(name: str) -> tuple[list[Results], list[Results]]:
@@ -36,16 +35,6 @@ def of_the_study(name: str) -> str:
     return measures.escape(_with(name)[0][:1])
 
 
-def of_the_others(name: str) -> str:
-    """How many of the ten others with the soft constraint and these demonstrations escape."""
-    return measures.escape(_with(name)[0][1:])
-
-
-def of_the_paper(method: str) -> str:
-    """How many of the ten agents of a method escape that were trained in the setting nearest the paper's."""
-    return measures.escape([shipped_results("paper").of(method)])
-
-
 def alone(name: str) -> str:
     """How many agents escape with these demonstrations and without the soft constraint."""
     return measures.escape(_with(name)[1])
@@ -61,11 +50,6 @@ def median_found(name: str) -> int:
     return int(np.median(found(name)) + 0.5)
 
 
-def earned(name: str) -> np.ndarray:
-    """The returns of the agents with the soft constraint and these demonstrations, (agents,)."""
-    return np.concatenate([each.scores("returns") for each in _with(name)[0]])
-
-
 def training(name: str, curve: str, first: int, last: int | None, others: bool = False) -> np.ndarray:
     """The mean of the study's ten agents in some training episodes, (agents,), or of the ten others."""
     return _with(name)[0][int(others)].curves[curve][:, first:last].mean(axis=1)
@@ -74,11 +58,6 @@ def training(name: str, curve: str, first: int, last: int | None, others: bool =
 def losing_until(name: str, episode: int) -> int:
     """How many of the twenty agents with the soft constraint have lost the way out by this training episode."""
     return sum(int(lost(each.curves["success"][:, :episode]).sum()) for each in _with(name)[0])
-
-
-def speeds_of_the_rule() -> np.ndarray:
-    """The ego's speed at each second of the rule's drive (m/s)."""
-    return by_rule().states[:: by_rule().scenario.clock.simulation_rate, EGO, SPEED]
 
 
 def bonus_needed() -> np.ndarray:
@@ -91,8 +70,3 @@ def needed_on(roads: int = 40, seconds: int = 40) -> np.ndarray:
     """The same on the first roads, in the first seconds: (roads, seconds)."""
     pairs = zip(*(record(driver, range(roads)) for driver in (rule_policy(DEFAULT), idle_policy)), strict=True)
     return np.array([bonus_numbers(*pair, SETTINGS).crossing[:seconds] for pair in pairs])
-
-
-def with_neither() -> np.ndarray:
-    """The returns of the study's agents with the soft constraint and demonstrations, without bonus or margin loss."""
-    return shipped_experiment("ablations")["c = 0"].of("bootstrapped").scores("returns")

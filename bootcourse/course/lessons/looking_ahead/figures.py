@@ -1,4 +1,4 @@
-"""The figures of this lesson: what looking ahead changes, and what a model costs that is late, wrong, or learned.
+"""The figures of this lesson: what looking ahead changes, and what a model costs that is wrong or learned.
 
 `each_agent`, `learned` and `wrong_models` take the results of the experiments `look-ahead` and `learned-model`,
 {cell: agents}; their files, in bootcourse.research.experiments, say what was measured.
@@ -23,7 +23,7 @@ from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, axes_at, fini
 from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import CLOSELY, Cell
 from bootcourse.research.results import Results
-from bootcourse.road.state import EGO, Accident, Y
+from bootcourse.road.state import Accident
 from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
 MEANINGS = {  # of the wrong models that the lesson shows, for readers
@@ -182,21 +182,21 @@ def learned(computed: dict[str, Results], form: str = LEARNED_FORM) -> Figure:
     thousands = ["–"] + [f"{of.mean() / 1000:.0f}" for of in learned_from]
     row, alt_parts = 0.46, []
     figure = new_figure(1.75 + row * len(rows))
-    ax = axes_at(figure, 3.05, 1.0, 2.3, row * len(rows))
+    ax = axes_at(figure, 3.05, 1.0, 3.1, row * len(rows))
     on_the_left = {"transform": ax.get_yaxis_transform(), "ha": "right", "va": "center", "fontsize": SMALL}
     for place, ((name, values), rows_of) in enumerate(zip(rows.items(), thousands, strict=True)):
         worse, mean, first = values > alone, f"{values.mean():,.0f}", values is alone
         dots(ax, values, place, style(base).colour, worse, values.mean())
-        beside(ax, place, mean, "" if first else f"{worse.sum()} of {len(worse)}")
+        beside(ax, place, mean)
         ax.text(-0.1, place, rows_of, color=INK, **on_the_left)
         more = "" if first else f", {worse.sum()} of {len(worse)} more than alone"
         alt_parts.append(f"{name}{'' if first else f', {rows_of} thousand decisions'}: mean {mean}{more}")
-    beside(ax, -0.75, "mean", "more than alone", colour=QUIET)
+    beside(ax, -0.75, "mean", colour=QUIET)
     name_rows(ax, list(rows), "accidents in 1,000 drives")
     ax.axvline(alone.mean(), color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
     ax.text(alone.mean(), -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
     ax.tick_params(axis="y", pad=48)
-    for x, words in ((-0.02, "decisions\n(thousand)"), (-0.32, "the model learns from")):
+    for x, words in ((-0.02, "decisions\n(thousand)"), (-0.24, "the model learns from")):
         ax.text(x, -0.75, words, color=QUIET, **on_the_left)
     ax.set(xlim=(0, 1000))
     ax.set_xticks([0, 500, 1000], ["0", "500", "1,000"])
@@ -208,7 +208,7 @@ def learned(computed: dict[str, Results], form: str = LEARNED_FORM) -> Figure:
 
 
 def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
-    """Accidents of each agent with each wrong model, with the look-ahead and with the shield, and alone.
+    """The agents' mean accidents with each wrong model, with the look-ahead and with the shield, and alone.
 
     Raises BootcourseError if the base policy alone, or any of the two with a model, was not computed.
     """
@@ -224,11 +224,10 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     ax = axes_at(figure, 2.4, 1.0, 4.3, row * len(names))
     for (form, marker), shift, fill in zip(forms.items(), (-0.16, 0.16), (colour, "white"), strict=True):
         each = [per_thousand(cells, Cell(base, form, model=name)) for name in names]
-        for place, values in enumerate(each):
-            look = {"color": colour, "mfc": fill, "marker": marker, "ls": "", "clip_on": False}
-            ax.plot(values, np.full(len(values), place + shift), **look, ms=3, mew=0.6, alpha=0.5)
-            ax.plot(values.mean(), place + shift, **look, ms=7, mew=1.6, zorder=4)
-        numbers = "; ".join(f"{name} {values.mean():.1f}" for name, values in zip(names, each, strict=True))
+        means = [values.mean() for values in each]
+        look = {"color": colour, "mfc": fill, "marker": marker, "ls": "", "clip_on": False}
+        ax.plot(means, np.arange(len(names)) + shift, **look, ms=8, mew=1.6, zorder=4)
+        numbers = "; ".join(f"{name} {mean:.1f}" for name, mean in zip(names, means, strict=True))
         alt_parts.append(f"{NAMES[form]}: {numbers}.")
     plain_axes(ax, "", grid="x")
     ax.axvline(of_alone, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
@@ -238,42 +237,6 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     ax.spines["bottom"].set_color(GRID)
     _accident_axis(ax, "x")
     ax.set_yticks(range(len(names)), names, fontsize=TEXT, color=INK)
-    words = "● look-ahead    □ shield    large: the mean of the agents; small: each agent"
-    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
+    words = "● look-ahead    □ shield    (means of ten agents)"
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=TEXT, color=INK)
     return finish(figure, title, f"Mean accidents in 1,000 drives. Alone: {of_alone:.1f}. {' '.join(alt_parts)}")
-
-
-STEERS = {"left": "^", "straight": "o", "right": "v"}  # up is left in `late`
-
-
-def late(drives: Mapping[str, Rollout]) -> Figure:
-    """Where across the road the same agent is in two drives with the look-ahead, and how it steers.
-
-    drives: with the road as it is, and late, see `imagined_road.on_time_and_late`.
-    """
-    figure, alt_parts = new_figure(3.2), []
-    ax, road = axes_at(figure, 0.95, 0.6, 5.0, 2.0), next(iter(drives.values())).scenario.road
-    for lane in range(road.lanes + 1):
-        line = (0, (6, 5)) if 0 < lane < road.lanes else "-"
-        ax.axhline((lane - 0.5) * road.lane_width, color=QUIET, linewidth=1.1, linestyle=line, zorder=1)
-    shown = min(len(drive.actions) for drive in drives.values())
-    for (name, drive), colour in zip(drives.items(), (style(CLOSELY[0]).colour, ALARM), strict=True):
-        across = drive.cars[: shown + 1, EGO, Y]
-        ax.plot(across, color=colour, linewidth=1.8, zorder=2)
-        steers = [ACTION_NAMES[action].split()[1] for action in drive.actions[:shown]]
-        for second, (y, steer) in enumerate(zip(across, steers, strict=False)):
-            ax.plot(second, y, marker=STEERS[steer], color=colour, markersize=9, zorder=3)
-        hurt = drive.accident > 0 and len(drive.actions) == shown
-        if hurt:
-            ax.text(shown, across[-1], "✕", ha="center", va="center", fontsize=13, color=colour, fontweight="bold")
-        ax.text(shown + 0.15, across[-1], name, va="center", fontsize=TEXT, color=colour)
-        alt_parts.append(f"{name}: {', '.join(steers)}{'; it leaves the road' if hurt else ''}")
-    ax.set(xlim=(-0.25, shown + 0.1), ylim=((road.lanes - 0.5) * road.lane_width + 0.3, -road.lane_width / 2 - 1.2))
-    ax.set_yticks(np.arange(road.lanes) * road.lane_width, ["left lane", *["middle"] * (road.lanes - 2), "right lane"])
-    plain_axes(ax, "", grid="")
-    ax.set_xlabel("second", fontsize=TEXT, color=INK)
-    words = "▲ steers left    ● straight    ▼ steers right    ✕ off the road"
-    figure.text(0.95 / figure.get_figwidth(), 2.75 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
-    return finish(
-        figure, "The late car steers left for a second too long, and leaves the road", f"{'. '.join(alt_parts)}."
-    )

@@ -4,10 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bootcourse.episodes.lookahead import lookahead, nine_drives, worth_of_speed
-from bootcourse.episodes.models import MODELS
-from bootcourse.episodes.record import Rollout, record
-from bootcourse.learn.agent import Agent
+from bootcourse.episodes.lookahead import nine_drives, worth_of_speed
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.branching import advance
 from bootcourse.road.constants import constants
@@ -70,11 +67,3 @@ def shielded(shield: Callable, policy: Policy, horizon: int) -> Policy:
         return PolicyOutput(np.asarray(shield(actions, imagined.values, imagined.accidents != 0)))
 
     return drive
-
-
-def on_time_and_late(agent: Agent, road: int) -> dict[str, Rollout]:
-    """Two drives of an agent with the look-ahead, on the road of a seed: as it is, and as it was a second ago."""
-    models = {"on time": "exact", "a second late": "everything a second late"}
-    return {
-        name: record(lookahead(agent.as_policy(), models=MODELS[model]), [road])[0] for name, model in models.items()
-    }

@@ -7,8 +7,7 @@ import numpy as np
 from bootcourse.course import shipped as course
 from bootcourse.course.lessons.looking_ahead import explorable, figures, imagined_road
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.episodes.lookahead import lookahead, nine_drives
-from bootcourse.episodes.models import MODELS
+from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import Rollout, record
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.research.experiments import learned_model
@@ -55,13 +54,6 @@ def less_safe(base: str) -> np.ndarray:
     return each(base, "rollouts", "accidents") > each(base, "alone", "accidents")
 
 
-def more_accidents(base: str, form: str) -> str:
-    """The accidents in 1,000 drives of those that crash more with the look-ahead, most first: "72, 11, 8 and 2"."""
-    most_first = np.argsort(-each(base, "rollouts", "accidents")[less_safe(base)])
-    *others, last = each(base, form, "accidents")[less_safe(base)][most_first].astype(int)
-    return f"{', '.join(map(str, others))} and {last}"
-
-
 def outs(base: str, form: str = "rollouts") -> np.ndarray:
     """The share of drives that end ahead of trap 1, of each agent of a base policy."""
     return each(base, form, "success")
@@ -72,17 +64,6 @@ def worse_than_alone(base: str, form: str = "rollouts") -> int:
     return sum(per_thousand(base, form, model) > per_thousand(base, "alone") for model in WRONG)
 
 
-def with_error(base: str) -> list[float]:
-    """Accidents in 1,000 drives of a base policy with the look-ahead, in each of these models: the fewest first."""
-    return sorted(per_thousand(base, model=model) for model in WRONG)
-
-
-def three_decisions() -> float:
-    """Those of PPO's agents that look three decisions ahead in the exact model."""
-    of = shipped()[Cell("ppo_cloned", "rollouts", horizon=3).name].measured
-    return float(1000 * of["accidents"].sum() / of["roads"].sum())
-
-
 def worths() -> np.ndarray:
     """W at every speed that the car can have."""
     return imagined_road.worth(np.linspace(0, DEFAULT.ego.max_speed, 401))
@@ -91,18 +72,6 @@ def worths() -> np.ndarray:
 def led_out(success: np.ndarray) -> int:
     """How many of the nine that stay behind alone get out in more than a tenth of their drives: success (agents,)."""
     return int((success[outs("sac", "alone") < 0.01] > 0.1).sum())
-
-
-def without_w() -> tuple[int, int]:
-    """Of the nine with the look-ahead without W: their accidents, and their drives."""
-    nine, without = outs("sac", "alone") < 0.01, shipped()[Cell("sac", "rollouts", with_worth=False).name].measured
-    return int(without["accidents"][nine].sum()), int(without["roads"][nine].sum())
-
-
-def two_worst_without_w() -> np.ndarray:
-    """Without W, the share of drives that end ahead of trap 1, of those two with the most accidents with W."""
-    crashes = np.where(outs("sac", "alone") < 0.01, each("sac", "rollouts", "accidents"), -1)
-    return shipped()[Cell("sac", "rollouts", with_worth=False).name].measured["success"][np.argsort(crashes)[-2:]]
 
 
 def errors_table() -> str:
@@ -124,24 +93,6 @@ def trapped_futures() -> np.ndarray:
             actions = decide(cars)
         found.append((cars[:, EGO, X] > cars[:, TRAP_1, X]).reshape(-1, N_ACTIONS))
     return np.concatenate(found)
-
-
-@cache
-def late_drives() -> list[Rollout]:
-    """Of PPO's first three agents, on 4 roads each: the drives with the look-ahead in a road that is a second old."""
-    agents = shipped_actors("ppo_cloned")
-    policies = [lookahead(agents[seed].as_policy(), models=MODELS[LATE], seed=seed) for seed in range(3)]
-    return [drive for policy in policies for drive in record(policy, held_out_seeds(15, 4))]
-
-
-def late_ends() -> np.ndarray:
-    """After which decision, counted from 1, each of them ends."""
-    return np.array([len(drive.actions) for drive in late_drives()])
-
-
-def late_repeats() -> bool:
-    """Whether in each of them the second action is the first."""
-    return all(drive.actions[0] == drive.actions[1] for drive in late_drives())
 
 
 class _MovedOn:
@@ -229,12 +180,6 @@ def overruled(form: str) -> str:
         shares.append(100 * changed / decisions)
     low, high = min(shares), max(shares)
     return f"{low:.0f} to {high:.0f} %"
-
-
-def fewest_worse() -> int:
-    """How many crash more often with the look-ahead than alone, in the kind of models where these are fewest."""
-    kinds = [in_last_model(), control(), *map(control, learned_model.RANDOM)]
-    return min(int((each > alone()).sum()) for each in kinds)
 
 
 def learned_rows(share: float | None = None) -> np.ndarray:

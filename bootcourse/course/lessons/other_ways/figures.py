@@ -33,10 +33,10 @@ START, TRAINED, END = 300, 650, 780  # pixels: the training begins and ends, and
 ROW, TOP, THICK = 52, 62, 18
 TAKES = {  # learner: (what it takes, from, until, whether it fades)
     "ppo_cloned": ("a first policy", START - 34, START, False),
-    "bootstrapped": ("a pull to the rule (KL); demonstrations with a bonus", START, TRAINED, True),
+    "bootstrapped": ("a pull to the rule; a bonus for its drives", START, TRAINED, True),
     "jsrl": ("the first seconds of each episode", START, TRAINED - 60, True),
-    "rlpd": ("half of each batch", START, TRAINED, False),
-    "ibrl": ("demonstrations; the rule's action beside its own", START, END, False),
+    "rlpd": ("its drives: half of each batch", START, TRAINED, False),
+    "ibrl": ("its drives; its action beside the agent's own", START, END, False),
 }
 MEASURED = ("returns", "accident")  # of each agent in the test
 LONGEST = {SECONDS: 15, DECISIONS: 150_000}  # the ends of the learning curves

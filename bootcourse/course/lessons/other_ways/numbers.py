@@ -66,18 +66,11 @@ def middle(method: str, budget: int = FIRST) -> float:
 
 
 def two_budgets() -> str:
-    """What the agents of each method earn, and in how many % of their drives they crash, at two budgets."""
+    """What the agents of each method earn at two budgets, as Markdown."""
     rows = [
-        [display_name(method), *(f"{middle(method, budget):.0f}" for budget in (FIRST, SECOND))]
-        + [f"{100 * at(method, 'accident', budget).mean():.0f}" for budget in (FIRST, SECOND)]
-        for method in TAUGHT
+        [display_name(method), *(f"{middle(method, budget):.0f}" for budget in (FIRST, SECOND))] for method in TAUGHT
     ]
-    after = [f"after {budget:,}" for budget in (FIRST, SECOND)]
-    heads = [
-        *(f"return (interquartile mean) {each}" for each in after),
-        *(f"accidents, % (mean), {each}" for each in after),
-    ]
-    return markdown(["", *heads], rows)
+    return markdown(["return (interquartile mean)", *(f"after {budget:,}" for budget in (FIRST, SECOND))], rows)
 
 
 @cache
@@ -136,16 +129,10 @@ def thousands_made(method: str) -> float:
     return equal_decisions.SECONDS * FIRST / at(method, "seconds", FIRST).mean() / 1000
 
 
-def updates_and_decisions() -> str:
-    """The updates of each method in one round of PPO after cloning, and its decisions in five seconds, as Markdown."""
-    (decisions, by_ppo), rows = ppo_round(), []
-    for method in TAUGHT:
-        of = later(method).agents[0]
-        made = by_ppo if method == "ppo_cloned" else decisions * of["updates"] // of["envs_per_agent"]
-        critics = f", of {settings_for('rlpd').critics} critics" if method == "rlpd" else ""
-        rows.append([display_name(method), f"{made}{critics}", f"{thousands_made(method):.0f}"])
-    heads = ["", f"updates in {decisions:,} decisions", f"thousand decisions in {equal_decisions.SECONDS} s"]
-    return markdown(heads, rows)
+def updates_in(method: str) -> int:
+    """The updates of a method other than PPO in one round of PPO after cloning."""
+    of = later(method).agents[0]
+    return ppo_round()[0] * of["updates"] // of["envs_per_agent"]
 
 
 def below_all_others(method: str, spent: float, count: str) -> bool:

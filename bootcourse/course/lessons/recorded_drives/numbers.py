@@ -8,10 +8,7 @@ import numpy as np
 from bootcourse.course.lessons.recorded_drives import choosing, eight_seeds
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
-from bootcourse.methods import display_name
 from bootcourse.policies import Policy
-from bootcourse.road.observation import DX_SCALE, EGO_NAMES, NEIGHBOUR_NAMES, Y_SCALE
-from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import of, shipped_experiment
 
@@ -50,11 +47,6 @@ def off() -> np.ndarray:
     return estimated() - truth()
 
 
-def returns() -> np.ndarray:
-    """The return of each, (sets, agents)."""
-    return np.array([of(method).scores("returns")[:SETS] for method in choosing.METHODS]).T
-
-
 @cache
 def successes() -> np.ndarray:
     """In which share of its drives each gets ahead of trap 1, (sets, agents)."""
@@ -69,7 +61,6 @@ def did() -> float:
 class Short(NamedTuple):
     """What Round 2 says of its first two agents, a number of each."""
 
-    left: list[float]  # in which share of the recorded seconds it would steer left
     promises: list[float]  # mean Q of its actions at 100 starts
     earns: list[float]  # what it is worth from there
 
@@ -82,9 +73,7 @@ def short() -> Short:
     """
     learner = eight_seeds.learned(eight_seeds.training_of("Q-learning", 2))
     policies = [learner.agent(row).as_policy(with_q=True) for row in range(2)]
-    decided = [choosing.actions_of(policy, choosing.recorded().states) for policy in policies]
     return Short(
-        [float((actions % 3 == 0).float().mean()) for actions in decided],
         [choosing.promised(policy, choosing.starts()) for policy in policies],
         [choosing.worth(policy, range(100), 0.8) for policy in policies],
     )
@@ -93,38 +82,6 @@ def short() -> Short:
 def eight(kind: str, measure: str) -> list[float]:
     """What was measured of the eight shipped agents of a kind of Round 2."""
     return shipped_experiment(eight_seeds.NAME)[kind].measured[measure].tolist()
-
-
-def paid_for(pace: int) -> float:
-    """The mean reward of the recorded seconds in which the rule brakes (-1), keeps its speed (0), accelerates (1)."""
-    data = choosing.recorded()
-    return float(data.rewards[data.actions // 3 - 1 == pace].mean())
-
-
-def gap_of_faster() -> float:
-    """The smallest gap (m) to a car ahead, less than half a lane aside, where the rule accelerates."""
-    data = choosing.recorded()
-    cars = data.states[data.actions >= 6, len(EGO_NAMES) :].reshape(-1, DEFAULT.sight.neighbours, len(NEIGHBOUR_NAMES))
-    there, ahead, aside = cars[..., 0] > 0, DX_SCALE * cars[..., 1], Y_SCALE * cars[..., 2]
-    return float(ahead[there & (ahead > 0) & (aside.abs() < DEFAULT.road.lane_width / 2)].min())
-
-
-@cache
-def each_second(method: str) -> np.ndarray:
-    """What set 1's agent of a method earns in each of its first seconds, the mean of 100 roads, (seconds,)."""
-    return choosing.each_second(choosing.agents(0)[display_name(method)], range(100))
-
-
-def discounted_seconds(method: str, gamma: float) -> float:
-    """What these seconds are worth."""
-    return float(gamma ** np.arange(choosing.SECONDS) @ each_second(method))
-
-
-def updates_in_the_study() -> int:
-    """How many updates a CQL agent of the study had, if no episode in its training ended early."""
-    trained, results = of("cql").agents[0], of("cql").curves["success"]
-    seconds = results.shape[1] * DEFAULT.clock.decisions // trained["envs_per_agent"]
-    return seconds * trained["updates"]
 
 
 def accidents_of_escapers() -> np.ndarray:

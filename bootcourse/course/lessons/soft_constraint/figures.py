@@ -43,60 +43,46 @@ FADING = "ξ falls towards 0"  # the study's own agents with the soft constraint
 
 FLOOR = "ξ falls to 0.1"
 
-# of the kinds of `courses`
-FOUND = "found by {4} of {3},\nlost at times by {2}"
-FAULTS = "slow (return {0:.0f}, the rule {1:.0f}),\nlost at times by {2} of {3}", FOUND, FOUND
-PULLS = "strong throughout", "weak throughout", "strong, then none", "strong, then weak"  # of those of `twenty`
+# of those of `twenty`
+PULLS = "strong throughout", "weak throughout", "strong, then none", "strong, then weak"
 
 
 def courses(kinds: Sequence[str]) -> Figure:
-    """For each kind above ξ, below the success in training of its ten agents. kinds: as in `twenty`.
+    """For each kind above ξ, below the success in training of its ten agents. kinds: `FADING` and `FLOOR`.
 
     An agent of `FADING` is that of `FLOOR` until ξ reaches 0.1; from there on its ξ is not kept.
     """
     changed = shipped.shipped_experiment("ablations") | {FADING: shipped.shipped_results().of("soft")}
-    figure, looks, alt = new_figure(4.5), (QUIET, INK, style("soft").colour), []
-    rule = rule_results(DEFAULT, changed[kinds[0]].sizes[0]).scores("returns").mean()
-    for column, (kind, fault, colour) in enumerate(zip(kinds, FAULTS, looks, strict=True)):
+    figure, blue, alt = new_figure(4.1), style("soft").colour, []
+    xi = changed[FLOOR].of("soft").curves["xi"].mean(0)
+    until = np.argmax(xi <= 0.101)
+    for column, kind in enumerate(kinds):
         success = changed[kind].of("soft").curves["success"]
-        left = 0.5 + 2.1 * column
-        above, below = axes_at(figure, left, 0.95, 1.9, 0.75), axes_at(figure, left, 2.15, 1.9, 1.7)
-        earned = changed[kind].of("soft").scores("returns").mean()
-        finders = changed[kind].found_and_kept("soft")[0].sum()
-        fault = fault.format(earned, rule, lost(success).sum(), len(success), finders)
-        plain_axes(above, f"{kind}:\n{fault}")
-        xi = changed[FLOOR if kind == FADING else kind].of("soft").curves["xi"].mean(0)
-        until = np.argmax(xi <= 0.101) if kind == FADING else len(xi)
-        above.plot(np.arange(until), xi[:until], color=colour, linewidth=2)
+        losers = f"{lost(success).sum()} of {len(success)} lose the way out"
+        left = 0.6 + 3.25 * column
+        above, below = axes_at(figure, left, 0.72, 2.95, 0.6), axes_at(figure, left, 1.72, 2.95, 1.75)
+        plain_axes(above, f"{kind}: {losers}")
+        shown = xi[:until] if kind == FADING else xi
+        above.plot(np.arange(len(shown)), shown, color=blue, linewidth=2)
         if kind == FADING:
-            arrow = {"arrowstyle": "->", "color": colour, "linewidth": 2, "shrinkB": 0}
+            arrow = {"arrowstyle": "->", "color": blue, "linewidth": 2, "shrinkB": 0}
             above.annotate("", (until + 190, 0.03), (until, 0.1), arrowprops=arrow)
-            above.text(until + 240, 0.03, "towards 0", va="center", fontsize=SMALL, color=colour)
         above.set(yscale="log", ylim=(0.02, 3))
         above.set_yticks((0.1, 2), ("ξ = 0.1", "ξ = 2"))
         above.minorticks_off()
         episodes, share = rolling_means(success, IN_A_ROW, success.shape[1])
-        plain_axes(
-            below, "" if column else f"of the last {IN_A_ROW} training episodes (each action drawn from π), ended ahead"
-        )
+        plain_axes(below, "" if column else f"of the last {IN_A_ROW} training episodes, ended ahead")
         for line, losing in zip(IN_A_ROW * share, lost(success), strict=True):
-            look = {"color": ALARM, "zorder": 3} if losing else {"color": colour}
-            below.plot(episodes, line, linewidth=0.8, alpha=0.7, **look)
-        below.axhline(IN_A_ROW / 2, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+            look = {"color": ALARM, "zorder": 3} if losing else {"color": blue}
+            below.plot(episodes, line, linewidth=0.9, alpha=0.7, **look)
         below.set(ylim=(0, IN_A_ROW + 1))
-        below.set_xlabel("training episode", fontsize=SMALL, color=INK)
+        below.set_xlabel("training episode; an agent is red if it loses the way out", fontsize=SMALL, color=INK)
         for ax in (above, below):
             ax.set(xlim=(0, success.shape[1]), xticks=(500, 1000, 1500))
             ax.tick_params(labelleft=not column, labelbottom=ax is below)
-        ahead = f"at last {IN_A_ROW * share[:, -1].mean():.0f} on average"
-        alt.append(f"{kind}: {' '.join(fault.split())}, {ahead}")
-    words = "mean ξ of ten agents; below, a line for each, red if it loses the way out; return: mean in the test"
-    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
-    return finish(
-        figure,
-        "Each of three pulls has a fault",
-        f"Of {IN_A_ROW} training episodes in a row, ended ahead. {'; '.join(alt)}.",
-    )
+        alt.append(f"{kind}: {losers}, at last {IN_A_ROW * share[:, -1].mean():.0f} are ahead on average")
+    title = "With a floor under ξ no agent loses the way out"
+    return finish(figure, title, f"Of {IN_A_ROW} training episodes in a row, ended ahead. {'; '.join(alt)}.")
 
 
 def twenty(kinds: Sequence[str]) -> Figure:

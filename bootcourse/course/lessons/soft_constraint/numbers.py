@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import torch
 
-from bootcourse.course.lessons.soft_constraint.examples import fast_and_rule
+from bootcourse.course.lessons.soft_constraint.examples import entropy_in, fast_and_rule, later, reward_and_kl
 from bootcourse.course.lessons.soft_constraint.figures import ways_out as ways_out
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
@@ -99,15 +99,20 @@ def way(xi: float, whose: str = CHOSEN, road: int = 10) -> str:
     return ways_of_the_panel(xi, road)[whose].words
 
 
-def pays_more() -> float:
-    """How much more reward a second earns a fast agent than the rule, see `examples.fast_seconds`."""
-    fast, rule = (reward for _, reward, _ in fast_and_rule().values())
-    return fast - rule
+def paid(xi: float) -> list[float]:
+    """What a second pays with this ξ, reward − ξ KL: for driving as the fast agents, and as the rule."""
+    return [reward - xi * kl for reward, kl in map(reward_and_kl, fast_and_rule().values())]
 
 
-def differs() -> float:
-    """In which share of these seconds a fast agent takes another action than the rule's."""
-    return next(iter(fast_and_rule().values()))[2]
+def paid_equally() -> float:
+    """The ξ with which both are paid the same."""
+    (fast, its_kl), (rule, rules_kl) = map(reward_and_kl, fast_and_rule().values())
+    return (fast - rule) / (its_kl - rules_kl)
+
+
+def entropy_of_the_fast() -> float:
+    """The fast agents' mean entropy in these seconds: nats."""
+    return later(fast_and_rule()["five fast agents"], entropy_in)
 
 
 def same_until_the_floor() -> bool:

@@ -137,11 +137,6 @@ def stressed(kind: str) -> str:
     return kind + TWICE
 
 
-def unstressed(cell: str) -> str:
-    """The kind of a cell, whose road is the same with twice the updates."""
-    return cell.removesuffix(TWICE)
-
-
 CELLS = {kind: {"kind": kind, "first_seed": 0, "updates": UPDATES} for kind in KINDS} | {
     stressed(kind): {"kind": kind, "first_seed": SEEDS, "updates": 2 * UPDATES} for kind in (MIDDLE, CHEAP, KEPT, BOTH)
 }

@@ -1,12 +1,11 @@
-"""Figures of the barrier, and tables: when agents got out while they learned, and how they drive in the end."""
+"""Figures of the barrier: when agents got out while they learned, and how they drive in the end."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, PALE
-from bootcourse.course import table
 from bootcourse.course.lessons.the_barrier import easier
 from bootcourse.course.live_curves import LiveCurves
 from bootcourse.learn.training import Training
@@ -24,12 +23,6 @@ ENDS = {  # how an agent of an easier road ends, in the order of `how_they_end`:
     "escapes, earns no more": PALE,
     "does not escape, crashes": "white",
     "stays behind": "white",
-}
-ELSE = {  # cells that could overturn the lesson's verdict, in words; all with twice the updates
-    easier.stressed(easier.MIDDLE): "free lane, an accident costs 10",
-    easier.stressed(easier.CHEAP): "trap, an accident costs 1",
-    easier.stressed(easier.BOTH): "free lane, an accident costs 1",
-    easier.stressed(easier.KEPT): "trap, lane keeper, an accident costs 1",
 }
 CRASHES = {"marker": "X", "c": ALARM, "edgecolors": "white", "linewidths": 0.5}  # on most roads
 
@@ -126,38 +119,6 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
     return finish(figure, title, alt)
 
 
-def what_else(trained: Mapping[str, Results]):
-    """A table of the agents that could overturn the verdict, and how these end. trained: of each of `ELSE`."""
-    rows = []
-    for cell, words in ELSE.items():
-        agents, kind = trained[cell], easier.unstressed(cell)
-        out, crash = agents.scores("success") >= ESCAPES, agents.scores("accident") > 0.5
-        more = agents.scores("returns") > easier.staying(kind)
-        counts = out.sum(), (out & more).sum(), (~out & more).sum(), crash.sum()
-        rows.append([words, *map(str, counts)])
-    heads = [
-        "start, price",
-        "escape",
-        "escape and earn more than by staying",
-        "earn more, but do not escape",
-        "crash on most roads",
-    ]
-    below = f"Twenty agents in each row, other seeds than above, {2 * easier.UPDATES:,} updates each."
-    return table(heads, rows, below=below)
-
-
-def how_they_drive(agents: Sequence, tests: Sequence):
-    """A table of how the lesson's agents drive, tests[i] of agents[i]."""
-    rows = []
-    for settings, test in zip((agent.settings for agent in agents), tests, strict=True):
-        accidents = test.collision.value + test.road_departure.value + test.stoppage.value
-        shares = [f"{100 * share:.0f}" for share in (test.success.value, accidents)]
-        rows.append([settings.gamma, *shares, f"{test.returns.value:.1f}"])
-    below = "These returns may differ from the curves: in training actions are drawn from the policy; here each agent "
-    below += "takes its most probable ones."
-    return table(["γ", "gets out, %", "accidents, %", "return"], rows, below=below)
-
-
 def times_ahead(results: Results) -> np.ndarray:
     """In how many drives each agent got out while it learned, (agents,)."""
     return (results.curves["success"] > 0).sum(axis=1)
@@ -172,7 +133,7 @@ def while_they_learned(results: Results, chance: float) -> Figure:
     chance: that an agent would at least once, if all its actions were random.
     """
     times, ahead = times_ahead(results), results.scores("success")
-    escaping, crashing = ahead >= ESCAPES, results.scores("accident") > 0.5
+    escaping = ahead >= ESCAPES
     title = f"{(times > 0).sum()} of {len(times)} agents got out while they learned, "
     title += f"{(times == 1).sum()} of them once; {escaping.sum()} escapes"
     figure = new_figure(4.42)
@@ -183,11 +144,10 @@ def while_they_learned(results: Results, chance: float) -> Figure:
     for row, k in enumerate(np.argsort(-times, kind="stable")):
         drives = results.curves["success"][k]
         ax.plot([0, np.isfinite(drives).sum()], [row, row], color=PALE, linewidth=1.0)
-        ax.plot(1 + np.flatnonzero(drives > 0), np.full(times[k], row), "|", color=DARK, markersize=9)
+        ax.plot(1 + np.flatnonzero(drives > 0), np.full(times[k], row), "|", color=DARK, markersize=7)
         listed.append(f"{times[k]}")
         if ahead[k] >= 0.1:
-            ends = ", escapes" * int(escaping[k]) + ", crashes" * int(crashing[k])
-            label = f"tested: gets out on {100 * ahead[k]:.0f} % of the roads{ends}"
+            label = f"tested: gets out on {100 * ahead[k]:.0f} % of roads{', escapes' * int(escaping[k])}"
             ax.text(np.isfinite(drives).sum() + 12, row, label, fontsize=TEXT, color=INK, va="center")
             listed[-1] += f" ({label})"
     ax.set(ylim=(len(times) - 0.3, -0.8), yticks=[])

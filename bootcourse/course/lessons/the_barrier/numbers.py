@@ -1,17 +1,17 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-from collections.abc import Iterable
 from functools import cache
 
 import numpy as np
 
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
 from bootcourse.course.lessons.the_barrier.exercises import going_on, luck
-from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.episodes.record import record
 from bootcourse.policies import PlanPolicy, random_policy
-from bootcourse.research.planner import Search, is_staying_optimal, plan_episodes
+from bootcourse.research.planner import Search, follow, is_staying_optimal, plan_episodes
 from bootcourse.research.results import Results
+from bootcourse.road.state import EGO, SPEED
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, shipped_experiment
 
@@ -20,6 +20,12 @@ from tools.course.known import ROAD, shipped_experiment
 def planned() -> float:
     """What the planner's drive on the lesson's road earns."""
     return plan_episodes([ROAD], search=Search(beam=50))[0].value
+
+
+def planned_speeds() -> np.ndarray:
+    """How fast (m/s) the car is that follows it, after each second."""
+    drive = record(follow(plan_episodes([ROAD], search=Search(beam=50))), [ROAD])[0]
+    return drive.states[:: drive.scenario.clock.steps, EGO, SPEED]
 
 
 @cache
@@ -43,19 +49,6 @@ def by_luck(good: int) -> float:
 hill = explorable.hill
 
 
-def of_staying(roads: int) -> float:
-    """What the plan is worth at γ = 0.8 on the first so many of its roads, as a multiple of staying."""
-    return float(explorable.by_plan().values(0.8)[:roads].mean() / explorable.by_staying().values(0.8)[0])
-
-
-@cache
-def way_with_help() -> float:
-    """What the way of lesson 1's agent with the rule's help is worth at γ = 0.8, the mean of its 100 roads."""
-    return float(
-        attempts.drive(shipped_agents("bootstrapped")[2].as_policy(), held_out_seeds(1, 100)).values(0.8).mean()
-    )
-
-
 def crash_by(second: int) -> np.ndarray:
     """On which of lesson 1's roads its plan ends in an accident within so many seconds."""
     return explorable.by_plan().accident & (explorable.by_plan().lasted <= second)
@@ -72,7 +65,7 @@ def farther_sighted() -> Results:
     return agents.pick([k for k, agent in enumerate(agents.agents) if agent["gamma"] == 0.95])
 
 
-MIDDLE, CHEAP, KEPT, BOTH, FREE = easier.MIDDLE, easier.CHEAP, easier.KEPT, easier.BOTH, easier.FREE
+MIDDLE, CHEAP, BOTH, FREE = easier.MIDDLE, easier.CHEAP, easier.BOTH, easier.FREE
 stressed = easier.stressed
 
 
@@ -95,12 +88,7 @@ def escape_and_crash(kind: str) -> int:
 
 def ends(kind: str) -> np.ndarray:
     """How many agents of a kind end in each way, see `figures.how_they_end`."""
-    return figures.how_they_end(easy(kind), easier.staying(easier.unstressed(kind)))[0]
-
-
-def earn_more(kind: str) -> int:
-    """How many agents of a kind earn more than by staying."""
-    return int((easy(kind).scores("returns") > easier.staying(easier.unstressed(kind))).sum())
+    return figures.how_they_end(easy(kind), easier.staying(kind))[0]
 
 
 @cache
@@ -115,14 +103,10 @@ def accelerating(seconds: int) -> attempts.Outcome:
     return attempts.drive(PlanPolicy([attempts.ACCELERATE] * seconds), held_out_seeds(7, 100), easier.MidLaneStart)
 
 
-def too_fast(kinds: Iterable[str] = tuple(easier.SHOWN.values())) -> np.ndarray:
-    """The speeds (m/s) of the agents of these kinds that escape, and earn no more than by staying."""
-    speeds = []
-    for kind in kinds:
-        success, returns = easy(kind).scores("success"), easy(kind).scores("returns")
-        poor = (success >= ESCAPES) & (returns <= easier.staying(easier.unstressed(kind)))
-        speeds.append(easy(kind).scores("speed")[poor])
-    return np.concatenate(speeds)
+@cache
+def random_from_there() -> attempts.Outcome:
+    """What comes of random drives from that start, on 1,000 roads."""
+    return attempts.drive(random_policy(np.random.default_rng(0)), held_out_seeds(6, 1000), easier.MidLaneStart)
 
 
 @cache

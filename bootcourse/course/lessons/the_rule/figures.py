@@ -20,7 +20,7 @@ from bootcourse.scenario import DEFAULT
 
 
 def when_to_change(drive: Rollout) -> Figure:
-    """In the first lane, our condition and the printed one, each as what has to rise above what; turned, below."""
+    """In the first lane, our condition and the printed one, each as what has to rise above what."""
     scenario, green = drive.scenario, style("rule").colour
     states = drive.states[: 1 + int(np.argmax(drive.states[:, EGO, LANE] != drive.states[0, EGO, LANE]))]
     seconds = np.arange(len(states)) * scenario.clock.dt
@@ -55,22 +55,12 @@ def when_to_change(drive: Rollout) -> Figure:
             ax.plot(seconds[first], gap[first], "o", color=colour, markersize=7)
             place = {"textcoords": "offset points", "ha": "right", "fontsize": TEXT, "color": colour}
             ax.annotate("room: change", (seconds[first], gap[first]), xytext=(-4, 10), **place)
-        else:
-            ax.text(
-                0.2,
-                ahead[0] + 8.4,
-                "sign turned: true where\nred is below dashed",
-                fontsize=TEXT,
-                color=INK,
-                va="center",
-            )
     alt = (
         f"Over {seconds[-1]:g} s. Ours: the gap grows from {gap[0]:.1f} to {gap[-1]:.1f} m, above the safety distance "
         f"of {needed[first]:.1f} m from {seconds[first]:g} s on. Printed: the left side goes from {printed[0]:.1f} to "
-        f"{printed[-1]:.1f} m, the right side from {ahead[0]:.1f} to {ahead[-1]:.1f} m. "
-        "With its sign turned it is true from 0 s on."
+        f"{printed[-1]:.1f} m, the right side from {ahead[0]:.1f} to {ahead[-1]:.1f} m: it is never true."
     )
-    title = f"Ours is true from {seconds[first]:g} s on, with the sign turned from 0 s on"
+    title = f"Ours is true from {seconds[first]:g} s on, the printed condition never"
     return finish(figure, title, alt)
 
 

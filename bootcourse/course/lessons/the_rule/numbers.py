@@ -7,16 +7,13 @@ import numpy as np
 
 from bootcourse.course.lessons.the_rule.explorable import braking_distance as braking_distance
 from bootcourse.course.lessons.the_rule.figures import tells_apart
-from bootcourse.course.lessons.the_rule.rules import ALOOF as ALOOF
 from bootcourse.course.lessons.the_rule.rules import ROADS, makes_way_at
-from bootcourse.course.lessons.the_rule.rules import always_true as always_true
 from bootcourse.course.lessons.the_rule.rules import as_printed as as_printed
 from bootcourse.course.lessons.the_rule.rules import crash as crash
 from bootcourse.course.lessons.the_rule.rules import decided as decided
 from bootcourse.course.lessons.the_rule.rules import driven as driven
 from bootcourse.course.lessons.the_rule.rules import fast_changes as fast_changes
 from bootcourse.course.lessons.the_rule.rules import recorded as recorded
-from bootcourse.course.lessons.the_rule.rules import sign_turned as sign_turned
 from bootcourse.course.lessons.the_rule.rules import split as split
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
@@ -24,36 +21,24 @@ from bootcourse.rule import SETTLED as SETTLED
 from bootcourse.rule import Reason
 
 
-def lost_in_change(floor: float, sight: float = 20.0) -> np.ndarray:
-    """On which of the lesson's roads trap 1 is out of sight a second after the rule first begins to change lane."""
-    reasons, _, cars, _ = decided(sight, floor=floor)
-    changes, sees = reasons == Reason.CHANGE, cars[:, :, TRAP_1, X] - cars[:, :, EGO, X] <= sight
+def lost_in_change(floor: float) -> np.ndarray:
+    """On which of the lesson's roads the rule with a sight of 20 m loses trap 1 in the first second of its first lane
+    change.
+    """
+    reasons, _, cars, _ = decided(20.0, floor=floor)
+    changes, sees = reasons == Reason.CHANGE, cars[:, :, TRAP_1, X] - cars[:, :, EGO, X] <= 20.0
     return ~sees[changes.argmax(0) + 1, np.arange(len(ROADS))] & changes.any(0)
 
 
-def called_off(sight: float = 20.0) -> np.ndarray:
-    """Which drives (roads,) call off the first lane change that they begin: they do not end in the new lane within four
-    seconds, and one second after the change began the rule sees nobody ahead.
+def called_off() -> np.ndarray:
+    """Which drives (roads,) with a sight of 20 m call off the first lane change that they begin: four seconds later
+    they are in no new lane, and one second after the change began the rule sees nobody ahead.
     """
-    reasons, _, cars, _ = decided(sight)
+    reasons, _, cars, _ = decided(20.0)
     changes, roads = reasons == Reason.CHANGE, np.arange(len(ROADS))
     began, lanes = changes.argmax(0), cars[:, :, EGO, LANE]
     completed = lanes[began + 4, roads] < lanes[began, roads]
     return changes.any(0) & ~completed & (reasons[began + 1, roads] == Reason.FREE)
-
-
-def trap_1_after_a_second(sight: float) -> float:
-    """How far ahead trap 1 is (m), at the most, a second after the rule begins its first lane change."""
-    reasons, _, cars, _ = decided(sight)
-    after = (reasons == Reason.CHANGE).argmax(0) + 1
-    return float((cars[:, :, TRAP_1, X] - cars[:, :, EGO, X])[after, np.arange(len(ROADS))].max())
-
-
-def closing_at_change(sight: float, **numbers) -> float:
-    """By how much (m/s) the rule is faster than trap 2, at the most, when it begins a lane change behind it."""
-    reasons, _, cars, _ = decided(sight, **numbers)
-    behind = (reasons == Reason.CHANGE) & (cars[:, :, EGO, LANE] == cars[:, :, TRAP_2, LANE] + 1)
-    return float((cars[:, :, EGO, SPEED] - cars[:, :, TRAP_2, SPEED])[behind].max())
 
 
 def tells() -> float:
@@ -117,11 +102,6 @@ def makes_way(drive: Rollout, car: int) -> float:
     """How far ahead (m) a car is when it leaves the leftmost lane with the rule in it; infinite if it does not."""
     at = makes_way_at(drive, car)
     return float("inf") if at is None else float(drive.states[at, car, X] - drive.states[at, EGO, X])
-
-
-def made_way(drive: Rollout) -> list[int]:
-    """Which cars do so, with the rule behind them."""
-    return [car for car in range(drive.states.shape[1]) if car != EGO and 0 < makes_way(drive, car) < np.inf]
 
 
 def closes_in() -> float:

@@ -24,8 +24,6 @@ from bootcourse.rule import SETTLED, Reason, rule
 from bootcourse.scenario import DEFAULT, Scenario
 
 ROADS = held_out_seeds(1, 200)
-# the other drivers do not weigh what the car behind them gains: none makes way
-ALOOF = dataclasses.replace(DEFAULT, traffic=dataclasses.replace(DEFAULT.traffic, politeness=0.0))
 
 
 def with_numbers(sight: float = DEFAULT.sight.distance, **numbers) -> Scenario:
@@ -70,15 +68,15 @@ def fast_changes(sight: float = 20.0, least: float = 2.5) -> FastChanges:
 
 
 @cache
-def driven(sight: float = DEFAULT.sight.distance, among: Scenario = DEFAULT, **numbers) -> Episodes:
-    """How the rule with these numbers drives among a scenario's drivers; the roads stay the same."""
-    return drive_episodes(rule_policy(with_numbers(sight, **numbers)), ROADS, among)
+def driven(sight: float = DEFAULT.sight.distance, **numbers) -> Episodes:
+    """How the rule with these numbers drives; the roads and the other drivers stay the same."""
+    return drive_episodes(rule_policy(with_numbers(sight, **numbers)), ROADS)
 
 
 @cache
-def recorded(road: int, sight: float = DEFAULT.sight.distance, among: Scenario = DEFAULT) -> Rollout:
-    """One drive of the rule with another sight (m) among a scenario's drivers."""
-    return record(rule_policy(with_numbers(sight)), [road], among, label="rule")[0]
+def recorded(road: int, sight: float = DEFAULT.sight.distance) -> Rollout:
+    """One drive of the rule with another sight (m)."""
+    return record(rule_policy(with_numbers(sight)), [road], label="rule")[0]
 
 
 @cache
@@ -162,18 +160,6 @@ def without_floor(v_ego, v_current, v_new, t_safe, floor):
 def as_printed(speed_of: Callable) -> Episodes:
     """The same with the printed condition: change lane if d_s, which has no floor, is longer than the distance."""
     return by_hand(speed_of, without_floor, lambda dx_front, dx_rear, length, d_s, *rest: d_s > dx_front)
-
-
-@cache
-def sign_turned(speed_of: Callable) -> Episodes:
-    """The same with the printed condition turned round, and nothing else changed."""
-    return by_hand(speed_of, without_floor, lambda dx_front, dx_rear, length, d_s, *rest: d_s < dx_front)
-
-
-@cache
-def always_true(speed_of: Callable) -> Episodes:
-    """The same with a condition that is true whatever the distances are."""
-    return by_hand(speed_of, without_floor, lambda *any_distances: True)
 
 
 def timed(decide: Callable[[np.ndarray], np.ndarray]) -> tuple[Episodes, np.ndarray]:

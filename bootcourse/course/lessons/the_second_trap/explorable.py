@@ -76,7 +76,6 @@ def weighted(lam: float, half: int = HALF) -> np.ndarray:
 
 def later() -> Explorable:
     """What each later second adds to the advantage of falling back, while λ grows, or both parts of the drive."""
-    seen = settings_for("ppo").horizon  # decisions, after which PPO's data end
 
     def draw(lam: float, half: float) -> Drawing:
         terms, fulls, end = weighted(lam, int(half)), surprises(int(half)), 2.0 * half
@@ -91,9 +90,6 @@ def later() -> Explorable:
         chart.line([0, end], [0, 0], INK, 0.8)
         chart.words(half / 2, 0.12, f"falls back, {MEAN - MOST:g} m/s", INK, "middle", 8)
         chart.words(half * 1.5, 0.97, f"sprints, {MEAN + MOST:g} m/s", INK, "middle", 8)
-        if end > seen:
-            says += f" In PPO's {seen} s: {terms[:seen].sum():.2f}."
-            chart.line([seen, seen], [-0.25, 1.1], INK, 1.2, "--")
         says = says.replace("-", "−")
         return drawing(WIDTH, HEIGHT, [text(4, 20, says, size=14, bold=True), *chart.parts], says)
 

@@ -6,7 +6,7 @@ import numpy as np
 import torch
 from matplotlib.figure import Figure
 
-from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, compared, driven
+from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, compared
 from bootcourse.episodes.rollout import Rollout, series
 from bootcourse.learn.ppo import clipped_loss
 from bootcourse.methods import style
@@ -17,13 +17,11 @@ from bootcourse.plots.figure import (
     TEXT,
     axes_at,
     finish,
-    label_ends,
     new_figure,
     one_axes,
     plain_axes,
 )
 from bootcourse.plots.traces import traces
-from bootcourse.policies import idle_policy
 
 RATIOS = np.linspace(0.3, 1.7, 141)
 POINTS = (0.5, 1.5)  # where a dot says what the gradient does
@@ -96,32 +94,25 @@ def hinges(clip: float) -> Figure:
     return finish(figure, title, f"The loss against the ratio. {'; '.join(alt_parts)}.")
 
 
-def gives_up(alone: Mapping[str, np.ndarray]) -> Figure:
-    """Of the last 300 training drives: how many got ahead of trap 1, and below it what they earned; a line an agent.
+def on_the_way(kinds: Mapping[str, Mapping[str, np.ndarray]]) -> Figure:
+    """How many of the last 300 training drives got ahead of trap 1, while PPO learned: a line for each agent.
 
-    alone: the agents of PPO alone, as `ppo_kinds.reference` returns them.
+    kinds: the agents of PPO alone and after cloning, as `ppo_kinds.reference` returns them.
     """
-    title = "PPO alone gives up leaving before it earns more than keeping straight"
-    figure, at = new_figure(4.2), alone["at"].T / 1000
-    above, below = axes_at(figure, 0.55, 0.75, 5.0, 1.05), axes_at(figure, 0.55, 2.2, 5.0, 1.4)
-    panels = ((above, "ahead of trap 1, % of the last 300 drives", 100 * alone["escapes"]),
-              (below, "mean return of these drives", alone["curve"]))  # fmt: skip
-    for ax, words, values in panels:
-        plain_axes(ax, words)
-        ax.plot(at, values.T, color=style("ppo").colour, linewidth=0.7, marker="o", ms=2.2, clip_on=False)
-        ax.set_xlim(0, at.max())
-    above.set(ylim=(0, 10), xticklabels=[])
-    straight = driven(idle_policy)[0]
-    below.set_ylim(-10, 50)
-    below.axhline(straight, color=INK, linewidth=1, linestyle=(0, (1, 2)), zorder=1)
-    below.set_xlabel(
-        "decisions in training (thousands); a line for each agent, a dot every 50", fontsize=TEXT, color=INK
-    )
-    label_ends(below, [(straight, "keeping straight,\nnothing drawn", INK)])
-    share, returns = 100 * alone["escapes"], alone["curve"]
-    alt = [
-        f"{1000 * at[place, 0]:,.0f} decisions: ahead {share[:, place].min():.0f} to {share[:, place].max():.0f} %, "
-        f"return {returns[:, place].min():.0f} to {returns[:, place].max():.0f}"
-        for place in (0, 3, 5, 9, len(at) - 1)
-    ]
-    return finish(figure, title, f"A line for each agent. {'; '.join(alt)}. Keeping straight: {straight:.0f}.")
+    title = "Alone, few training drives get ahead and then none; after cloning, many from the start"
+    below = "decisions in training (thousands); a line for each agent"
+    figure, ax = one_axes(3.3, title, below, "ahead of trap 1, % of the last 300 drives")
+    alt, look = [], {"textcoords": "offset points", "va": "center", "fontsize": TEXT}
+    for name, kind in {"PPO after cloning": "cloned", "PPO alone": "alone"}.items():
+        at, shares = kinds[kind]["at"].T / 1000, 100 * kinds[kind]["escapes"].T
+        colour = style("ppo_cloned" if kind == "cloned" else "ppo").colour
+        ax.plot(at, shares, color=colour, linewidth=0.8, marker="o", ms=2.5, clip_on=False)
+        at_end = float(at[-1].mean()), float(shares[-1].mean())
+        ax.annotate(name, at_end, (8, 0) if kind == "cloned" else (-50, 12), color=colour, **look)
+        spans = ", ".join(
+            f"{shares[place].min():.0f} to {shares[place].max():.0f} % at {1000 * at[place].mean():,.0f}"
+            for place in (0, 3, len(at) - 1)
+        )
+        alt.append(f"{name}: {spans}")
+    ax.set(xlim=(0, 800), ylim=(0, 100))
+    return finish(figure, title, f"{below}. {'; '.join(alt)}.")

@@ -11,7 +11,6 @@ from bootcourse.course.lessons.the_second_trap import (
 )
 from bootcourse.course.lessons.your_teacher import example_teachers
 from bootcourse.episodes.record import record
-from bootcourse.learn.settings import settings_for
 from bootcourse.learn.teachers import teacher_policy
 from bootcourse.policies import rule_policy
 from bootcourse.research.tables import markdown
@@ -74,13 +73,10 @@ def worth(driver: str, gamma: float) -> float:
 
 
 def drives_worth() -> str:
-    """The worth of these drives with PPO's γ and with SAC's, as Markdown."""
-    gammas = [settings_for(method).gamma for method in ("ppo", "sac")]
+    """The worth of these drives with PPO's γ, as Markdown."""
     names = {"this agent": "this agent's sprints", "the rule": "the rule's way out", "careful": "`careful`'s way out"}
-    rows = [
-        [names.get(each, each), f"{worth(each, gammas[0]):.0f}", f"{worth(each, gammas[1]):.1f}"] for each in DRIVES
-    ]
-    return markdown(["", f"with PPO's γ = {gammas[0]}", f"with SAC's γ = {gammas[1]}"], rows)
+    rows = [[names.get(each, each), f"{worth(each, ppo_kinds.GAMMA):.0f}"] for each in DRIVES]
+    return markdown(["drive", "discounted return"], rows)
 
 
 def worths() -> list[float]:

@@ -1,3 +1,3 @@
-"""You will write a planner that finds a way out, count the ways, halve the time step, write the reward, see what
-programs learn, work out when an attempt to leave pays.
+"""You will write a planner that finds a way out, count the ways, write the reward, see what programs learn,
+work out when an attempt to leave pays.
 """

@@ -18,6 +18,7 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
 
 ACCELERATE = 7  # "accelerate straight"
+STAYS, ALONE, HELPED = "a plain agent that stays", "the plain agent that escapes", "an agent with help"
 
 
 def all_plans() -> np.ndarray:
@@ -64,24 +65,24 @@ class Worth(NamedTuple):
     worth: float
     crashes: float  # the share of drives that crash
     unpaid: float  # what the way would be worth if its crashes paid 0
-    seconds: np.ndarray  # in which each crash comes
+    seconds: np.ndarray  # in which each of its crashes comes
 
 
 def worths(reward: Callable, plan: Sequence[str | tuple[str, int]], gamma: float = 0.8) -> dict[str, Worth]:
     """What some drivers' ways are worth on the first 100 held-out roads.
 
-    reward: as in `paid`; plan: what the blind plan does, in words. The agents are all that ship with the rule's help,
-    and of plain SAC the first, which stays, and the fourth, which escapes.
+    reward: as in `paid`; plan: what the blind plan does, in words. Of the agents that ship, the first of plain SAC
+    stays, the fourth escapes, and so does the third with the rule's help, which the γ panel shows.
     """
+    alone, helped = shipped_agents("sac"), shipped_agents("bootstrapped")
     ways = {
         "doing nothing": idle_policy,
         "the rule's way": rule_policy(DEFAULT),
         "the blind plan": plan_policy(plan),
+        ALONE: alone[3].as_policy(),
+        HELPED: helped[2].as_policy(),
+        STAYS: alone[0].as_policy(),
     }
-    for k, agent in enumerate(shipped_agents("bootstrapped"), 1):
-        ways[f"agent {k} with help"] = agent.as_policy()
-    alone = shipped_agents("sac")
-    ways |= {"a plain agent that stays": alone[0].as_policy(), "the plain agent that escapes": alone[3].as_policy()}
     return {name: worth(policy, reward, gamma) for name, policy in ways.items()}
 
 

@@ -86,29 +86,31 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
 
 
 def worth_with_crashes(worths: Mapping[str, Worth]) -> Figure:
-    """What each way out is worth at γ = 0.8, crashes included and if they paid 0, against doing nothing.
+    """What each way is worth at γ = 0.8, crashes included and if they paid 0, against doing nothing.
 
-    worths: the first driver does nothing; the rule, a plan and agents follow, and two of plain SAC's agents.
+    worths: the first driver does nothing; the others follow in the order of `driving.worths`.
     """
     (_, nothing), *ways = worths.items()
-    title = "At γ = 0.8 crashes cost the blind plan much, and the agents little"
-    helped = len(ways) - 4
-    colours = [style("rule").colour, INK, *[style("bootstrapped").colour] * helped, *[style("sac").colour] * 2]
-    high, left = 0.31 * len(ways), 2.1
-    figure, says = new_figure(0.95 + high + 0.6), []
-    ax = axes_at(figure, left, 0.95, 3.2, high)
+    title = "Crashes cost the blind plan most of its worth, and the agents little of theirs"
+    plain = style("sac").colour
+    colours = [style("rule").colour, INK, plain, style("bootstrapped").colour, plain]
+    high, left, top = 0.42 * len(ways), 2.1, 1.15
+    figure, says = new_figure(top + high + 0.6), []
+    ax = axes_at(figure, left, top, 2.9, high)
     for row, ((name, way), colour) in enumerate(zip(ways, colours, strict=True)):
         ax.barh(row, way.unpaid, 0.6, color="white", edgecolor=colour, linewidth=1.2)
         ax.barh(row, way.worth, 0.6, color=colour, edgecolor=colour, linewidth=1.2)
-        words = f"{way.worth:.2f}, crashes on {way.crashes:.0%}"
-        ax.text(1.36, row, words, fontsize=TEXT, color=colour, va="center")
-        says.append(f"{name} {words} ({way.unpaid:.2f} if these paid 0)")
-    xlabel = "worth at γ = 0.8, the mean of 100 roads (open bar: if its crashes paid 0)"
-    name_rows(ax, [name for name, _ in ways], xlabel)
+        crashes = f"{100 * way.crashes:.0f}, from second {way.seconds.min()} on" if way.crashes else "none"
+        for x, words in ((1.42, f"{way.worth:.2f}"), (1.62, crashes)):
+            ax.text(x, row, words, fontsize=TEXT, color=colour, va="center")
+        says.append(f"{name} {way.worth:.2f}, if crashes paid 0 {way.unpaid:.2f}, crashes: {crashes}")
+    for x, words in ((1.42, "worth"), (1.62, "crashes on 100 roads")):
+        ax.text(x, -0.72, words, fontsize=TEXT, color=QUIET, va="bottom")
+    name_rows(ax, [name for name, _ in ways], "worth at γ = 0.8, the mean of 100 roads (open: if a crash paid 0)")
     ax.axvline(nothing.worth, color=INK, linestyle="--", linewidth=1.4)
     words = f"doing nothing: {nothing.worth:.2f}"
-    ax.text(nothing.worth, -0.62, words, fontsize=TEXT, color=INK, ha="center", va="bottom")
-    ax.set(xlim=(0, 1.33), xticks=(0, 0.5, 1))
+    ax.text(nothing.worth, -0.72, words, fontsize=TEXT, color=INK, ha="center", va="bottom")
+    ax.set(xlim=(0, 1.36), xticks=(0, 0.5, 1))
     alt = f"A bar for what each way is worth; doing nothing is worth {nothing.worth:.2f}. {'; '.join(says)}."
     return finish(figure, title, alt)
 
@@ -141,8 +143,7 @@ def path_of(decoded: np.ndarray, seconds: int, scenario: Scenario = DEFAULT) -> 
 
 def what_they_learned(study: Results, plan: Episodes) -> Figure:
     """Each of the study's agents, without and with help, the rule, and a plan: return against accidents, same roads."""
-    title = f"Of plain SAC's ten agents most stay, and {study.escapers('sac')} escapes; "
-    title += f"with the rule's help {study.escapers('bootstrapped')} escape"
+    title = "Most of plain SAC's agents stay, and most with the rule's help escape"
     figure, ax = one_axes(4.2, title, "drives with an accident (%)", "return, the mean of 1,000 roads")
     listed = []
     for method in ("sac", "bootstrapped"):

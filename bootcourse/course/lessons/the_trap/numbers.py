@@ -4,10 +4,12 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons.the_barrier.attempts import Outcome, drive
 from bootcourse.course.lessons.the_barrier.explorable import by_plan
 from bootcourse.course.lessons.the_trap import driving
-from bootcourse.course.lessons.the_trap.driving import all_plans, trap_2_starts
+from bootcourse.course.lessons.the_trap.driving import ALONE as ALONE
+from bootcourse.course.lessons.the_trap.driving import HELPED as HELPED
+from bootcourse.course.lessons.the_trap.driving import STAYS as STAYS
+from bootcourse.course.lessons.the_trap.driving import all_plans
 from bootcourse.course.lessons.the_trap.exercises import bearable_risk, reward
 from bootcourse.course.lessons.the_trap.figures import RIGHT_FIRST
 from bootcourse.course.lessons.the_trap.time_step import unhurt
@@ -16,14 +18,12 @@ from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seed
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.policies import plan_policy
-from bootcourse.road.state import EGO, TRAP_2, X, Y
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
-from tools.course.known import by_rule, discounted, escaped_with, idle, shipped_results
+from tools.course.known import by_rule, discounted, idle, shipped_results
 
 PLAN = [*RIGHT_FIRST, ("accelerate straight", 5)]  # it looks at nothing
 BLIND = plan_policy(PLAN)
-FARTHER = 0.9, 0.95, 0.99  # γ of the study's agents that look farther ahead
 
 
 @cache
@@ -43,23 +43,6 @@ def unhurt_plans(road: int) -> np.ndarray:
     return (all_drives(road).success > 0) & (all_drives(road).accident == 0)
 
 
-def failing(accident: int, road: int = 7) -> int:
-    """How many of the plans that steer left as often as right end in this accident on a road."""
-    return int((all_drives(road).accident[straight()] == accident).sum())
-
-
-@cache
-def first_crashes() -> tuple[np.ndarray, list[bool]]:
-    """Where trap 2 starts on the roads of the study (m), and whether it is nearest when the plan crashes early.
-
-    The second for each early crash on the first hundred of these roads.
-    """
-    seeds = np.array(held_out_seeds(1, 100))[crashed_early()[:100]].tolist()
-    ends = [drive.states[-1] for drive in record(BLIND, seeds)]
-    nearest = [np.hypot(cars[1:, X] - cars[EGO, X], cars[1:, Y] - cars[EGO, Y]).argmin() + 1 for cars in ends]
-    return trap_2_starts(), [car == TRAP_2 for car in nearest]
-
-
 @cache
 def blind_plan():
     """The plan that looks at nothing on the study's 1,000 held-out roads: its episodes."""
@@ -72,6 +55,11 @@ def on_ten() -> Rollout:
     return record(BLIND, [10])[0]
 
 
+def helped_on_ten() -> float:
+    """What the γ panel's agent with the rule's help is worth on road 10, at γ = 0.8."""
+    return discounted(record(shipped_agents("bootstrapped")[2].as_policy(), [10])[0], 0.8)
+
+
 @cache
 def pays_from() -> float:
     """The smallest γ, in steps of 0.01, from which on the rule's way out is worth more than staying."""
@@ -81,26 +69,9 @@ def pays_from() -> float:
 
 
 @cache
-def worth_of_plan(gamma: float = 0.8) -> float:
-    """What the plan is worth at its start, the mean of those roads."""
-    return float(by_plan().values(gamma).mean())
-
-
-@cache
-def helped() -> Outcome:
-    """The γ panel's agent with the rule's help on the study's 1,000 held-out roads."""
-    return drive(shipped_agents("bootstrapped")[2].as_policy(), held_out_seeds(1, 1000))
-
-
-@cache
 def worths() -> dict[str, driving.Worth]:
     """What the drivers of the last figure are worth, and how often they crash."""
     return driving.worths(reward.solution, PLAN)
-
-
-def with_help() -> list[driving.Worth]:
-    """The agents with the rule's help in it."""
-    return [worths()[f"agent {k} with help"] for k in range(1, 6)]
 
 
 def alone_out() -> np.ndarray:
@@ -124,11 +95,6 @@ def borne(gamma: float, way: Rollout, accident: float = DEFAULT.reward.accident)
 def in_steps(tau: float, step: float) -> float:
     """On which share of those roads the plan gets out unhurt, by the traffic's time constant and the time step (s)."""
     return unhurt(PLAN, tau, step)
-
-
-def farther_escape() -> int:
-    """How many of the study's agents of plain SAC that look farther ahead escape."""
-    return sum(escaped_with(f"γ = {gamma}", "sac") for gamma in FARTHER)
 
 
 def staying() -> np.ndarray:

@@ -51,26 +51,26 @@ def tests_in_training(tests: Sequence[float], block: int, lost: float) -> Figure
 
 def along_falls(yours: np.ndarray, unmarked: by_hand.SAC) -> Figure:
     """What two agents' critics expect along a fall, see `worlds.along_falls`, and the most that Q can be."""
-    q = worlds.along_falls(unmarked)
-    shown = q.argmax() == worlds.BEFORE and q.min() > worlds.most_possible(unmarked)
+    q, most = worlds.along_falls(unmarked), worlds.most_possible(unmarked)
+    shown = q.argmax() == worlds.BEFORE and q.min() > most
     title = "With the bug a fallen pole is worth most, more than is possible" if shown else OF_A_FALL
-    return falls(title, yours, "with the bug", unmarked, STRANGERS[1])
+    return falls(title, {"with the bug": q, "your agent": yours}, [STRANGERS[1], OTHER], {"limit with the bug": most})
 
 
 def with_rows(yours: np.ndarray, added: by_hand.SAC, stands: float) -> Figure:
     """The same for an agent with the bug whose buffer has rows of fallen poles. stands: pushes that it balances."""
-    drop = drops(added) and yours[-1] < yours[0] / 2
-    title = "With rows of fallen poles Q drops towards the fall, as yours does" if drop else OF_A_FALL
-    return falls(title, yours, f"bug and rows: stands for {stands:.0f} pushes", added, STRANGERS[2])
+    shown = drops(added) and yours[-1] < yours[0] / 2
+    title = "With rows of fallen poles Q drops towards the fall, as yours does" if shown else OF_A_FALL
+    named = {f"bug and rows: stands for {stands:.0f} pushes": worlds.along_falls(added), "your agent": yours}
+    return falls(title, named, [STRANGERS[2], OTHER])
 
 
 def with_frozen_guess(unmarked: by_hand.SAC, frozen: by_hand.SAC, stands: float) -> Figure:
     """What two agents with the bug expect: one whose guess of a fallen pole is frozen at 30 stands for `stands`."""
-    title = (
-        "Where the guess cannot grow, Q stays possible, in spite of the bug" if worlds.possible(frozen) else OF_A_FALL
-    )
-    name, other = f"frozen at 30: stands for {stands:.0f} pushes", ("with the bug", STRANGERS[1])
-    return falls(title, worlds.along_falls(unmarked), name, frozen, STRANGERS[3], other)
+    bug, q = worlds.along_falls(unmarked), worlds.along_falls(frozen)
+    title = "With the guess frozen at 30, Q of a fallen pole stays near 30" if abs(q[-1] - 30) < 6 else OF_A_FALL
+    named = {f"frozen at 30: stands for {stands:.0f} pushes": q, "with the bug": bug}
+    return falls(title, named, [STRANGERS[3], STRANGERS[1]])
 
 
 def drops(agent: by_hand.SAC) -> bool:
@@ -79,22 +79,8 @@ def drops(agent: by_hand.SAC) -> bool:
     return bool(q[-1] < q[0] / 2)
 
 
-def falls(
-    title: str,
-    q: np.ndarray,
-    name: str,
-    agent: by_hand.SAC,
-    look: Style,
-    other: tuple[str, Style] = ("your agent", OTHER),
-) -> Figure:
-    """A line for this agent and one for the other's q, and dotted the most that this agent's Q can be, with its α.
-
-    name: of this agent; what follows a colon is not in the name of its limit.
-    """
-    named, looks = {name: worlds.along_falls(agent), other[0]: q}, [look, other[1]]
-    marks = {
-        f"limit of “{name.partition(':')[0]}” (α = {agent.log_alpha.exp().item():.2f})": worlds.most_possible(agent)
-    }
+def falls(title: str, named: Mapping[str, np.ndarray], looks: Sequence[Style], marks: Mapping = {}) -> Figure:
+    """A line for each agent's Q along a fall. marks: {words: Q}, dotted."""
     says = "; ".join(f"{words}: {q[0]:.3g}, then {q[-1]:.3g}" for words, q in named.items())
     says += "".join(f"; {words}: {most:.3g}" for words, most in marks.items())
     pushes, x_label = np.arange(-worlds.BEFORE, 1), "pushes from the fall (0: the pole has fallen)"

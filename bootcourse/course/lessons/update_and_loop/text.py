@@ -15,10 +15,10 @@
 #
 # **What you will be able to do**
 # - write how a batch is drawn, an update of SAC and the loop around it;
-# - test them in small worlds where you can work out what is right, then solve the pole;
-# - say why a fall counts as terminated, and the end of the time does not.
+# - test them in small worlds whose right Q you can work out, then solve the pole;
+# - say what critics learn if no fall is marked.
 #
-# **Time** 55 minutes; the machine computes for about 30 seconds. **It builds on** lesson [[discrete_sac]].
+# **Time** 53 minutes; the machine computes for about 30 seconds. **It builds on** lesson [[discrete_sac]].
 
 # %%
 import bootcourse as bc
@@ -43,8 +43,8 @@ progress("update_and_loop")
 #
 # A cart carries a pole, and each push to the left or right pays 1. An episode ends when the pole falls (it
 # leans by more than {{ fallen_at() | .0f }}°, dashed, or the cart leaves its track), and at the latest after
-# 500 pushes. An untrained agent pushes one cart, and a rule written by hand pushes the other. **Drag** the
-# push back to 0, then forward. From which push on does the left pole only lean further?
+# 500 pushes. An untrained agent pushes one cart, a rule written by hand the other. **Drag** the push back to 0, then
+# forward. From which push on does the left pole only lean further?
 
 # %%
 explorable.two_poles()
@@ -53,22 +53,20 @@ explorable.two_poles()
 # ## Round 1: what does an update learn from?
 #
 # Each push leaves a row (s, a, r, terminated, s'). As in lesson [[discrete_sac]], *terminated* is 1 after a
-# fall. It is 0 when only the time is up, since the pole would go on earning. **Drag** γ. What is Q of the
-# last push if the pole falls after it, and what if only the time is up?
+# fall, and 0 when only the time is up. **Drag** γ. What is Q of the last push in each case?
 
 # %%
 explorable.the_end()
 
 # %% [markdown]
-# The nearer the fall, the fewer rewards follow, so Q is lower. If only the time is up, the pole would go on
-# earning, so even the last push is worth 1 / (1 − γ).
+# Before a fall the last push is worth 1: nothing follows. If only the time is up, it is worth 1 / (1 − γ): the pole
+# would go on earning.
 #
-# SAC keeps its rows in the **replay buffer**. Each update learns from a **batch** of rows, which are drawn
-# **uniformly with replacement**: at each draw each row has the same chance.
+# SAC keeps its rows in the **replay buffer**. Each update learns from a **batch**, drawn **uniformly with
+# replacement**: at each draw each row has the same chance.
 #
-# Most rows come from earlier policies: SAC learns **off-policy**, as Q-learning does (lesson [[values]]).
-# That works because a row says only what the *world* did, and the target asks the *present* policy what it
-# would do in s'.
+# Most rows come from earlier policies: SAC learns **off-policy**. A row says only what the *world* did, and the target
+# asks the *present* policy what it would do in s'.
 #
 # **Exercise (4 min, ●○○).** Write `sample`, with the generator `rng`.
 
@@ -122,8 +120,8 @@ check.ReplayBuffer(ReplayBuffer)
 # > 7. **Steps.** Compute the three losses, then make a gradient step for each.
 # > 8. **Copies.** Q̄ₖ becomes Q̄ₖ + τ (Qₖ − Q̄ₖ), weight by weight.
 #
-# You wrote these functions in lesson [[discrete_sac]]. Their losses hold y, Q and H fixed already. α you detach
-# yourself, in the first line below.
+# You wrote these functions in lesson [[discrete_sac]]; their losses hold y, Q and H fixed. You detach α in the first
+# line of `update`.
 
 # %%
 own_code.load()
@@ -132,8 +130,7 @@ soft_value, critic_target, critic_loss, actor_loss, temperature_loss = own_code.
 )
 
 # %% [markdown]
-# **Exercise (20 min, ●●●).** Write steps 3 to 8. Check early: the message names the networks that differ from
-# ours.
+# **Exercise (20 min, ●●●).** Write steps 3 to 8. The check names the networks that differ from ours.
 
 
 # %%
@@ -162,11 +159,10 @@ check.update(update)
 #
 # - `env` is gymnasium's: `state, info = env.reset()`, and
 #   `next_state, reward, terminated, truncated, info = env.step(action)`. *Truncated* means that the time is
-#   up. Reset the environment after a fall and when the time is up.
+#   up. Reset after a fall and when the time is up.
 # - `agent.draw(state, rng)` draws an action, and `by_hand.row(s, a, r, terminated, s')` makes a row.
 # - `by_hand.batch_of(buffer.sample(256, rng))` is a batch for `update`.
-# - Each call of `train` begins with a reset, counts its own pushes, and updates after push 256, 260, 264, and
-#   so on.
+# - Each call of `train` begins with a reset, counts its own pushes, and updates after push 256, 260, 264, …
 
 
 # %%
@@ -179,7 +175,7 @@ check.train(train)
 
 # %% [markdown]
 # Before the pole, test your parts in **probe environments**: worlds so small that you can work out what is
-# right. A new agent learns in each world, with τ = 0.5 and γ = {{ GAMMA }}.
+# right. A new agent learns in each, with γ = {{ GAMMA }}.
 
 # %%
 figures.small_worlds()
@@ -202,9 +198,9 @@ figures.small_worlds(right, lost)
 # **See.** Without the bug each number is right within 0.1. With the bug each Q is too high, except in the
 # third world, which has no fall to mark.
 #
-# With the bug the target also counts the fallen state. No row begins there, so the network makes up what it
-# is worth. Suppose that it gave the fallen state of the first world the same Q as the start. Which Q would
-# then agree with its own target? Q = 1 + {{ GAMMA }} Q, that is {{ 1 / (1 - GAMMA) | .0f }}.
+# With the bug the target also counts the fallen state. No row begins there, so the network makes up what it is
+# worth. If it gave that state the same Q as the start of the first world, which Q would agree with its own target?
+# Q = 1 + {{ GAMMA }} Q, that is {{ 1 / (1 - GAMMA) | .0f }}.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Let those who have finished exchange their `update` with a neighbour and find the lines in which they
@@ -216,24 +212,21 @@ figures.small_worlds(right, lost)
 # ## Round 3: what does the bug do to the pole?
 #
 # Gymnasium calls the pole *solved* when an agent balances it for
-# {{ gym.spec('CartPole-v1').reward_threshold | .0f }} of {{ gym.spec('CartPole-v1').max_episode_steps }}
-# pushes on average. Your agent learns until two tests in a row reach that average. A test comes every
-# {{ BLOCK | , }} pushes: from ten fixed starts the agent makes its most probable pushes. A second agent,
-# equal at the start, learns with the bug up to its first test.
+# {{ gym.spec('CartPole-v1').reward_threshold | .0f }} of {{ gym.spec('CartPole-v1').max_episode_steps }} pushes on
+# average. Your agent learns until two tests in a row reach that. A test, of its most probable pushes from ten starts,
+# comes every {{ BLOCK | , }} pushes. A second agent, equal at the start, learns with the bug up to its first test.
 #
-# In the fourth small world the bug left the push right, since both pushes end in the same fallen state. On the
-# pole one push can lead to the fall sooner than the other.
+# In the fourth small world the bug left the push right: both pushes end in the same fallen state. On the pole one
+# push can lead to the fall sooner.
 #
-# > **Predict.** After {{ BLOCK | , }} pushes of training, how long does the second agent balance the pole,
-# > compared with yours?
+# > **Predict.** In its first test, how long does the second agent balance the pole, compared with yours?
 
 # %%
 lengths = ["as long", "half as long", "less than a tenth as long"]
 predict("update_and_loop.2", "With the bug it balances", lengths)
 
 # %% [markdown]
-# The next cell trains both. Then **drag** the push in the panel below the picture: at which push do the two
-# poles part?
+# Then **drag** the push below the picture: when do the poles part?
 
 # %%
 predicted("update_and_loop.2")
@@ -250,17 +243,15 @@ bc.show(figures.tests_in_training(tests, BLOCK, with_bug))
 explorable.trained_poles(agent, unmarked)
 
 # %% [markdown]
-# **See.** After {{ BLOCK | , }} pushes of training our five agents with the bug balance
-# the pole for {{ after_a_block('unmarked').max() | .0f }} pushes. Our five without it balance it for
-# {{ after_a_block().min() | .0f }} to {{ after_a_block().max() | .0f }} pushes, and in the end all solve it
-# (thin lines). {{ worse() }} of these five get worse on the way. That is usual, so we ask for two tests in a row.
-# (The pushes are means of ten starts. The drives show one start.)
-# <!-- claim: fell_at_once() == len(agents('unmarked')) == 5 == len(tests()) == solved() and worse() > 2 -->
+# **See.** {{ learned('marked') }} agents that we trained without the bug balance the pole for {{ spread('marked') }}
+# pushes in their first test. All {{ len(stood('unmarked')) }} with the bug balance it for
+# {{ stood('unmarked').max() | .0f }}, as long as a pole stands that is always pushed to one side.
+# <!-- claim: (abs(stood('unmarked') - one_sided()) < 0.5).all() -->
 
 # %% [markdown]
 # ## Round 4: why does it fall?
 #
-# The actor hears of rewards only from its critics, so look at their Q.
+# An actor prefers the pushes of which its critics expect most.
 #
 # > **Predict.** What do the critics with the bug expect of a fallen pole, compared with a standing one?
 
@@ -274,26 +265,23 @@ bc.show(figures.along_falls(expects[0], unmarked))  # both after one block
 
 # %% [markdown]
 # **See.** For this picture 40 poles are pushed to one side until they fall. To the critics with the bug the
-# fallen pole is worth most, so they do not teach the actor to keep it up.
+# fallen pole is worth most.
 #
-# Q is even *impossible*. A pole that stands for ever earns 1 a push, and at most α log 2 for the entropy, so
-# with γ = {{ by_hand.SAC.gamma }} no right Q is above {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2),
-# its **limit** (dotted, for the agent with the bug). We trained {{ len(stood('marked')) }} agents with the
-# bug and {{ len(stood('marked')) }} without it. In all those with the bug Q lies above its limit, in all
-# those without it below.
-# <!-- claim: unmarked() == len(agents('unmarked')) == 5 and possible('unmarked') == 0 and
-#   possible('marked') == len(stood('marked')) == len(stood('unmarked')) == 15 -->
-
-# %% [markdown]
-# No row begins in a fallen state. Is Q so high because of that? Leave the bug in, and let `worlds.WithFallen`
-# add two such rows after each fall: a push to the left and one to the right, which pay 0 and leave the pole
-# fallen.
+# Their Q is even *impossible*. Each push earns 1, and at most α log 2 for the entropy. So with
+# γ = {{ by_hand.SAC.gamma }} no right Q is above {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2), its **limit**
+# (dotted). In all our {{ len(stood('unmarked')) }} agents with the bug Q lies above the limit, in all
+# {{ len(stood('marked')) }} without it below.
+# <!-- claim: (expected('unmarked').min(1) > limit('unmarked')).all() and
+#   (expected('marked').max(1) < limit('marked')).all() -->
+#
+# No row begins in a fallen state. Is Q so high because of that? Leave the bug in, and let `worlds.WithFallen` add
+# two such rows after each fall, one for each push: they pay 0 and leave the pole fallen.
 #
 # > **Predict.** What do the added rows change?
 
 # %%
-changes = ["nothing", "Q is possible, the pole falls at once"]
-changes += ["Q is possible, the pole stands longer"]
+changes = ["nothing", "Q drops towards the fall, the pole falls at once"]
+changes += ["Q drops towards the fall, the pole stands longer"]
 predict("update_and_loop.4", "What do the added rows change?", changes)
 
 # %%
@@ -304,68 +292,40 @@ stands = by_hand.balanced(added)
 bc.show(figures.with_rows(expects[0], added, stands))
 
 # %% [markdown]
-# **Explain.** The rows tell the critics that a fallen pole earns nothing. In all {{ len(stood('paid-0')) }} agents
-# that we trained so, Q is possible and drops towards the fall. {{ learned('paid-0') }} balance the pole for more
-# than {{ LEARNED }} pushes.
-# <!-- claim: possible('paid-0') == len(stood('paid-0')) and drop('paid-0') -->
+# **Explain.** The rows tell the critics that a fallen pole earns nothing, and most such agents learn (table below).
 #
-# But how did Q get so high without them? A high guess for the fallen pole raises the target of the last push
-# and so, in the same network, the guess. **Perhaps Q feeds itself.** To test it, leave the bug in and add no
-# rows, but freeze the guess: in the targets each fallen pole is worth 30, whatever the critics learn
-# (`worlds.FrozenAt30`).
-#
-# > **Predict.** What happens with the bug if its guess is frozen at 30?
+# How did Q get so high without them? A high guess for the fallen pole raises the target of the last push and so, in
+# the same network, the guess. **Perhaps Q feeds itself.** To test it, leave the bug in, add no rows and freeze the
+# guess: in the targets each fallen pole is worth 30 (`worlds.FrozenAt30`). If Q feeds itself, Q of a fallen pole now
+# stays near 30.
 
 # %%
-outcomes = ["Q grows above its limit, the pole falls at once"]
-outcomes += ["Q stays possible, the pole falls at once", "Q stays possible, the pole stands longer"]
-predict("update_and_loop.5", "With the guess frozen at 30", outcomes)
-
-# %%
-predicted("update_and_loop.5")
 bugged = worlds.Unmarked(buffer(50_000))
 frozen = worlds.taught(loop, step, bugged, BLOCK, SEED, worlds.FrozenAt30)
-stays_up = by_hand.balanced(frozen)
-bc.show(figures.with_frozen_guess(unmarked, frozen, stays_up))
+bc.show(figures.with_frozen_guess(unmarked, frozen, by_hand.balanced(frozen)))
 
 # %% [markdown]
-# **Explain.** **Q did feed itself.** Frozen, the guess cannot grow, and in our {{ len(stood('frozen-30')) }} agents of
-# this kind Q of a fallen pole ends near 30. In our {{ len(stood('unmarked')) }} with the bug alone it grew to
-# {{ expected('unmarked')[:, -1].min() | .0f }} and more. *But a guess that does not grow can still be wrong*: frozen
-# at 30, none of the {{ len(stood('frozen-30')) }} learned to balance. So we froze it near the true value, 0, too: at
-# what untrained critics say (`worlds.FrozenGuess`). Our agents after {{ BLOCK | , }} pushes of training:
-# <!-- claim: first_guess() < 0.5 and (abs(expected('frozen-30')[:, -1] - 30) < 3).all() and
-#   (stood('frozen-30') < LEARNED).all() and expected('unmarked')[:, -1].min() > 100 -->
+# **Explain.** **Q did feed itself.** With the guess frozen, Q of a fallen pole stays near 30. *But a guess that does
+# not grow can still be wrong*: none of our {{ len(stood('frozen-30')) }} agents of this kind learned. (A few with
+# other seeds do.)
+# <!-- claim: (abs(expected('frozen-30')[:, -1] - 30) < 3).all() and expected('unmarked')[:, -1].min() > 200 -->
 #
-# | agents | Q towards the fall | agents that balance over {{ LEARNED }} pushes | their pushes |
+# | agents | median Q 8 pushes before the fall | of a fallen pole | balance over {{ LEARNED }} pushes |
 # | --- | --- | --- | --- |
-# | no bug | drops | {{ learned('marked') }} | {{ spread('marked') }} |
-# | bug | rises, above its limit | {{ learned('unmarked') }} | {{ spread('unmarked') }} |
-# | bug, added rows pay 0 (true) | drops | {{ learned('paid-0') }} | {{ spread('paid-0') }} |
-# | bug, added rows pay 1 (false) | stays level | {{ learned('paid-1') }} | {{ spread('paid-1') }} |
-# | bug, guess frozen near 0 (true) | drops | {{ learned('frozen') }} | {{ spread('frozen') }} |
-# | bug, guess frozen at 30 (false) | hardly drops | {{ learned('frozen-30') }} | {{ spread('frozen-30') }} |
+# | no bug | {{ middle('marked') }} | {{ learned('marked') }} |
+# | bug | {{ middle('unmarked') }} | {{ learned('unmarked') }} |
+# | bug, added rows pay 0 (true) | {{ middle('paid-0') }} | {{ learned('paid-0') }} |
+# | bug, guess frozen at 30 (false) | {{ middle('frozen-30') }} | {{ learned('frozen-30') }} |
 #
-# (*Drops*: to less than a quarter of its value eight pushes before. *Hardly drops*: by less than a quarter.)
-#
-# *A critic follows its targets, true or false, and makes up what they leave open.* All other agents balance fewer
-# than 20 pushes, most of them 9 or 10. That is nothing: a pole that is always pushed to one side stands for
-# {{ one_sided() | .0f }}. So only agents whose Q drops towards the fall had learned, and not all of these: such a Q
-# is needed, but it is not enough.
-# <!-- claim: others().max() < 20 and (abs(others() - one_sided()) < 1).mean() > 0.9 and
-#   all(10 <= (stood(kind) > LEARNED).sum() < len(stood(kind)) == 15 for kind in ('marked', 'paid-0', 'frozen')) -->
-# <!-- claim: all(drop(kind) for kind in ('marked', 'paid-0', 'frozen')) and
-#   np.abs(expected('paid-1') / expected('paid-1')[:, :1] - 1).max() < 0.12 and
-#   (0.75 < expected('frozen-30')[:, -1] / expected('frozen-30')[:, 0]).all() and
-#   (expected('frozen-30')[:, -1] < 0.9 * expected('frozen-30')[:, 0]).all() -->
-# <!-- claim: (expected('unmarked')[:, -1] > 1.2 * expected('unmarked')[:, 0]).all() and all(
-#   possible(kind) == 15 for kind in ('paid-1', 'frozen', 'frozen-30')) -->
+# *A critic follows its targets, and makes up what they leave open.*
+# <!-- claim: all(drop(kind) for kind in ('marked', 'paid-0')) and
+#   not (drop('unmarked') or drop('frozen-30')) and max(stood('unmarked').max(), stood('frozen-30').max()) < 20 -->
 
-# %% [markdown] tags=["instructor"] minutes=7
+# %% [markdown] tags=["instructor"] minutes=5
 # A belief to name: "without marks the critics would find the constant" of round 1. They approach it if rows
-# tell them what a fallen pole is worth: let them run that cell with `PAID = 1`, and ask which line of
-# round 1 Q resembles. (That of the time that is up.) `bootcourse study pole --out DIR` trains our agents
-# again.
+# tell them so: let them run the cell of the added rows with `PAID = 1`, and ask which line of round 1 Q
+# resembles. (That of the time that is up.) `bootcourse study pole --out DIR` trains our agents again.
+# <!-- claim: np.abs(expected('paid-1') / expected('paid-1')[:, :1] - 1).max() < 0.12 -->
 #
 # *Model answer to the first question*: with `PAID = -1` Q of a fallen pole drops below 0. That is wrong, but
 # to fall is still worst, so the pole stands longer.
@@ -373,20 +333,16 @@ bc.show(figures.with_frozen_guess(unmarked, frozen, stays_up))
 # %% tags=["hide-input"]
 length = lengths[2 - np.digitize(with_bug / tests[1], [0.1, 0.75])]
 compared = fallen[2 - np.digitize(worlds.of_a_fallen_pole(unmarked), [0.9, 1.1])]
-change = changes[worlds.possible(added) * (1 + (stands > 2 * with_bug))]
-outcome = outcomes[worlds.possible(frozen) * (1 + (stays_up > 2 * with_bug))]
-compare_predictions(
-    "update_and_loop",
-    {1: changed[2], 2: length, 3: compared, 4: change, 5: outcome},
-)
+change = changes[figures.drops(added) * (1 + (stands > 2 * with_bug))]
+compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: compared, 4: change})
 
 # %% [markdown]
 # ## What you now know
 #
 # 1. `terminated` says that nothing more is earned. A time limit does not say so.
-# 2. In a small world you can work out Q and the right push, so a bug can show as a wrong number.
-# 3. A critic makes up what no row tells it, and its guess can feed itself. A Q above its limit is surely wrong;
-#    below it, it may be wrong, too.
+# 2. In a small world you can work out Q, so a bug can show as a wrong number.
+# 3. A critic makes up what no row tells it, and its guess can feed itself.
+# 4. A Q above its limit is surely wrong; below it, it may be wrong, too.
 
 # %% [markdown]
 # **Three questions to think about**
@@ -395,7 +351,7 @@ compare_predictions(
 # - Suppose that the end of the time counts as a fall. Which small world shows it?
 #
 # **Read on**: Jones, *Debugging RL, Without the Agonizing Pain* (2021), on probe environments. Sutton and
-# Barto, *Reinforcement Learning*, chapter 11, on the *deadly triad*, which can make a critic diverge.
+# Barto, *Reinforcement Learning*, chapter 11, on the *deadly triad*.
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** Four boxes: memory, critics, actor, temperature; an arrow for each quantity that one takes

@@ -182,11 +182,6 @@ def of_a_fallen_pole(agent: by_hand.SAC) -> float:
     return fallen / standing
 
 
-def possible(agent: by_hand.SAC) -> bool:
-    """Whether what an agent's critics expect along a fall is possible."""
-    return along_falls(agent).max() <= most_possible(agent)
-
-
 def most_possible(agent: by_hand.SAC) -> float:
     """More than this no Q can be: each push pays 1 and at most α log 2 for its entropy, without an end."""
     return (1 + agent.log_alpha.exp().item() * float(np.log(2))) / (1 - agent.gamma)

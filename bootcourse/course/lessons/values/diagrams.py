@@ -91,10 +91,9 @@ def _values(
     what: str = "The value of going on",
     alone: int = -1,
 ) -> Figure:
-    """A row of cells for each name: a number for each state, or two (5, 2), and which cells are blue.
+    """A row of cells for each name: a number for each state, and which cells are blue.
 
-    what: the numbers are, for the alt text; alone: the row that stands apart, the first (0) or the last (-1). Of the
-    free road's two numbers the larger is shown: both actions stay there.
+    what: the numbers are, for the alt text; alone: the row that stands apart, the first (0) or the last (-1).
     """
     left, top, (wide, high), apart = 2.1, 0.95, CELL, 0.12
     figure, listed = new_figure(top + len(rows) * high + apart + 0.4), []
@@ -105,22 +104,17 @@ def _values(
         ax.text((s + 0.5) * wide, -0.08, name, fontsize=TEXT, color=INK, ha="center", va="bottom")
     for k, (name, (values, blue)) in enumerate(rows.items()):
         down = k * high + apart * (k > 0 if alone == 0 else k == len(rows) - 1)
-        words = [_numbers(each if s < 4 else np.max(each), digits) for s, each in enumerate(values)]
+        words = [f"{number:.{digits}f}" if number else "0" for number in values]
         ax.text(-0.12, down + high / 2, name, fontsize=TEXT, color=INK, ha="right", va="center")
         for s in range(5):
             look = {"facecolor": ON.colour if blue[s] else "white", "alpha": 0.55, "edgecolor": QUIET}
             ax.add_patch(Rectangle((s * wide, down), wide, high, linewidth=0.7, clip_on=False, **look))
-            size = TEXT - 0.5 if "|" in words[s] else TEXT + 0.5
-            ax.text((s + 0.5) * wide, down + high / 2, words[s], fontsize=size, color=INK, ha="center", va="center")
+            look = {"fontsize": TEXT + 0.5, "color": INK, "ha": "center", "va": "center"}
+            ax.text((s + 0.5) * wide, down + high / 2, words[s], **look)
         said = (f"{word}{' (blue)' * bool(is_blue)}" for word, is_blue in zip(words, blue, strict=True))
         listed.append(f"{name}: {', '.join(said)}")
     figure.text(0.012, 0.06, key, fontsize=SMALL, color=QUIET)
     return finish(figure, title, f"{what} in the states 0 to 4. {key} {'; '.join(listed)}.")
-
-
-def _numbers(of: np.ndarray, digits: int) -> str:
-    """One number, or two with a line between; 0 without digits."""
-    return " | ".join(f"{number:.{digits}f}" if number else "0" for number in np.atleast_1d(of))
 
 
 def who_leaves(found: Mapping[str, Sequence[np.ndarray]]) -> Figure:
@@ -160,23 +154,22 @@ def goes_on_from(q: np.ndarray, state: int) -> int:
 
 
 def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
-    """Both Q of a learner at its end that does not learn to leave, and of one that does, when it goes on in 3, 2, 1
-    and 0 for good, and at its end.
+    """The larger Q of each state: of a learner at its end that does not learn to leave, and of one that does, when it
+    goes on in the states 3, 2, 1 and 0 for good.
 
     both: the Q (5, 2) of each after each walk, the zeros before included.
     """
-    blocked, q = map(np.array, both)
-    ends = [min(goes_on_from(q, state), len(q) - 1) for state in (3, 2, 1, 0)]
-    shown = [(blocked, len(blocked) - 1), *((q, walk) for walk in [*ends, len(q) - 1])]
+    blocked, opened = map(np.array, both)
+    ends = [goes_on_from(opened, state) for state in (3, 2, 1, 0)]
     rows = {}
-    for values, walk in shown:
-        arrived = (chain.arrivals(values) <= walk).sum()
-        name = f"{'blocked' if values is blocked else 'opened'}, walk {walk}: {arrived} arrivals"
-        rows[name] = values[walk], (values[walk, :, 1] > values[walk, :, 0]) & (np.arange(chain.STATES) < 4)
-    key = "Cells: Q of action 0 | Q of action 1; of the free road's the larger. Blue: going on is worth more."
+    for name, q, walk in (("blocked, in the end", blocked, len(blocked) - 1), *(("opened", opened, k) for k in ends)):
+        arrived = (chain.arrivals(q) <= walk).sum()
+        going_on = (q[walk, :, 1] > q[walk, :, 0]) & (np.arange(chain.STATES) < 4)
+        rows[f"{name}: {arrived} arrivals"] = q[walk].max(axis=1), going_on
+    key = "Cells: the larger Q. Blue: that is the Q of going on. White: of action 0."
     heads = ("trap", "state 1", "state 2", "state 3", "free road")
     title = "Going on must win in state 3, then 2, then 1, before leaving wins"
-    return _values(title, rows, 3, key, heads, "The Q of both actions", alone=0)
+    return _values(title, rows, 3, key, heads, "The larger Q", alone=0)
 
 
 def after_arrivals(q: np.ndarray, most: int = 14) -> Figure:

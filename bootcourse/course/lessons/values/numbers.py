@@ -7,8 +7,6 @@ import numpy as np
 from bootcourse.course.lessons.values import chain, diagrams
 from bootcourse.course.lessons.values.exercises import bellman_sweep, temporal_difference
 
-LOW_PAY = 0.16 * (0.8 / 0.2) / (0.95 / 0.05)  # turning back is worth as much with it at γ = 0.95 as else at 0.8
-
 
 @cache
 def as_c() -> np.ndarray:
@@ -68,19 +66,9 @@ def walks(seed: int, explore: float = 0.5, start: float = 0.0, pay: float = 0.16
     return np.array([*found, q])
 
 
-def arrivals(seed: int) -> np.ndarray:
-    """The walks of such a learner that reach the free road."""
-    return chain.arrivals(walks(seed))
-
-
-def walks_until(state: int, seed: int = 1) -> int:
-    """After how many of them it goes on in a state, or leaves the trap (0), for good."""
-    return int((arrivals(seed) <= diagrams.goes_on_from(walks(seed), state)).sum())
-
-
-def walks_to(state: int, seed: int = 1) -> int:
-    """After which walk such a learner goes on in a state, or leaves the trap (0), for good."""
-    return diagrams.goes_on_from(walks(seed), state)
+def goes_on_for_good(seed: int = 1) -> list[int]:
+    """After which walk such a learner goes on for good in the states 3, 2 and 1, and leaves the trap."""
+    return [diagrams.goes_on_from(walks(seed), state) for state in (3, 2, 1, 0)]
 
 
 def unpaid_leave(explore: float) -> int:
@@ -93,43 +81,3 @@ def greedy_zero(explore: float) -> float:
     firsts = {seed: [*chain.arrivals(walks(seed, explore)), None][0] for seed in range(30)}
     before = [walks(seed, explore)[:first] for seed, first in firsts.items()]
     return float(np.mean(np.concatenate(before)[:, :4].argmax(axis=2) == 0))
-
-
-@cache
-def controls() -> dict[str, np.ndarray]:
-    """Learners as in `chain.many`, each kind with one thing changed: {kind: how often each one reached the free road,
-    and whether it learns to leave, (2, learners)}. All kinds walk at once, which is quicker.
-
-    D: ε = 1; low pay: ε = 0.5 and γ = 0.95, but turning back is worth what it is at γ = 0.8; calm: as E with four
-    replays, but without random actions in the states 1 to 3; ties 0 to 3: thirty as C, ties between Q drawn at random.
-    """
-    kinds = {"D": (1.0, 0.8, 300), "low pay": (0.5, 0.95, 300), "calm": (0.1, 0.8, 300)}
-    kinds |= {f"ties {k}": (0.5, 0.8, 30) for k in range(4)}
-    of = np.concatenate([[name] * each for name, (_, _, each) in kinds.items()])
-    gamma, pay = np.array([kinds[name][1] for name in of]), np.where(of == "low pay", LOW_PAY, chain.REWARD[0, 0])
-    drawn = [chain.chances(explore, 1000, k) for explore, _, each in kinds.values() for k in range(each)]
-    random, calm, who, rng = np.char.startswith(of, "ties"), of == "calm", np.arange(len(of)), np.random.default_rng(0)
-    q, s, came = np.zeros((len(of), chain.STATES, 2)), np.zeros(len(of), dtype=int), np.zeros((50, len(of)), dtype=bool)
-    for t, chance in enumerate(np.array(drawn).T):
-        s = s * (t % chain.EPISODE > 0)
-        at = q[who, s]
-        greedy = np.where(random & (at[:, 0] == at[:, 1]), rng.integers(0, 2, len(of)), at.argmax(axis=1))
-        a = np.where((chance < 0) | (calm & (s > 0)), greedy, chance)
-        came[t // chain.EPISODE] |= s == 4
-        decisions = [(who, s, a), *((who[calm], np.full(300, each), 1) for each in range(5) if t < 4)]
-        for k, state, action in decisions:
-            paid = chain.REWARD[state, action] + (pay[k] - chain.REWARD[0, 0]) * ((state == 0) & (action == 0))
-            target = paid + gamma[k] * q[k, chain.NEXT[state, action]].max(axis=1)
-            q[k, state, action] += 0.3 * (target - q[k, state, action])
-        s = chain.NEXT[s, a]
-    return {name: np.array([came.sum(axis=0), q[:, 0, 1] > q[:, 0, 0]])[:, of == name] for name in kinds}
-
-
-def change(kind: str) -> int:
-    """How many of such learners learn to leave."""
-    return int(controls()[kind][1].sum())
-
-
-def came_to_c() -> np.ndarray:
-    """On how many walks each of 300 learners of C reaches the free road."""
-    return np.array([len(chain.arrivals(as_c()[:, k])) for k in range(300)])

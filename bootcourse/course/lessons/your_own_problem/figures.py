@@ -58,41 +58,34 @@ def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
     return finish(figure, title, f"{alt}; the last {stays} change nothing.")
 
 
+CLONES = {  # a row of `clones`: whose clones, and which measure of them (see `elsewhere_claims.Cells.scores`)
+    "random\nteacher": ("random", "returns"),
+    "the same,\ndrawn": ("random", "drawn_returns"),
+    "systematic\nteacher": ("systematic", "returns"),
+}
+
+
 def clones() -> Figure:
-    """What the clones of a random and of a systematic teacher earn, on three problems."""
-    rows = {"random\nteacher": ("random", "returns"), "systematic\nteacher": ("systematic", "returns")}
-    return beside_teachers(rows, "Clones far outdo these random teachers, but not the systematic ones")
-
-
-def clones_that_draw() -> Figure:
-    """What the same clones of the random teachers earn by their most probable actions, and by drawn ones."""
-    rows = {"most\nprobable": ("random", "returns"), "drawn": ("random", "drawn_returns")}
-    return beside_teachers(rows, "Clones that draw their actions earn about what their teacher does")
-
-
-def beside_teachers(rows: Mapping[str, tuple[str, str]], title: str) -> Figure:
-    """What clones earn, a dot each, beside their teacher and the good one; a column for each of three problems.
-
-    rows: by name, whose clones, and which measure of them (see `elsewhere_claims.Cells.scores`).
-    """
-    figure, alt, good_colour = new_figure(2.9), [], style("rule").colour
+    """What clones earn, a dot each, beside their teacher and the good one; a column for each of three problems."""
+    title = "Clones far outdo these random teachers unless they draw, but not the systematic ones"
+    figure, alt, good_colour = new_figure(3.6), [], style("rule").colour
     step = 5.85 / len(THREE)
     for column, problem in enumerate(THREE):
-        ax = axes_at(figure, 1.15 + step * column, 1.0, step - 0.2, 1.25)
+        ax = axes_at(figure, 1.15 + step * column, 1.05, step - 0.2, 1.8)
         plain_axes(ax, PROBLEMS[problem].name, grid="x")
         good = cells().mean(problem, "good", "the teacher")
         ax.axvline(good, color=good_colour, linewidth=2, zorder=2)
         alt.append(f"{PROBLEMS[problem].name}, good teacher {good:.3g}.")
-        for place, (name, (teacher, measure)) in enumerate(rows.items()):
+        for place, (name, (teacher, measure)) in enumerate(CLONES.items()):
             own = cells().mean(problem, teacher, "the teacher")
             scores = cells().scores(problem, teacher, "cloning", measure)
             ax.plot([own] * 2, [place - 0.36, place + 0.36], color=ALARM, linewidth=3, zorder=2)
             dots(ax, scores, place, style("bc").colour, size=13)
             alt.append(f"{name.replace(chr(10), ' ').capitalize()}: clones {scores.mean():.3g}, teacher {own:.3g}.")
         ax.set_xlim(around(problem))
-        ax.set_yticks(range(len(rows)), rows if column == 0 else [""] * len(rows))
+        ax.set_yticks(range(len(CLONES)), CLONES if column == 0 else [""] * len(CLONES))
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
-        ax.set_ylim(len(rows) - 0.5, -0.5)
+        ax.set_ylim(len(CLONES) - 0.5, -0.5)
     keys = {"this teacher": ALARM, "its ten clones": style("bc").colour, "the good teacher": good_colour}
     for x, (words, colour) in zip((0.165, 0.34, 0.53), keys.items(), strict=True):
         figure.text(x, 0.8, words, fontsize=TEXT, color=colour, fontweight="bold")

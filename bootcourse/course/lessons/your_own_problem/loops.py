@@ -165,11 +165,6 @@ def cart_hidden(agents: Sequence[Agent], make_env: MakeEnvs) -> np.ndarray:
     return np.array([drive_episodes(each, held_out, make_env=make_env).returns.mean() for each in policies])
 
 
-def returns(*arguments, **settings) -> dict[int, int]:
-    """What the agents of `trained` earn, the mean over agents by decisions in training."""
-    return {decisions: round(earned.mean()) for decisions, (_, earned) in trained(*arguments, **settings).items()}
-
-
 def brief(compared: Comparison) -> tuple[list[str], list[list[str]]]:
     """A comparison as a short table, (headings, rows): means over agents with 95 % intervals, in whole numbers."""
 

@@ -36,7 +36,6 @@ def by_budget() -> str:
     lines = {
         "return without reward": lambda n: unpaid("returns", n),
         "return with reward": lambda n: unpaid("returns", n, "with reward"),
-        "without reward, the cart hidden in the test": lambda n: unpaid("hidden", n),
         "without reward: decisions like the teacher's, %": lambda n: 100 * unpaid("copied", n),
     }
     rows = [[words, *(f"{of(n).mean():.0f}" for n in budgets)] for words, of in lines.items()]
@@ -54,26 +53,25 @@ def earned(teacher: str) -> float:
     return score("mountain-car", teacher, "the teacher", "returns")
 
 
-def by_bonus(teacher: str, measure: str = "drawn_success") -> np.ndarray:
-    """The success of both aids on DoorKey with each bonus of the figure, by drawn actions or, "success", not."""
-    return np.array([score("doorkey", teacher, name, measure) for name in BONUSES.values()])
+def by_bonus(teacher: str) -> np.ndarray:
+    """The success of both aids on DoorKey with each bonus of the figure, by drawn actions."""
+    return np.array([score("doorkey", teacher, name, "drawn_success") for name in BONUSES.values()])
 
 
 def loops_table() -> str:
     """How many drives of DoorKey reach the goal with c = 2, by drawn and by most probable actions, as Markdown."""
     kinds = [
-        ("random teacher", "yes", "yes", "random", "both"),
-        ("random teacher, only drives to the goal", "no", "yes", "random", elsewhere.WITHOUT_LOOPS),
-        ("good teacher", "no", "yes", "good", "both"),
-        ("good teacher", "no", "no", "good", "demonstrations"),
-        ("none (plain SAC)", "–", "–", "none", "SAC"),
+        ("random teacher", "yes", "random", "both"),
+        ("random teacher, only drives to the goal", "no", "random", elsewhere.WITHOUT_LOOPS),
+        ("good teacher", "no", "good", "both"),
+        ("none (plain SAC)", "–", "none", "SAC"),
     ]
     measures = ("drawn_success", "success")
     rows = [
         [*words, *(f"{100 * score('doorkey', teacher, how, of):.0f}" for of in measures)]
         for *words, teacher, how in kinds
     ]
-    heads = ["demonstrations", "loops", "soft constraint", "goals, drawn actions", "goals, most probable actions"]
+    heads = ["demonstrations", "loops", "drawn actions", "most probable actions"]
     return markdown(heads, rows)
 
 
@@ -95,18 +93,6 @@ def drowning_bonus(*arguments: float) -> float:
 
 
 labels = cache(loops.labels)
-
-
-def wrong_labels() -> float:
-    """The share of wrong labels in the lesson's drives of DoorKey's random teacher."""
-    _, taught, _, good = labels("doorkey")
-    return float((taught != good).mean())
-
-
-def wrong_states() -> int:
-    """How many states these wrong labels are of."""
-    seen, taught, _, good = labels("doorkey")
-    return loops.states(seen[taught != good])
 
 
 def answer_in_the_loop() -> int:

@@ -57,23 +57,6 @@ def exams(rules: Mapping[str, Rule]) -> Markdown:
     return table([f"{len(driven.success)} roads", "gets out (ends ahead), %", "accidents, %", "return"], rows)
 
 
-def of_speeds() -> Markdown:
-    """A table of how rules drive that look at no other car: at one speed, and last at a higher one in lane 0."""
-    rows = []
-    for name, speeds in {"8 to 10": ((8, 8), (9, 9), (10, 10)), "11 to 15": [(v, v) for v in range(11, 16)],
-                         "9, and 12 in lane 0": ((9, 12),)}.items():  # fmt: skip
-        driven = [example_teachers.examine(example_teachers.two_speeds(*each)).episodes for each in speeds]
-        shares = ([100 * each.success.mean() for each in driven], [100 * np.mean(each.accident > 0) for each in driven])
-        rows.append([name, *map(between, (*shares, [each.returns.mean() for each in driven]))])
-    return table(["speed (m/s)", "gets out, %", "accidents, %", "return"], rows)
-
-
-def between(numbers: Sequence[float]) -> str:
-    """The lowest and the highest of some numbers, rounded; one if they are the same."""
-    low, high = (f"{each:.0f}" for each in (min(numbers), max(numbers)))
-    return low if low == high else f"{low} to {high}"
-
-
 def cars_in_rows(cars: np.ndarray, shown: int = 3) -> Markdown:
     """A table of the first cars of a road, (vehicles, 10), in the four columns that a rule of the lesson reads."""
     names = ["ego", "trap 1", "trap 2", *["traffic"] * len(cars)]

@@ -7,7 +7,7 @@ import numpy as np
 
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_teacher import crashes, example_teachers, free_lane, taught_agents
-from bootcourse.course.lessons.your_teacher.driven_out import BEHIND, OUT, drive_out  # noqa: F401 (the text names it)
+from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.your_teacher.exercises import without_a_look
 from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
 from bootcourse.research.experiments.teacher_worth import TAUGHT  # noqa: F401 (the text names it)
@@ -59,20 +59,9 @@ def two_situations(slow: float):
     return example_teachers.examine(example_teachers.two_speeds(slow, 12.0)).episodes
 
 
-@cache
-def one_situation(speed: float):
-    """How a rule drives there that aims for one speed (m/s), and for the next lane to the left, everywhere."""
-    return example_teachers.examine(example_teachers.two_speeds(speed, speed)).episodes
-
-
 def gets_ahead(teacher: str) -> int:
     """How many of them end ahead of trap 1."""
     return sum(bool(drive.success) for drive in demonstrated(teacher))
-
-
-def reach_free_lane() -> int:
-    """How many of the crashing drives come to the free lane."""
-    return sum(crashes.before_free_lane(drive) < len(drive.actions) for drive in crashes.crashed())
 
 
 def crash_returns(kind: str) -> np.ndarray:
