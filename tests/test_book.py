@@ -160,7 +160,7 @@ def test_a_slider_in_the_book_has_the_ends_and_the_first_value_of_the_panel_s():
     values, first = draggable.places(number, 15)
     assert len(values) <= 16 and (values[0], values[first], values[-1]) == (0, 0.3, 1)
     powers, first = draggable.places(Number("ξ", 0.01, 0.001, 10, 0.5, "a strength", logarithmic=True), 61)
-    assert powers == [0.001, 0.0032, 0.01, 0.032, 0.1, 0.32, 1.0, 3.2, 10.0] and powers[first] == 0.01
+    assert powers == [0, 0.001, 0.0032, 0.01, 0.032, 0.1, 0.32, 1.0, 3.2, 10.0] and powers[first] == 0.01
     whole = Number("n", 3, 1, 9, 0.5, "a number", check=whole_number("n", 1, 9))
     assert draggable.places(whole, 61) == ([1, 2, 3, 4, 5, 6, 7, 8, 9], 2)
 

@@ -10,7 +10,7 @@ import pytest
 import torch
 
 from bootcourse.course.lessons import COURSE, LESSONS
-from bootcourse.course.lessons.learning_from_demonstrations.explorable import nine_values
+from bootcourse.course.lessons.learning_from_demonstrations.explorable import nine_values_of
 from bootcourse.course.lessons.looking_ahead import explorable as futures
 from bootcourse.course.lessons.other_ways.figures import two_counts
 from bootcourse.course.lessons.the_barrier.explorable import by_plan, hill
@@ -115,7 +115,7 @@ def test_alpha_falls_for_ever_only_if_the_target_entropy_is_below_zero_and_rises
 
 
 def test_the_futures_say_until_which_decision_a_drive_can_be_saved(crash):
-    last, panel = futures.last_chance(crash, idle_policy), futures.futures(crash, idle_policy)
+    last, panel = futures.last_chance(crash, idle_policy), futures.futures_of(crash, idle_policy)
     safe = futures.ways_out(crash, idle_policy)
     assert 0 < last < len(crash.actions)
     for decision, words in ((last, f"{safe[last - 1]} of nine futures have no accident"), (last + 1, "it is too late")):
@@ -126,7 +126,7 @@ def test_the_futures_say_until_which_decision_a_drive_can_be_saved(crash):
 def test_the_distance_that_the_margin_is_dragged_to_is_the_large_margin_loss():
     q = np.random.default_rng(1).normal(0, 1, (4, 9))
     did = np.array([0, 8, 3, int(q[3].argmax())])
-    panel = nine_values(SimpleNamespace(q_values=lambda observations: q), SimpleNamespace(
+    panel = nine_values_of(SimpleNamespace(q_values=lambda observations: q), SimpleNamespace(
         observations=q, rule_actions=did), seconds=4)  # fmt: skip
     for margin in (0.0, 1.0, 2.0):
         from_page(panel.numbers["margin"].slider, value=margin)

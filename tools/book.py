@@ -35,7 +35,7 @@ LEARNED = {
         "c = 0": "learn=bootstrapped&agents=2&drives=600&c=0",
     },
 }
-AFTER = {"soft_constraint": "figures.twenty("}  # lesson -> in the code of the cell below which it trains
+AFTER = {"soft_constraint": "figures.courses("}  # lesson -> in the code of the cell below which it trains
 BEFORE_THE_RULE = ("the_trap", "the_barrier")  # the sliders of the page that learns are of later lessons
 WORLD = re.compile(r'<img [^>]*data-world="([^"]*)"[^>]*>')  # the picture that a world leaves where no kernel runs
 SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
@@ -89,7 +89,7 @@ def frame(address: str, height: int) -> str:
 
 def as_a_page(notebook: Path, to: Path) -> None:
     """Copy a notebook as it came, with the page that drives in the place of each world, which needs a kernel, and
-    sliders that move on its explorables.
+    sliders that move on its panels.
 
     The first word of what JupyterLab folds is bold again.
     """
@@ -97,7 +97,7 @@ def as_a_page(notebook: Path, to: Path) -> None:
 
     content, lesson = json.loads(as_it_came(notebook)), notebook.stem.partition("_")[2]
     for cell in content["cells"]:
-        panel = draggable.explorable_of(lesson, "".join(cell["source"])) if cell["cell_type"] == "code" else None
+        panel = draggable.panel_of(lesson, "".join(cell["source"])) if cell["cell_type"] == "code" else None
         if is_folded_text(cell):
             cell["source"] = re.sub(r"\A(\w+\.)\n", r"**\1** ", "".join(cell["source"]))
         for output in cell.get("outputs", []):

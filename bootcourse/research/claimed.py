@@ -118,7 +118,7 @@ def safer_at_20_m(name: str, sentence: str, seen: str, usual: dict[str, float], 
 
 
 def alone(study: StudyResults) -> Claim:
-    ours, more = study.results["default"], study.experiments["beyond"]
+    ours, faster, more = study.results["default"], study.results["calibrated"], study.experiments["beyond"]
     agents = [more[cell] for cell in ("sac-0", "sac-5")]
     longer = np.concatenate([each.measured["success_200000"] for each in agents]) >= ESCAPES
     earned = np.concatenate([each.measured["returns_200000"] for each in agents]).mean()
@@ -135,7 +135,8 @@ def alone(study: StudyResults) -> Claim:
             ),
             "γ = 0.9, 0.95 and 0.99": (out < of / 2, f"{out} of {of} escape"),
             "faster traps (10.9 m/s)": (
-                share(study.results["calibrated"], "sac") < 0.5, told(study.results["calibrated"], "sac")
+                share(faster, "sac") < 0.5,
+                told(faster, "sac") + ", more than at 10 m/s" * (share(faster, "sac") > share(ours, "sac")),
             ),
         },
     )  # fmt: skip

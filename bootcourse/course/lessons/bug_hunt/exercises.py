@@ -79,8 +79,9 @@ def explain_hunt(cases, answers):
     cases=lambda rng: [(letter,) for _ in range(4) for letter in rng.permutation(list("ABCDEF")).tolist()],
     worked=[(("A",), "flipped_kl"), (("F",), "no_stop")],
     hints=(
-        "Rounds 2 and 3 name three: at its accidents one is too low, and two promise too much. Two share a symptom in "
-        "Round 4, and differ in their return. The sixth is left.",
+        "Begin with agents that are far in just one column. For one agent look at Round 3's lines, too: its peak "
+        "decides. One agent is far in none. Rounds 2 and 3 name three: at its accidents one is too low, and two "
+        "promise too much. Two share a symptom in Round 4, and differ in their return.",
         "What each bug shows: without an end, Q is wrong by many points where episodes end. With a drawn action Q does "
         "not reach the actor: its rarest action stays likely and its return low. A flipped KL keeps the rarest action "
         "likelier, too. Without the stop-gradient the promise is for a time far beyond any return. A bonus for all "

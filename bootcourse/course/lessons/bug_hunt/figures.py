@@ -13,12 +13,15 @@ from bootcourse.colours import OTHER
 from bootcourse.course import charts, shipped
 from bootcourse.course.dots import name_rows
 from bootcourse.course.lessons.bug_hunt.bugs import EVERY, LETTERS, Hunt
+from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.settings import settings_for
 from bootcourse.plots.figure import axes_at, finish, new_figure
 
 DRIVERS = {"first agent": "healthy", "second agent": "E"}
+ROADS = held_out_seeds(13, 400)  # new ones, for the agents' likeliest actions
+FIRST = 80  # training episode, with which the curves of the return begin: none has moved before
 HEAD, FOOT = 0.6, 0.5  # inches, above and below the rows of `line_ends`
 FAR = 10.0, 2.0, 2.0, 10.0  # beyond the healthy agent's two seeds, in each column of `line_ends`
 LAST = 8  # values of a probe, of which `line_ends` shows the mean
@@ -43,7 +46,10 @@ def returns(hunt: Hunt) -> Figure:
     title = "Return in training"
     episode = "training episode (logarithmic)"
     what = "return, mean of 30 episodes (an agent that crashes early drives more episodes)"
-    return charts.many(hunt.curves("return"), title, episode, what, reference="healthy", x_scale="log")
+    figure = charts.many(hunt.curves("return"), title, episode, what, reference="healthy", x_scale="log")
+    for panel in figure.axes:
+        panel.set_xlim(left=FIRST)
+    return figure
 
 
 def accidents(hunt: Hunt) -> Figure:
@@ -116,10 +122,11 @@ def line_ends(hunt: Hunt) -> Figure:
         ax.margins(x=0.08)
         said = "; ".join(f"{name}: {', '.join(f'{value:.3g}' for value in ends[name])}" for name in ends)
         alt.append(f"{what}: {said}; far is more than {FAR[place]:.0f} beyond healthy")
-    span = f"means of 30 episodes or {LAST * EVERY:,} updates"
-    words = f"dots: two seeds; dark grey: between the healthy agent's two; outside light grey: far ({span})"
+    beyond = f"{', '.join(f'{far:g}' for far in FAR[:-1])} and {FAR[-1]:g}"
+    words = f"two seeds each; dark grey: from one healthy seed to the other; light grey: {beyond} beyond, our choice"
     figure.text(0.012, 1 - 0.42 / figure.get_figheight(), words, fontsize=charts.SMALL, color=charts.QUIET)
-    return finish(figure, title, f"Two dots in each row. {'. '.join(alt)}.".replace("-", "−"))
+    span = f"Two dots in each row: means of 30 episodes or {LAST * EVERY:,} updates."
+    return finish(figure, title, f"{span} {'. '.join(alt)}.".replace("-", "−"))
 
 
 def last(hunt: Hunt, probe: str) -> dict[str, np.ndarray]:

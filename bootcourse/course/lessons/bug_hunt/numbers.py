@@ -1,12 +1,14 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 
 from bootcourse.course.lessons.bug_hunt import bugs, figures
 from bootcourse.course.lessons.bug_hunt.exercises import end_error
 from bootcourse.course.lessons.bug_hunt.target_probe import unmasks
+from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.replay_buffer import Batch
@@ -37,6 +39,25 @@ def ends(name: str) -> float:
 def late(name: str, what: str) -> list[int]:
     """In how many of its last 30 training episodes each of an agent's two seeds had a success or an accident."""
     return [round(30 * share) for share in hunt().at_the_end(what)[name]]
+
+
+def in_training(name: str, what: str) -> np.ndarray:
+    """In how many training episodes each of an agent's two seeds had a success or an accident, (2,)."""
+    return np.nansum(hunt().curve(name, what), axis=1)
+
+
+class Driven(NamedTuple):
+    """On how many of some roads a policy gets out, and crashes, as shares."""
+
+    out: float
+    accidents: float
+
+
+@cache
+def driven(name: str) -> Driven:
+    """How an agent drives on new roads, by its likeliest actions."""
+    drives = drive_episodes(hunt().agent(name).as_policy(), figures.ROADS)
+    return Driven(float(drives.success.mean()), float(np.mean(drives.accident > 0)))
 
 
 @cache

@@ -27,6 +27,8 @@ SIZE = DEFAULT.observation_size
 ACTION, RULE_ACTION = 2 * SIZE, 2 * SIZE + 3  # columns of a transition
 OF_Y = 2  # the column with the car's place across the road
 UPDATES, ROADS = 1500, held_out_seeds(6, 100)  # of a clone's training, and where it is measured
+ADDED = {"anywhere else": "others", "at the band's rim": "near the edge", "beyond the band": "from the edge"}
+# kinds of rows to add, and what the clones of the rule's drives with them are called where they ship
 
 
 def side_by_side(tables: Sequence[Tensor], seeds: Sequence[Sequence[int]], loss=cloning_loss) -> list[list[Agent]]:
@@ -124,15 +126,19 @@ def left_in(rows: Tensor) -> Tensor:
 
 
 def rows_to_add(of_rule: Tensor, labelled: Tensor) -> dict[str, Tensor]:
-    """Three kinds of the stochastic rule's rows, which have the rule's labels; equally many of each.
+    """The kinds `ADDED` of the stochastic rule's rows, which have the rule's labels; equally many of each.
 
-    The edge begins where the rule's rows end on the left. Fewest are those left of this place, and all are taken.
+    The band ends where the rule's rows end on the left. Fewest are those left of this place, and all are taken.
     """
-    left = left_in(labelled)
-    beyond = left > left_in(of_rule).max()
-    kinds = {"others": ~beyond, "near the edge": (left > 1) & ~beyond, "from the edge": beyond}
+    beyond = beyond_in(of_rule, labelled)
+    kinds = dict(zip(ADDED, (~beyond, (left_in(labelled) > 1) & ~beyond, beyond), strict=True))
     count = int(beyond.sum())
     return {name: labelled[kind][:: int(kind.sum()) // count][:count] for name, kind in kinds.items()}
+
+
+def beyond_in(of_rule: Tensor, rows: Tensor) -> Tensor:
+    """Which rows are from a place left of all of the rule's rows."""
+    return left_in(rows) > left_in(of_rule).max()
 
 
 def with_added(rows: Tensor, more: Tensor, copies: int = 5) -> Tensor:

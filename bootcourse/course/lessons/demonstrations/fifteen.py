@@ -21,7 +21,7 @@ from bootcourse.scenario import DEFAULT
 
 FIRST, SEEDS = 5, 15  # the lesson has the seeds 0 to 4
 RULE_S, STOCHASTIC, ALIKE, TAUGHT = "the rule's drives", "the stochastic rule's drives", "60 drives", "DAgger"
-ADDED = ("others", "near the edge", "from the edge")
+ADDED = tuple(cloning.ADDED.values())
 MEASURES = ("agrees", "own", "accidents", "returns")  # the columns of `cloning.measure`
 
 
@@ -40,7 +40,8 @@ def measured(kind: str) -> np.ndarray:
         rows = collect(200, policy=stochastic_rule_policy(DEFAULT, np.random.default_rng(0)))
         if kind != STOCHASTIC:
             rows[:, cloning.ACTION] = rows[:, cloning.RULE_ACTION]
-            rows = cloning.with_added(by_rule, cloning.rows_to_add(by_rule, rows)[kind])
+            more = [*cloning.rows_to_add(by_rule, rows).values()][ADDED.index(kind)]
+            rows = cloning.with_added(by_rule, more)
     return cloning.measure(cloning.clones({kind: rows}, seeds=seeds)[kind], rows)[:, None]
 
 

@@ -26,7 +26,7 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
     figure = new_figure(1.0 + 1.35 * len(drives))
     total, alt_parts = figure.get_figheight(), []
     for k, (name, some) in enumerate(drives.items()):
-        ax = figure.add_axes((0.08, (total - 1.75 - 1.35 * k) / total, 0.88, 0.95 / total))
+        ax = figure.add_axes((0.11, (total - 1.75 - 1.35 * k) / total, 0.87, 0.95 / total))
         places, scenario = [], some[0].scenario
         draw_road(MplAxes(ax), scenario, *SEEN)
         for drive in some:
@@ -37,7 +37,9 @@ def where_they_were(drives: dict[str, Sequence[Rollout]], seconds: float, title:
         ended = sum(drive.accident > 0 for drive in some)
         plain_axes(ax, f"{name}: {ended} of {len(some)} drives end in an accident", grid="")
         lanes, (top, edge) = range(scenario.road.lanes), edges_of(scenario.road)
-        ax.set_yticks(np.array(lanes) * scenario.road.lane_width, [f"lane {lane}" for lane in lanes])
+        ax.set_yticks(
+            np.array(lanes) * scenario.road.lane_width, ["lane 0 (left)", *(f"lane {lane}" for lane in lanes[1:])]
+        )
         ax.set(xlim=SEEN, ylim=(edge + 0.6, top - 0.6))
         last = k == len(drives) - 1
         ax.tick_params(axis="x", labelbottom=last)
@@ -59,48 +61,53 @@ def clones(measured: dict[str, np.ndarray]) -> Figure:
     title = "Agreement with the data, and accidents"
     if agrees.argmax() == crash.argmax() and (agrees[1], crash[1]) == (agrees[1:].max(), crash[1:].max()):
         title = "Agreement with its own data says little about a clone's driving"
-    return _two_panels(measured, {0: "agree with their data (%)", 2: "have an accident (%)"}, title)
+    agree = "agree with\ntheir data (%)", "agree with the rule,\nown states (%)"
+    return _panels(measured, dict(enumerate([*agree, "have an\naccident (%)"])), title)
 
 
-def added(name: str, alone: np.ndarray, fed: dict[str, np.ndarray], longer: dict[str, np.ndarray]) -> Figure:
+def added(measured: dict[str, np.ndarray], fed: dict[str, np.ndarray], longer: dict[str, np.ndarray]) -> Figure:
     """What rows added to the rule's change: as `clones`, with the agreement with the rule in the clones' own states.
 
-    alone: of the rule's drives, which are called so; fed: of these with others' rows, and last with those of the edge.
-    longer: of the rule's drives alone, after a longer training.
+    measured: as in `clones`, last the rule's drives and the stochastic rule's. fed: the rule's with three kinds of
+    others, the third from beyond the band; then the stochastic rule's without these. longer: after a longer training.
     """
-    *others, edge = (values[:, 2].mean() for values in fed.values())
+    rule_s, stochastic = [*measured][-2:]
+    *kinds, without = fed
+    crash = {name: values[:, 2].mean() for name, values in (measured | fed).items()}
     title = "Accidents, with rows added to the rule's"
-    if edge < min(alone[:, 2].mean(), others[0]) / 2:
-        title = "Rows from the edge prevent most of the accidents"
-    rows = {name: alone} | fed | longer
-    return _two_panels(rows, {1: "agree with the rule, own states (%)", 2: "have an accident (%)"}, title)
+    if crash[kinds[2]] < min(crash[rule_s], crash[kinds[0]]) / 2:
+        title = "Rows from beyond the band prevent most of the accidents"
+    names = [rule_s, *kinds, stochastic, without, *longer]
+    rows = {name: (measured | fed | longer)[name] for name in names}
+    return _panels(rows, {1: "agree with the rule, own states (%)", 2: "have an accident (%)"}, title)
 
 
 SHIPPED = {0: "agrees", 1: "own", 2: "accidents"}  # what the columns of `cloning.measure` are called there
 
 
-def _two_panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str) -> Figure:
-    """A row for each name, a panel for each of two columns of `cloning.measure`.
+def _panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str) -> Figure:
+    """A row for each name, a panel for each of two or three columns of `cloning.measure`.
 
     A square: the mean of the fifteen clones that ship, of the kinds of which some do.
     """
-    figure, fifteen = new_figure(1.3 + 0.55 * len(measured)), shipped_experiment("clones")
+    figure, fifteen = new_figure(1.45 + 0.5 * len(measured)), shipped_experiment("clones")
     alt_parts = {name: [] for name in measured}
-    height = figure.get_figheight()
+    height, step = figure.get_figheight(), 0.74 / len(columns)
     for place, (k, label) in enumerate(columns.items()):
-        ax = figure.add_axes((0.27 + 0.37 * place, 0.6 / height, 0.34, 1 - 1.25 / height))
+        ax = figure.add_axes((0.27 + step * place, 0.6 / height, step - 0.03, 1 - 1.4 / height))
         for row, (name, values) in enumerate(measured.items()):
             shown = 100 * values[:, k]
             ax.plot(shown, np.full(len(shown), row), "o", color=style("bc").colour, markersize=5, alpha=0.55)
             ax.plot(shown.mean(), row, "|", color=INK, markersize=15, markeredgewidth=2)
             alt_parts[name].append(f"{label.removesuffix(' (%)')} {shown.mean():.0f} %".replace("\n", " "))
             kind = re.sub(r"\+ \d+ ", "", name)
+            kind = cloning.ADDED.get(kind, kind)
             if kind in fifteen:
                 mean = 100 * fifteen[kind].notes[SHIPPED[k]].mean()
                 ax.plot(mean, row + 0.27, "s", color="none", markeredgecolor=INK, markersize=5)
                 alt_parts[name][-1] += f" (fifteen others {mean:.0f} %)"
             ax.text(shown.mean(), row - 0.32, f"{shown.mean():.0f}", fontsize=TEXT, color=INK, ha="center")
-        plain_axes(ax, label.replace("\n", " "), grid="x")
+        plain_axes(ax, label, grid="x")
         ax.set_yticks(range(len(measured)), list(measured) if place == 0 else [""] * len(measured))
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
         ax.set(xlim=(-4, 104), ylim=(len(measured) - 0.5, -0.7))
@@ -146,8 +153,8 @@ def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
     ax.set_xlabel(words, fontsize=TEXT, color=INK)
     (left_of_it, elsewhere), _ = errors(own, of_rule)
     title = f"The last {BEFORE} s of {len(drawn)} drives off the left edge, and their errors"
-    if left_of_it > 0.9:
-        title = "Left of the green band nearly every decision is an error"
+    if 0 < ever_beyond(ended, of_rule) < len(ended):
+        title = "Cars leave the road from beyond the green band, and from inside it"
     return finish(
         figure, title,
         f"{len(drawn)} of {len(ended)} drives that leave the road on the left. In the left lane the rule's rows reach "
@@ -188,12 +195,17 @@ def both_ends(own: Sequence[Rollout]) -> dict[str, list[Rollout]]:
 
 def error_rows(own: Sequence[Rollout], of_rule: Tensor) -> list[list[str]]:
     """Rows of a table: how drives end, how many were left of the rule's rows, and their errors there and elsewhere."""
-    high = cloning.left_in(of_rule).max().item()
     rows = []
     for (name, some), shares in zip(both_ends(own).items(), errors(own, of_rule), strict=True):
-        there = sum((cloning.metres_left(drive) > high).any() for drive in some)
-        rows.append([f"{name}: {len(some)}", f"{there}", *(f"{100 * share:.0f} %" for share in shares)])
+        beyond = ever_beyond(some, of_rule)
+        rows.append([f"{name}: {len(some)}", f"{beyond}", *(f"{100 * share:.0f} %" for share in shares)])
     return rows
+
+
+def ever_beyond(drives: Sequence[Rollout], of_rule: Tensor) -> int:
+    """In how many of these drives the car is left of all of the rule's rows at a decision."""
+    high = cloning.left_in(of_rule).max().item()
+    return sum(bool((cloning.metres_left(drive) > high).any()) for drive in drives)
 
 
 def taught(trainings: np.ndarray, alike: np.ndarray) -> Figure:

@@ -29,7 +29,9 @@ def boxes(*names: str) -> list[str]:
 
 def four_parts() -> Diagram:
     """What acts, what keeps the rows, and what judges."""
-    parts = [*boxes("world", "actor", "buffer", "critics"), *DECISIONS]
+    left, top, _, tint = SAC_PARTS["critics"]
+    critics = box(left, top, 140, 64, ("critics", "judge actions"), tint)
+    parts = [*boxes("world", "actor", "buffer"), critics, *DECISIONS]
     parts += [arrow(300, 218, 300, 97), label(308, 162, "Q", "start")]
     alt = (
         "The actor sends actions to the world and sees its states. What happened goes into the replay buffer. "

@@ -42,9 +42,10 @@ def undecided() -> Explorable:
             ("pay, α · entropy", OTHER.colour),
             (f"dashed: {best:g}, if it is", INK),
         )
-        key = [text(STACK[0] + 0.56 * STACK[2], 110 + 20 * row, words, "start", colour, 12)
-               for row, (words, colour) in enumerate(names)]  # fmt: skip
-        key.append(text(STACK[0] + 0.56 * STACK[2], 164, "sure of the best", "start", INK, 12))
+        downs = (82, 102, 148)  # between the grid lines
+        key = [text(STACK[0] + 0.56 * STACK[2], down, words, "start", colour, 12)
+               for down, (words, colour) in zip(downs, names, strict=True)]  # fmt: skip
+        key.append(text(STACK[0] + 0.56 * STACK[2], 162, "sure of the best", "start", INK, 12))
         under = [text(chances.at(place + 0.5, 0)[0], CHANCES[1] + CHANCES[3] + 16, name, "middle", INK, 12)
                  for place, name in enumerate(ACTIONS)]  # fmt: skip
         parts = [text(4, 20, says, size=14, bold=True), *chances.parts, *worth.parts, *key, *under]

@@ -1,5 +1,9 @@
 """For the lesson: the paper's success, and the agents of round 4."""
 
+from collections.abc import Sequence
+
+import numpy as np
+
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.research.cells import VARIED
 from bootcourse.research.experiments import clocks
@@ -21,3 +25,9 @@ def by_updates(driver: str) -> dict[str, Results]:
     """
     settings = clocks.choices(shipped_experiment("clocks")).items()
     return {updates: agents for (updates, by), agents in settings if by == SYMBOLS[driver]}
+
+
+def how_many(rates: Sequence[np.ndarray]) -> str:
+    """Behind a number: how many agents each method has, if not ten, as " (3 each)" or " (4 to 10)"."""
+    few, most = min(map(len, rates)), max(map(len, rates))
+    return "" if few == 10 else f" ({few} each)" if few == most else f" ({few} to {most})"

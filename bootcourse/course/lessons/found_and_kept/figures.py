@@ -15,8 +15,9 @@ from bootcourse.research.results import Results
 
 WORTHS = {  # the title of each picture
     "demos": "Just before the bonus ends, the ways out are worth less than staying",
-    "demos, β for ever": "If the bonus never ends, they keep ways worth less than staying",
+    "demos, β for ever": "If the bonus never ends, {} of {} are ahead at the end, on ways worth less than staying",
 }
+LINE = 68  # letters of a title on one line
 
 
 def worths(cell: str) -> Figure:
@@ -29,8 +30,9 @@ def worths(cell: str) -> Figure:
     before, after = ways.at(agents, ways.BEFORE)[had], agents.notes["worth"][had, -1]
     ahead, hurt = (agents.notes[name][had, -1] > 0.5 for name in ("success", "accident"))
     staying, colour = ways.staying(agents.agents[0]["gamma"]), style(agents.methods[0]).colour
-    figure = new_figure(4.0)
-    ax = axes_at(figure, 0.55, 0.85, 4.3, 2.6)
+    top = 0.65 + 0.25 * (len(WORTHS[cell]) > LINE)
+    figure = new_figure(top + 3.15)
+    ax = axes_at(figure, 0.55, top, 4.3, 2.6)
     plain_axes(ax, f"worth of a drive at γ = 0.8, without the bonus (mean of {ways.ROADS} roads)")
     ax.set(xlim=(-0.12, 1.06), ylim=(0, 1.8), yticks=(0, 0.5, 1, 1.5))
     ax.set_xticks((0, 1), ("just before episode 1,000", f"episode {ways.EPISODES:,}"), fontsize=TEXT, color=INK)
@@ -40,6 +42,8 @@ def worths(cell: str) -> Figure:
         ax.plot(0, first, "o", ms=6, mec="white", mew=0.6, **look)
         if not crash:
             ax.plot(1, last, "o", ms=6, mec="white", mew=0.6, **look)
+        else:  # where its line leaves the picture
+            ax.plot(first / (first - last), 0.04, "v", ms=7, mew=0, **look)
     ax.axhline(staying, color=INK, linewidth=1.5, zorder=2)
     ax.text(1.09, staying + 0.04, f"staying behind: {staying:.2f}", fontsize=TEXT, color=INK, va="center")
     ax.text(1.09, np.median(after[ahead]), f"{ahead.sum()} ahead of trap 1", fontsize=TEXT, color=colour, va="center")
@@ -54,7 +58,7 @@ def worths(cell: str) -> Figure:
         f"episode {ways.EPISODES:,} {ahead.sum()} are ahead, on ways worth {each[1]}; {behind} are behind and "
         f"unhurt, {(~ahead & hurt).sum()} in an accident. Staying behind is worth {staying:.2f}."
     )
-    return finish(figure, WORTHS[cell], alt)
+    return finish(figure, WORTHS[cell].format(ahead.sum(), had.sum()), alt)
 
 
 def found_and_kept(results: Results, printed: Mapping[str, float] | None = None) -> Figure:

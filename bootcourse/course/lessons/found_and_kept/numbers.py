@@ -10,12 +10,13 @@ from bootcourse.course.lessons.found_and_kept import ways
 from bootcourse.course.lessons.found_and_kept.explorable import groups
 from bootcourse.episodes.record import record
 from bootcourse.policies import rule_policy
+from bootcourse.research.cells import VARIED
 from bootcourse.research.experiments import clocks as study_clocks
-from bootcourse.research.paper import paper_interval
+from bootcourse.research.paper import EPISODES, PRINTED
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, found_after, lost  # noqa: F401 (for the text)
+from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, found_after, lost
 from tools.course.known import ROAD, SETTINGS, clocks, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
@@ -36,6 +37,7 @@ class Group(NamedTuple):
 
     lost: np.ndarray  # which agents lose the way out
     earned: np.ndarray  # return after training, of each agent
+    escapes: np.ndarray  # which agents escape in the test
 
 
 def of_all() -> Results:
@@ -52,7 +54,18 @@ def way(results: Results, method: str) -> Counted:
 def group(words: str) -> Group:
     """Of round 3: see `groups`."""
     agents = groups()[words]
-    return Group(lost(agents.curves["success"]), agents.scores("returns"))
+    return Group(lost(agents.curves["success"]), agents.scores("returns"), agents.scores("success") >= ESCAPES)
+
+
+def earned_by_escapers(words: str) -> str:
+    """The returns of a group's agents that escape, as "49 to 86"."""
+    earned = group(words).earned[group(words).escapes]
+    return f"{earned.min():.0f} to {earned.max():.0f}"
+
+
+def accidents_of_rest(words: str) -> np.ndarray:
+    """In which share of their test drives the agents of a group crash that do not escape."""
+    return groups()[words].scores("accident")[~group(words).escapes]
 
 
 def lost_least_if_both(low: int, high: int) -> bool:
@@ -63,17 +76,29 @@ def lost_least_if_both(low: int, high: int) -> bool:
     return all(lost(both, at).sum() < min(lost(each, at).sum() for each in success.values()) for at in limits)
 
 
-def inside(method: str) -> str:
-    """How many of a method's agents that escape earn a return in the paper's interval, as "1 of 117".
+def lost_if_both(limit: int) -> int:
+    """How many lose it, at this limit, if β never ends and the bonus is paid."""
+    return int(lost(groups()["β never ends, bonus"].curves["success"], limit).sum())
 
-    Of the study, of round 4, of the ablations (round 3 has some), and of the ten others.
+
+def lowest() -> int:
+    """A round number that the return of each agent of round 4's setting exceeds, of the two methods with
+    demonstrations.
     """
-    trained = [of_all(), *clocks().values(), *shipped_experiment("ablations").values()]
-    trained += shipped_experiment("stress").values()  # the ten others
-    helped = [each.of(method) for each in trained if method in each.methods]
-    earned = np.concatenate([each.scores("returns")[each.scores("success") >= ESCAPES] for each in helped])
-    paper = paper_interval(method, "returns")
-    return f"{((earned > paper.low) & (earned < paper.high)).sum()} of {len(earned)}"
+    agents = clocks()["2", "π̃"]
+    return int(min(agents.of(method).scores("returns").min() for method in ("demos", "bootstrapped")) // 10 * 10)
+
+
+@cache
+def resampled() -> tuple[float, float]:
+    """How often, in %, single agents give the paper's rates: the bootstrap's 95 % over the agents of each method."""
+    rng, chance = np.random.default_rng(0), 1.0
+    for method in VARIED:
+        success = clocks()["2", "π̃"].of(method).scores("success")
+        drives = (success if PRINTED[method]["success"].mean else 1 - success) ** EPISODES
+        chance = chance * drives[rng.integers(len(drives), size=(10_000, len(drives)))].mean(axis=1)
+    low, high = 100 * np.quantile(chance, [0.025, 0.975])
+    return float(low), float(high)
 
 
 @cache
@@ -102,15 +127,50 @@ def first_had() -> int:
     return int(found_after(watched("demos").curves["success"])[_shown()])
 
 
+@cache
+def _lows(cell: str) -> np.ndarray:
+    """Of each agent, at which training episodes a window ends that counts as a loss: (agents, windows) bool."""
+    sums = np.cumsum(np.pad(watched(cell).curves["success"], ((0, 0), (1, 0))), axis=1)
+    ahead = sums[:, WINDOW:] - sums[:, :-WINDOW]
+    return np.maximum.accumulate(ahead >= HAD, axis=1) & (ahead <= LOST)
+
+
+def first_losses(cell: str = "demos") -> np.ndarray:
+    """The training episode after which each agent had lost the way out, 0 if it never did: (agents,)."""
+    lows = _lows(cell)
+    return np.where(lows.any(axis=1), lows.argmax(axis=1) + WINDOW, 0)
+
+
+def first_lost() -> int:
+    """That of the agent of the first picture."""
+    return int(first_losses()[_shown()])
+
+
+def lost_later(cell: str) -> np.ndarray:
+    """Which agents with a way out just before β ends lose it in a window that ends later: (agents,) bool."""
+    had = ways.at(watched(cell), ways.BEFORE, "success") > 0.5
+    return had & _lows(cell)[:, ENDS - WINDOW + 1 :].any(axis=1)
+
+
+def crashes_of_losers() -> float:
+    """Of the looks at those whose β never ends that find them behind after all: on how many most drives crash."""
+    agents = watched("demos, β for ever")
+    after = np.arange(agents.notes["success"].shape[1]) * ways.EVERY > ENDS
+    behind = (agents.notes["success"] <= 0.5) & after & lost_later("demos, β for ever")[:, None]
+    return float((agents.notes["accident"][behind] > 0.5).mean())
+
+
+def before_and_end() -> float:
+    """p of Mann and Whitney's test: were the ways out of those that end ahead worth more before β ended?"""
+    agents = watched("demos")
+    ahead = agents.notes["success"][ways.at(agents, ways.BEFORE, "success") > 0.5, -1] > 0.5
+    return float(stats.mannwhitneyu(before("demos")[ahead], before("demos")[~ahead]).pvalue)
+
+
 def gone() -> int:
     """The look from which on it is behind trap 1 on most roads."""
     ahead = watched("demos").notes["success"][_shown()] > 0.5
     return int(np.flatnonzero(ahead)[-1] + 1) * ways.EVERY
-
-
-def of_first(episode: int) -> float:
-    """What the drives of the first picture's agent are worth at a look."""
-    return float(watched("demos").notes["worth"][_shown()][episode // ways.EVERY])
 
 
 def fates(cell: str) -> tuple[int, int, int]:

@@ -17,6 +17,7 @@ SHARE, MOST = 0.8, 60  # of the trained agents so many escape; at most so many a
 PLAIN = "#B8BEC6"  # of what does not count
 STUDIES, DRAWS = 100, 2000  # that are shown, and of each study's bootstrap
 RARE = 2.5  # %: so rare is what was seen, or more extreme, at the ends of an interval
+NUMBERED = 20  # with at most so many agents the bars have room for their percentages
 DRAWN = 10.0  # %: up to here the two curves over the true rate are drawn
 RESOLUTION = 400  # studies are drawn for each that is shown
 
@@ -37,18 +38,20 @@ def certainty() -> Explorable:
         counted = np.arange(n + 1) >= k if more else np.arange(n + 1) <= k
         blue, curve = float(blue_part(true, k, n)), blue_part(everywhere, k, n)
         _, low, high = (100 * part for part in rate(np.arange(n) < k))
-        says = f"If {true:g} % escape in truth, {k} or {'more' if more else 'fewer'} of {n} escape in "
+        or_so = f"{k} or {'more' if more else 'fewer'}"
+        says = f"If {true:g} % escape in truth, {or_so} of {n} escape in "
         says += f"{blue:.1f} % of all studies."
-        counts = SvgAxes(52, 66, 690, 110, (-0.6, n + 0.6), (0.0, chances.max()))
+        counts = SvgAxes(52, 66, 690, 110, (-0.6, n + 0.6), (0.0, 1.15 * chances.max()))
         for count, (chance, inside) in enumerate(zip(chances, counted, strict=True)):
             sides = [count - 0.4, count + 0.4, count + 0.4, count - 0.4]
             counts.fill(sides, [0, 0, chance, chance], colour if inside else PLAIN)
+            if inside and chance >= 0.0005 and n <= NUMBERED:
+                x, y = counts.at(count, chance)
+                counts.parts.append(text(x, y - 3, f"{100 * chance:.1f}", "middle", colour, 11, bold=True))
         for count in ticks(0, n, 10):
             counts.parts.append(text(counts.at(count, 0)[0], 191, f"{count:g}", "middle", QUIET, 10.5))
         below = SvgAxes(52, 232, 690, 120, (0.0, 100.0), (0.0, DRAWN))
-        heading = f"% of studies with {k} or more (left), {k} or fewer (right; cut at {DRAWN:g}); "
-        heading += f"shaded: both over {RARE:g} %"
-        below.scale(heading, 4)
+        below.scale(f"% of studies (cut at {DRAWN:g}); shaded: both over {RARE:g} %", 4)
         below.fill([low, high, high, low], [0, 0, DRAWN, DRAWN], colour, 0.15)
         below.line([0, 100], [RARE, RARE], INK, 1, "--")
         below.line(everywhere, np.where(curve <= DRAWN, curve, np.nan), colour, 2)
@@ -60,7 +63,7 @@ def certainty() -> Explorable:
             below.parts.append(text(below.at(tick, 0)[0], 367, f"{tick:g}", "middle", QUIET, 10.5))
         words = [
             text(4, 20, says, size=14, bold=True),
-            text(52, 54, f"how often so many of {n} escape (blue: {k} or {'more' if more else 'fewer'})", bold=True),
+            text(52, 54, f"% of studies in which so many of {n} escape (blue: {or_so})", bold=True),
             text(397, 384, "true rate (%); the dot: yours", "middle", QUIET, 11),
         ]
         alt = f"{says} At true rates of {low:.0f} to {high:.0f} % both {k} or more and {k} or fewer come in over "
@@ -150,7 +153,7 @@ def intervals() -> Explorable:
         low, high, holds = drawn(int(seeds))
         says = f"{seeds:g} seeds: {holds.sum()} of {STUDIES} intervals contain the mean of all, {mean:.0f}."
         chart = SvgAxes(*CHART, (0.0, STUDIES), (-20.0, 140.0))
-        chart.scale("95 % bootstrap interval of the mean return (vermilion: misses; line: the mean of all)", 4)
+        chart.scale("95 % bootstrap interval of the mean return (orange: misses; line: the mean of all)", 4)
         for place, (bottom, top, inside) in enumerate(zip(low, high, holds, strict=True)):
             ends = [bottom - 0.8, top + 0.8]  # an interval without length is seen, too
             chart.line([place + 0.5] * 2, ends, PLAIN if inside else colour, 2.4)

@@ -55,16 +55,16 @@ def nothing_changed(results: Results) -> Figure:
     wrong = [counts.leaves_out_0(effect) for effect in effects]
     figure = new_figure(3.5)
     ax = axes_at(figure, 0.5, 0.75, 6.3, 2.4)
-    plain_axes(ax, "difference of the two IQMs of the return, with its 95 % interval; coloured: leaves out 0")
+    plain_axes(ax, "difference of the two IQMs of the return, with its 95 % interval; orange: leaves out 0")
     ax.axhline(0, color=INK, linewidth=1.2, zorder=4)
     for place, (effect, apart) in enumerate(zip(effects, wrong, strict=True)):
         colour = style("bootstrapped").colour if apart else "#B8BEC6"
         ax.plot([place] * 2, [effect.low, effect.high], color=colour, linewidth=2.5, solid_capstyle="butt", zorder=2)
         ax.plot(place, effect.value, "o", color=colour, markeredgecolor=INK, markeredgewidth=0.4, markersize=3.5)
     first = wrong.index(True)
-    ax.text(first + 1.2, effects[first].low - 2, counts.with_ends(effects[first]).replace("-", "−"), fontsize=TEXT,
-            color=style("bootstrapped").colour, va="top")  # fmt: skip
-    ax.set_ylim(-165, 150)
+    words = f"the first: {counts.with_ends(effects[first])}".replace("-", "−")
+    ax.text(first, -152, words, fontsize=TEXT, color=style("bootstrapped").colour, va="top")
+    ax.set_ylim(-185, 150)
     ax.set_xticks([])
     ax.set_xlabel(f"{len(effects)} comparisons, in the order of their differences", fontsize=SMALL, color=INK)
     title = f"Nothing was changed, but in {sum(wrong)} of {len(effects)} comparisons the interval leaves out 0"

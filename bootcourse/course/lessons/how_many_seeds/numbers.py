@@ -63,4 +63,34 @@ def fives() -> np.ndarray:
 
 def unchanged() -> float:
     """The IQM of the success (%) of all new agents of the group in which nothing was changed."""
-    return float(iqm(100 * shipped_experiment("new-agents")["as it is"].measured["success"]))
+    return float(iqm(_new()[1]))
+
+
+def mean_unchanged() -> float:
+    """Their mean."""
+    return float(_new()[1].mean())
+
+
+@cache
+def of_means() -> Estimate:
+    """Changed less unchanged of all new agents, in points: their means, not their IQMs."""
+    means = [each[draws].mean(axis=1) for each, draws in zip(_new(), _draws(), strict=True)]
+    changed, same = _new()
+    return Estimate(changed.mean() - same.mean(), *np.quantile(means[0] - means[1], [0.025, 0.975]))
+
+
+def _draws() -> list[np.ndarray]:
+    rng = np.random.default_rng(0)
+    return [rng.integers(len(each), size=(counts.RESAMPLES, len(each))) for each in _new()]
+
+
+def _new() -> list[np.ndarray]:
+    """The success (%) of all new agents: changed, and as it is."""
+    return [100 * shipped_experiment("new-agents")[group].measured["success"] for group in ("changed", "as it is")]
+
+
+def percent(escape: int) -> str:
+    """The exact interval of so many of ten, as "0.3 to 45"."""
+    return " to ".join(
+        f"{100 * end:.0f}" if end > 0.01 else f"{100 * end:.1f}" for end in rate(np.arange(10) < escape)[1:]
+    )

@@ -72,8 +72,9 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 # ## Round 1: what does eight of ten say?
 #
 # With the soft constraint alone, eight of ten agents escape. If you trained thousands, the share that escapes
-# would be the *true rate*. Take a true rate, and imagine many studies of ten agents. If eight *or more* escape in
-# under 2.5 % of them, this rate is too low to believe. If eight *or fewer* escape in under 2.5 %, it is too high.
+# would be the *true rate*. Suppose that it is 30 %, and imagine many studies of ten agents. In {{
+# explorable.blue_part(30, 8, 10) | .1f }} % of them eight *or more* escape. Below 2.5 % we call the rate too low;
+# it is too high if eight *or fewer* escape in under 2.5 %.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
 # **Drag** the true rate. Which rates are believable?
@@ -110,8 +111,8 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # %% [markdown]
 # **See.** *Twenty drives of one agent are one sample of how often training succeeds.* At a true rate of 2.5 % one
 # agent of one escapes in 2.5 % of studies: there its interval begins. If one agent stands behind the paper's 100 %,
-# it need not contradict our 0 of 10: the two intervals overlap.
-# <!-- claim: rate(np.ones(1)).low < rate(np.zeros(10)).high -->
+# it need not contradict our 0 of 10: a true rate of 10 % is inside both intervals.
+# <!-- claim: rate(np.ones(1)).low < 0.1 < rate(np.zeros(10)).high -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Let them vote before the three intervals and keep the votes. What is the sample here: a drive, or a
@@ -123,7 +124,8 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # With both aids seven of ten agents escape, with plain SAC one. Suppose that the methods are alike. Then it is
 # chance which eight of the twenty agents escape. How often would chance split the eight at least as unevenly as
 # seven to one? That is the **p value**. *Fisher's exact test* computes it: {{ fisher(7, 1) | .3f }}. Below 0.05 we
-# speak of a difference.
+# speak of a difference. (The exact intervals, {{ percent(7) }} and {{ percent(1) }} %, overlap; that decides nothing.)
+# <!-- claim: rate(np.arange(10) < 7).low < rate(np.arange(10) < 1).high and fisher(7, 1) < 0.05 -->
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. On average eight and three escape,
@@ -203,7 +205,7 @@ predict(
 )
 
 # %% [markdown]
-# **Drag** the number of seeds. What do the intervals that miss look like?
+# **Drag** the number of seeds to 10. How many miss now, and are they still the shortest?
 
 # %%
 predicted("how_many_seeds.3")
@@ -267,8 +269,8 @@ bc.show(figures.nothing_changed(study))
 
 # %% [markdown]
 # **See.** *In {{ sum(map(counts.leaves_out_0, twice())) }} of these 100 studies the interval leaves out 0, by
-# luck alone.* Read as an ablation, the first says that a change costs {{ -twice()[0].value | .0f }} points of
-# return.
+# luck alone.* An exact 95 % interval would in 5; the bootstrap is not exact. Read as an ablation,
+# the first says that a change costs {{ -twice()[0].value | .0f }} points of return.
 # <!-- claim: counts.leaves_out_0(twice()[0]) -->
 #
 # Train five agents with one number changed and five without. `bonus=0.0` pays no bonus for demonstrated seconds.
@@ -288,11 +290,11 @@ table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
 # An interval that contains 0 does not say that both learn alike; one that leaves out 0 may be luck. So we trained
-# *new* agents without the bonus and with it, 40 each. We had decided on 40 before we trained the first.
+# *new* agents without the bonus and with it: 40 each, a number decided beforehand.
 # <!-- claim: {len(each) for each in shipped_experiment('new-agents').values()} == {40} -->
 #
 # > **Predict.** How long is the interval of forty agents of each group, beside that of the first ten of them?
-# > (Drag *agents* from 10 to 40 in Round 1's panel: what happens to the interval there?)
+# > (Drag *agents* from 10 to 40 in Round 1's panel.)
 # <!-- claim: (lambda ten, forty: abs((forty.high - forty.low) / (ten.high - ten.low) - 0.5) < 0.01)(
 #   rate(np.arange(10) < 8), rate(np.arange(40) < 32)) -->
 
@@ -306,15 +308,16 @@ new = shipped.shipped_experiment("new-agents")
 bc.show(figures.new_agents(new, success, interval_of))
 
 # %% [markdown]
-# **See.** *About half as long*: four times as many agents, half the length. The first five do not obey it. Their
-# interval is {{ fives()[0] | .0f }} points long, those of the other seven fives {{ fives()[1:].min() | .0f }} to
-# {{ fives()[1:].max() | .0f }}: an interval of five is itself a guess.
+# **See.** *About half as long*: four times as many agents, half the length. (Eight times as many as five, about a
+# third: hence 40.) The first five's interval is {{ fives()[0] | .0f }} points long, those of the other seven fives
+# {{ fives()[1:].min() | .0f }} to {{ fives()[1:].max() | .0f }}: an interval of five is itself a guess.
 # <!-- claim: len(fives()) == 8 and 0.4 < length(40) / length(10) < 0.6 and length(10) / length(5) > 0.85 and
 #   fives()[0] == length(5) < fives()[1:].min() -->
 #
 # Forty of each differ by {{ bracketed(new(40)).replace('-', '−') }} points. A change that doubles the unchanged
-# group's success (IQM {{ unchanged() | .0f }} %) is still believable.
-# <!-- claim: -10 < new(40).low < 0 and unchanged() < new(40).high < 25 -->
+# group's IQM, {{ unchanged() | .0f }} %, is still believable. One that doubles its *mean*, {{ mean_unchanged() | .0f
+# }} %, is not: the means differ by {{ bracketed(of_means()).replace('-', '−') }}. Say first which counts.
+# <!-- claim: -10 < new(40).low < 0 and unchanged() < new(40).high < 25 and of_means().high + 4 < mean_unchanged() -->
 
 # %% [markdown]
 # ### If you try many changes
@@ -322,8 +325,8 @@ bc.show(figures.new_agents(new, success, interval_of))
 # Even at 5 %, at least one of twenty independent comparisons leaves out 0 in {{ 100 * (1 - 0.95**20) | .0f }} %
 # of cases. This is **multiplicity**. Say beforehand which comparison counts, or multiply each p by their number
 # (*Bonferroni*). For all six pairs of our four methods Round 2's p of {{ fisher(7, 1) | .3f }} would become
-# {{ 6 * fisher(7, 1) | .2f }}, and not count.
-# <!-- claim: fisher(7, 1) < 0.05 < 6 * fisher(7, 1) -->
+# {{ 6 * fisher(7, 1) | .2f }}, and not count; eight against none, {{ fisher(8, 0) | .4f }}, still would.
+# <!-- claim: fisher(7, 1) < 0.05 < 6 * fisher(7, 1) and 6 * fisher(8, 0) < 0.05 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Give each group another number to change, and collect the results on the board: one row for each group, with

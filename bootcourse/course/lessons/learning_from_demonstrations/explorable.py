@@ -3,6 +3,7 @@
 import numpy as np
 
 from bootcourse.colours import INK, QUIET
+from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.settings import settings_for
@@ -16,15 +17,22 @@ OTHERS, EDGE = "#B8BEC6", "#5F6B77"  # the actions that were not demonstrated, a
 LOWEST = -3.0  # bars below it are cut off
 MOST, VISIBLE = 2.0, 1.0  # the largest margin; bars this high can be seen
 HALF = 0.36  # of a bar's width; the bars stand 1 apart
+AGENT = 1  # whose Q the panel shows: of the agents that ship
 
 
-def nine_values(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
+def nine_values() -> Explorable:
+    """`nine_values_of` the lesson's agent, on the rule's drive that it shows."""
+    return nine_values_of(measures.agents()[AGENT], measures.demonstrated(), measures.SECONDS)
+
+
+def nine_values_of(agent: Agent, drive: Rollout, seconds: int) -> Explorable:
     """The Q of the nine actions in each of a drive's first seconds, and above all but the rule's a margin to drag."""
     q, did = agent.q_values(drive.observations[:seconds]), drive.rule_actions[:seconds]
     y = (min(0.0, max(float(q.min()), LOWEST)), max(0.5, float(q.max()) + MOST))
     of_rule = q[np.arange(len(q)), did]
     leads = of_rule - np.where(np.arange(q.shape[1]) == did[:, None], -np.inf, q).max(1)
-    first = int((leads + np.minimum(0.0, np.abs(of_rule) - VISIBLE)).argmax()) + 1  # its bar can be seen, and it leads
+    seen = np.abs(of_rule) >= VISIBLE
+    first = int(np.where(seen if seen.any() else True, leads, np.inf).argmin()) + 1  # another action is far ahead
 
     def draw(second: float, margin: float) -> Drawing:
         values, mine = q[round(second) - 1], int(did[round(second) - 1])

@@ -7,11 +7,14 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from bootcourse.course.shipped import shipped_experiment, shipped_results
+from bootcourse.course.shipped import shipped_agents, shipped_experiment, shipped_results
+from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.agent import Agent
 from bootcourse.learn.bootstrap import paper_q_filter, q_filter
+from bootcourse.policies import rule_policy
 from bootcourse.research.results import Results
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import found_after
 
 Kinds = dict[str, tuple[list[Results], list[Results]]]
@@ -82,16 +85,32 @@ def _leads(agent: Agent, drive: Rollout, seconds: int) -> tuple[Tensor, Tensor, 
     return q, did, q.gather(-1, did[:, None])[:, 0] - rivals
 
 
-PUSHED = ["the demonstrated action", "seconds", "no filter", "the paper's filter", "the usual filter"]
+SECONDS = 20  # of the drive in which a margin loss is counted
+PUSHED = ["the demonstrated action", "seconds (five agents)", "no filter", "the paper's filter", "the usual filter"]
 
 
-def pushed(loss: Callable[[Tensor, Tensor], Tensor], agent: Agent, drive: Rollout, seconds: int) -> list[list[str]]:
-    """In how many of a drive's first seconds a margin loss pushes, with each filter.
+@cache
+def agents() -> list[Agent]:
+    """The study's first five agents with demonstrations, the bonus and the soft constraint."""
+    return shipped_agents("bootstrapped")
 
-    loss: of (q, demonstrated actions), with a margin of 1. Rows below `PUSHED`, by an agent's own Q.
+
+@cache
+def demonstrated() -> Rollout:
+    """The rule's drive on road 10."""
+    return record(rule_policy(DEFAULT), [10], label="rule")[0]
+
+
+def pushed(loss: Callable[[Tensor, Tensor], Tensor]) -> list[list[str]]:
+    """In how many of a drive's first seconds a margin loss pushes, with each filter, by each of the five agents' Q.
+
+    loss: of (q, demonstrated actions), with a margin of 1. Rows below `PUSHED`.
     """
-    q, did, lead = _leads(agent, drive, seconds)
-    log_pi = torch.from_numpy(agent.probabilities(drive.observations[:seconds])).clamp(min=1e-30).log()
+    observations = demonstrated().observations[:SECONDS]
+    of_each = [_leads(agent, demonstrated(), SECONDS) for agent in agents()]
+    q, did, lead = map(torch.cat, zip(*of_each, strict=True))
+    pi = np.concatenate([agent.probabilities(observations) for agent in agents()])
+    log_pi = torch.from_numpy(pi).clamp(min=1e-30).log()
     kinds = {"is behind": lead < 0, "leads by less than 1": (lead >= 0) & (lead < 1), "leads by 1 or more": lead >= 1}
     pushes = loss(q, did) > 0
     filtered = (pushes & (each > 0) for each in (paper_q_filter(q, did), q_filter(q, did, log_pi)))

@@ -6,13 +6,14 @@ import numpy as np
 
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.course.lessons.learning_from_demonstrations.measures import kinds
+from bootcourse.course.lessons.soft_constraint.examples import fast_and_rule, reward_and_kl
 from bootcourse.episodes.record import record
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import lost
-from tools.course.known import SETTINGS, by_rule, idle, shipped_results
+from tools.course.known import SETTINGS, by_rule, clocks, idle, shipped_results
 
 
 def _with(name: str) -> tuple[list[Results], list[Results]]:
@@ -33,6 +34,11 @@ def in_all(name: str) -> str:
 def of_the_study(name: str) -> str:
     """How many of the study's ten agents with the soft constraint and these demonstrations escape."""
     return measures.escape(_with(name)[0][:1])
+
+
+def of_the_others(name: str) -> str:
+    """How many of the ten others with the soft constraint and these demonstrations escape."""
+    return measures.escape(_with(name)[0][1:])
 
 
 def alone(name: str) -> str:
@@ -58,6 +64,17 @@ def training(name: str, curve: str, first: int, last: int | None, others: bool =
 def losing_until(name: str, episode: int) -> int:
     """How many of the twenty agents with the soft constraint have lost the way out by this training episode."""
     return sum(int(lost(each.curves["success"][:, :episode]).sum()) for each in _with(name)[0])
+
+
+def of_the_stochastic_rule(method: str) -> Results:
+    """Ten agents of a method whose demonstrations the stochastic rule drove, as in the paper, else as in the study."""
+    return clocks()["1/4", "π̃"].of(method)
+
+
+def fast_pays_more() -> float:
+    """How much more a second of the soft constraint's fast agents pays than one of the rule's, on the free road."""
+    fast, rule = (reward_and_kl(drives)[0] for drives in fast_and_rule().values())
+    return fast - rule
 
 
 def bonus_needed() -> np.ndarray:

@@ -1,11 +1,14 @@
 """To drag in this lesson: at which of a drive's decisions another action keeps the car unhurt for a while."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 
+from bootcourse.course.shipped import shipped_agents
+from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.lookahead import HORIZON, nine_drives
-from bootcourse.episodes.record import Rollout
+from bootcourse.episodes.record import Rollout, record
 from bootcourse.methods import style
 from bootcourse.panels.explorable import WIDTH, Explorable
 from bootcourse.panels.number import Number
@@ -13,7 +16,7 @@ from bootcourse.plots.futures import LEGEND, trails
 from bootcourse.plots.road import draw_cars, draw_road, edges_of
 from bootcourse.plots.svg import QUIET, Drawing, SvgAxes, drawing, text, ticks
 from bootcourse.policies import Policy
-from bootcourse.road.state import EGO, HEADING, X
+from bootcourse.road.state import EGO, HEADING, Accident, X
 from bootcourse.scenario import ACTION_NAMES
 
 SHOWN = 12  # decisions, the last of the drive
@@ -33,7 +36,20 @@ def last_chance(drive: Rollout, policy: Policy, seconds: int = HORIZON) -> int:
     return int(np.flatnonzero(ways_out(drive, policy, seconds))[-1]) + 1
 
 
-def futures(drive: Rollout, policy: Policy) -> Explorable:
+@cache
+def first_collision() -> tuple[Rollout, Policy]:
+    """The first collision of the lesson's agent on the lesson's roads, and this agent."""
+    policy = shipped_agents("bootstrapped")[0].as_policy()
+    drives = (record(policy, [seed], label="bootstrapped")[0] for seed in held_out_seeds(15, 40))
+    return next(drive for drive in drives if drive.accident == Accident.COLLISION), policy
+
+
+def futures() -> Explorable:
+    """The nine futures at each decision of the drive that the lesson shows."""
+    return futures_of(*first_collision())
+
+
+def futures_of(drive: Rollout, policy: Policy) -> Explorable:
     """The nine imagined drives from above, while the decision at which they begin moves. x is metres from the ego."""
     scenario, decisions = drive.scenario, len(drive.actions)
     imagined = nine_drives(drive.cars, policy, scenario)

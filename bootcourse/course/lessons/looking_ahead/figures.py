@@ -182,21 +182,22 @@ def learned(computed: dict[str, Results], form: str = LEARNED_FORM) -> Figure:
     thousands = ["–"] + [f"{of.mean() / 1000:.0f}" for of in learned_from]
     row, alt_parts = 0.46, []
     figure = new_figure(1.75 + row * len(rows))
-    ax = axes_at(figure, 3.05, 1.0, 3.1, row * len(rows))
+    ax = axes_at(figure, 3.05, 1.0, 2.4, row * len(rows))
     on_the_left = {"transform": ax.get_yaxis_transform(), "ha": "right", "va": "center", "fontsize": SMALL}
     for place, ((name, values), rows_of) in enumerate(zip(rows.items(), thousands, strict=True)):
         worse, mean, first = values > alone, f"{values.mean():,.0f}", values is alone
         dots(ax, values, place, style(base).colour, worse, values.mean())
-        beside(ax, place, mean)
-        ax.text(-0.1, place, rows_of, color=INK, **on_the_left)
-        more = "" if first else f", {worse.sum()} of {len(worse)} more than alone"
-        alt_parts.append(f"{name}{'' if first else f', {rows_of} thousand decisions'}: mean {mean}{more}")
-    beside(ax, -0.75, "mean", colour=QUIET)
+        ax.text(-0.13, place, rows_of, color=INK, **on_the_left)
+        more = f"{worse.sum()} of {len(worse)}"
+        beside(ax, place, mean, "" if first else more)
+        shown, worse_of = ("", "") if first else (f", {rows_of} thousand decisions", f", {more} more than alone")
+        alt_parts.append(f"{name}{shown}: mean {mean}{worse_of}")
+    beside(ax, -0.75, "mean", "more than\nalone", colour=QUIET)
     name_rows(ax, list(rows), "accidents in 1,000 drives")
     ax.axvline(alone.mean(), color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
     ax.text(alone.mean(), -0.62, "alone", ha="center", fontsize=SMALL, color=QUIET)
     ax.tick_params(axis="y", pad=48)
-    for x, words in ((-0.02, "decisions\n(thousand)"), (-0.24, "the model learns from")):
+    for x, words in ((-0.026, "decisions\n(thousand)"), (-0.31, "the model learns from")):
         ax.text(x, -0.75, words, color=QUIET, **on_the_left)
     ax.set(xlim=(0, 1000))
     ax.set_xticks([0, 500, 1000], ["0", "500", "1,000"])

@@ -33,10 +33,10 @@ START, TRAINED, END = 300, 650, 780  # pixels: the training begins and ends, and
 ROW, TOP, THICK = 52, 62, 18
 TAKES = {  # learner: (what it takes, from, until, whether it fades)
     "ppo_cloned": ("a first policy", START - 34, START, False),
-    "bootstrapped": ("a pull to the rule; a bonus for its drives", START, TRAINED, True),
+    "bootstrapped": ("a pull to the rule, and a bonus for its drives", START, TRAINED, True),
     "jsrl": ("the first seconds of each episode", START, TRAINED - 60, True),
     "rlpd": ("its drives: half of each batch", START, TRAINED, False),
-    "ibrl": ("its drives; its action beside the agent's own", START, END, False),
+    "ibrl": ("its drives, and its action beside the agent's own", START, END, False),
 }
 MEASURED = ("returns", "accident")  # of each agent in the test
 LONGEST = {SECONDS: 15, DECISIONS: 150_000}  # the ends of the learning curves
@@ -175,14 +175,14 @@ def in_the_test(computed: Mapping[str, Results], rule: float) -> Figure:
     for place, method in enumerate([*TAKES, *(one for one in computed if one not in TAKES)]):
         results = computed[method]
         returns, accident = (equal_decisions.at(results, name, equal_decisions.BUDGETS[0]) for name in MEASURED)
-        taught, earned, accidents = method in TAKES, iqm(returns), f"{100 * accident.mean():.0f}"
+        taught, earned, accidents = method in TAKES, iqm(returns), f"{100 * np.median(accident):.0f}"
         names.append(display_name(method) + ", no teacher" * (not taught))
         dots(ax, returns, place, style(method).colour, np.full(len(returns), taught), earned)
         beside(ax, place, f"{earned:.0f}", accidents)
         least, most = returns.min(), returns.max()
-        words = f"{earned:.0f} ({least:.0f} to {most:.0f}), accidents {accidents} %"
+        words = f"{earned:.0f} ({least:.0f} to {most:.0f}), accidents {accidents} % (median)"
         alt_parts.append(f"{names[-1]}: {words}")
-    beside(ax, -0.75, "return", "accidents,\n% (mean)", colour=QUIET)
+    beside(ax, -0.75, "return", "accidents,\n% (median)", colour=QUIET)
     name_rows(ax, names, "return of an agent in the test; filled: it had a teacher; bar: interquartile mean")
     ax.set_xlim(0, 140)
     ax.text(rule + 2, len(names) - 1, "the rule", color=green, fontsize=SMALL, va="center")
@@ -219,6 +219,8 @@ def two_counts(computed: Mapping[str, Results], rule: float) -> Figure:
             ax.plot(x, values, color=look.colour, linewidth=look.width, linestyle=look.line)
             if by_decisions:
                 ends.append((values[np.isfinite(values)][-1], display_name(method), look.colour))
+        for method, at in {} if by_decisions else {"ppo_cloned": (8.5, 131), "rlpd": (10.3, 43)}.items():
+            ax.text(*at, display_name(method), fontsize=SMALL, color=style(method).colour)
         earned = {display_name(one): iqm(in_training(computed[one], mark, count)) for one in TAKES}
         order[count] = dict(sorted(earned.items(), key=lambda one: -one[1]))
     places, (low, high), colours = label_ends(ax, ends, gap=0.1), ax.get_ylim(), [colour for *_, colour in ends]

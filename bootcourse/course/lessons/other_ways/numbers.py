@@ -110,8 +110,13 @@ def ppo_round() -> tuple[int, int]:
 
 
 def accident_shares() -> np.ndarray:
-    """In how many % of the test's drives the agents of each method with a teacher have an accident, (methods,)."""
-    return 100 * np.array([at(method, "accident").mean() for method in TAUGHT])
+    """In how many % of its drives the median agent of each method with a teacher has an accident, (methods,)."""
+    return 100 * np.array([np.median(at(method, "accident")) for method in TAUGHT])
+
+
+def worst_of_ten(budget: int = FIRST) -> dict[str, float]:
+    """{method with a teacher: the return of its worst agent}."""
+    return {method: float(at(method, "returns", budget).min()) for method in TAUGHT}
 
 
 def training_scores(spent: float, count: str) -> dict[str, Estimate]:

@@ -32,6 +32,7 @@ KINDS = {
     RULES_NEXT: {"cql_weight": 0.0},
     "with CQL's term": {},
     "CQL's term, γ = 0.01": {"gamma": 0.01},
+    "no term, γ = 0.01": {"cql_weight": 0.0, "gamma": 0.01},
 }
 
 

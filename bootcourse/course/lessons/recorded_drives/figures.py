@@ -27,8 +27,8 @@ from bootcourse.statistics import ESCAPES
 ROAD = 9  # of the held-out ones: chosen for GAIL's drive
 WITH, IN_TARGET = "with CQL's term", "rule's a' in the target"
 LABELS = {  # where a method's name stands in `estimates`: x, y, side
-    "bc": (99, 0.1, "right"), "cql": (99, -0.2, "right"), "gail": (39, -0.35, "left"),
-    "sac": (21, 1.25, "left"), "bootstrapped": (26, -0.57, "left"),
+    "bc": (99, 0.15, "right"), "cql": (99, -0.25, "right"), "gail": (55, -0.25, "center"),
+    "sac": (26, 0.55, "left"), "bootstrapped": (29, -0.6, "left"),
 }  # fmt: skip
 METHODS_BY_NAME = {display_name(method): method for method in choosing.METHODS}
 
@@ -93,7 +93,7 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
             colours.append(style("cql").colour if name == WITH else OTHER.colour)
             promise = choosing.promised(policy, choosing.starts())
             earns = choosing.worth(policy, range(100), settings.gamma)
-            says = f"promises {promise:.1f}, earns {earns:.1f}".replace("-", "−")
+            says = f"promises {promise:.1f}, earns {earns:.1f}\n(discounted, from the start)".replace("-", "−")
             words.append(f"crashes on {crashes[name][-1]} of 100 roads\n{says}")
     shares = [torch.bincount(each, minlength=9).reshape(3, 3).numpy() / len(each) for each in taken]
     faster = [share[2].sum() for share in shares[1:]]
@@ -118,7 +118,7 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
         ax.spines[:].set_color(GRID)
         ax.set_title(name, fontsize=TEXT, color=colour)
         ax.set_xlabel(below, fontsize=TEXT, color=INK)
-    key = f"share of the {len(data.actions):,} recorded seconds"
+    key = f"in how many of the {len(data.actions):,} recorded seconds each action is taken"
     figure.text(0.012, 1 - 0.52 / height, key, fontsize=TEXT, color=QUIET)
     said = "; ".join(
         f"{name}: accelerates {100 * share[2].sum():.0f} %, {below}".replace("\n", ", ")
@@ -127,17 +127,23 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
     return finish(figure, title, f"A grid of nine actions each. {said}.")
 
 
-def estimates(names: Sequence[str], alike: np.ndarray, fits: Sequence[np.ndarray], truth: np.ndarray) -> Figure:
+def estimates(
+    names: Sequence[str], alike: np.ndarray, fits: Sequence[np.ndarray], truth: np.ndarray, same: float
+) -> Figure:
     """How far the estimates of two fits are off, for sets of agents, (sets, agents); alike: how often each acts as the
-    data do.
+    data do; same: a worth that is said of all agents, for comparison.
     """
-    off = np.stack(fits) - truth
+    off, control = np.stack(fits) - truth, same - truth
     title = "How far is each estimate off?"
-    if abs(off[:, alike > 0.8]).max() < 0.1 < 0.4 < abs(off[:, alike < 0.4]).max():
-        title = "Where an agent acts as the data do, both fits are within 0.1 of the truth"
+    near = max(abs(off[:, alike > 0.8]).max(), abs(control[alike > 0.8]).max())
+    if near < 0.1 < 0.4 < abs(off[:, alike < 0.4]).max():
+        title = "Where an agent acts as the data do, both fits are within 0.1 of the truth, and so is a constant"
     label = "share of the recorded seconds in which an agent would do what the rule did"
-    figure, ax = one_axes(3.7, title, label, "estimate minus truth (above 0: too high); ● first fit, ○ second fit")
+    above = f"estimate less truth (above 0: too high; grey: ±0.1); ● first, ○ second fit, × {same:.2f} for every agent"
+    figure, ax = one_axes(3.7, title, label, above)
+    ax.axhspan(-0.1, 0.1, color=GRID, zorder=0)
     ax.axhline(0, color=INK, linewidth=1)
+    ax.scatter(100 * alike, control, s=26, color=QUIET, marker="x", linewidths=1.2, zorder=2.5)
     said = []
     for i, name in reversed([*enumerate(names)]):
         look = style(METHODS_BY_NAME[name])
@@ -150,7 +156,7 @@ def estimates(names: Sequence[str], alike: np.ndarray, fits: Sequence[np.ndarray
         apart = abs(mine[0] - mine[1]).max()
         said.append(
             f"{name}: {x.min():.0f}–{x.max():.0f} %, off {mine.min():+.2f} to {mine.max():+.2f}, two fits up to "
-            f"{apart:.2f} apart"
+            f"{apart:.2f} apart, {same:.2f} off {control[:, i].min():+.2f} to {control[:, i].max():+.2f}"
         )
     ax.set_xlim(0, 100)
     ax.xaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")

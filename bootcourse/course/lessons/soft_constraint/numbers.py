@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import torch
 
-from bootcourse.course.lessons.soft_constraint.examples import entropy_in, fast_and_rule, later, reward_and_kl
+from bootcourse.course.lessons.soft_constraint.examples import entropy_in, fast_and_rule, kl_in, later, reward_and_kl
 from bootcourse.course.lessons.soft_constraint.figures import ways_out as ways_out
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
@@ -113,6 +113,14 @@ def paid_equally() -> float:
 def entropy_of_the_fast() -> float:
     """The fast agents' mean entropy in these seconds: nats."""
     return later(fast_and_rule()["five fast agents"], entropy_in)
+
+
+def leaving_the_rule() -> tuple[float, float, float]:
+    """In which share of these seconds the fast agents take another action than the rule; the KL in these, and else."""
+    drives = fast_and_rule()["five fast agents"]
+    left = later(drives, lambda drive: drive.actions != drive.rule_actions)
+    there = later(drives, lambda drive: kl_in(drive) * (drive.actions != drive.rule_actions))
+    return left, there / left, (later(drives, kl_in) - there) / (1 - left)
 
 
 def same_until_the_floor() -> bool:

@@ -71,7 +71,8 @@ class LiveReturns(LiveCurves):
 
 
 def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]) -> Figure:
-    """A square for each agent, coloured by how it ends, crossed if it crashes on most roads: a block for each kind.
+    """A square for each agent, coloured by how it ends, crossed if it crashes on most roads: a block for each kind, and
+    a row of it for each γ.
 
     shown: {(the row's words, the column's words): the kind}, row by row.
     """
@@ -86,15 +87,20 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
         ax.text(1.75 + 2.7 * column, 0.12, words, va="center", fontsize=TEXT, color=INK)
     for row, words in enumerate(rows):
         ax.text(0.1, 0.8 + 0.95 * row, words, va="center", fontsize=TEXT, color=INK)
-    for (row, column), (ends, crashes) in found.items():
+    for (row, column), (ends, _) in found.items():
         x, y = 1.75 + 2.7 * columns.index(column), 0.4 + 0.95 * rows.index(row)
-        place = np.arange(sum(ends))
-        across, down = x + 0.09 + 0.2 * (place % 10), y + 0.3 + 0.2 * (place // 10)
-        ax.scatter(across, down, s=125, c=np.repeat([*ENDS.values()], ends), **look)
-        lasts = np.cumsum(ends)  # of each colour those that crash come last
-        crossed = [last - 1 - k for last, of in zip(lasts, crashes, strict=True) for k in range(of)]
-        ax.scatter(across[crossed], down[crossed], s=42, **CRASHES)
-        verbs = ("escape", "escapes"), ("others crash", "other crashes"), ("stay", "stays")
+        kind = shown[row, column]
+        gammas = np.array([agent["gamma"] for agent in trained[kind].agents])
+        for line, gamma in enumerate(easier.GAMMAS):
+            alike = trained[kind].pick(np.flatnonzero(gammas == gamma))
+            each, crash = how_they_end(alike, easier.staying(kind))
+            across, down = x + 0.09 + 0.2 * np.arange(sum(each)), np.full(sum(each), y + 0.3 + 0.2 * line)
+            ax.scatter(across, down, s=125, c=np.repeat([*ENDS.values()], each), **look)
+            lasts = np.cumsum(each)  # of each colour those that crash come last
+            crossed = [last - 1 - k for last, of in zip(lasts, crash, strict=True) for k in range(of)]
+            ax.scatter(across[crossed], down[crossed], s=42, **CRASHES)
+            ax.text(x + 2.02, down[0], f"γ = {gamma:g}", va="center", fontsize=SMALL, color=QUIET)
+        verbs = ("escape", "escapes"), ("others crash", "other crashes"), ("neither", "neither")
         counts = sum(ends[:2]), *ends[2:]
         says = ", ".join(f"{n} {verb[int(n == 1)]}" for n, verb in zip(counts, verbs, strict=True))
         ax.text(x, y + 0.06, says, va="center", fontsize=TEXT, color=INK, fontweight="bold")

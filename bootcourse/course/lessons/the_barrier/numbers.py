@@ -91,6 +91,25 @@ def ends(kind: str) -> np.ndarray:
     return figures.how_they_end(easy(kind), easier.staying(kind))[0]
 
 
+def fate(earns_more: bool) -> np.ndarray:
+    """The mean speeds (m/s) of the agents with both changes that escape, do not crash on most roads, and earn more than
+    by staying, or no more.
+    """
+    agents = easy(BOTH)
+    kept = (agents.scores("success") >= ESCAPES) & (agents.scores("accident") <= 0.5)
+    return agents.scores("speed")[kept & ((agents.scores("returns") > easier.staying(BOTH)) == earns_more)]
+
+
+def too_fast() -> np.ndarray:
+    """The mean speeds (m/s) of those that earn no more than by staying."""
+    return fate(earns_more=False)
+
+
+def paid_speeds() -> np.ndarray:
+    """The mean speeds (m/s) of those that earn more."""
+    return fate(earns_more=True)
+
+
 @cache
 def step_to_the_left() -> attempts.Outcome:
     """What comes of steering left where the plan ends, on 100 roads."""

@@ -160,7 +160,14 @@ def crash_over_time(drive: Rollout) -> Figure:
     ax = panel(3.35, "faster than trap 2 (m/s)", (-3, 4))
     ax.plot(drive.times, faster, color=green, linewidth=2.5)
     ax.axhline(safe, color=INK, linewidth=1.5, linestyle="--")
-    ax.text(last + 0.3, safe, "above: brakes in\nmore than the\nasked gap", fontsize=TEXT, color=INK, va="center")
+    ax.text(
+        last + 0.3,
+        safe,
+        f"above {safe:g} m/s\nthe asked gap is\ntoo short to\nbrake in",
+        fontsize=TEXT,
+        color=INK,
+        va="center",
+    )
     then = faster[changed * steps]
     ax.plot(changed, then, "o", color=ALARM, markersize=7)
     says = f"{changed} s: changes lane"
@@ -195,7 +202,7 @@ def room_to_brake(changes: FastChanges) -> Figure:
         ax.text(gaps[0] - 0.04, row, words, color=colour, fontsize=TEXT, ha="right", va="center")
     for gap, words, side in (
         (asked, f"the rule asks for {asked:.1f} m ", "left"),
-        (takes, f" braking takes {takes:.2f} m", "left"),
+        (takes, f" braking straight on takes {takes:.2f} m", "left"),
     ):
         ax.axvline(gap, color=INK, linewidth=1.2, linestyle="--", zorder=1)
         ax.text(gap + 0.01, 1.62, words.strip(), fontsize=TEXT, color=INK, ha=side, va="center")
@@ -203,7 +210,8 @@ def room_to_brake(changes: FastChanges) -> Figure:
     alt = (
         f"{len(crashed)} drives. Those that crash began the lane change with {changes.gap[crashed].min():.2f} to "
         f"{changes.gap[crashed].max():.2f} m, those that get out with {changes.gap[~crashed].min():.2f} to "
-        f"{changes.gap[~crashed].max():.2f} m. The rule asks for {asked:.1f} m; braking takes {takes:.2f} m."
+        f"{changes.gap[~crashed].max():.2f} m. The rule asks for {asked:.1f} m; braking straight on takes "
+        f"{takes:.2f} m."
     )
     return finish(figure, title, alt)
 

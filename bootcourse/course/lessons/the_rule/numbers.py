@@ -1,5 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from dataclasses import replace
 from functools import cache
 from typing import NamedTuple
 
@@ -7,7 +8,7 @@ import numpy as np
 
 from bootcourse.course.lessons.the_rule.explorable import braking_distance as braking_distance
 from bootcourse.course.lessons.the_rule.figures import tells_apart
-from bootcourse.course.lessons.the_rule.rules import ROADS, makes_way_at
+from bootcourse.course.lessons.the_rule.rules import ROADS, makes_way_at, with_numbers
 from bootcourse.course.lessons.the_rule.rules import as_printed as as_printed
 from bootcourse.course.lessons.the_rule.rules import crash as crash
 from bootcourse.course.lessons.the_rule.rules import decided as decided
@@ -15,10 +16,13 @@ from bootcourse.course.lessons.the_rule.rules import driven as driven
 from bootcourse.course.lessons.the_rule.rules import fast_changes as fast_changes
 from bootcourse.course.lessons.the_rule.rules import recorded as recorded
 from bootcourse.course.lessons.the_rule.rules import split as split
+from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.policies import rule_policy
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X
 from bootcourse.rule import SETTLED as SETTLED
 from bootcourse.rule import Reason
+from bootcourse.scenario import DEFAULT
 
 
 def lost_in_change(floor: float) -> np.ndarray:
@@ -39,6 +43,44 @@ def called_off() -> np.ndarray:
     began, lanes = changes.argmax(0), cars[:, :, EGO, LANE]
     completed = lanes[began + 4, roads] < lanes[began, roads]
     return changes.any(0) & ~completed & (reasons[began + 1, roads] == Reason.FREE)
+
+
+def lost_and_done(second: int) -> float:
+    """Of the drives with a sight of 20 m that lose trap 1 in this second of their first lane change, and not before,
+    the share that completes it.
+    """
+    reasons, _, cars, _ = decided(20.0)
+    began, roads = (reasons == Reason.CHANGE).argmax(0), np.arange(len(ROADS))
+    lanes, unseen = cars[:, :, EGO, LANE], cars[:, :, TRAP_1, X] - cars[:, :, EGO, X] > 20.0
+    changes = (reasons == Reason.CHANGE).any(0)
+    loses = changes & unseen[began + second, roads] & ~unseen[began + second - 1, roads]
+    return float((lanes[began + 4, roads] < lanes[began, roads])[loses].mean())
+
+
+def begun() -> np.ndarray:
+    """How many lane changes each drive (roads,) with a sight of 20 m begins."""
+    changes = decided(20.0)[0] == Reason.CHANGE
+    return changes[0] + (changes[1:] & ~changes[:-1]).sum(0)
+
+
+def shrinks() -> np.ndarray:
+    """By how much (m) the gap to trap 2 shrinks in three seconds of braking, of the `fast_changes` that get out."""
+    reasons, _, cars, episodes = decided(20.0)
+    ego, trap = cars[:, :, EGO], cars[:, :, TRAP_2]
+    gap, faster = trap[..., X] - ego[..., X] - DEFAULT.car.length, ego[..., SPEED] - trap[..., SPEED]
+    fast = (reasons == Reason.CHANGE) & (trap[..., LANE] == ego[..., LANE] - 1) & (gap > 0) & (faster > 2.5)
+    roads = np.flatnonzero(fast.any(0) & (episodes.accident == 0))
+    first = fast.argmax(0)[roads]
+    return gap[first, roads] - gap[first + 3, roads]
+
+
+@cache
+def ignored(sight: float) -> float:
+    """What the rule with this sight (m) earns on the lesson's roads if no driver heeds those behind."""
+    traffic = replace(DEFAULT.traffic, politeness=0.0)
+    return float(
+        drive_episodes(rule_policy(with_numbers(sight)), ROADS, replace(DEFAULT, traffic=traffic)).returns.mean()
+    )
 
 
 def tells() -> float:

@@ -93,7 +93,7 @@ def later() -> Explorable:
         says = says.replace("-", "−")
         return drawing(WIDTH, HEIGHT, [text(4, 20, says, size=14, bold=True), *chart.parts], says)
 
-    lam = Number("λ", 0.95, 0, 1, 0.05, "So much each second counts, compared with the one before it (times γ).")
+    lam = Number("λ", 0.95, 0, 1, 0.05, "Each surprise counts γλ times as much as the one before it.")
     says, check = "So long the car falls back, and so long it sprints.", whole_number("seconds", 5, 40)
     half = Number("seconds", HALF, 5, 40, 1, says, "s", check=check)
     return Explorable("Which later surprises count?", draw, lam=lam, half=half)

@@ -36,9 +36,9 @@ def plane(clone: tuple[float, float], trained: tuple[float, float]) -> Figure:
     roads = f"mean return of an agent on {len(ROADS)} roads"
     figure, ax = one_axes(3.5, title, roads, "roads on which it ends ahead of trap 1, %")
     ax.set(xlim=(0, 125), ylim=(-8, 108))
-    looks, alt = {"the rule": style("rule").colour, "keeping straight": style("idle").colour}, []
+    methods, alt = {"the rule": "rule", "keeping straight": "idle", "PPO after cloning": "ppo_cloned"}, []
     for name, (returns, ahead) in compared({"PPO alone": "alone", "PPO after cloning": "cloned"}).items():
-        colour = looks.get(name, style("ppo").colour)
+        colour = style(methods.get(name, "ppo")).colour
         ax.scatter(returns, 100 * ahead, s=34, color=colour, edgecolors="white", linewidths=0.6, zorder=3)
         x, y = float(np.mean(returns)), 100 * float(np.mean(ahead))
         look = {"textcoords": "offset points", "ha": "center", "fontsize": TEXT, "color": INK}
@@ -101,12 +101,14 @@ def on_the_way(kinds: Mapping[str, Mapping[str, np.ndarray]]) -> Figure:
     """
     title = "Alone, few training drives get ahead and then none; after cloning, many from the start"
     below = "decisions in training (thousands); a line for each agent"
-    figure, ax = one_axes(3.3, title, below, "ahead of trap 1, % of the last 300 drives")
-    alt, look = [], {"textcoords": "offset points", "va": "center", "fontsize": TEXT}
+    figure, alt = new_figure(3.3), []
+    look = {"textcoords": "offset points", "va": "center", "fontsize": TEXT}
+    ax, close = (axes_at(figure, left, 0.95, width, 1.8) for left, width in ((0.5, 3.4), (4.35, 2.4)))
     for name, kind in {"PPO after cloning": "cloned", "PPO alone": "alone"}.items():
         at, shares = kinds[kind]["at"].T / 1000, 100 * kinds[kind]["escapes"].T
         colour = style("ppo_cloned" if kind == "cloned" else "ppo").colour
-        ax.plot(at, shares, color=colour, linewidth=0.8, marker="o", ms=2.5, clip_on=False)
+        for panel in (ax, close) if kind == "alone" else (ax,):
+            panel.plot(at, shares, color=colour, linewidth=0.8, marker="o", ms=2.5, clip_on=False)
         at_end = float(at[-1].mean()), float(shares[-1].mean())
         ax.annotate(name, at_end, (8, 0) if kind == "cloned" else (-50, 12), color=colour, **look)
         spans = ", ".join(
@@ -114,5 +116,11 @@ def on_the_way(kinds: Mapping[str, Mapping[str, np.ndarray]]) -> Figure:
             for place in (0, 3, len(at) - 1)
         )
         alt.append(f"{name}: {spans}")
-    ax.set(xlim=(0, 800), ylim=(0, 100))
+    for panel, what, most in (
+        (ax, "ahead of trap 1, % of the last 300 drives", 100),
+        (close, "PPO alone, to 10 %", 10),
+    ):
+        plain_axes(panel, what)
+        panel.set(xlim=(0, 800), ylim=(0, most))
+    ax.set_xlabel(below, fontsize=TEXT, color=INK)
     return finish(figure, title, f"{below}. {'; '.join(alt)}.")

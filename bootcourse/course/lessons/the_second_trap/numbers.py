@@ -11,14 +11,15 @@ from bootcourse.course.lessons.the_second_trap import (
 )
 from bootcourse.course.lessons.your_teacher import example_teachers
 from bootcourse.episodes.record import record
-from bootcourse.learn.teachers import teacher_policy
+from bootcourse.learn.teachers import teacher_policy, toward
 from bootcourse.policies import rule_policy
 from bootcourse.research.tables import markdown
-from bootcourse.road.state import EGO, TRAP_1, X
+from bootcourse.road.state import EGO, LANE, TRAP_1, X
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import ROAD, discounted, idle, shipped_teachers
 
+SHOWN = 3  # the agent of PPO alone whose drive the lesson shows
 DRIVES = ("keeping straight", "this agent", "the rule", "careful")  # on road 10, see `worth`
 
 
@@ -44,18 +45,18 @@ def drivers() -> dict[str, tuple[float, float]]:
 
 
 @cache
-def ppo_drive(kind: str = "alone", seed: int = 0):
+def ppo_drive(kind: str = "alone", seed: int = SHOWN):
     """The drive of one of these agents on the road that most lessons show."""
     return record(ppo_kinds.agent_of(kind, seed).as_policy(), [ROAD])[0]
 
 
-def ppo_speeds(kind: str = "alone", seed: int = 0) -> np.ndarray:
+def ppo_speeds(kind: str = "alone", seed: int = SHOWN) -> np.ndarray:
     """Its speed (m/s) after each decision, (decisions,)."""
     return second_trap.speeds(ppo_drive(kind, seed))
 
 
 def ppo_gap() -> np.ndarray:
-    """How far (m) the first agent of PPO alone is ahead of trap 1 after each decision, (decisions,)."""
+    """How far (m) the agent of PPO alone that is shown is ahead of trap 1 after each decision, (decisions,)."""
     cars = ppo_drive().states[2::2]
     return cars[:, EGO, X] - cars[:, TRAP_1, X]
 
@@ -82,6 +83,46 @@ def drives_worth() -> str:
 def worths() -> list[float]:
     """What the drives of the ten agents of PPO alone on this road are worth with PPO's γ."""
     return [discounted(ppo_drive(seed=seed), ppo_kinds.GAMMA) for seed in range(ppo_agents())]
+
+
+def turning_points() -> list[tuple[int, int]]:
+    """From when to when (s) the shown drive is below the traps' speed, then above, ...: each stretch that ends."""
+    turns = np.flatnonzero(np.diff(ppo_speeds() < DEFAULT.traps.speed))
+    return [*zip(turns[:-1], turns[1:], strict=True)]
+
+
+@cache
+def drives_of_ten(kind: str, roads: int = len(second_trap.TWELVE)) -> list:
+    """The drives of the ten agents of a kind on the first of the twelve roads."""
+    policies = [ppo_kinds.agent_of(kind, seed).as_policy() for seed in range(ppo_agents())]
+    return [drive for policy in policies for drive in record(policy, second_trap.TWELVE[:roads])]
+
+
+def falls(lam: float) -> float:
+    """The share of the seconds in which the ten of PPO alone begin to fall back that have A > 0."""
+    return float((second_trap.falling_back(drives_of_ten("alone"), lam) > 0).mean())
+
+
+@cache
+def steady(speed: float) -> float:
+    """The mean worth, on the twelve roads, of `careful`'s way out and then a steady speed (m/s) in the free lane."""
+
+    def rule(cars, scenario):
+        free = cars[EGO, LANE] == 0
+        return toward(cars, float(speed), 0, scenario) if free else example_teachers.careful(cars, scenario)
+
+    return float(
+        np.mean([discounted(each, ppo_kinds.GAMMA) for each in record(teacher_policy(rule), second_trap.TWELVE)])
+    )
+
+
+def in_free_lane(driver: str) -> float:
+    """The mean speed (m/s) in the free lane of "the rule", or of the ten agents of a kind, on three roads."""
+    by_rule = driver == "the rule"
+    drives = record(rule_policy(DEFAULT), second_trap.TWELVE[:3]) if by_rule else drives_of_ten(driver, 3)
+    steps = DEFAULT.clock.steps
+    free = [each.states[steps::steps, EGO, LANE] == 0 for each in drives]
+    return float(np.concatenate([second_trap.speeds(each)[at] for each, at in zip(drives, free, strict=True)]).mean())
 
 
 def cloned_escape(teacher: str) -> int:

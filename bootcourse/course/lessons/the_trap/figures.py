@@ -100,13 +100,17 @@ def worth_with_crashes(worths: Mapping[str, Worth]) -> Figure:
     for row, ((name, way), colour) in enumerate(zip(ways, colours, strict=True)):
         ax.barh(row, way.unpaid, 0.6, color="white", edgecolor=colour, linewidth=1.2)
         ax.barh(row, way.worth, 0.6, color=colour, edgecolor=colour, linewidth=1.2)
-        crashes = f"{100 * way.crashes:.0f}, from second {way.seconds.min()} on" if way.crashes else "none"
+        crashes = f"{100 * way.crashes:.0f}; first in second {way.seconds.min()}" if way.crashes else "none"
         for x, words in ((1.42, f"{way.worth:.2f}"), (1.62, crashes)):
             ax.text(x, row, words, fontsize=TEXT, color=colour, va="center")
         says.append(f"{name} {way.worth:.2f}, if crashes paid 0 {way.unpaid:.2f}, crashes: {crashes}")
     for x, words in ((1.42, "worth"), (1.62, "crashes on 100 roads")):
         ax.text(x, -0.72, words, fontsize=TEXT, color=QUIET, va="bottom")
-    name_rows(ax, [name for name, _ in ways], "worth at γ = 0.8, the mean of 100 roads (open: if a crash paid 0)")
+    name_rows(ax, [name for name, _ in ways], "worth at γ = 0.8, the mean of 100 roads")
+    row, way = max(enumerate(way for _, way in ways), key=lambda each: each[1].unpaid - each[1].worth)
+    ax.text(
+        (way.worth + nothing.worth) / 2, row, "if crashes paid 0", fontsize=SMALL, color=INK, ha="center", va="center"
+    )
     ax.axvline(nothing.worth, color=INK, linestyle="--", linewidth=1.4)
     words = f"doing nothing: {nothing.worth:.2f}"
     ax.text(nothing.worth, -0.72, words, fontsize=TEXT, color=INK, ha="center", va="bottom")

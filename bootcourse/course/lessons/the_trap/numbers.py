@@ -17,7 +17,8 @@ from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
-from bootcourse.policies import plan_policy
+from bootcourse.policies import PlanPolicy, plan_policy, rule_policy
+from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import by_rule, discounted, idle, shipped_results
@@ -66,6 +67,43 @@ def pays_from() -> float:
     gammas = np.arange(50, 101) / 100
     pays = np.array([discounted(by_rule(), gamma) > discounted(idle(), gamma) for gamma in gammas])
     return float(gammas[np.flatnonzero(~pays)[-1] + 1])
+
+
+@cache
+def rule_pays(gamma: float) -> float:
+    """On which share of the last figure's 100 roads the rule's way out is worth more than staying."""
+    staying = discounted(idle(), gamma)  # the same on all roads
+    return float(np.mean([discounted(drive, gamma) > staying for drive in rule_on_100()]))
+
+
+@cache
+def rule_on_100() -> list[Rollout]:
+    """The rule on the first 100 held-out roads."""
+    return record(rule_policy(DEFAULT), held_out_seeds(1, 100))
+
+
+@cache
+def at_random() -> Episodes:
+    """500 drives whose actions are drawn at random, as an agent's first ones are."""
+    actions = np.random.default_rng(0).integers(0, 9, (30, 500))
+    return drive_episodes(PlanPolicy(actions), held_out_seeds(1, 500), together=1000)
+
+
+@cache
+def agent_on_ten(agent: int) -> list[Rollout]:
+    """An agent of plain SAC that ships, on the first ten held-out roads."""
+    return record(shipped_agents("sac")[agent].as_policy(), held_out_seeds(1, 10))
+
+
+def first_seconds(agent: int) -> np.ndarray:
+    """Its speed (m/s) there at the start and after each of the first nine seconds, (10, 10)."""
+    return np.array([drive.states[:20:2, EGO, SPEED] for drive in agent_on_ten(agent)])
+
+
+def closes_up() -> float:
+    """By how much (m) the agent that stays comes closer to trap 1 there, on average."""
+    gaps = [drive.states[:, TRAP_1, X] - drive.states[:, EGO, X] for drive in agent_on_ten(0)]
+    return float(np.mean([gap[0] - gap[-1] for gap in gaps]))
 
 
 @cache

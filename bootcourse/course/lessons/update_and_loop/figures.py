@@ -54,7 +54,8 @@ def along_falls(yours: np.ndarray, unmarked: by_hand.SAC) -> Figure:
     q, most = worlds.along_falls(unmarked), worlds.most_possible(unmarked)
     shown = q.argmax() == worlds.BEFORE and q.min() > most
     title = "With the bug a fallen pole is worth most, more than is possible" if shown else OF_A_FALL
-    return falls(title, {"with the bug": q, "your agent": yours}, [STRANGERS[1], OTHER], {"limit with the bug": most})
+    limit = f"its limit {most:.0f} (α = {unmarked.log_alpha.exp():.2f})"
+    return falls(title, {"with the bug": q, "your agent": yours}, [STRANGERS[1], OTHER], {limit: most})
 
 
 def with_rows(yours: np.ndarray, added: by_hand.SAC, stands: float) -> Figure:
@@ -65,12 +66,12 @@ def with_rows(yours: np.ndarray, added: by_hand.SAC, stands: float) -> Figure:
     return falls(title, named, [STRANGERS[2], OTHER])
 
 
-def with_frozen_guess(unmarked: by_hand.SAC, frozen: by_hand.SAC, stands: float) -> Figure:
-    """What two agents with the bug expect: one whose guess of a fallen pole is frozen at 30 stands for `stands`."""
-    bug, q = worlds.along_falls(unmarked), worlds.along_falls(frozen)
-    title = "With the guess frozen at 30, Q of a fallen pole stays near 30" if abs(q[-1] - 30) < 6 else OF_A_FALL
-    named = {f"frozen at 30: stands for {stands:.0f} pushes": q, "with the bug": bug}
-    return falls(title, named, [STRANGERS[3], STRANGERS[1]])
+def with_frozen_guess(yours: np.ndarray, unmarked: by_hand.SAC, frozen: by_hand.SAC, stands: float) -> Figure:
+    """The same for an agent with the bug whose guess of a fallen pole is frozen at 30; it stands for `stands`."""
+    bug, q = worlds.along_falls(unmarked)[-1], worlds.along_falls(frozen)
+    title = f"Frozen at 30, Q of a fallen pole stays near 30; not frozen it is {bug:.0f}"
+    named = {f"frozen at 30: stands for {stands:.0f} pushes": q, "your agent": yours}
+    return falls(title if abs(q[-1] - 30) < 6 else OF_A_FALL, named, [STRANGERS[3], OTHER])
 
 
 def drops(agent: by_hand.SAC) -> bool:

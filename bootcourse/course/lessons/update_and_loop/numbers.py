@@ -28,6 +28,11 @@ def tests() -> list[np.ndarray]:
     return [each[np.isfinite(each)] for each in agents().notes["tests"]]
 
 
+def gets_worse() -> int:
+    """How many of these get worse from one test to the next."""
+    return sum(bool((np.diff(each) < 0).any()) for each in tests())
+
+
 LEARNED = 50  # pushes that an agent balances the pole at least if it has learned something
 
 

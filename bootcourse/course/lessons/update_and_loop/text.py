@@ -136,19 +136,16 @@ soft_value, critic_target, critic_loss, actor_loss, temperature_loss = own_code.
 # %%
 def update(agent, batch):
     """One update; returns nothing. agent: a by_hand.SAC. batch: a by_hand.Batch of n rows:
-    states, next_states (n, 4), actions, rewards, terminated (n,).
+    states, next_states (n, 4), actions, rewards, terminated (n,). agent.log_pi(states): (n, 2);
+    agent.q(states), agent.slow_q(states): (2, n, 2), Q of both critics or copies.
     """
     # alpha = agent.log_alpha.exp().detach()
-    # 3. with torch.no_grad():
-    #    soft_value(log_pi, q, alpha): agent.log_pi(batch.next_states) is (n, 2), and
-    #    q = agent.slow_q(batch.next_states).amin(0);
-    #    then critic_target(reward, terminated, next_value, agent.gamma)
-    # 4. critic_loss(q_pair, action, target): q_pair = agent.q(batch.states) is (2, n, 2)
-    # 5. actor_loss(log_pi, q, alpha): both of batch.states, q = agent.q(batch.states).amin(0)
-    # 6. temperature_loss(agent.log_alpha, sac.entropy(log_pi), agent.target_entropy): log_pi of 5
-    # 7. for each of agent.optimisers (critics, actor, log α): zero_grad, backward of its loss, step
-    # 8. with torch.no_grad(): for each pair of agent.critics.parameters() and
-    #    agent.copies.parameters(), move the copy in place by agent.tau of the difference
+    # 3. soft_value(log_pi, q, alpha); critic_target(reward, terminated, next_value, agent.gamma)
+    # 4. critic_loss(q_pair, action, target), q_pair: (2, n, 2)
+    # 5. actor_loss(log_pi, q, alpha), q: (n, 2)
+    # 6. temperature_loss(agent.log_alpha, sac.entropy(log_pi), agent.target_entropy)
+    # 7. agent.optimisers: those of the critics, the actor and log α
+    # 8. agent.critics.parameters(), agent.copies.parameters(), agent.tau
     # solution: the exercise's own
 
 
@@ -159,10 +156,11 @@ check.update(update)
 #
 # - `env` is gymnasium's: `state, info = env.reset()`, and
 #   `next_state, reward, terminated, truncated, info = env.step(action)`. *Truncated* means that the time is
-#   up. Reset after a fall and when the time is up.
+#   up. Reset after both. Which of the two goes into the row (Round 1)?
 # - `agent.draw(state, rng)` draws an action, and `by_hand.row(s, a, r, terminated, s')` makes a row.
 # - `by_hand.batch_of(buffer.sample(256, rng))` is a batch for `update`.
-# - Each call of `train` begins with a reset, counts its own pushes, and updates after push 256, 260, 264, …
+# - Each call of `train` begins with a reset, counts its own pushes, and updates after push 256 (a first batch is
+#   there), 260, 264, …
 
 
 # %%
@@ -199,8 +197,7 @@ figures.small_worlds(right, lost)
 # third world, which has no fall to mark.
 #
 # With the bug the target also counts the fallen state. No row begins there, so the network makes up what it is
-# worth. If it gave that state the same Q as the start of the first world, which Q would agree with its own target?
-# Q = 1 + {{ GAMMA }} Q, that is {{ 1 / (1 - GAMMA) | .0f }}.
+# worth. Work that out from the table: in the first world Q = 1 + {{ GAMMA }} V(fallen). The right V(fallen) is 0.
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Let those who have finished exchange their `update` with a neighbour and find the lines in which they
@@ -245,33 +242,27 @@ explorable.trained_poles(agent, unmarked)
 # %% [markdown]
 # **See.** {{ learned('marked') }} agents that we trained without the bug balance the pole for {{ spread('marked') }}
 # pushes in their first test. All {{ len(stood('unmarked')) }} with the bug balance it for
-# {{ stood('unmarked').max() | .0f }}, as long as a pole stands that is always pushed to one side.
-# <!-- claim: (abs(stood('unmarked') - one_sided()) < 0.5).all() -->
+# {{ stood('unmarked').max() | .0f }} (a mean of ten starts), as long as a pole stands that is always pushed to one
+# side. {{ gets_worse() }} of our five get worse from one test to the next: one good test is not enough.
+# <!-- claim: (abs(stood('unmarked') - one_sided()) < 0.5).all() and len(tests()) == 5 -->
 
 # %% [markdown]
 # ## Round 4: why does it fall?
 #
-# An actor prefers the pushes of which its critics expect most.
-#
-# > **Predict.** What do the critics with the bug expect of a fallen pole, compared with a standing one?
+# An actor prefers the pushes of which its critics expect most. What do they expect in a fall?
 
 # %%
-fallen = ["more", "about the same", "less"]
-predict("update_and_loop.3", "Of a fallen pole they expect", fallen)
-
-# %%
-predicted("update_and_loop.3")
 bc.show(figures.along_falls(expects[0], unmarked))  # both after one block
 
 # %% [markdown]
-# **See.** For this picture 40 poles are pushed to one side until they fall. To the critics with the bug the
+# **See.** 40 poles are pushed to one side until they fall. To the critics with the bug the
 # fallen pole is worth most.
 #
 # Their Q is even *impossible*. Each push earns 1, and at most α log 2 for the entropy. So with
 # γ = {{ by_hand.SAC.gamma }} no right Q is above {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2), its **limit**
-# (dotted). In all our {{ len(stood('unmarked')) }} agents with the bug Q lies above the limit, in all
+# (dotted). In all our {{ len(stood('unmarked')) }} agents with the bug Q of a fallen pole lies above the limit, in all
 # {{ len(stood('marked')) }} without it below.
-# <!-- claim: (expected('unmarked').min(1) > limit('unmarked')).all() and
+# <!-- claim: (expected('unmarked')[:, -1] > limit('unmarked')).all() and
 #   (expected('marked').max(1) < limit('marked')).all() -->
 #
 # No row begins in a fallen state. Is Q so high because of that? Leave the bug in, and let `worlds.WithFallen` add
@@ -282,44 +273,64 @@ bc.show(figures.along_falls(expects[0], unmarked))  # both after one block
 # %%
 changes = ["nothing", "Q drops towards the fall, the pole falls at once"]
 changes += ["Q drops towards the fall, the pole stands longer"]
-predict("update_and_loop.4", "What do the added rows change?", changes)
+predict("update_and_loop.3", "What do the added rows change?", changes)
 
 # %%
-predicted("update_and_loop.4")
+predicted("update_and_loop.3")
 PAID = 0  # what a push pays a fallen pole
 added = worlds.taught(loop, step, worlds.WithFallen(buffer(50_000), PAID), BLOCK, SEED)
 stands = by_hand.balanced(added)
 bc.show(figures.with_rows(expects[0], added, stands))
 
 # %% [markdown]
-# **Explain.** The rows tell the critics that a fallen pole earns nothing, and most such agents learn (table below).
+# **Explain.** With these rows most such agents learn (table below).
 #
 # How did Q get so high without them? A high guess for the fallen pole raises the target of the last push and so, in
-# the same network, the guess. **Perhaps Q feeds itself.** To test it, leave the bug in, add no rows and freeze the
-# guess: in the targets each fallen pole is worth 30 (`worlds.FrozenAt30`). If Q feeds itself, Q of a fallen pole now
-# stays near 30.
+# the same network, the guess. **Perhaps Q feeds itself.** To test it, add no rows and freeze the guess: in the
+# targets each fallen pole is worth 30 (`worlds.FrozenAt30`).
+#
+# > **Predict.** If Q feeds itself, what do the critics now expect of a fallen pole?
 
 # %%
+fallen = ["near 0", "near 30", "above 100, as before"]
+predict("update_and_loop.4", "Of a fallen pole they expect", fallen)
+
+# %%
+predicted("update_and_loop.4")
 bugged = worlds.Unmarked(buffer(50_000))
 frozen = worlds.taught(loop, step, bugged, BLOCK, SEED, worlds.FrozenAt30)
-bc.show(figures.with_frozen_guess(unmarked, frozen, by_hand.balanced(frozen)))
+guessed = worlds.along_falls(frozen)[-1]
+bc.show(figures.with_frozen_guess(expects[0], unmarked, frozen, by_hand.balanced(frozen)))
 
 # %% [markdown]
 # **Explain.** **Q did feed itself.** With the guess frozen, Q of a fallen pole stays near 30. *But a guess that does
-# not grow can still be wrong*: none of our {{ len(stood('frozen-30')) }} agents of this kind learned. (A few with
-# other seeds do.)
+# not grow can still be wrong*: to such critics a standing pole is worth little more than a fallen one, and none of our
+# {{ len(stood('frozen-30')) }} balances it yet. Frozen near 0 most do: that is what `terminated` does.
+# <!-- claim: (stood('frozen') > LEARNED).sum() > 10 -->
 # <!-- claim: (abs(expected('frozen-30')[:, -1] - 30) < 3).all() and expected('unmarked')[:, -1].min() > 200 -->
+# <!-- claim: (1 < expected('frozen-30')[:, 0] / expected('frozen-30')[:, -1]).all() and
+#   (expected('frozen-30')[:, 0] / expected('frozen-30')[:, -1] < 1.35).all() -->
 #
-# | agents | median Q 8 pushes before the fall | of a fallen pole | balance over {{ LEARNED }} pushes |
+# | after {{ BLOCK | , }} pushes | median Q 8 pushes before the fall | of a fallen pole | balance over {{ LEARNED }} |
 # | --- | --- | --- | --- |
 # | no bug | {{ middle('marked') }} | {{ learned('marked') }} |
 # | bug | {{ middle('unmarked') }} | {{ learned('unmarked') }} |
 # | bug, added rows pay 0 (true) | {{ middle('paid-0') }} | {{ learned('paid-0') }} |
+# | bug, guess frozen near 0 (true) | {{ middle('frozen') }} | {{ learned('frozen') }} |
 # | bug, guess frozen at 30 (false) | {{ middle('frozen-30') }} | {{ learned('frozen-30') }} |
 #
-# *A critic follows its targets, and makes up what they leave open.*
-# <!-- claim: all(drop(kind) for kind in ('marked', 'paid-0')) and
+# <!-- claim: all(drop(kind) for kind in ('marked', 'paid-0', 'frozen')) and
 #   not (drop('unmarked') or drop('frozen-30')) and max(stood('unmarked').max(), stood('frozen-30').max()) < 20 -->
+#
+# Let your frozen agent learn as long again:
+
+# %%
+loop(frozen, env, bugged, step, BLOCK, np.random.default_rng(SEED))
+print(f"It balances the pole for {by_hand.balanced(frozen):.0f} pushes.")
+
+# %% [markdown]
+# **See.** Of fifteen such agents that we trained for 6,000 pushes most learned in the end; of fifteen with the bug
+# alone none did. *A critic follows its targets, and makes up what they leave open.*
 
 # %% [markdown] tags=["instructor"] minutes=5
 # A belief to name: "without marks the critics would find the constant" of round 1. They approach it if rows
@@ -332,9 +343,9 @@ bc.show(figures.with_frozen_guess(unmarked, frozen, by_hand.balanced(frozen)))
 
 # %% tags=["hide-input"]
 length = lengths[2 - np.digitize(with_bug / tests[1], [0.1, 0.75])]
-compared = fallen[2 - np.digitize(worlds.of_a_fallen_pole(unmarked), [0.9, 1.1])]
+compared = fallen[np.digitize(guessed, [15, 60])]
 change = changes[figures.drops(added) * (1 + (stands > 2 * with_bug))]
-compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: compared, 4: change})
+compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: change, 4: compared})
 
 # %% [markdown]
 # ## What you now know

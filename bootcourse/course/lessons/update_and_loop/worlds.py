@@ -176,12 +176,6 @@ def along_falls(agent: by_hand.SAC) -> np.ndarray:
     return agent.q(states.flatten(0, 1)).mean((0, 2)).view(states.shape[:2]).mean(0).numpy()
 
 
-def of_a_fallen_pole(agent: by_hand.SAC) -> float:
-    """What an agent's critics expect of a fallen pole, as a multiple of what they expect eight pushes before."""
-    standing, *_, fallen = along_falls(agent)
-    return fallen / standing
-
-
 def most_possible(agent: by_hand.SAC) -> float:
     """More than this no Q can be: each push pays 1 and at most α log 2 for its entropy, without an end."""
     return (1 + agent.log_alpha.exp().item() * float(np.log(2))) / (1 - agent.gamma)

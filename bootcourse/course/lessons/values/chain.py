@@ -62,19 +62,21 @@ def many(
     learners: int = 300,
     taught: Sequence[tuple[int, int]] = (),
     replays: int = 1000,
+    step: float = 0.3,
+    decisions: int = 1000,
 ) -> np.ndarray:
     """What `learn_chain` learns, for many learners at once, before each one's first walk and after each: their Q.
 
     replays: after so many of the first decisions `taught` is replayed. Returns (walks + 1, learners, 5, 2).
     """
-    drawn = np.array([chances(explore, 1000, seed) for seed in range(learners)])
+    drawn = np.array([chances(explore, decisions, seed) for seed in range(learners)])
     q, s, who = np.zeros((learners, STATES, 2)), np.zeros(learners, dtype=int), np.arange(learners)
     found = [q.copy()]
     for t, chance in enumerate(drawn.T):
         a = np.where(chance < 0, q[who, s].argmax(axis=1), chance)
         for state, action in [(s, a), *(taught if t < replays else ())]:
             target = REWARD[state, action] + gamma * q[who, NEXT[state, action]].max(axis=1)
-            q[who, state, action] += 0.3 * (target - q[who, state, action])
+            q[who, state, action] += step * (target - q[who, state, action])
         s = NEXT[s, a]
         if (t + 1) % EPISODE == 0:
             s = np.zeros(learners, dtype=int)

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from bootcourse.colours import PALE
+from bootcourse.colours import GRID, PALE
 from bootcourse.course import charts
 from bootcourse.course.lessons.values import chain
 from bootcourse.methods import style
@@ -24,8 +24,9 @@ from bootcourse.plots.figure import (
     wrapped,
 )
 
-WIDE, HIGH = 82, 46  # pixels of a state's box
+WIDE, HIGH = 72, 46  # pixels of a state's box
 ON = charts.Style("#56B4E9")  # going on to the free road; what stays in the trap has OTHER's look
+OPEN = charts.Style("#E69F00")  # where going on is worth more
 CELL = (0.95, 0.31)  # inches of a number's cell
 DARK, LIGHT, EMPTY = style("sac").colour, PALE, "white"
 SHADES = {  # of a learner's square: how that looks, and how far the learner got
@@ -51,6 +52,7 @@ def five_states(middles: Sequence[float], top: float, pay: float) -> tuple[list[
         if s in (1, 2, 3):
             parts += [line(middles[s], top + HIGH, middles[s], low)]
             parts += [label(middles[s] + 6, top + HIGH + 20, "action 0", "start")]
+    parts.append(label(middles[4], top + HIGH + 20, "no way back"))
     parts += [line(middles[3], low, middles[0], low), arrow(middles[0], low, middles[0], top + HIGH)]
     for x, words in ((left[0], f"action 0: +{pay:.2f}"), (left[4], f"action 0 or 1: +{free:g}")):
         parts += [line(x + 36, top, x + 36, top - 16), line(x + 36, top - 16, x + 70, top - 16)]
@@ -90,10 +92,12 @@ def _values(
     heads: Sequence[str] = ("trap: Q(0, 1)", "Q(1, 1)", "Q(2, 1)", "Q(3, 1)", "free: Q(4, 1)"),
     what: str = "The value of going on",
     alone: int = -1,
+    look: charts.Style = ON,
 ) -> Figure:
-    """A row of cells for each name: a number for each state, and which cells are blue.
+    """A row of cells for each name: a number for each state, and which cells are coloured.
 
-    what: the numbers are, for the alt text; alone: the row that stands apart, the first (0) or the last (-1).
+    what: the numbers are, for the alt text; alone: the row that stands apart, the first (0) or the last (-1);
+    look: of the coloured cells; with OPEN's the free road's are grey.
     """
     left, top, (wide, high), apart = 2.1, 0.95, CELL, 0.12
     figure, listed = new_figure(top + len(rows) * high + apart + 0.4), []
@@ -107,11 +111,13 @@ def _values(
         words = [f"{number:.{digits}f}" if number else "0" for number in values]
         ax.text(-0.12, down + high / 2, name, fontsize=TEXT, color=INK, ha="right", va="center")
         for s in range(5):
-            look = {"facecolor": ON.colour if blue[s] else "white", "alpha": 0.55, "edgecolor": QUIET}
-            ax.add_patch(Rectangle((s * wide, down), wide, high, linewidth=0.7, clip_on=False, **look))
-            look = {"fontsize": TEXT + 0.5, "color": INK, "ha": "center", "va": "center"}
-            ax.text((s + 0.5) * wide, down + high / 2, words[s], **look)
-        said = (f"{word}{' (blue)' * bool(is_blue)}" for word, is_blue in zip(words, blue, strict=True))
+            colour = GRID if look is OPEN and s == 4 else look.colour if blue[s] else "white"
+            cell = {"facecolor": colour, "alpha": 0.55, "edgecolor": QUIET}
+            ax.add_patch(Rectangle((s * wide, down), wide, high, linewidth=0.7, clip_on=False, **cell))
+            at = {"fontsize": TEXT + 0.5, "color": INK, "ha": "center", "va": "center"}
+            ax.text((s + 0.5) * wide, down + high / 2, words[s], **at)
+        mark = " (orange)" if look is OPEN else " (blue)"
+        said = (f"{word}{mark * bool(is_blue)}" for word, is_blue in zip(words, blue, strict=True))
         listed.append(f"{name}: {', '.join(said)}")
     figure.text(0.012, 0.06, key, fontsize=SMALL, color=QUIET)
     return finish(figure, title, f"{what} in the states 0 to 4. {key} {'; '.join(listed)}.")
@@ -166,24 +172,26 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
         arrived = (chain.arrivals(q) <= walk).sum()
         going_on = (q[walk, :, 1] > q[walk, :, 0]) & (np.arange(chain.STATES) < 4)
         rows[f"{name}: {arrived} arrivals"] = q[walk].max(axis=1), going_on
-    key = "Cells: the larger Q. Blue: that is the Q of going on. White: of action 0."
+    key = "The larger Q. Orange: that is the Q of going on. White: of action 0. Grey: both actions stay."
     heads = ("trap", "state 1", "state 2", "state 3", "free road")
     title = "Going on must win in state 3, then 2, then 1, before leaving wins"
-    return _values(title, rows, 3, key, heads, "The larger Q", alone=0)
+    return _values(title, rows, 3, key, heads, "The larger Q", alone=0, look=OPEN)
 
 
-def after_arrivals(q: np.ndarray, most: int = 14) -> Figure:
+def after_arrivals(q: np.ndarray, step: float, most: int = 14) -> Figure:
     """How many learners reach the free road once, twice, ..., and for how many of these leaving then wins.
 
-    q: the Q (5, 2) of each before its first walk and after each, (walks + 1, learners, 5, 2).
+    q: the Q (5, 2) of each before its first walk and after each, (walks + 1, learners, 5, 2); step: of Q-learning.
     """
-    title = "Leaving wins only after about ten arrivals, and most learners have fewer"
-    figure, ax = one_axes(3.2, title, "arrivals so far", "learners of C, of 300")
     times, had, wins = np.arange(1, most + 1), np.zeros(most, dtype=int), np.zeros(most, dtype=int)
     for learner in range(q.shape[1]):
         for k, walk in enumerate(chain.arrivals(q[:, learner])[:most]):
             had[k] += 1
             wins[k] += chain.leaves(q[walk, learner])
+    enough = [k for k, all_of, won in zip(times, had, wins, strict=True) if won > all_of / 2]
+    title = f"With a step of {step:g} leaving wins "
+    title += f"for most learners that have arrived {enough[0]} times" if enough else "for hardly any learner"
+    figure, ax = one_axes(3.2, title, "arrivals so far", f"learners of C, of {q.shape[1]}")
     for values, colour in ((had, LIGHT), (wins, DARK)):
         ax.bar(times, values, 0.72, color=colour, linewidth=0)
     for k, all_of, won in zip(times, had, wins, strict=True):

@@ -9,7 +9,7 @@ from bootcourse.panels.explorable import WIDTH, Curve, Explorable, legend
 from bootcourse.panels.number import Number
 from bootcourse.plots.svg import Drawing, SvgAxes, drawing, text
 
-CHART, BOXES, HEIGHT = (52, 74, 690, 170), 296, 384  # pixels: the bars' axes, the top of the chain's boxes, the whole
+CHART, BOXES, HEIGHT = (52, 90, 690, 170), 312, 400  # pixels: the bars' axes, the top of the chain's boxes, the whole
 BAR, FARTHEST = 0.4, 0.85  # of a state's part of the width; the largest γ
 
 

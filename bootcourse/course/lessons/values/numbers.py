@@ -9,16 +9,42 @@ from bootcourse.course.lessons.values.exercises import bellman_sweep, temporal_d
 
 
 @cache
-def as_c() -> np.ndarray:
+def as_c(gamma: float = 0.8, step: float = 0.3) -> np.ndarray:
     """The Q of 300 learners of C before their first walk and after each, (walks + 1, 300, 5, 2)."""
-    return chain.many(0.5, 0.8)
+    return chain.many(0.5, gamma, step=step)
+
+
+def leave_c(gamma: float = 0.8) -> int:
+    """How many of those learners learn to leave."""
+    return sum(map(chain.leaves, as_c(gamma)[-1]))
 
 
 @cache
-def wins_after(arrivals: int) -> list[bool]:
+def wins_after(arrivals: int, step: float = 0.3) -> list[bool]:
     """Whether leaving wins right after this arrival, of each of those learners that has arrived so often."""
-    walks = {k: chain.arrivals(as_c()[:, k]) for k in range(300)}
-    return [chain.leaves(as_c()[each[arrivals - 1], k]) for k, each in walks.items() if len(each) >= arrivals]
+    q = as_c(step=step)
+    walks = {k: chain.arrivals(q[:, k]) for k in range(300)}
+    return [chain.leaves(q[each[arrivals - 1], k]) for k, each in walks.items() if len(each) >= arrivals]
+
+
+def arrives_once_open() -> float:
+    """In which share of their walks those learners arrive from when leaving wins for good."""
+    q = as_c()
+    opened = [k for k in range(300) if chain.leaves(q[-1, k])]
+    later = [(k, diagrams.goes_on_from(q[:, k], 0)) for k in opened]
+    came = sum((chain.arrivals(q[:, k]) > walk).sum() for k, walk in later)
+    return float(came / sum(len(q) - 1 - walk for _, walk in later))
+
+
+def leave_later(explore: float) -> int:
+    """How many of thirty learners learn to leave in 10,000 decisions."""
+    return sum(map(chain.leaves, chain.many(explore, 0.8, 30, decisions=10_000)[-1]))
+
+
+def own_arrivals(replays: int) -> list[int]:
+    """In how many walks after the first each of thirty learners as E arrives, if replays follow so many decisions."""
+    q = chain.many(0.1, 0.8, 30, chain.WAY_OUT, replays)
+    return [int((chain.arrivals(q[:, k]) > 1).sum()) for k in range(30)]
 
 
 def goes_on(replays: int) -> int:

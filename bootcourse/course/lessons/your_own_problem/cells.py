@@ -9,7 +9,7 @@ from bootcourse.research.computed import experiment
 from bootcourse.research.elsewhere_claims import Cells
 from bootcourse.statistics import iqm
 
-THREE = ("mountain-car", "cartpole", "lander")
+TWO = ("mountain-car", "cartpole")
 AGENTS = 5  # of an entry to the challenge
 BONUSES = {f"c = {c}": f"both, c = {c}" for c in (0, 0.03, 0.1, 0.3, 1)} | {"c = 2": "both"}
 

@@ -11,7 +11,7 @@ from bootcourse.colours import ALARM, Style
 from bootcourse.course import charts
 from bootcourse.course.dots import dots
 from bootcourse.course.lessons.your_own_problem import loops
-from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, cells
+from bootcourse.course.lessons.your_own_problem.cells import BONUSES, TWO, cells
 from bootcourse.learn.agent import Agent
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
@@ -66,11 +66,11 @@ CLONES = {  # a row of `clones`: whose clones, and which measure of them (see `e
 
 
 def clones() -> Figure:
-    """What clones earn, a dot each, beside their teacher and the good one; a column for each of three problems."""
+    """What clones earn, a dot each, beside their teacher and the good one; a column for each of two problems."""
     title = "Clones far outdo these random teachers unless they draw, but not the systematic ones"
     figure, alt, good_colour = new_figure(3.6), [], style("rule").colour
-    step = 5.85 / len(THREE)
-    for column, problem in enumerate(THREE):
+    step = 5.85 / len(TWO)
+    for column, problem in enumerate(TWO):
         ax = axes_at(figure, 1.15 + step * column, 1.05, step - 0.2, 1.8)
         plain_axes(ax, PROBLEMS[problem].name, grid="x")
         good = cells().mean(problem, "good", "the teacher")
@@ -104,8 +104,11 @@ def around(problem: str) -> tuple[float, float]:
     return low - 0.06 * (high - low), high + 0.06 * (high - low)
 
 
-def bonuses() -> Figure:
-    """How often agents with both aids reach the goal of DoorKey, over the bonus, for each teacher; drawn actions."""
+def bonuses(threshold: float | None = None) -> Figure:
+    """How often agents with both aids reach the goal of DoorKey, over the bonus, for each teacher; drawn actions.
+
+    threshold: the bonus above which a loop is worth more than the goal, to be marked.
+    """
     title = "With a flawed teacher, the larger the bonus the rarer the goal"
     at, named = np.arange(len(BONUSES)), {}
     for teacher in ("good", "random", "systematic"):
@@ -118,7 +121,12 @@ def bonuses() -> Figure:
     ends = (f"{name}: {line[0]:.0f} at c = 0, {line[-1]:.0f} at {list(BONUSES)[-1]}" for name, line in named.items())
     look = {"marks": marks, "limits": (0, 103), "looks": looks, "alt": f"{'; '.join(ends)}."}
     figure = charts.lines(at, named, title, over, of, **look)
-    figure.axes[0].set_xticks(at, [name.removeprefix("c = ") for name in BONUSES])
+    ax, values = figure.axes[0], [float(name.removeprefix("c = ")) for name in BONUSES]
+    ax.set_xticks(at, [f"{value:g}" for value in values])
+    if threshold is not None:
+        x = np.interp(threshold, values, at)
+        ax.axvline(x, color=INK, linewidth=1.1)
+        ax.text(x + 0.06, 4, f"c > {threshold:.3f}: a loop is worth more", fontsize=SMALL, color=INK)
     return figure
 
 
@@ -127,7 +135,7 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
 
     tested: by decisions in training, the agents and what each earns. The cart rests in the middle.
     """
-    title = "As the agents' lines turn upright, their return rises, then falls"
+    title = "As the agents' lines turn towards the teacher's, their return rises, then falls"
     figure, alt = new_figure(3.4), []
     angle, speed = np.linspace(-0.2, 0.2, 81), np.linspace(-1.5, 1.5, 81)
     at = np.zeros((81, 81, 4), dtype=np.float32)

@@ -197,11 +197,26 @@ def cloned(problem: str, rows: Tensor) -> Agent:
     return clone
 
 
-def labels(problem: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(the states in 50 drives of the random teacher, its actions there, its clone's, the good one's), n of each."""
+def labels(problem: str, once: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """(the states in 50 drives of the random teacher, its actions there, its clone's, the good one's), n of each.
+
+    once: each state once, with one label, for the clone, too.
+    """
     drives, good = shown(problem), PROBLEMS[problem].teachers()["good"]
-    seen, clone = drives.observations, cloned(problem, drives.rows())
-    return seen, drives.actions, np.asarray(clone.probabilities(seen)).argmax(-1), good(seen)
+    kept = first_of_each(drives.observations) if once else np.arange(len(drives.actions))
+    seen, clone = drives.observations[kept], cloned(problem, drives.rows()[kept])
+    return seen, drives.actions[kept], np.asarray(clone.probabilities(seen)).argmax(-1), good(seen)
+
+
+def first_of_each(seen: np.ndarray) -> np.ndarray:
+    """Where each state comes first among these, (states,)."""
+    return np.unique(seen, axis=0, return_index=True)[1]
+
+
+def as_taught(seen: np.ndarray, taught: np.ndarray, cloned: np.ndarray) -> tuple[float, float]:
+    """In which share of the labels, and of the states, a clone does what its teacher did."""
+    same = cloned == taught
+    return float(same.mean()), float(same[first_of_each(seen)].mean())
 
 
 def states(seen: np.ndarray) -> int:

@@ -6,7 +6,7 @@ import numpy as np
 
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_own_problem import explorable, loops  # noqa: F401 (for the expressions)
-from bootcourse.course.lessons.your_own_problem.cells import BONUSES, THREE, cells, entries
+from bootcourse.course.lessons.your_own_problem.cells import BONUSES, TWO, cells, entries
 from bootcourse.course.lessons.your_own_problem.unpaid import BUDGETS, NAME, angle_rule, pole
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
@@ -17,7 +17,7 @@ from bootcourse.statistics import iqm
 from tools.course.known import of
 
 TEACHERS = ("good", "random", "systematic")
-SHOWN = [(p, t) for p in THREE for t in TEACHERS]
+SHOWN = [(p, t) for p in TWO for t in TEACHERS]
 
 
 def score(problem: str, teacher: str, method: str, measure: str = "success") -> float:
@@ -46,6 +46,18 @@ def by_budget() -> str:
 def teacher_earns() -> float:
     """What the angle rule earns on CartPole."""
     return loops.earns(angle_rule, pole)
+
+
+def wrong_states() -> int:
+    """In how many of DoorKey's states the random teacher gives a wrong label."""
+    seen, taught, _, good = labels("doorkey")
+    return loops.states(seen[taught != good])
+
+
+def clone_as_taught(once: bool) -> tuple[float, float]:
+    """In which share of DoorKey's labels and states its clone does as taught: from all labels, or each state once."""
+    seen, taught, cloned, _ = labels("doorkey", once) if once else labels("doorkey")
+    return loops.as_taught(seen, taught, cloned)
 
 
 def earned(teacher: str) -> float:

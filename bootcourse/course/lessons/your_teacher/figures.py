@@ -54,7 +54,9 @@ def exams(rules: Mapping[str, Rule]) -> Markdown:
         driven = exam.episodes
         shares = (100 * driven.success.mean(), 100 * np.mean(driven.accident > 0))
         rows.append([name, *(f"{share:.0f}" for share in shares), f"{driven.returns.mean():.0f}"])
-    return table([f"{len(driven.success)} roads", "gets out (ends ahead), %", "accidents, %", "return"], rows)
+    return table(
+        [f"{len(driven.success)} roads", "gets out (ends ahead, even in a crash), %", "accidents, %", "return"], rows
+    )
 
 
 def cars_in_rows(cars: np.ndarray, shown: int = 3) -> Markdown:
@@ -92,8 +94,9 @@ def of_six_teachers(computed: Cells) -> Figure:
     groups = {words: scores(computed[name, "bootstrapped"]) for name, words in SIX.items()}
     shown = {words: free_lane.shown(name) for name, words in SIX.items()}
     cells = {words: (f"{100 * crash:.3g}", f"{100 * reach:.3g}") for words, (reach, crash) in shown.items()}
-    headings = "crash, %", "reach lane 0, %"
-    return in_rows(title, groups, ["bootstrapped"] * len(SIX), "success", left=2.85, of_drives=(headings, cells))
+    headings = "its drives crash, %", "reach lane 0, %"
+    methods = ["bootstrapped"] * len(SIX)
+    return in_rows(title, groups, methods, "success", left=2.75, width=2.2, of_drives=(headings, cells))
 
 
 def all_parts(computed: Mapping[str, Results]) -> Figure:
@@ -108,7 +111,7 @@ def all_parts(computed: Mapping[str, Results]) -> Figure:
 
 def two_aids(computed: Mapping[str, Results]) -> Figure:
     """The same for the agents that learn from all, with both aids, and without the one or the other."""
-    title = "Without the bonus fewer students get out; without the labels hardly fewer"
+    title = "Fewer escape without the bonus; without labels this is not shown"
     named = {"all": "all", "without the bonus c": "no-bonus", "without the labels": "no-labels"}
     groups = {words: scores(computed[kind]) for words, kind in named.items()}
     return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in named.values()], "success", left=1.55)
@@ -176,8 +179,7 @@ def in_rows(
     """A dot for each agent at its success (%) or return, a row for each group; beside it what the group reached.
 
     groups: {name: `scores`}; methods: of each group, for its colour; drawn: "success" or "returns"; left, width: in
-    inches; of_drives: two headings, {name: cells} about the teacher's drives, left of the dots and in place of its
-    students' accidents.
+    inches; of_drives: two headings, {name: cells} about the teacher's drives, left of the dots.
     """
     row, alt_parts, is_success = 0.42, [], drawn == "success"
     figure = new_figure(HEAD + row * len(groups) + FOOT)
@@ -194,13 +196,12 @@ def in_rows(
         about = f"return {mean}, accidents in {accidents} %"
         if of_drives:
             crash, reach = of_drives[1][name]
-            about = f"return {mean}, of its teacher's drives {crash} % crash, {reach} % reach lane 0"
-            cells = (cells[0],)
+            about += f"; of its teacher's drives {crash} % crash, {reach} % reach lane 0"
             before(ax, place, crash, reach)
         beside(ax, place, f"{escape} {marks[0]}", *cells)
         words = "".join(f", {score}: {word}" for score, word in found.items() if word in MARKS)
         alt_parts.append(f"{name}: {escape} escape, {about}{words}")
-    beside(ax, -0.75, "escape", *(("return",) if of_drives else ("return", "accidents, %")), colour=QUIET)
+    beside(ax, -0.75, "escape", "return", "accidents, %", colour=QUIET)
     if of_drives:
         before(ax, -0.75, *of_drives[0], colour=QUIET)
     of_success = f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes"
@@ -213,7 +214,7 @@ def in_rows(
 
 def before(ax: Axes, place: float, *cells: str, colour: str = INK) -> None:
     """Write two cells between a row's name and its dots."""
-    for words, left in zip(cells, (0.41, 0.07), strict=True):
-        at = -left, place
+    for words, left in zip(cells, (1.148, 0.196), strict=True):  # inches
+        at = -left / (ax.get_position().width * ax.get_figure().get_figwidth()), place
         look = {"va": "center", "ha": "right", "fontsize": SMALL, "color": colour}
         ax.annotate(words, at, xycoords=("axes fraction", "data"), **look)

@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 
+from bootcourse import statistics
 from bootcourse.course.lessons import registry
 from bootcourse.course.lessons.your_teacher import crashes, example_teachers, free_lane, taught_agents
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
@@ -97,6 +98,16 @@ def half_random_against_rule(score: str) -> float:
     return taught_agents.p_value(*both)
 
 
+def repeated_against_rule() -> float:
+    """The same of the returns of the agents that learn from all crashing drives, and the rule's students'."""
+    return taught_agents.p_value(crash_returns("all"), worth()["rule", "bootstrapped"].scores("returns"))
+
+
+def lost(teacher: str) -> int:
+    """How many of a teacher's ten bootstrapped students lose the way out at least once in their training."""
+    return int(statistics.lost(worth()[teacher, "bootstrapped"].curves["success"]).sum())
+
+
 def in_free_lane(teacher: str) -> float:
     """The share of the drives of one of the study's teachers that reach the free lane."""
     return free_lane.shown(teacher)[0]
@@ -110,6 +121,11 @@ def escape_of(teachers: list[str]) -> int:
 def taught_returns(teacher: str) -> float:
     """What the ten bootstrapped students of one of these teachers earn on average."""
     return worth()[teacher, "bootstrapped"].scores("returns").mean()
+
+
+def taught_accidents(teacher: str) -> float:
+    """The share of their drives that end in an accident."""
+    return worth()[teacher, "bootstrapped"].scores("accident").mean()
 
 
 def worth() -> dict:
