@@ -97,15 +97,15 @@ def as_a_page(notebook: Path, to: Path) -> None:
 
     content, lesson = json.loads(as_it_came(notebook)), notebook.stem.partition("_")[2]
     for cell in content["cells"]:
-        panel = draggable.panel_of(lesson, "".join(cell["source"])) if cell["cell_type"] == "code" else None
+        moves = draggable.page_of(lesson, "".join(cell["source"])) if cell["cell_type"] == "code" else None
         if is_folded_text(cell):
             cell["source"] = re.sub(r"\A(\w+\.)\n", r"**\1** ", "".join(cell["source"]))
         for output in cell.get("outputs", []):
             shown = output.get("data", {})
             if address := WORLD.search("".join(shown.get("text/html", ""))):
                 output["data"] = {"text/html": frame(address[1], 750), "text/plain": shown["text/plain"]}
-            elif panel and "data:image/svg+xml" in "".join(shown.get("text/html", "")):
-                output["data"] = {"text/html": draggable.page(panel), "text/plain": shown["text/plain"]}
+            elif moves and "data:image/svg+xml" in "".join(shown.get("text/html", "")):
+                output["data"] = {"text/html": moves, "text/plain": shown["text/plain"]}
     to.write_text(json.dumps(content), encoding="utf-8")
 
 

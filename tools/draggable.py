@@ -8,6 +8,7 @@ of one panel share most of their parts, so the page holds each part once.
 import json
 import re
 from collections.abc import Callable
+from functools import cache
 from importlib import import_module
 from itertools import product
 from typing import NamedTuple
@@ -33,6 +34,13 @@ class Drawn(NamedTuple):
 
     numbers: dict[str, Number]  # those that have a slider
     picture: Callable[..., Markup]  # of the values of these numbers, by their names
+
+
+@cache
+def page_of(lesson: str, code: str) -> Markup | None:
+    """The sliders and pictures of the panel that a cell ends with: see `panel_of`. Drawn once in a process."""
+    panel = panel_of(lesson, code)
+    return panel and page(panel)
 
 
 def panel_of(lesson: str, code: str) -> Drawn | None:

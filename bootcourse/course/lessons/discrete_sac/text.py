@@ -313,6 +313,7 @@ bc.show(figures.two_jobs(constant.tolist(), start, walked, others))
 # | α (H − log 2), or none | {{ early(less)[0] | .1f }} | {{ early(less)[1] | .2f }} | {{ early(less)[2] | .1f }} |
 #
 # <!-- claim: all(abs(a - b) < 0.01 for a, b in zip(early(less), early(unpaid), strict=True)) -->
+#
 # At first all Q climb by it, and the trap's, where a learner mostly is, climbs most. **The pay makes a learner try, but
 # it also makes the trap look good.** Time counts, too: if α falls as far in 4,000 decisions,
 # {{ sure(falling(decisions=4000))[0] }} leave.

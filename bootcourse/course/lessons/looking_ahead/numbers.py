@@ -9,14 +9,14 @@ from bootcourse.course.lessons.looking_ahead import explorable, figures, imagine
 from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
 from bootcourse.episodes.lookahead import lookahead, nine_drives
 from bootcourse.episodes.record import Rollout, record
-from bootcourse.policies import Policy, PolicyOutput
+from bootcourse.policies import Policy
 from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import Cell, shipped_actors
 from bootcourse.research.paper import earned_at  # noqa: F401 (for the expressions)
 from bootcourse.research.results import Results
 from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, Accident, X, Y
-from bootcourse.scenario import ACTION_NAMES, DEFAULT, IDLE, N_ACTIONS
+from bootcourse.scenario import ACTION_NAMES, DEFAULT, N_ACTIONS
 from tools.course.known import shipped_experiment
 
 LATE = "everything a second late"
@@ -109,35 +109,6 @@ def free_futures() -> np.ndarray:
 def too_late() -> int:
     """At how many of its last decisions no future is free."""
     return int((free_futures()[::-1] > 0).argmax())
-
-
-class _MovedOn:
-    """Looks ahead from the road as it was a second ago, moved on by one decision: its own last one, or another.
-
-    own: whether the ego is moved on by the action that it took; else it keeps straight.
-    """
-
-    def __init__(self, policy: Policy, own: bool):
-        self.policy, self.own = policy, own
-        self.reset(0)
-
-    def reset(self, roads: int) -> None:
-        self.earlier: np.ndarray | None = None
-
-    def __call__(self, observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-        seen = cars
-        if self.earlier is not None:
-            seen = imagined_road.step(self.earlier, self.last if self.own else np.full(len(cars), IDLE))[0]
-        self.earlier, self.last = cars.copy(), nine_drives(seen, self.policy).values.argmax(axis=1)
-        return PolicyOutput(self.last)
-
-
-@cache
-def moved_on(own: bool) -> np.ndarray:
-    """Whether the drives of PPO's first five agents, on 4 roads each, end in an accident when they look ahead so."""
-    agents, roads = shipped_actors("ppo_cloned"), held_out_seeds(15, 4)
-    drives = [drive_episodes(_MovedOn(agents[seed].as_policy(), own), roads) for seed in range(5)]
-    return np.concatenate([ends.accident > 0 for ends in drives])
 
 
 @cache

@@ -398,12 +398,10 @@ compare_predictions(
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Answers to the three questions. (1) In the exact model it imagines its own last action first, from the late
-# road: this gives the road as it is now, and from there the nine. So {{ moved_on(True).sum() }} of
-# {{ len(moved_on(True)) }} drives crash; if it guesses "keep straight" instead, {{ moved_on(False).sum() }}. Alone
-# about none of these agents' 20 would crash, too. (2) A second improvement: each of the 90 imagined decisions needs
-# 90 of its own, so a decision costs about 8,000; it would find what is two decisions away. (3) On new drives,
-# compare what it imagines with what comes, also after the actions that the look-ahead chooses: drives of the
-# agent alone do not test it there.
+# road: this gives the road as it is now, and from there the nine. (2) A second improvement: each of the 90
+# imagined decisions needs 90 of its own, so a decision costs about 8,000; it would find what is two decisions
+# away. (3) On new drives, compare what it imagines with what comes, also after the actions that the look-ahead
+# chooses: drives of the agent alone do not test it there.
 
 # %% [markdown]
 # **Read on**: Tesauro and Galperin (1996), *On-line Policy Improvement using Monte-Carlo Search*. Ross and

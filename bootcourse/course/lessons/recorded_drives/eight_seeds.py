@@ -3,7 +3,8 @@
     bootcourse study offline --out DIR    # about two minutes
 
 Trained as the lesson's two agents of each kind are. Measured, (agents,): in which share of the recorded seconds an
-agent would accelerate, and on how many of 100 roads it crashes.
+agent would accelerate, on how many of 100 roads it crashes, the Q of what it does at the start of a drive, and what it
+is worth from there at γ = 0.8.
 """
 
 import numpy as np
@@ -50,11 +51,13 @@ def train_kind(kind: str) -> Results:
     """Train the agents of a kind side by side from recorded drives, and count what they do."""
     training = training_of(kind, SEEDS)
     settings, learner = training.settings, learned(training)
-    policies = [learner.agent(row).as_policy() for row in range(SEEDS)]
+    policies = [learner.agent(row).as_policy(with_q=True) for row in range(SEEDS)]
     states = choosing.recorded().states
     measured = {
         "accelerate": np.array([accelerates(choosing.actions_of(policy, states)) for policy in policies]),
         "crashes": np.array([crashes(policy) for policy in policies]),
+        "promises": np.array([choosing.promised(policy, choosing.starts()) for policy in policies]),
+        "worth": np.array([choosing.worth(policy, range(ROADS), 0.8) for policy in policies]),
     }
     return Results(agent_entries(settings), np.full(SEEDS, -1), measured=measured)
 

@@ -1,7 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -69,27 +68,6 @@ def successes() -> np.ndarray:
 def did() -> float:
     """In which share of the recorded seconds the rule accelerated."""
     return eight_seeds.accelerates(choosing.recorded().actions)
-
-
-class Short(NamedTuple):
-    """What Round 2 says of its first two agents, a number of each."""
-
-    promises: list[float]  # mean Q of its actions at 100 starts
-    earns: list[float]  # what it is worth from there
-
-
-@cache
-def short() -> Short:
-    """Two agents of Round 2, of plain Q-learning.
-
-    They depend on the processor, a little: the text names no value, and its bounds are wide.
-    """
-    learner = eight_seeds.learned(eight_seeds.training_of("Q-learning", 2))
-    policies = [learner.agent(row).as_policy(with_q=True) for row in range(2)]
-    return Short(
-        [choosing.promised(policy, choosing.starts()) for policy in policies],
-        [choosing.worth(policy, range(100), 0.8) for policy in policies],
-    )
 
 
 def eight(kind: str, measure: str) -> list[float]:

@@ -143,7 +143,8 @@ bc.show(figures.would_do({"Q-learning": without}))
 # start of a drive it *promises* a gain; what they *earn* is a loss.
 # <!-- claim: min(eight("Q-learning", "accelerate")) > 0.9 and
 #   set(eight("Q-learning", "crashes")) == {100} -->
-# <!-- claim: all(0 < promises < -earns for promises, earns in zip(short().promises, short().earns)) -->
+# <!-- claim: all(0 < promise < -worth for promise, worth in
+#   zip(eight("Q-learning", "promises"), eight("Q-learning", "worth"))) -->
 #
 # The *highest* of nine Q is used twice: in the target, and when the agent chooses. Now a' in the *target* is what the
 # rule did at s', which was recorded. The choice stays.

@@ -151,7 +151,7 @@ print(f"{out[~straight].sum()} of the {(~straight).sum():,} others")
 crooked = ["keep left", "keep right", "keep left", "keep straight", "keep left", "keep right"]
 crooked += [("keep straight", 2), ("accelerate straight", 5)]
 drive = bc.record(bc.plan_policy(crooked), [7], label="planner")[0]
-title = "With one left more than right the car leaves the road"
+title = "This plan steers left once too often"
 bc.show(bc.top_view_over_time(drive, times=[4, 6, 8.5], title=title))
 
 # %% [markdown]
