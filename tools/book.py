@@ -113,6 +113,11 @@ def is_folded_text(cell: dict) -> bool:
     return cell["cell_type"] == "markdown" and cell["metadata"].get("jupyter", {}).get("source_hidden", False)
 
 
+def says_what_is_seen(cell: dict) -> bool:
+    text = "".join(cell["source"]) if cell["cell_type"] == "markdown" else ""
+    return is_folded_text(cell) or text.startswith(("**See.**", "**Explain.**"))
+
+
 def add_learning(notebook: Path, addresses: dict[str, str], after: str = ".run(", folded: bool = False) -> None:
     """Let agents learn in a lesson's page in the book: one page, several links.
 
@@ -138,7 +143,7 @@ def add_learning(notebook: Path, addresses: dict[str, str], after: str = ".run("
         cells[panels[0]]["outputs"] = [output]
     else:
         trains = next(i for i, text in code.items() if after in text)
-        below = next((i for i in range(trains, len(cells)) if is_folded_text(cells[i])), trains)
+        below = next((i for i in range(trains, len(cells)) if says_what_is_seen(cells[i])), trains)
         cells.insert(below + 1, {"cell_type": "markdown", "id": "learn", "metadata": {}, "source": said})
     notebook.write_text(json.dumps(content), encoding="utf-8")
 

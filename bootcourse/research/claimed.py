@@ -136,7 +136,7 @@ def alone(study: StudyResults) -> Claim:
             "γ = 0.9, 0.95 and 0.99": (out < of / 2, f"{out} of {of} escape"),
             "faster traps (10.9 m/s)": (
                 share(faster, "sac") < 0.5,
-                told(faster, "sac") + ", more than at 10 m/s" * (share(faster, "sac") > share(ours, "sac")),
+                f"{told(faster, 'sac')}; at 10 m/s {escaping(ours.of('sac')).sum()} escape",
             ),
         },
     )  # fmt: skip

@@ -68,10 +68,7 @@ def explain_hunt(cases, answers):
     last = {agent: answer for (agent,), answer in zip(cases, answers, strict=True)}
     if last == {agent: diagnose(agent) for agent in "ABCDEF"}:
         return "Your function answers the same question differently each time: it must not draw at random or remember."
-    return (
-        "Not all six verdicts are right. Write beside each the picture that decides it; only one agent may be left "
-        "without."
-    )
+    return "Not all six verdicts are right. Write beside each the picture that decides it: each agent has one."
 
 
 @exercise(
@@ -80,17 +77,18 @@ def explain_hunt(cases, answers):
     worked=[(("A",), "flipped_kl"), (("F",), "no_stop")],
     hints=(
         "Begin with agents that are far in just one column. For one agent look at Round 3's lines, too: its peak "
-        "decides. One agent is far in none. Rounds 2 and 3 name three: at its accidents one is too low, and two "
+        "decides. One agent is far in none: look at the fourth probe, early. Rounds 2 and 3 name three: at its "
+        "accidents one is too low, and two "
         "promise too much. Two share a symptom in Round 4, and differ in their return.",
         "What each bug shows: without an end, Q is wrong by many points where episodes end. With a drawn action Q does "
         "not reach the actor: its rarest action stays likely and its return low. A flipped KL keeps the rarest action "
         "likelier, too. Without the stop-gradient the promise is for a time far beyond any return. A bonus for all "
-        "adds up to c / (1 - γ) = 10 to it. Shifted labels show in none of these.",
+        "adds up to c / (1 - γ) = 10 to it. Shifted labels draw the policy to the rule's next action.",
     ),
     mistakes={
         "return {**bugs, 'A': bugs['C'], 'C': bugs['A']}[agent]":
-            "You swapped the two agents whose bug concerns the rule. One follows the grey lines in the last three "
-            "pictures; the other keeps its rarest action far likelier.",
+            "You swapped the two agents whose bug concerns the rule. One follows the grey lines in Rounds 2 to 4; "
+            "the other keeps its rarest action far likelier.",
         "return {**bugs, 'D': bugs['E'], 'E': bugs['D']}[agent]":
             "You swapped two agents whose critics are wrong: one critic is wrong everywhere by about the "
             "same amount, the other only where episodes end.",

@@ -93,9 +93,15 @@ def rarest(hunt: Hunt) -> Figure:
 
 
 def likeliest(hunt: Hunt) -> Figure:
-    """How often the likeliest of the nine actions is the rule's, in the same seconds."""
-    title = "How often the policy's likeliest action is the rule's"
-    return charts.many(hunt.probes("alike"), title, "updates", "share of the seconds", reference="healthy")
+    """How much more often the likeliest of the nine actions is the rule's of the same second than of the next."""
+    title = "Is the policy's likeliest action the rule's of this second, or of the next?"
+    what = "share of the seconds with the rule's action of now, less that with its next"
+    return charts.many(now_not_next(hunt), title, "updates", what, reference="healthy")
+
+
+def now_not_next(hunt: Hunt) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """What `likeliest` draws: {name: (updates (points,), values (2 seeds, points))}."""
+    return {name: (hunt.updates, hunt.probe(name, "alike") - hunt.probe(name, "late")) for name in hunt.names}
 
 
 def line_ends(hunt: Hunt) -> Figure:
@@ -123,7 +129,8 @@ def line_ends(hunt: Hunt) -> Figure:
         said = "; ".join(f"{name}: {', '.join(f'{value:.3g}' for value in ends[name])}" for name in ends)
         alt.append(f"{what}: {said}; far is more than {FAR[place]:.0f} beyond healthy")
     beyond = f"{', '.join(f'{far:g}' for far in FAR[:-1])} and {FAR[-1]:g}"
-    words = f"two seeds each; dark grey: from one healthy seed to the other; light grey: {beyond} beyond, our choice"
+    means = f"two seeds each, mean of the last 30 episodes or {LAST * EVERY:,} updates"
+    words = f"{means}; dark grey: healthy; light grey: {beyond} beyond"
     figure.text(0.012, 1 - 0.42 / figure.get_figheight(), words, fontsize=charts.SMALL, color=charts.QUIET)
     span = f"Two dots in each row: means of 30 episodes or {LAST * EVERY:,} updates."
     return finish(figure, title, f"{span} {'. '.join(alt)}.".replace("-", "−"))

@@ -4,6 +4,7 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from scipy.stats import fisher_exact
 
 from bootcourse.course.lessons.bug_hunt import bugs, figures
 from bootcourse.course.lessons.bug_hunt.exercises import end_error
@@ -39,11 +40,6 @@ def ends(name: str) -> float:
 def late(name: str, what: str) -> list[int]:
     """In how many of its last 30 training episodes each of an agent's two seeds had a success or an accident."""
     return [round(30 * share) for share in hunt().at_the_end(what)[name]]
-
-
-def in_training(name: str, what: str) -> np.ndarray:
-    """In how many training episodes each of an agent's two seeds had a success or an accident, (2,)."""
-    return np.nansum(hunt().curve(name, what), axis=1)
 
 
 class Driven(NamedTuple):
@@ -102,6 +98,29 @@ def alike(name: str, first: int, last: int) -> float:
     """How often an agent's likeliest action is the rule's, between two updates: the mean of both seeds."""
     during = (hunt().updates >= first) & (hunt().updates <= last)
     return float(hunt().probe(name, "alike")[:, during].mean())
+
+
+def now_not_next(name: str) -> np.ndarray:
+    """How much more often an agent's likeliest action is the rule's of now than of the next second, (2, points)."""
+    return figures.now_not_next(hunt())[name][1]
+
+
+def early(name: str) -> float:
+    """The same between updates 1,000 and 5,000: the mean of both seeds."""
+    during = (hunt().updates >= 1000) & (hunt().updates <= 5000)
+    return float(now_not_next(name)[:, during].mean())
+
+
+def more_crashes(name: str) -> float:
+    """Fisher's two-sided p of the accidents of an agent and of the healthy one on the new roads."""
+    crashed = [round(driven(each).accidents * len(figures.ROADS)) for each in (name, "healthy")]
+    return float(fisher_exact([[n, len(figures.ROADS) - n] for n in crashed]).pvalue)
+
+
+def size_of_errors(name: str) -> float:
+    """The mean |Q - r| of an agent at the accidents of the student's probe."""
+    q = hunt().agent(name).q_values(seen().states)[ended()]
+    return float(np.abs(q[np.arange(len(q)), seen().actions[ended()]] - seen().rewards[ended()]).mean())
 
 
 @cache

@@ -21,7 +21,7 @@ from bootcourse.learn.settings import settings_for
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.observation import Y_SCALE
 from bootcourse.road.state import EGO, Accident, Y
-from bootcourse.scenario import DEFAULT
+from bootcourse.scenario import DEFAULT, N_ACTIONS
 
 SIZE = DEFAULT.observation_size
 ACTION, RULE_ACTION = 2 * SIZE, 2 * SIZE + 3  # columns of a transition
@@ -87,6 +87,12 @@ def measure(agents: Sequence[Agent], rows: Tensor) -> np.ndarray:
     return np.array(found)
 
 
+def get_out(agents: Sequence[Agent], roads: int = 40) -> str:
+    """In which share of the clones' drives, each on so many of the held-out roads, the car ends ahead of the traps."""
+    drives = record(all_at_once(agents), [*ROADS[:roads]] * len(agents))
+    return f"{100 * np.mean([drive.success for drive in drives]):.0f} %"
+
+
 def alone(agents: Sequence[Agent]) -> list[Rollout]:
     """All the clones' own drives, each on the 60 roads of the two demonstrators."""
     return record(all_at_once(agents), [*range(60)] * len(agents))
@@ -139,6 +145,15 @@ def rows_to_add(of_rule: Tensor, labelled: Tensor) -> dict[str, Tensor]:
 def beyond_in(of_rule: Tensor, rows: Tensor) -> Tensor:
     """Which rows are from a place left of all of the rule's rows."""
     return left_in(rows) > left_in(of_rule).max()
+
+
+def diced(rows: Tensor, share: float) -> Tensor:
+    """These rows, with one of the other eight actions, drawn evenly, in so large a share of them."""
+    rng, rows = np.random.default_rng(0), rows.clone()
+    chosen = torch.from_numpy(rng.random(len(rows)) < share)
+    by = torch.from_numpy(rng.integers(1, N_ACTIONS, int(chosen.sum())))
+    rows[chosen, ACTION] = (rows[chosen, ACTION] + by) % N_ACTIONS
+    return rows
 
 
 def with_added(rows: Tensor, more: Tensor, copies: int = 5) -> Tensor:

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from torch import Tensor
 
-from bootcourse.colours import ALARM
+from bootcourse.colours import ALARM, QUIET
 from bootcourse.course.lessons.demonstrations import cloning
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.episodes.rollout import Rollout
@@ -69,15 +69,16 @@ def added(measured: dict[str, np.ndarray], fed: dict[str, np.ndarray], longer: d
     """What rows added to the rule's change: as `clones`, with the agreement with the rule in the clones' own states.
 
     measured: as in `clones`, last the rule's drives and the stochastic rule's. fed: the rule's with three kinds of
-    others, the third from beyond the band; then the stochastic rule's without these. longer: after a longer training.
+    others, the last two from the band's rim and from beyond it; then the stochastic rule's states with the rule's
+    labels, and the rule's with some by chance. longer: after a longer training.
     """
     rule_s, stochastic = [*measured][-2:]
-    *kinds, without = fed
+    *kinds, labelled, diced = fed
     crash = {name: values[:, 2].mean() for name, values in (measured | fed).items()}
     title = "Accidents, with rows added to the rule's"
-    if crash[kinds[2]] < min(crash[rule_s], crash[kinds[0]]) / 2:
-        title = "Rows from beyond the band prevent most of the accidents"
-    names = [rule_s, *kinds, stochastic, without, *longer]
+    if max(crash[kind] for kind in kinds[1:]) < crash[rule_s] / 2:
+        title = "Rows from the band's rim and beyond prevent more than half of the accidents"
+    names = [rule_s, *kinds, stochastic, labelled, diced, *longer]
     rows = {name: (measured | fed | longer)[name] for name in names}
     return _panels(rows, {1: "agree with the rule, own states (%)", 2: "have an accident (%)"}, title)
 
@@ -141,15 +142,18 @@ def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
             (np.arange(len(drive.states)) - len(drive.states) + 1) * clock.dt, -drive.states[:, EGO, Y],
             color=style("bc").colour, linewidth=1.2, alpha=0.6,
         )  # fmt: skip
-        ax.plot(at[errs], place[errs], "o", color=ALARM, markersize=4, alpha=0.8, markeredgewidth=0)
+        for which, colour in ((~errs, QUIET), (errs, ALARM)):
+            ax.plot(at[which], place[which], "o", color=colour, markersize=4, alpha=0.8, markeredgewidth=0)
     ax.axhline(2, color=INK, linewidth=1.5)
     plain_axes(ax, "", grid="")
     words = {"fontsize": TEXT, "ha": "left", "va": "bottom"}
     ax.text(-BEFORE + 0.2, -1.68, "green: where the rule drives, in the left lane", color=style("rule").colour, **words)
-    ax.text(-BEFORE + 0.2, -1.94, "red: errors", color=ALARM, **words)
+    ax.text(-BEFORE + 0.2, -1.94, "dots: decisions, red: errors", color=ALARM, **words)
     ax.set(xlim=(-BEFORE, 0.2), ylim=(-2, 2.35))
     ax.set_yticks(list(PLACES), list(PLACES.values()))
-    words = f"time before the car is off the road (s); {len(drawn)} of {len(ended)} drives"
+    parts = [(ever_beyond(some, of_rule), len(some)) for some in (drawn, ended)]
+    kinds = (f"{a} of {b}" for a, b in zip(*((beyond, of - beyond) for beyond, of in parts), strict=True))
+    words = f"time before the car is off the road (s); drawn: {' drives ever left of the band, '.join(kinds)} never"
     ax.set_xlabel(words, fontsize=TEXT, color=INK)
     (left_of_it, elsewhere), _ = errors(own, of_rule)
     title = f"The last {BEFORE} s of {len(drawn)} drives off the left edge, and their errors"

@@ -32,25 +32,28 @@ def fits(ends: Mapping[str, Fit]):
     return table([f"r = 0, γ = {GAMMA}; after {STEPS} steps", "Q(s, a)", "V(s′)", "loss"], rows)
 
 
-def two_jobs(alphas: Sequence[float], start: float, walked: Walked, others: Mapping[str, Walked]) -> Figure:
-    """What α does in the chain's trap: how many learners find the way out, and how sure these then are of taking it.
+def constant_alpha(alphas: Sequence[float], walked: Walked) -> Figure:
+    """How many learners find the chain's way out at each constant temperature, and how sure these are of taking it."""
+    title = f"Sure of leaving: at most {(walked.leaves > SURE).sum(axis=1).max()} at these constant α"
+    return _how_far([f"α = {alpha:g}" for alpha in alphas], walked.leaves, walked.found, title)
 
-    walked: the learners at each temperature, and last those whose temperature falls from `start`;
-    others: the same with other targets, by what these are.
-    """
-    names = [*(f"α = {alpha:g}" for alpha in alphas), f"α falls from {start:g}", *others]
-    leaves, found = (
-        np.vstack([getattr(of, part) for of in (walked, *others.values())]) for part in ("leaves", "found")
-    )
+
+def falling_alpha(start: float, walked: Mapping[str, Walked]) -> Figure:
+    """The same of learners whose temperature falls from `start`, by the pay in their target: first α H, last none."""
+    leaves, found = (np.vstack([getattr(of, part) for of in walked.values()]) for part in ("leaves", "found"))
+    paid, *_, unpaid = (leaves > SURE).sum(axis=1)
+    title = f"If α falls from {start:g}, {paid} end sure of leaving with the pay α H, and {unpaid} without pay"
+    return _how_far([f"pay: {pay}" for pay in walked], leaves, found, title)
+
+
+def _how_far(names: Sequence[str], leaves: np.ndarray, found: np.ndarray, title: str) -> Figure:
+    """A bar for each kind of learner, by how far each got. leaves, found: (kinds, learners)."""
     parts = {
         "found it, sure of leaving": (found & (leaves > SURE), style("sac").colour, "white"),
         "found it, undecided": (found & (leaves <= SURE) & (leaves >= 1 - SURE), PALE, INK),
         "found it, sure of staying": (found & (leaves < 1 - SURE), TRAP, "white"),
         "never found it": (~found, "white", INK),
     }
-    counts = (found & (leaves > SURE)).sum(axis=1)
-    most = counts[: len(alphas)].max()
-    title = f"Sure of leaving: at most {most} at these constant α, {counts[len(alphas)]} if it falls"
     row, before, alt_parts = 0.33, np.zeros(len(names)), []
     figure = new_figure(0.95 + row * len(names) + 0.6)
     ax = axes_at(figure, 1.75, 0.95, 4.9, row * len(names))
@@ -58,12 +61,12 @@ def two_jobs(alphas: Sequence[float], start: float, walked: Walked, others: Mapp
         look = {"color": colour, "edgecolor": INK, "linewidth": 0.7, "clip_on": False}
         ax.barh(names, of.sum(axis=1), 0.72, left=before, label=words, **look)
         for place, count in enumerate(of.sum(axis=1)):
-            if count > 8:  # there is room for the number
+            if count > 4:  # there is room for the number
                 at = {"fontsize": TEXT, "color": letters, "ha": "center", "va": "center"}
                 ax.text(before[place] + count / 2, place, str(count), **at)
         before += of.sum(axis=1)
         alt_parts.append(f"{words}: {', '.join(map(str, of.sum(axis=1)))}")
-    name_rows(ax, names, f"of {walked.leaves.shape[1]} learners")
-    ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.06), ncols=2, fontsize=SMALL, frameon=False, columnspacing=1.2)
+    name_rows(ax, names, f"of {leaves.shape[1]} learners")
+    ax.legend(loc="lower left", bbox_to_anchor=(-0.02, 1.02), ncols=2, fontsize=SMALL, frameon=False, columnspacing=1.2)
     alt = f"A bar for each kind of learner: {', '.join(names)}. Of each kind, in this order, {'; '.join(alt_parts)}. "
     return finish(figure, title, alt)

@@ -58,6 +58,22 @@ def leave(alpha: float) -> float:
     return 1 / (1 + math.exp((stays - leaves) / alpha))
 
 
+def doubt() -> float:
+    """How many nats the entropy rises if a sure policy gives one of its other actions 1 %."""
+    return -0.99 * math.log(0.99) - 0.01 * math.log(0.01)
+
+
+@cache
+def first(alpha: float) -> float:
+    """Q(stay) in the chain's trap after a first decision to stay; all Q were 0."""
+    return float(walked(sac.soft_value, sac.critic_target, torch.tensor([[alpha]]).double()).q[0, :, 0, 0].max())
+
+
+def stays(alpha: float) -> float:
+    """How probable staying is by the softmax then."""
+    return 1 / (1 + math.exp(-first(alpha) / alpha))
+
+
 @cache
 def constant() -> Walked:
     """The chain's learners at each of the ALPHAS, which stay."""
@@ -65,9 +81,20 @@ def constant() -> Walked:
 
 
 @cache
-def falling(value: Callable = sac.soft_value, start: float = 10, seed: int = 0, decisions: int = DECISIONS) -> Walked:
+def falling(value: Callable = sac.soft_value, start: float = 10, seed: int = 0) -> Walked:
     """Learners whose α falls by equal factors from `start` to 0.01. value: V(s) in their target, see `unpaid`."""
-    return walked(value, sac.critic_target, torch.tensor(np.geomspace(start, 0.01, decisions))[:, None], seed)
+    return walked(value, sac.critic_target, torch.tensor(np.geomspace(start, 0.01, DECISIONS))[:, None], seed)
+
+
+def from_start(start: float) -> str:
+    """How many are sure of leaving in the end with the pay α H, with α (H − log 2) and with none."""
+    one, two, three = (sure(falling(value, start))[0] for value in (sac.soft_value, less, unpaid))
+    return f"{one}, {two} and {three}"
+
+
+def arrivals(start: float) -> float:
+    """On how many of their 50 walks the learners without pay in the target reach the free road, on average."""
+    return float(falling(unpaid, start).walks.mean())
 
 
 def others() -> list[int]:

@@ -72,8 +72,9 @@ predicted("discrete_sac.1")
 explorable.undecided()
 
 # %% [markdown]
-# **Explain.** More than 1, for every α above 0, and it rises with α without end. A little doubt costs in proportion to
-# its size, but its entropy rises more steeply at first.
+# **Explain.** More than 1, for every α above 0, and it rises with α without end. Move 1 % from straight to left: the
+# mean of Q falls by {{ 0.01 * (q[1] - q[0]) | .3f }}, and the entropy rises by {{ doubt() | .3f }}, which pays
+# {{ ALPHA * doubt() | .3f }} at α = {{ ALPHA }}.
 # <!-- claim: max(q) == q[1] == 1 < WORTH -->
 # <!-- claim: all(1 + alpha * math.log(np.exp((q - 1) / alpha).sum()) > 1 for alpha in ALPHAS) -->
 # <!-- claim: all(-alpha * d * math.log(d) >= 0.1 * d for alpha in ALPHAS for d in [math.exp(-0.1 / alpha - 1)]) -->
@@ -83,7 +84,7 @@ explorable.undecided()
 #
 # $$ \mathcal{H}(\pi(\cdot|s)) = -\sum_a \pi(a|s) \log \pi(a|s) $$
 #
-# It is **never negative**, and at most log n, if all n actions are equally likely.
+# It is **never negative**, and at most log n, with n equally likely actions.
 # <!-- claim: 0 == float(sac.entropy(torch.tensor([1.0]).log())) <
 #   float(sac.entropy(torch.full((9,), 1 / 9).log())) < math.log(9) + 1e-6 -->
 #
@@ -164,8 +165,8 @@ def critic_target(reward, terminated, next_value, gamma):
 check.critic_target(critic_target)
 
 # %% [markdown]
-# SAC computes V(s') with a slow copy of each critic, its *target critic* (*target network*): each update moves the
-# copy's weights a small share τ ("tau") of the way to the critic's.
+# SAC computes V(s') with a slow copy of each critic, its *target critic* (*target network*), so that the target does
+# not follow each step of the critic: each update moves the copy's weights a small share τ ("tau") of the way.
 #
 # **Exercise (6 min, ●●○).** Write the loss of both critics: for each the mean over the batch of
 # $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action taken. No gradient may run through y.
@@ -214,12 +215,11 @@ explorable.overestimated()
 # **Explain.** Above 0. The actor makes the highest estimates most probable, so V(s') is too high, too.
 #
 # SAC takes the smaller estimate of **two critics** for each action, in V(s') and in the actor's loss. If the two err
-# independently, as in the panel, the highest of nine is nearer to 0; with one or two actions it is below 0.
+# independently, the highest of nine is nearer to 0.
 # <!-- claim: too_high() > 0.5 > 0.1 > abs(too_high(2)) and abs(highest(9)[1]) < highest(9)[0] -->
-# <!-- claim: highest(1)[1] < 0 and highest(2)[1] < 0 < highest(3)[1] -->
 
 # %% [markdown]
-# The actor's loss is minus the soft value:
+# The actor's loss is minus the soft value. So α acts in two places, here and in the critics' target.
 #
 # $$ L_\text{actor} = -\,\text{mean over } s \text{ of } \sum_a \pi(a|s)\,
 # \big(Q(s,a) - \alpha \log \pi(a|s)\big) $$
@@ -242,7 +242,7 @@ def actor_loss(log_pi, q, alpha):
 check.actor_loss(actor_loss)
 
 # %% [markdown]
-# Descend again. Where does Q(straight) end without `detach`?
+# Where does Q(straight) end without `detach`?
 
 # %%
 value, loss = own_code.yours_or_ours("soft_value", "actor_loss", doing="Descending")
@@ -250,8 +250,7 @@ bare = own_parts.descended(lambda log_pi, q, alpha: -value(log_pi, q, alpha).mea
 figures.descents({"your loss": own_parts.descended(loss), "Q not detached": bare})
 
 # %% [markdown]
-# **See.** Your loss finds the softmax of Round 1. Without `detach` Q(straight) rises by almost 1 a step, although
-# going straight is no better than before.
+# **See.** Your loss finds the softmax of Round 1. Without `detach` Q(straight) rises by almost 1 a step.
 # <!-- claim: 90 < wished() < 100 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -266,45 +265,56 @@ figures.descents({"your loss": own_parts.descended(loss), "Q not detached": bare
 # draw actions from softmax(Q / α) and move Q(s, a) 0.3 of the way to the soft target, with γ = {{ GAMMA }}.
 #
 # By the right plain Q leaving the trap is worth 0.25 more than staying, and the softmax makes π(leave) / π(stay) =
-# exp(0.25 / α). But a learner that first stays has Q(stay) = {{ STEP * 0.16 | .3f }}, and Q(leave) = 0.
+# exp(0.25 / α). But after a first decision to stay, Q(stay) is {{ first(0.01) | .2f }} with α = 0.01 and
+# {{ first(10) | .1f }} with α = 10: the learner stays with probability {{ stays(0.01) | .2f }} and
+# {{ stays(10) | .2f }}.
 # <!-- claim: abs(0.25 - soft_q(1e-3)[0] @ [-1, 1]) < 0.005 -->
 #
 # > **Predict.** With which constant α do more than half end *sure of leaving* the trap (π above {{ SURE }})?
 
 # %%
-kinds = ["0.01", "0.2 or 1", "10", "none of these"]
+kinds = ["0.01", "0.1 or 0.2", "1 or 10", "none of these"]
 predict("discrete_sac.4", "With which α are more than half sure of leaving?", kinds)
-
-# %% [markdown]
-# In the last three rows α falls from `start` to 0.01. The pay in their target is α H, then α (H − log 2), which is 0
-# for an even policy, then none. Then try starts of 1 and 0.3.
 
 # %%
 predicted("discrete_sac.4")
 value, target = own_code.yours_or_ours("soft_value", "critic_target", doing="Walking")
-constant = torch.tensor([0.01, 0.2, 1, 10], dtype=torch.float64)
-start = 10  # where the falling α begins: try others
-falling = torch.logspace(math.log10(start), -2, 1000, dtype=torch.float64)[:, None]
-alphas = torch.cat([constant.expand(1000, -1), falling], 1)  # a column for each kind of learner
-walked = own_parts.walked(value, target, alphas)
-less = own_parts.walked(own_parts.less_log_2(value), target, falling)  # V with α (H − log 2)
-unpaid = own_parts.walked(own_parts.unpaid, target, falling)  # V without the pay
-others = {"falls, pay less log 2": less, "falls, no pay in target": unpaid}
-bc.show(figures.two_jobs(constant.tolist(), start, walked, others))
+constant = torch.tensor([0.01, 0.1, 0.2, 1, 10], dtype=torch.float64)  # a column for each kind
+walked = own_parts.walked(value, target, constant.expand(1000, -1))
+bc.show(figures.constant_alpha(constant.tolist(), walked))
 
 # %% [markdown]
 # **Explain.** None of these. **α does two jobs.** It decides how much a learner *tries*: with α = 0.01 few find the
-# free road. And it decides how surely it *takes* the way: with α = 1 or 10 nearly all find the free road, but all stay
-# undecided. With α falling from 10 about half end sure of leaving.
-# <!-- claim: sure(constant()).max() < LEARNERS / 8 and 0.4 < min(sure(falling())[0], *others()) / LEARNERS and
-#   max(sure(falling())[0], *others()) / LEARNERS < 0.6 -->
-# <!-- claim: constant().leaves[0].max() < 1 - SURE and constant().found[0].mean() < 0.15 -->
+# free road. And it decides how surely it *takes* the way: with α = 1 or 10 nearly all find it, but stay undecided.
+# With α = 0.1 the softmax of the right Q is sure, π(leave) = {{ leave(0.1) | .2f }}, but only
+# {{ constant().found[1].sum() }} find the road.
+# <!-- claim: sure(constant()).max() < LEARNERS / 8 -->
+# <!-- claim: constant().leaves[:2].max() < 1 - SURE and constant().found[0].mean() < 0.15 -->
+# <!-- claim: constant().found[1].mean() < 0.35 and leave(0.1) > SURE -->
 # <!-- claim: constant().found[6:].mean(axis=1).min() > 0.95 and sure(constant())[6:].max() == 0 and
 #   (constant().leaves[6:] > 1 - SURE).all() -->
-#
-# **Why not all?** Without pay in the target all do, and so do they with α (H − log 2). So learners are held back by
-# what an even policy is paid in every state. After 100 decisions the mean Q of those that have been on the free
+
+# %% [markdown]
+# Now α falls from `start` to 0.01. The pay in the critics' target is α H, or α (H − log 2), which is 0 for an even
+# policy, or none.
+
+# %%
+start = 10  # after this, try 1 and 0.3
+falling = torch.logspace(math.log10(start), -2, 1000, dtype=torch.float64)[:, None]
+values = {  # V(s') with this pay
+    "α H": value,
+    "α (H − log 2)": own_parts.less_log_2(value),
+    "none": own_parts.unpaid,
+}
+ends = {pay: own_parts.walked(of, target, falling) for pay, of in values.items()}
+bc.show(figures.falling_alpha(start, ends))
+
+# %% [markdown]
+# **Explain.** With α H about half end sure of leaving, with α (H − log 2) or no pay all do. So learners are held back
+# by what an even policy is paid in every state. After 100 decisions the mean Q of those that have been on the free
 # road is:
+# <!-- claim: 0.4 < min(sure(falling())[0], *others()) / LEARNERS and
+#   max(sure(falling())[0], *others()) / LEARNERS < 0.6 -->
 # <!-- claim: sure(falling(value=unpaid))[0] == sure(falling(value=less))[0] == LEARNERS > 2 * sure(falling())[0] -->
 #
 # | pay | staying in the trap | leaving it | on the free road |
@@ -314,14 +324,15 @@ bc.show(figures.two_jobs(constant.tolist(), start, walked, others))
 #
 # <!-- claim: all(abs(a - b) < 0.01 for a, b in zip(early(less), early(unpaid), strict=True)) -->
 #
-# At first all Q climb by it, and the trap's, where a learner mostly is, climbs most. **The pay makes a learner try, but
-# it also makes the trap look good.** Time counts, too: if α falls as far in 4,000 decisions,
-# {{ sure(falling(decisions=4000))[0] }} leave.
+# At first all Q climb by it, and the trap's, where a learner mostly is, climbs most. **α in the policy makes a learner
+# try; the pay in the target makes the trap look good.** With start 1 {{ from_start(1) }} end sure. With start 0.3 only
+# {{ from_start(0.3) }} do: without pay a learner reaches the free road {{ arrivals(0.3) | .0f }} times on average,
+# from 10 {{ arrivals(10) | .0f }} times.
 # <!-- claim: begun().decided[..., 0].mean() > 50 > 20 > begun().decided[..., 4].mean() -->
 # <!-- claim: early()[0] > 1.1 * max(early()[1:]) and early(unpaid)[0] < early(unpaid)[2] / 5 -->
+# <!-- claim: sure(falling(unpaid, 0.3))[0] < LEARNERS / 10 and sure(falling(unpaid, 1))[0] > LEARNERS / 2 -->
 #
-# On our road one of ten agents of plain SAC escapes, but there α begins at {{ SETTINGS.alpha_init }}, as in the first
-# row.
+# On our road, where α begins at {{ SETTINGS.alpha_init }}, one of ten agents of plain SAC escapes.
 # <!-- claim: SETTINGS.alpha_init == ALPHAS[0] -->
 # <!-- claim: len(of('sac')) == 10 and escaped('sac') == 1 -->
 
@@ -351,8 +362,8 @@ predicted("discrete_sac.5")
 explorable.thermostat()
 
 # %% [markdown]
-# **Explain.** α falls for ever: the entropy is never negative, so always above η = −1. α can come to rest if η is
-# between 0 and log 9 = {{ math.log(9) | .1f }}.
+# **Explain.** α falls for ever: the entropy is never negative, so always above η = −1. If the Q stay as they are, α
+# can come to rest with an η between 0 and log 9 = {{ math.log(9) | .1f }}.
 # <!-- claim: SETTINGS.target_entropy < 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=2
@@ -378,7 +389,7 @@ bc.show(diagrams.sac_diagram())
 # 1. The soft value is the policy's mean Q plus α times its entropy; softmax(Q / α) makes it largest.
 # 2. The critics learn what the agent's own policy is worth. SAC uses the smaller of two estimates.
 # 3. The actor's loss is minus the soft value, with Q detached; otherwise Q itself rises.
-# 4. On the chain a high α finds the way out, a low one takes it, and the pay makes the trap look good.
+# 4. On the chain a high α finds the way out, a low one takes it; the pay in the target makes the trap look good.
 # 5. A target entropy below 0 lets α fall for ever.
 
 # %% [markdown]

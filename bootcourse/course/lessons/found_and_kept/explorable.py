@@ -50,7 +50,7 @@ def training() -> Explorable:
         chart.frame(f"% of the last {IN_A_ROW} training episodes ahead of trap 1", "training episode", rows=2)
         chart.line(at, share, colour, 1.5)
         chart.line([end, end], [0, 100], INK, 0.8, "--")
-        chart.words(end + 20, 88, "no demonstrations from here on", QUIET)
+        chart.words(end + 75, 88, "← no demonstrations from here on", QUIET)
         chart.line([episode, episode], [0, 100], INK, 1.5)
         ahead = 100 * notes["success"][look]
         says = f"After {notes['episode'][look]:,.0f} episodes: ahead of trap 1 on {ahead:.0f} % of {ways.ROADS} roads."

@@ -9,7 +9,7 @@ from scipy import stats
 from bootcourse.course.lessons.found_and_kept import ways
 from bootcourse.course.lessons.found_and_kept.explorable import groups
 from bootcourse.episodes.record import record
-from bootcourse.policies import rule_policy
+from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.research.cells import VARIED
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.paper import EPISODES, PRINTED
@@ -17,7 +17,7 @@ from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, found_after, lost
-from tools.course.known import ROAD, SETTINGS, clocks, shipped_experiment, shipped_results
+from tools.course.known import ROAD, SETTINGS, clocks, others, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
 STUDY = shipped_results().curves["success"].shape[1]  # training episodes of the study's agents
@@ -107,9 +107,35 @@ def watched(cell: str) -> Results:
     return shipped_experiment("ways")[cell]
 
 
-def stays() -> float:
+def stays(gamma: float = SETTINGS.gamma) -> float:
     """The worth of staying behind trap 1."""
-    return ways.staying(SETTINGS.gamma)
+    return ways.staying(gamma)
+
+
+def undiscounted() -> np.ndarray:
+    """What the ways out of `before` earn without discount, the bonus not counted."""
+    agents = watched("demos")
+    return ways.at(agents, ways.BEFORE, "return")[ways.at(agents, ways.BEFORE, "success") > 0.5]
+
+
+def falls_back(later: bool = False) -> np.ndarray:
+    """By how many m the agents of `before` fall back behind trap 1 in ten seconds, on the one road that was noted.
+
+    later: instead, at the end of training, those of them that are then ahead on ways worth more than 1.
+    """
+    agents = watched("demos")
+    had, way = ways.at(agents, ways.BEFORE, "success") > 0.5, ways.at(agents, ways.BEFORE, "way")
+    if later:
+        way = agents.notes["way"][:, -1]
+        had = had & (agents.notes["success"][:, -1] > 0.5) & (agents.notes["worth"][:, -1] > 1)
+    return (way[:, 0, 0] - way[:, 10, 0])[had]
+
+
+def stays_back() -> float:
+    """The same of a car that stays."""
+    states = record(idle_policy, [ways.SHOWN])[0].states[:: DEFAULT.clock.steps]
+    gap = states[:, EGO, X] - states[:, TRAP_1, X]
+    return float(gap[0] - gap[10])
 
 
 def before(cell: str) -> np.ndarray:
@@ -135,6 +161,16 @@ def _lows(cell: str) -> np.ndarray:
     return np.maximum.accumulate(ahead >= HAD, axis=1) & (ahead <= LOST)
 
 
+def p_of_returns() -> float:
+    """p of Mann and Whitney's test: do the agents whose β ends earn more without the bonus?"""
+    return float(stats.mannwhitneyu(group("β ends, no bonus").earned, group("β ends, bonus").earned).pvalue)
+
+
+def escapers_of_others(kind: str) -> int:
+    """How many of the ten others of a kind escape."""
+    return int((others(kind).scores("success") >= ESCAPES).sum())
+
+
 def first_losses(cell: str = "demos") -> np.ndarray:
     """The training episode after which each agent had lost the way out, 0 if it never did: (agents,)."""
     lows = _lows(cell)
@@ -158,13 +194,6 @@ def crashes_of_losers() -> float:
     after = np.arange(agents.notes["success"].shape[1]) * ways.EVERY > ENDS
     behind = (agents.notes["success"] <= 0.5) & after & lost_later("demos, β for ever")[:, None]
     return float((agents.notes["accident"][behind] > 0.5).mean())
-
-
-def before_and_end() -> float:
-    """p of Mann and Whitney's test: were the ways out of those that end ahead worth more before β ended?"""
-    agents = watched("demos")
-    ahead = agents.notes["success"][ways.at(agents, ways.BEFORE, "success") > 0.5, -1] > 0.5
-    return float(stats.mannwhitneyu(before("demos")[ahead], before("demos")[~ahead]).pvalue)
 
 
 def gone() -> int:

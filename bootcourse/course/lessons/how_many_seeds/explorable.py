@@ -45,9 +45,10 @@ def certainty() -> Explorable:
         for count, (chance, inside) in enumerate(zip(chances, counted, strict=True)):
             sides = [count - 0.4, count + 0.4, count + 0.4, count - 0.4]
             counts.fill(sides, [0, 0, chance, chance], colour if inside else PLAIN)
-            if inside and chance >= 0.0005 and n <= NUMBERED:
+            if chance >= 0.0005 and n <= NUMBERED:
                 x, y = counts.at(count, chance)
-                counts.parts.append(text(x, y - 3, f"{100 * chance:.1f}", "middle", colour, 11, bold=True))
+                shade = colour if inside else QUIET
+                counts.parts.append(text(x, y - 3, f"{100 * chance:.1f}", "middle", shade, 11, bold=inside))
         for count in ticks(0, n, 10):
             counts.parts.append(text(counts.at(count, 0)[0], 191, f"{count:g}", "middle", QUIET, 10.5))
         below = SvgAxes(52, 232, 690, 120, (0.0, 100.0), (0.0, DRAWN))

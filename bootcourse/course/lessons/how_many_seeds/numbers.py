@@ -1,14 +1,15 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 from collections import Counter
+from collections.abc import Callable
 from functools import cache
 from itertools import combinations_with_replacement
 from math import factorial, prod
 
 import numpy as np
 
-from bootcourse.course.lessons.how_many_seeds import counts, explorable  # noqa: F401 (for the expressions)
-from bootcourse.statistics import Estimate, bracketed, difference, interval, iqm, power, rate  # noqa: F401
+from bootcourse.course.lessons.how_many_seeds import counts, explorable
+from bootcourse.statistics import ESCAPES, Estimate, bracketed, difference, interval, iqm, power, rate  # noqa: F401
 from tools.course.known import of, shipped_experiment
 
 
@@ -61,22 +62,37 @@ def fives() -> np.ndarray:
     return np.array([effect.high - effect.low for effect in (difference(*pair) for pair in pairs)])
 
 
-def unchanged() -> float:
-    """The IQM of the success (%) of all new agents of the group in which nothing was changed."""
-    return float(iqm(_new()[1]))
-
-
-def mean_unchanged() -> float:
-    """Their mean."""
-    return float(_new()[1].mean())
-
-
 @cache
-def of_means() -> Estimate:
-    """Changed less unchanged of all new agents, in points: their means, not their IQMs."""
-    means = [each[draws].mean(axis=1) for each, draws in zip(_new(), _draws(), strict=True)]
-    changed, same = _new()
-    return Estimate(changed.mean() - same.mean(), *np.quantile(means[0] - means[1], [0.025, 0.975]))
+def ratios(measure: Callable) -> Estimate:
+    """Changed over unchanged of all new agents: the ratio of their IQMs, or of their means, with its interval."""
+    (changed, same), (over, under) = (
+        _new(),
+        [measure(each[draws], axis=1) for each, draws in zip(_new(), _draws(), strict=True)],
+    )
+    return Estimate(measure(changed) / measure(same), *np.quantile(over / under, [0.025, 0.975]))
+
+
+def ratio(measure: Callable) -> str:
+    """It as "1.5 [0.86, 2.85]"."""
+    value, low, high = ratios(measure)
+    return f"{value:.1f} [{low:.2f}, {high:.2f}]"
+
+
+def just_below() -> float:
+    """The largest success of a bootstrapped agent that does not escape."""
+    success = of("bootstrapped").scores("success")
+    return float(success[success < ESCAPES].max())
+
+
+def missing(seeds: int) -> tuple[list[int], int]:
+    """Of Round 3's 100 intervals that miss the mean: the places, by length, of those above it; how many are below.
+
+    Those below are counted only if they are longer than half of all.
+    """
+    low, high, holds = explorable.drawn(seeds)
+    place = np.argsort(np.argsort(high - low, kind="stable"))
+    below = ~holds & (high < of("bootstrapped").scores("returns").mean())
+    return sorted(place[~holds & ~below].tolist()), int((place[below] > 50).sum())
 
 
 def _draws() -> list[np.ndarray]:

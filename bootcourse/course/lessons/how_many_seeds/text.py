@@ -65,6 +65,12 @@ bc.recording(drives, height=360)
 study = bc.shipped_results()
 bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 
+# %% [markdown]
+# One bootstrapped agent gets out on {{ 100 * just_below() | .0f }} %; a line at 90 % would count it. Draw the line
+# before you look.
+# <!-- claim: 0.9 < just_below() < ESCAPES and (of('bootstrapped').scores('success') >= 0.9).sum() == 8 and
+#   all((of(m).scores('success') >= 0.9).sum() == escaped(m) for m in ('sac', 'soft', 'demos')) -->
+
 # %% [markdown] tags=["instructor"] minutes=2
 # Ask how many of them have published or handed in a figure with one training behind each line.
 
@@ -73,11 +79,12 @@ bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 #
 # With the soft constraint alone, eight of ten agents escape. If you trained thousands, the share that escapes
 # would be the *true rate*. Suppose that it is 30 %, and imagine many studies of ten agents. In {{
-# explorable.blue_part(30, 8, 10) | .1f }} % of them eight *or more* escape. Below 2.5 % we call the rate too low;
-# it is too high if eight *or fewer* escape in under 2.5 %.
+# explorable.blue_part(30, 8, 10) | .1f }} % of them eight *or more* escape. If that share is below 2.5 %, the
+# rate is *too low*. A rate is *too high* if it gives eight *or fewer* in less than 2.5 % of studies. All others are
+# *believable*.
 # <!-- claim: escaped('soft') == 8 and len(of('soft')) == 10 -->
 #
-# **Drag** the true rate. Which rates are believable?
+# **Drag** the true rate. Which are believable?
 
 # %%
 explorable.certainty()
@@ -111,8 +118,8 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # %% [markdown]
 # **See.** *Twenty drives of one agent are one sample of how often training succeeds.* At a true rate of 2.5 % one
 # agent of one escapes in 2.5 % of studies: there its interval begins. If one agent stands behind the paper's 100 %,
-# it need not contradict our 0 of 10: a true rate of 10 % is inside both intervals.
-# <!-- claim: rate(np.ones(1)).low < 0.1 < rate(np.zeros(10)).high -->
+# it need not contradict our 0 of 10: at a true rate of 10 % each comes in more than 2.5 % of studies.
+# <!-- claim: min(0.1, 0.9**10) > 0.025 and stats.fisher_exact([[1, 0], [0, 10]]).pvalue > 0.05 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Let them vote before the three intervals and keep the votes. What is the sample here: a drive, or a
@@ -147,9 +154,10 @@ predicted("how_many_seeds.2")
 explorable.studies()
 
 # %% [markdown]
-# **See.** *With ten agents of each, more than half of the studies miss even this large difference.* The soft
-# constraint's eight against both aids' seven (p = {{ fisher(8, 7) | .0f }}) shows no difference. It does not show
-# that the two are alike.
+# **See.** *With ten agents of each, more than half of the studies miss even this large difference.* (As counts are
+# whole, 14 agents can do worse than 13: {{ 100 * power(0.8, 0.3, 14) | .0f }} % after
+# {{ 100 * power(0.8, 0.3, 13) | .0f }} %.) The soft constraint's eight against both aids' seven
+# (p = {{ fisher(8, 7) | .0f }}) shows no difference. It does not show that the two are alike.
 # <!-- claim: power(0.8, 0.3, 10) < 0.5 < fisher(8, 7) and fisher(8, 3) > 0.05 -->
 # <!-- claim: [stats.binom.pmf(range(11), 10, share).argmax() for share in (0.8, 0.3)] == [8, 3] -->
 #
@@ -215,7 +223,9 @@ explorable.intervals()
 # **See.** *Of 100 intervals {{ explorable.holding(3) }} contain the mean, not 95, and the shortest miss it.* All three
 # agents do well in 0.7³ = {{ 100 * 0.7**3 | .0f }} % of studies, all three badly in 0.3³ =
 # {{ 100 * 0.3**3 | .0f }} %: resampling cannot know the other agents. With ten seeds {{ explorable.holding(10) }} of
-# 100 contain the mean. Print every agent beside the interval.
+# 100 contain the mean. Seven of the misses are the shortest of all; three are long, but too low.
+# Print every agent beside the interval.
+# <!-- claim: missing(10) == ([0, 1, 2, 3, 4, 5, 6], 3) -->
 # <!-- claim: 100 - explorable.holding(3) == round(100 * (0.7**3 + 0.3**3)) and explorable.holding(10) < 95 -->
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
@@ -261,17 +271,21 @@ def difference_interval(x, y, draws_x, draws_y):
 check.difference_interval(difference_interval)
 
 # %% [markdown]
-# Here *nothing* is changed. A study draws five of our ten bootstrapped agents, then five again, and compares the two
-# groups: 100 such studies.
+# > **Predict.** Now *nothing* is changed. A study draws five of our ten bootstrapped agents, then five again, and
+# > compares the two groups. In how many of 100 such studies does the 95 % interval leave out 0?
 
 # %%
+left_out = ["none", "1 to 10", "11 to 50", "over 50"]
+predict("how_many_seeds.4", "Nothing is changed: how many of 100 intervals leave out 0?", left_out)
+
+# %%
+predicted("how_many_seeds.4")
 bc.show(figures.nothing_changed(study))
 
 # %% [markdown]
 # **See.** *In {{ sum(map(counts.leaves_out_0, twice())) }} of these 100 studies the interval leaves out 0, by
-# luck alone.* An exact 95 % interval would in 5; the bootstrap is not exact. Read as an ablation,
-# the first says that a change costs {{ -twice()[0].value | .0f }} points of return.
-# <!-- claim: counts.leaves_out_0(twice()[0]) -->
+# luck alone.* An exact 95 % interval would in 5; the bootstrap is not exact.
+# <!-- claim: 1 < sum(map(counts.leaves_out_0, twice())) <= 10 -->
 #
 # Train five agents with one number changed and five without. `bonus=0.0` pays no bonus for demonstrated seconds.
 # The score is an agent's success on 200 roads after 150 episodes.
@@ -292,32 +306,24 @@ table(counts.ABLATION, *counts.ablation(success, interval_of))
 # An interval that contains 0 does not say that both learn alike; one that leaves out 0 may be luck. So we trained
 # *new* agents without the bonus and with it: 40 each, a number decided beforehand.
 # <!-- claim: {len(each) for each in shipped_experiment('new-agents').values()} == {40} -->
-#
-# > **Predict.** How long is the interval of forty agents of each group, beside that of the first ten of them?
-# > (Drag *agents* from 10 to 40 in Round 1's panel.)
-# <!-- claim: (lambda ten, forty: abs((forty.high - forty.low) / (ten.high - ten.low) - 0.5) < 0.01)(
-#   rate(np.arange(10) < 8), rate(np.arange(40) < 32)) -->
 
 # %%
-lengths = ["about as long", "about half as long", "about a quarter as long"]
-predict("how_many_seeds.4", "How long is the interval of forty, beside that of ten?", lengths)
-
-# %%
-predicted("how_many_seeds.4")
 new = shipped.shipped_experiment("new-agents")
 bc.show(figures.new_agents(new, success, interval_of))
 
 # %% [markdown]
-# **See.** *About half as long*: four times as many agents, half the length. (Eight times as many as five, about a
-# third: hence 40.) The first five's interval is {{ fives()[0] | .0f }} points long, those of the other seven fives
-# {{ fives()[1:].min() | .0f }} to {{ fives()[1:].max() | .0f }}: an interval of five is itself a guess.
+# **See.** *By forty of each, a difference above {{ new(40).high | .0f }} points is not believable*: was yours larger?
+# Four times as many agents, about half the length. The first five's interval is {{ fives()[0] | .0f }} points long,
+# those of the other seven fives {{ fives()[1:].min() | .0f }} to {{ fives()[1:].max() | .0f }}: an interval of five is
+# itself a guess.
 # <!-- claim: len(fives()) == 8 and 0.4 < length(40) / length(10) < 0.6 and length(10) / length(5) > 0.85 and
 #   fives()[0] == length(5) < fives()[1:].min() -->
 #
-# Forty of each differ by {{ bracketed(new(40)).replace('-', '−') }} points. A change that doubles the unchanged
-# group's IQM, {{ unchanged() | .0f }} %, is still believable. One that doubles its *mean*, {{ mean_unchanged() | .0f
-# }} %, is not: the means differ by {{ bracketed(of_means()).replace('-', '−') }}. Say first which counts.
-# <!-- claim: -10 < new(40).low < 0 and unchanged() < new(40).high < 25 and of_means().high + 4 < mean_unchanged() -->
+# Forty of each differ by {{ bracketed(new(40)).replace('-', '−') }} points. A doubling of the IQM is still believable:
+# changed over unchanged is {{ ratio(iqm) }}. A doubling of the *mean* is just outside: {{ ratio(np.mean) }}. Say first
+# which counts.
+# <!-- claim: -10 < new(40).low < 0 < new(40).high < 25 and ratios(iqm).high > 2.5 and
+#   1.9 < ratios(np.mean).high < 2 -->
 
 # %% [markdown]
 # ### If you try many changes
@@ -325,7 +331,8 @@ bc.show(figures.new_agents(new, success, interval_of))
 # Even at 5 %, at least one of twenty independent comparisons leaves out 0 in {{ 100 * (1 - 0.95**20) | .0f }} %
 # of cases. This is **multiplicity**. Say beforehand which comparison counts, or multiply each p by their number
 # (*Bonferroni*). For all six pairs of our four methods Round 2's p of {{ fisher(7, 1) | .3f }} would become
-# {{ 6 * fisher(7, 1) | .2f }}, and not count; eight against none, {{ fisher(8, 0) | .4f }}, still would.
+# {{ 6 * fisher(7, 1) | .2f }}, and no longer count. Eight against none would:
+# 6 × {{ fisher(8, 0) | .4f }} = {{ 6 * fisher(8, 0) | .3f }}.
 # <!-- claim: fisher(7, 1) < 0.05 < 6 * fisher(7, 1) and 6 * fisher(8, 0) < 0.05 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -340,7 +347,7 @@ compare_predictions(
         1: f"at {100 * bc.statistics.rate(np.ones(1)).low:.1f} %",
         2: round(100 * bc.statistics.power(0.8, 0.3, 10)),
         3: explorable.holding(3),
-        4: lengths[1],
+        4: left_out[1],
     },
 )
 

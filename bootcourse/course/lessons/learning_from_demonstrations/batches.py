@@ -153,7 +153,7 @@ def of_the_batches(cases, answers):
 
 @exercise(
     "a share β of a batch are demonstrations, with r + c, Section IV-B",
-    minutes=20, difficulty=3, cases=batch_cases, run=mixed_many_times, explain=of_the_batches,
+    minutes=10, difficulty=2, cases=batch_cases, run=mixed_many_times, explain=of_the_batches,
     worked=[
         # half of four rows are demonstrations, paid 2 more
         ((numbered(0, 50), 4, 0.5, 2.0), (np.array([4, 8, 4]), 2.0, 1.0, 2.0, 2.0, 0.0, 0.0, *[1.0] * 6)),

@@ -1,16 +1,11 @@
-"""What the lesson on demonstrations draws: batches while β falls, two agents that learn, and returns with the bonus."""
-
-from collections.abc import Sequence
+"""What the lesson on demonstrations draws: two agents that learn, and returns with the bonus."""
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.patches import Rectangle
 
 from bootcourse.colours import INK
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.course.live_curves import LiveWayOut
-from bootcourse.learn.bootstrap import demonstration_share
-from bootcourse.learn.settings import Settings
 from bootcourse.learn.training import Training
 from bootcourse.methods import style
 from bootcourse.plots.figure import TEXT, axes_at, finish, new_figure, plain_axes
@@ -21,26 +16,6 @@ from bootcourse.statistics import rolling_means
 
 WINDOW, LAST, ROADS = 50, 600, 1000  # episodes of a mean; until which episode they are drawn; roads of the rule
 NO_BONUS = "#332288"
-SIDE = 0.82  # of a row's box; the boxes stand 1 apart
-
-
-def batches(settings: Settings, episodes: Sequence[int]) -> Figure:
-    """The rows of one batch as boxes, after these training episodes: the demonstrated ones are coloured."""
-    shares = [demonstration_share(each, settings.beta_start, settings.beta_episodes) for each in episodes]
-    counts = [round(settings.batch * share) for share in shares]
-    title = f"The rule's part of a batch falls from {counts[0]} of {settings.batch} rows to none"
-    figure = new_figure(2.0)
-    ax = figure.add_axes((0.17, 0.02, 0.81, 0.76))
-    for row, (episode, share, count) in enumerate(zip(episodes, shares, counts, strict=True)):
-        for i in range(settings.batch):
-            colour = style("demos").colour if i < count else "#DDE1E6"
-            ax.add_patch(Rectangle((i, -4 * row), SIDE, 2.2, color=colour, linewidth=0))
-        words = f"episode {episode:,}\nβ = {share:.1f}"
-        ax.text(-1, 1.1 - 4 * row, words, ha="right", va="center", fontsize=TEXT, color=INK)
-    ax.set(xlim=(0, settings.batch), ylim=(-4 * len(episodes) + 3, 3))
-    ax.axis("off")
-    words = ", ".join(f"{count} at episode {episode:,}" for episode, count in zip(episodes, counts, strict=True))
-    return finish(figure, title, f"A batch of {settings.batch} boxes, of which these are demonstrated: {words}.")
 
 
 class LiveDemonstrations(LiveWayOut):

@@ -8,6 +8,7 @@ from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.course.lessons.learning_from_demonstrations.measures import kinds
 from bootcourse.course.lessons.soft_constraint.examples import fast_and_rule, reward_and_kl
 from bootcourse.episodes.record import record
+from bootcourse.learn.bootstrap import large_margin_loss
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.research.results import Results
@@ -69,6 +70,20 @@ def losing_until(name: str, episode: int) -> int:
 def of_the_stochastic_rule(method: str) -> Results:
     """Ten agents of a method whose demonstrations the stochastic rule drove, as in the paper, else as in the study."""
     return clocks()["1/4", "π̃"].of(method)
+
+
+def updates_ratio() -> int:
+    """How many times as many updates for a decision the agents of the setting "2" make as the study's."""
+    often, seldom = (
+        a["updates"] / a["envs_per_agent"]
+        for a in (clocks()["2", "π̃"].of("demos").agents[0], clocks()["1/4", "π̃"].of("demos").agents[0])
+    )
+    return round(often / seldom)
+
+
+def pushed() -> list[list[str]]:
+    """The rows of the table of Round 4, with the library's loss."""
+    return measures.pushed(large_margin_loss)
 
 
 def fast_pays_more() -> float:

@@ -36,8 +36,8 @@ MEANINGS = {  # of the wrong models that the lesson shows, for readers
 }
 LEARNED_FORM = "mean of five"  # of the look-ahead in a learned model, as the lesson shows it
 LEARNED_TITLES = {
-    LEARNED_FORM: "No kind of learned model makes the look-ahead safer than the agent alone",
-    "shield": "Used as a shield, the same models make the agents safer, on average",
+    LEARNED_FORM: "With 800 drives no kind of learned model makes the look-ahead safer than the agent alone",
+    "shield": "Used as a shield, the same models help the four agents that crash most",
 }
 COLUMNS = 166, 192  # where the numbers beside the bars of the learned model end
 LINEAR = 1.0  # accidents in 1,000 drives: the axis is linear below, logarithmic above
@@ -98,8 +98,8 @@ def each_agent(cells: dict[str, Results], base: str) -> Figure:
         for x, ends in enumerate(values.round().astype(int)):
             for y, lines in zip(*np.unique(ends, return_counts=True), strict=True):
                 if lines > 1:  # lie on each other
-                    side = {"ha": "left", "va": "center", "fontsize": SMALL, "color": QUIET}
-                    ax.text(x + 0.04 if x else x - 0.12, y, f"×{lines}", **side)
+                    side = {"ha": "left" if x else "right", "va": "bottom", "fontsize": SMALL, "color": QUIET}
+                    ax.annotate(f"×{lines}", (x, y), (6 if x else -6, 3), textcoords="offset points", **side)
         each = ", ".join(f"{before:.0f} to {after:.0f}" for before, after in values.T)
         alt_parts.append(f"{words}: {each}")
     _accident_axis(ax, "y")
@@ -199,7 +199,7 @@ def learned(computed: dict[str, Results], form: str = LEARNED_FORM) -> Figure:
     ax.tick_params(axis="y", pad=48)
     for x, words in ((-0.026, "decisions\n(thousand)"), (-0.31, "the model learns from")):
         ax.text(x, -0.75, words, color=QUIET, **on_the_left)
-    ax.set(xlim=(0, 1000))
+    ax.set(xlim=(0, 1080))
     ax.set_xticks([0, 500, 1000], ["0", "500", "1,000"])
     words = "A dot for each agent; filled: it crashes more than alone. Bar: the mean. Each drove the same 100 roads."
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=SMALL, color=INK)
@@ -239,5 +239,5 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     _accident_axis(ax, "x")
     ax.set_yticks(range(len(names)), names, fontsize=TEXT, color=INK)
     words = "● look-ahead    □ shield    (means of ten agents)"
-    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=TEXT, color=INK)
+    figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=TEXT, color=colour)
     return finish(figure, title, f"Mean accidents in 1,000 drives. Alone: {of_alone:.1f}. {' '.join(alt_parts)}")

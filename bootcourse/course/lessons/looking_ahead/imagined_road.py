@@ -5,11 +5,12 @@ from collections.abc import Callable
 import numpy as np
 
 from bootcourse.episodes.lookahead import nine_drives, worth_of_speed
+from bootcourse.learn.road_model import ImaginedAhead, Transitions
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.branching import advance
 from bootcourse.road.constants import constants
 from bootcourse.road.observation import observe_all
-from bootcourse.scenario import DEFAULT
+from bootcourse.scenario import DEFAULT, N_ACTIONS
 
 Decide = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
 
@@ -65,5 +66,21 @@ def shielded(shield: Callable, policy: Policy, horizon: int) -> Policy:
         imagined = nine_drives(cars, policy, DEFAULT, horizon)
         actions = policy(observations, cars).actions
         return PolicyOutput(np.asarray(shield(actions, imagined.values, imagined.accidents != 0)))
+
+    return drive
+
+
+def only_shown(ahead: ImaginedAhead, drives: Transitions) -> Policy:
+    """A look-ahead in a learned model that may only take actions which these drives show in the car's lane."""
+
+    def lanes(observations: np.ndarray) -> np.ndarray:  # an observation's third number is y, in lanes
+        return observations[:, 2].round().astype(np.int64).clip(0, DEFAULT.road.lanes - 1)
+
+    shown = np.zeros((DEFAULT.road.lanes, N_ACTIONS), dtype=bool)
+    shown[lanes(drives.states.numpy()), drives.actions.numpy()] = True
+
+    def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        values = np.where(shown[lanes(observations)], ahead(observations, cars).q_values, -np.inf)
+        return PolicyOutput(values.argmax(axis=1))
 
     return drive

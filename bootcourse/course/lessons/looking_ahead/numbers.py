@@ -3,6 +3,7 @@
 from functools import cache
 
 import numpy as np
+from scipy.stats import wilcoxon
 
 from bootcourse.course import shipped as course
 from bootcourse.course.lessons.looking_ahead import explorable, figures, imagined_road
@@ -20,6 +21,7 @@ from bootcourse.scenario import ACTION_NAMES, DEFAULT, N_ACTIONS
 from tools.course.known import shipped_experiment
 
 LATE = "everything a second late"
+NOISE, VISIBLE = "places off by 1 m, speeds by 0.5 m/s", "only the four visible cars"
 WRONG = list(figures.MEANINGS)  # of the study's models
 TO_THE_RIGHT = [i for i, name in enumerate(ACTION_NAMES) if name.endswith("right")]
 
@@ -155,6 +157,11 @@ def under_shield(kind: str | float | None) -> np.ndarray:
     if kind == "last model":
         return learned_model.per_thousand(learning(), "shield")[:, -1]
     return learned_model.per_thousand(learning(kind), "shield", control=True).ravel()
+
+
+def p_of_shield(kind: str | float | None) -> float:
+    """p of the paired rank test of the ten agents' accidents under the shield, in a kind of model, against alone."""
+    return float(wilcoxon(under_shield(kind) - alone()).pvalue)
 
 
 def overruled(form: str) -> str:

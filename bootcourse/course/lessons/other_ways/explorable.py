@@ -21,4 +21,4 @@ def which_of_two() -> Explorable:
         return bars(f"The rule's action is taken with probability {chosen[rule]:.1f}.", axes, labels, named)
 
     help = "Q of the rule's action. The other actions keep theirs."
-    return Explorable("Which of the two is taken?", draw, q_rule=Number("Q", 2.0, 0.0, 4.0, 0.1, help))
+    return Explorable("Which of the two is taken?", draw, q_rule=Number("Q", 0.0, 0.0, 4.0, 0.1, help))

@@ -135,7 +135,7 @@ def handing_over(driven: Episodes, h: np.ndarray, judged: Sequence[Judged]) -> F
     label_ends(ax, [*ends, (driven.decisions.max(), "dot: an accident", ALARM)])
     for each in judged:
         fill = look.colour if each.shrinks else "white"
-        below.plot(each.episode, each.mean, "o", color=look.colour, markerfacecolor=fill, ms=7, clip_on=False, zorder=3)
+        below.plot(each.episode, each.mean, "o", color=look.colour, markerfacecolor=fill, ms=5, clip_on=False, zorder=3)
         below.plot([each.episode - 1.5, each.episode + 1.5], [each.limit] * 2, color=INK, linewidth=2)
         if not np.isfinite(each.limit):
             words = {"textcoords": "offset points", "ha": "center", "fontsize": SMALL, "color": INK}

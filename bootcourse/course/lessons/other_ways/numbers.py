@@ -13,6 +13,7 @@ from bootcourse.course.lessons.other_ways.measures import (  # noqa: F401 (for t
     worth_of_rule,
 )
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
+from bootcourse.episodes.evaluate import held_out_seeds  # noqa: F401 (for the expressions)
 from bootcourse.episodes.record import record
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.methods import METHODS, display_name  # noqa: F401 (for the expressions)
@@ -112,11 +113,6 @@ def ppo_round() -> tuple[int, int]:
 def accident_shares() -> np.ndarray:
     """In how many % of its drives the median agent of each method with a teacher has an accident, (methods,)."""
     return 100 * np.array([np.median(at(method, "accident")) for method in TAUGHT])
-
-
-def worst_of_ten(budget: int = FIRST) -> dict[str, float]:
-    """{method with a teacher: the return of its worst agent}."""
-    return {method: float(at(method, "returns", budget).min()) for method in TAUGHT}
 
 
 def training_scores(spent: float, count: str) -> dict[str, Estimate]:

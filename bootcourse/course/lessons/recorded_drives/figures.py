@@ -56,7 +56,7 @@ def returns(study: Results) -> Figure:
         mine, look = study.of(method), style(method)
         earns, hurt, ahead = mine.scores("returns"), 100 * mine.scores("accident"), mine.scores("success")
         fills = np.where(ahead >= ESCAPES, look.colour, "white")
-        ax.scatter(earns, hurt, s=34, c=fills, edgecolors=look.colour, linewidths=1.3, zorder=3, clip_on=False)
+        ax.scatter(earns, hurt, s=20, c=fills, edgecolors=look.colour, linewidths=1, alpha=0.7, zorder=3, clip_on=False)
         words = f"{display_name(method)}: {escaped(study, method)} escape"
         shown = words.replace(": ", ":\n") if method in ("cql", "bc") else words  # in two lines, for want of room
         ax.text(x, y, shown, fontsize=TEXT, color=look.colour, ha=side)
@@ -118,7 +118,7 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
         ax.spines[:].set_color(GRID)
         ax.set_title(name, fontsize=TEXT, color=colour)
         ax.set_xlabel(below, fontsize=TEXT, color=INK)
-    key = f"in how many of the {len(data.actions):,} recorded seconds each action is taken"
+    key = f"in how many of the {len(data.actions):,} recorded seconds the rule took, and agents would take, each action"
     figure.text(0.012, 1 - 0.52 / height, key, fontsize=TEXT, color=QUIET)
     said = "; ".join(
         f"{name}: accelerates {100 * share[2].sum():.0f} %, {below}".replace("\n", ", ")
@@ -138,19 +138,20 @@ def estimates(
     near = max(abs(off[:, alike > 0.8]).max(), abs(control[alike > 0.8]).max())
     if near < 0.1 < 0.4 < abs(off[:, alike < 0.4]).max():
         title = "Where an agent acts as the data do, both fits are within 0.1 of the truth, and so is a constant"
-    label = "share of the recorded seconds in which an agent would do what the rule did"
+    label = "share of recorded seconds in which an agent would do what the rule did (close ones moved apart)"
     above = f"estimate less truth (above 0: too high; grey: ±0.1); ● first, ○ second fit, × {same:.2f} for every agent"
     figure, ax = one_axes(3.7, title, label, above)
     ax.axhspan(-0.1, 0.1, color=GRID, zorder=0)
     ax.axhline(0, color=INK, linewidth=1)
-    ax.scatter(100 * alike, control, s=26, color=QUIET, marker="x", linewidths=1.2, zorder=2.5)
+    places = _moved_apart(100 * alike)
+    ax.scatter(places, control, s=26, color=QUIET, marker="x", linewidths=1.2, zorder=2.5)
     said = []
     for i, name in reversed([*enumerate(names)]):
         look = style(METHODS_BY_NAME[name])
         x, mine = 100 * alike[:, i], off[:, :, i]
-        ax.vlines(x, *mine, color=look.colour, linewidth=1, zorder=2)
+        ax.vlines(places[:, i], *mine, color=look.colour, linewidth=1, zorder=2)
         for each, fill in zip(mine, (look.colour, "white"), strict=True):
-            ax.scatter(x, each, s=34, color=fill, edgecolors=look.colour, linewidths=1.3, zorder=3)
+            ax.scatter(places[:, i], each, s=34, color=fill, edgecolors=look.colour, linewidths=1.3, zorder=3)
         dx, dy, side = LABELS[METHODS_BY_NAME[name]]
         ax.text(dx, dy, name, fontsize=TEXT, color=look.colour, ha=side)
         apart = abs(mine[0] - mine[1]).max()
@@ -161,6 +162,16 @@ def estimates(
     ax.set_xlim(0, 100)
     ax.xaxis.set_major_formatter(lambda share, _: f"{share:.0f} %")
     return finish(figure, title, f"For each agent a dot for either fit, joined by a line: {'; '.join(said)}.")
+
+
+def _moved_apart(shares: np.ndarray, least: float = 1.8) -> np.ndarray:
+    """Shares (%) up to 50, moved so that no two are closer than so many points; those above as they are."""
+    low = np.flatnonzero(shares.ravel() < 50)
+    order, moved = low[np.argsort(shares.ravel()[low], kind="stable")], shares.astype(float).ravel()
+    for before, after in zip(order, order[1:], strict=False):
+        moved[after] = max(moved[after], moved[before] + least)
+    moved[order] -= (moved[order] - shares.ravel()[order]).mean()
+    return moved.reshape(shares.shape)
 
 
 def eight_seeds() -> Markdown:

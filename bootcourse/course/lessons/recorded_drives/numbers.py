@@ -1,13 +1,17 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+import itertools
 from functools import cache
 
 import numpy as np
 
+from bootcourse.course.lessons.found_and_kept.ways import staying
 from bootcourse.course.lessons.recorded_drives import choosing, eight_seeds
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
-from bootcourse.policies import Policy, rule_policy
+from bootcourse.course.shipped import shipped_agents
+from bootcourse.episodes.driving import one_episode_each, steps
+from bootcourse.policies import Policy, PolicyOutput, rule_policy
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import of, shipped_experiment
@@ -73,6 +77,60 @@ def did() -> float:
 def eight(kind: str, measure: str) -> list[float]:
     """What was measured of the eight shipped agents of a kind of Round 2."""
     return shipped_experiment(eight_seeds.NAME)[kind].measured[measure].tolist()
+
+
+@cache
+def accelerating(method: str) -> list[float]:
+    """In which share of the recorded seconds each of a method's five shipped agents would accelerate."""
+    states = choosing.recorded().states
+    policies = [agent.as_policy() for agent in shipped_agents(method)]
+    return [eight_seeds.accelerates(choosing.actions_of(policy, states)) for policy in policies]
+
+
+def would(method: str) -> str:
+    """It as "22 to 25", in %."""
+    return f"{100 * min(accelerating(method)):.0f} to {100 * max(accelerating(method)):.0f}"
+
+
+def apart() -> np.ndarray:
+    """How far apart the two fits are, (sets, agents)."""
+    return abs(np.diff(estimated(), axis=0)[0])
+
+
+@cache
+def pays_at_once(second: int = 20) -> float:
+    """The rule drives 100 roads up to this second. Where it does not accelerate then: on which share of the roads would
+    accelerating, straight on, earn more in this second?
+    """
+    rewards, slower = [], np.zeros(0)
+    for accelerate in (False, True):
+        clock = itertools.count()
+
+        def decide(observations: np.ndarray, cars: np.ndarray, clock=clock, accelerate=accelerate) -> PolicyOutput:
+            chosen = rule_policy(DEFAULT)(observations, cars).actions
+            return PolicyOutput(np.full_like(chosen, 7) if next(clock) == second and accelerate else chosen)
+
+        drive = steps(decide, one_episode_each(100, DEFAULT, None), list(range(100)))
+        step = next(itertools.islice(drive, second, None))
+        rewards.append(step.rewards)
+        slower = slower if accelerate else step.output.actions < 6
+    return float((rewards[1] > rewards[0])[slower].mean())
+
+
+@cache
+def first_sac() -> np.ndarray:
+    """What the plain SAC agent of the first set earns in each second, the mean of 100 roads."""
+    return choosing.each_second(agents()[3], range(100))
+
+
+def idle_pays() -> float:
+    """What a car earns in a second that only follows."""
+    return stays() * 0.2
+
+
+def stays() -> float:
+    """What such a drive is worth at γ = 0.8."""
+    return staying(0.8)
 
 
 def accidents_of_escapers() -> np.ndarray:

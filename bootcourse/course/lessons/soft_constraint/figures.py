@@ -76,7 +76,9 @@ def courses(kinds: Sequence[str]) -> Figure:
             arrow = {"arrowstyle": "->", "color": blue, "linewidth": 2, "shrinkB": 0}
             above.annotate("", (until + 190, 0.03), (until, 0.1), arrowprops=arrow)
         above.set(yscale="log", ylim=(0.02, 3))
-        above.set_yticks((0.1, 2), ("ξ = 0.1", "ξ = 2"))
+        above.set_yticks((0.1, 2), ("0.1", "2"))
+        if not column:
+            above.text(success.shape[1], 0.5, "ξ (logarithmic)", fontsize=SMALL, color=INK, ha="right")
         above.minorticks_off()
         episodes, share = rolling_means(success, IN_A_ROW, success.shape[1])
         plain_axes(below, "" if column else f"of the last {IN_A_ROW} training episodes, ended ahead")
@@ -84,7 +86,8 @@ def courses(kinds: Sequence[str]) -> Figure:
             look = {"color": ALARM, "zorder": 3} if losing else {"color": blue}
             below.plot(episodes, line, linewidth=0.9, alpha=0.7, **look)
         below.set(ylim=(0, IN_A_ROW + 1))
-        below.set_xlabel("training episode; an agent is red if it loses the way out", fontsize=SMALL, color=INK)
+        words = "training episode" + "; an agent is red if it loses the way out" * (not column)
+        below.set_xlabel(words, fontsize=SMALL, color=INK)
         for ax in (above, below):
             ax.set(xlim=(0, success.shape[1]), xticks=(500, 1000, 1500))
             ax.tick_params(labelleft=not column, labelbottom=ax is below)

@@ -46,7 +46,8 @@ progress("soft_constraint")
 # this it gets a **pull** to the rule, the *soft constraint*, of strength ξ ("xi").
 # <!-- claim: of('rule').scores('success').min() >= ESCAPES -->
 #
-# The thick line is a compromise between a trained agent's Q and the rule, red if it crashes.
+# The thick line is a compromise between a trained agent's Q and the rule, red if it crashes. At ξ = 1 it
+# hides the rule's green line.
 #
 # **Drag** ξ down from 1, then type 0. How far does the car get in 40 s?
 
@@ -58,10 +59,11 @@ bc.panels.policy_panel(its_drive, agent=helped, xi=1.0, table=False)
 
 # %% [markdown]
 # **See.** *On this road the car is as slow as the rule from ξ = 0.3 up, and drives as the agent does from 0.03
-# down.* Near 0.1 it leaves the road: a compromise between two drivers can be worse than both.
+# down.* Between them it leaves the road at 0.1, not at 0.05, and again at 0.04: a compromise between two drivers
+# can be worse than both.
 # <!-- claim: all(way(xi) == way(1, "the rule's way") for xi in (0.3, 0.5, 1)) -->
 # <!-- claim: all(way(xi) == way(1, "the agent's way") for xi in (0.03, 0.01, 0)) -->
-# <!-- claim: "off the road" in way(0.1) -->
+# <!-- claim: ["off the road" in way(xi) for xi in (0.1, 0.05, 0.04)] == [True, False, True] -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # Collect ways to combine the agent's policy and the rule's (mix them, multiply them, add a loss). Keep the
@@ -127,10 +129,11 @@ check.soft_constraint(soft_constraint)
 # %% [markdown]
 # ## Round 2: what is left of the pull when it fades?
 #
-# In each state we look for the π with the largest
+# SAC's actor wants a large mean Q and some entropy; now it also pays ξ for each nat of KL. In each state we
+# look for the π with the largest
 # $\sum_a \pi(a) Q(a) + \alpha \mathcal{H}(\pi) - \xi D_\mathrm{KL}(\pi \| \tilde\pi)$.
 # The paper sets ξ = {{ SETTINGS.xi_multiplier }} α, {{ SETTINGS.xi_multiplier * SETTINGS.alpha_init }} at first. So
-# the sum is mean Q, plus α times (entropy − 200 KL). α falls (lesson [[discrete_sac]]), and ξ with it.
+# the sum is mean Q, plus α times (entropy − 200 KL). α falls, and ξ with it.
 # <!-- claim: SETTINGS.xi_multiplier == 200 -->
 #
 # Where all Q are equal, the best π prefers the rule's action: its log π is larger by some nats, the rule's
@@ -158,7 +161,7 @@ explorable.pull()
 # **Explain.** *The head start stays, and Q's lead grows.* Where all Q are equal, the π with the largest
 # entropy − 200 KL is best, whatever α is. Its head start is {{ head_start() | .2f }} nats. A Q that is 1
 # larger leads by 1 / (α + ξ) nats. Below α = {{ q_lead(1) / head_start() | .4f }} this is more, and the other
-# action wins. With a ξ that stays at 2 (grey) it does not.
+# action wins. With a ξ that stays at 2 (grey) Q's lead stays below 0.5 nats: the rule's action wins.
 # <!-- claim: math.isclose(head_start(), 4.26, abs_tol=0.005) -->
 # <!-- claim: 1 < leaving_costs(2) -->
 
@@ -255,7 +258,9 @@ own_code.compare()
 
 # %% [markdown]
 # Train two agents, one with the value penalty, one without it (`kl_in_target=False`). An agent **finds the way
-# out** if it ends ahead in more than half of {{ IN_A_ROW }} training episodes in a row.
+# out** if it ends ahead in more than half of {{ IN_A_ROW }} training episodes in a row. 250 episodes
+# are too few for one of the two: for which?
+# <!-- claim: ways_out()[0].min() > 250 -->
 
 # %%
 torch.set_num_threads(1)  # small matrices are faster on one thread
@@ -267,7 +272,7 @@ live.show(training)
 # %% [markdown]
 # **See.** *The value penalty delays the way out.* Each of the study's ten agents without the penalty finds it
 # before any of the ten with it (dots). After training {{ kept(actor_only()) }} of ten escape without it,
-# {{ kept(of('soft')) }} with it: nothing here shows what the paper's penalty buys.
+# {{ kept(of('soft')) }} with it: nothing here shows what the paper's penalty buys. Why it delays is open.
 # <!-- claim: len(of('soft')) == len(actor_only()) == found(of('soft')) == found(actor_only()) == 10
 #   and sooner_without() and kept(actor_only()) >= kept(of('soft')) -->
 # <!-- claim: actor_only().scores('accident').mean() < of('soft').scores('accident').mean() -->
@@ -306,8 +311,8 @@ kinds = ["ξ stays at 2", "ξ stays at 0.1", "ξ falls towards 0", "ξ falls to 
 bc.show(figures.twenty(kinds))
 
 # %% [markdown]
-# **Explain.** *Of twenty agents with a ξ that stays at 2 none is fast, of each other kind most are.* With ξ = 2
-# the learner is paid more for the rule's driving, with 0.1 for the fast agents':
+# **Explain.** *Of twenty agents with a ξ that stays at 2 none is fast, of each other kind most are.* Both
+# drivers are paid alike at ξ = {{ paid_equally() | .2f }}. Above it fast driving does not pay:
 #
 # | reward − ξ KL, in a second | ξ = 2 | ξ = 0.1 |
 # |---|---|---|
@@ -331,10 +336,11 @@ bc.show(figures.courses(kinds[2:]))
 
 # %% [markdown]
 # **See.** *With the floor the agents keep the way out.* None of twenty loses it in training (the picture
-# shows ten); {{ losing(fading()) }} of the twenty whose ξ falls towards 0 do (all ten that trained twice as
-# long), but {{ in_all(kept) }} of these twenty escape in the end. The floor also keeps α + ξ, the temperature of
-# the best π, at 0.1 or more: whether that or the pull helps is open. With the floor they crash in
-# {{ 100 * crashes(floored()) | .0f }} % of their drives, the rule in none.
+# shows ten); {{ losing(fading()) }} of the twenty whose ξ falls towards 0 do, but
+# {{ in_all(kept) }} of these twenty escape in the end. Whether the pull helps or the higher temperature α + ξ is
+# open. With the floor the agents crash in
+# {{ 100 * crashes(floored()) | .0f }} % of their drives, without it in {{ 100 * crashes(fading()) | .0f }} %, the
+# rule in none.
 # <!-- claim: of('rule').scores('accident').max() == 0 -->
 # <!-- claim: losing(floored()) == 0 and losing([others('soft')]) == len(others('soft')) == 10 and
 #   others('soft').curves['success'].shape[1] == 2 * of('soft').curves['success'].shape[1] -->
@@ -379,9 +385,9 @@ compare_predictions(
 #   large α is. In lesson [[discrete_sac]] α rises while the entropy is below η. What do α and ξ do if η = 1?
 #   <!-- claim: abs(entropy_where_all_q_are_equal(0.01) - entropy_where_all_q_are_equal(10)) < 1e-4 -->
 # - Where the rule is wrong, which p would you want? Could p depend on the state?
-# - Up to which ξ that stays would you expect fast agents? Use the table of Round 4. (The study's ten
-#   agents with ξ = 0.5 return {{ stays(0.5).scores('returns').min() | .0f }} to
-#   {{ stays(0.5).scores('returns').max() | .0f }}.)
+# - The study's ten agents with a ξ that stays at 0.5 are slow: they return
+#   {{ stays(0.5).scores('returns').min() | .0f }} to {{ stays(0.5).scores('returns').max() | .0f }}. Which ξ would
+#   you try next?
 #
 # **Read on**: [the next lesson](learning_from_demonstrations.ipynb). Huang et al. (arXiv 2103.10690): an
 # expert as a prior, in driving. Levine (arXiv 1805.00909): control as inference.
@@ -392,9 +398,9 @@ compare_predictions(
 # at each update. The coupling runs away. **Where the rule is wrong:** a small p, with which π̃ is nearly even
 # and the prices of the nine actions are about the same. p could depend on the state, for instance on how
 # often drives that followed the rule from such states ended in an accident; then π̃ is surest where the rule
-# has proved itself. **The last ξ:** the two drivers of the table are paid equally at ξ =
-# {{ paid_equally() | .2f }}. The study's ten agents with 0.5 are as slow as the rule. In our trial three of
-# the four with 0.2 found the way, and drove fast; with 0.3 none did.
+# has proved itself. **The next ξ:** the two drivers of the table are paid equally at ξ =
+# {{ paid_equally() | .2f }}, so one below it. In our trial three of the four with 0.2 found the way, and drove
+# fast; with 0.3 none did.
 # <!-- claim: stays(0.5).scores('returns').max() < 1.1 * of('rule').scores('returns').mean() -->
 # <!-- claim: 0.2 < paid_equally() < 0.4 -->
 

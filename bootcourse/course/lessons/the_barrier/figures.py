@@ -6,9 +6,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, PALE
+from bootcourse.course import table
 from bootcourse.course.lessons.the_barrier import easier
 from bootcourse.course.live_curves import LiveCurves
-from bootcourse.learn.training import Training
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
+from bootcourse.learn.training import Result, Training
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
 from bootcourse.research.results import Results
@@ -70,6 +72,18 @@ class LiveReturns(LiveCurves):
         return finish(figure, title, f"After {training.updates:,} updates: {said}.")
 
 
+def tested(result: Result, idle: float):
+    """A table of how each agent of a training drives on 200 test roads, by its most probable actions, over what a car
+    earns that does nothing.
+    """
+    rows = []
+    for agent in result.agents:
+        drives = drive_episodes(agent.as_policy(), held_out_seeds(1, easier.TESTS))
+        rates = (f"{100 * np.mean(each):.0f} %" for each in (drives.success, drives.accident > 0))
+        rows.append([f"γ = {agent.settings.gamma:g}", *rates, f"{drives.returns.mean():.1f}".replace("-", "−")])
+    return table(["tested", "gets out", "accidents", "return"], [*rows, ["does nothing", "0 %", "0 %", f"{idle:.1f}"]])
+
+
 def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]) -> Figure:
     """A square for each agent, coloured by how it ends, crossed if it crashes on most roads: a block for each kind, and
     a row of it for each γ.
@@ -87,7 +101,7 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
         ax.text(1.75 + 2.7 * column, 0.12, words, va="center", fontsize=TEXT, color=INK)
     for row, words in enumerate(rows):
         ax.text(0.1, 0.8 + 0.95 * row, words, va="center", fontsize=TEXT, color=INK)
-    for (row, column), (ends, _) in found.items():
+    for (row, column), (ends, crossing) in found.items():
         x, y = 1.75 + 2.7 * columns.index(column), 0.4 + 0.95 * rows.index(row)
         kind = shown[row, column]
         gammas = np.array([agent["gamma"] for agent in trained[kind].agents])
@@ -100,9 +114,8 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
             crossed = [last - 1 - k for last, of in zip(lasts, crash, strict=True) for k in range(of)]
             ax.scatter(across[crossed], down[crossed], s=42, **CRASHES)
             ax.text(x + 2.02, down[0], f"γ = {gamma:g}", va="center", fontsize=SMALL, color=QUIET)
-        verbs = ("escape", "escapes"), ("others crash", "other crashes"), ("neither", "neither")
-        counts = sum(ends[:2]), *ends[2:]
-        says = ", ".join(f"{n} {verb[int(n == 1)]}" for n, verb in zip(counts, verbs, strict=True))
+        out, crash = sum(ends[:2]), sum(crossing)
+        says = f"{out} escape{'s' if out == 1 else ''}, {crash} crash{'es' if crash == 1 else ''} on most roads"
         ax.text(x, y + 0.06, says, va="center", fontsize=TEXT, color=INK, fontweight="bold")
         often = np.median(times_ahead(trained[shown[row, column]]))
         says = f"drives that got out while learning: {often:g} (median)"

@@ -29,6 +29,26 @@ def planned_speeds() -> np.ndarray:
 
 
 @cache
+def slow_seconds(searches: bool = False) -> np.ndarray:
+    """What the planner's first five seconds pay, on the lesson's road; or on the roads of its searches at γ = 0.8, the
+    mean.
+    """
+    roads, search = (range(4), Search(beam=50, gamma=0.8)) if searches else ([ROAD], Search(beam=50))
+    return np.mean([plan.rewards[:5] for plan in plan_episodes(roads, search=search)], axis=0)
+
+
+def on_the_way() -> str:
+    """These, in words."""
+    *paid, last = (f"{each:.1f}" for each in slow_seconds())
+    return f"{', '.join(paid)} and {last}"
+
+
+def until_fast(searches: bool = False) -> float:
+    """What they are worth at γ = 0.8."""
+    return float(slow_seconds(searches) @ 0.8 ** np.arange(5))
+
+
+@cache
 def by_chance() -> list[attempts.Outcome]:
     """The barrier's 5,000 random drives, 1,000 at a time, as its cell drives them."""
     policy, seeds = random_policy(np.random.default_rng(0)), held_out_seeds(6, 5000)

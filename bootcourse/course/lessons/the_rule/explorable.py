@@ -11,7 +11,7 @@ from bootcourse.rule import safety_distance
 from bootcourse.scenario import DEFAULT
 
 SPEEDS = np.linspace(0, 4, 81)  # m/s by which the ego is faster than the car ahead
-AXES = Axes("faster than the car in the new lane by (m/s)", "gap (m)", (0.0, 10.0))
+AXES = Axes("faster than the slower of the two cars ahead by (m/s)", "gap (m)", (0.0, 10.0))
 
 
 def braking_distance(faster):

@@ -218,16 +218,20 @@ def room_to_brake(changes: FastChanges) -> Figure:
 
 def against_sight(sights: Sequence[float], driven: Sequence[Episodes]) -> Figure:
     """The rule's mean return against how far it sees (m); a red cross where it has accidents."""
-    title = "The return grows as the sight shrinks to 30 m; at 20 m drives crash"
+    safe = min(sight for sight, each in zip(sights, driven, strict=True) if not each.accident.any())
+    title = f"The return grows as the sight shrinks to {safe:g} m; at {min(sights):g} m drives crash"
     returns = np.array([each.returns.mean() for each in driven])
     crashed = np.array([np.mean(each.accident > 0) for each in driven])
     figure, ax = one_axes(3.2, title, "how far the rule sees (m)", "return of an episode")
     ax.plot(sights, returns, "o-", color=style("rule").colour, linewidth=2, markersize=5)
-    ax.set(ylim=(0, 1.2 * returns.max()), xticks=sights)
+    apart = [sight for sight in sights if sight != safe]  # its number stands at its point
+    ax.set(xlim=(0, 1.04 * max(sights)), ylim=(0, 1.2 * returns.max()), xticks=apart)
     words = {"textcoords": "offset points", "fontsize": TEXT}
     for x, y, each in zip(sights, returns, driven, strict=True):
         crashes = np.sum(each.accident > 0)
-        if not crashes:
+        if x == safe:
+            ax.annotate(f"{x:g} m: {y:.0f}", (x, y), (-8, 2), ha="right", color=INK, **words)
+        elif not crashes:
             ax.annotate(f"{y:.0f}", (x, y), (0, 8), ha="center", color=INK, **words)
         else:
             ax.plot(x, y, "X", color=ALARM, markersize=9, zorder=3)

@@ -63,6 +63,22 @@ def begun() -> np.ndarray:
     return changes[0] + (changes[1:] & ~changes[:-1]).sum(0)
 
 
+def waiting() -> np.ndarray:
+    """Which drives (roads,) with a sight of 20 m stay behind, without an accident."""
+    return ~driven(20.0).success & (driven(20.0).accident == 0)
+
+
+def lost_before_room() -> np.ndarray:
+    """The roads on which a drive with a sight of 20 m falls back for want of room until trap 1 is out of sight, and
+    then stays behind, without a lane change.
+    """
+    reasons, _, cars, _ = decided(20.0)
+    roads = np.flatnonzero(~(reasons == Reason.CHANGE).any(0) & waiting())
+    ends = (reasons[:, roads] != Reason.FALL_BACK).argmax(0)
+    far = cars[ends, roads, TRAP_1, X] - cars[ends, roads, EGO, X] > 20.0
+    return roads[(ends > 0) & far & (reasons[ends, roads] == Reason.FREE)]
+
+
 def shrinks() -> np.ndarray:
     """By how much (m) the gap to trap 2 shrinks in three seconds of braking, of the `fast_changes` that get out."""
     reasons, _, cars, episodes = decided(20.0)

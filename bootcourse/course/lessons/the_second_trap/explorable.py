@@ -16,6 +16,7 @@ from bootcourse.scenario import DEFAULT
 SLOW, FAST = 5.0, 15.0  # m/s, where the speed reward begins and is largest
 MEAN, MOST = DEFAULT.traps.speed, 5.0  # m/s
 SECONDS, HALF = 40.0, 10  # of a drive that is shown; so long it keeps each speed
+DATA = settings_for("ppo").horizon  # decisions on a road, after which PPO's data end; one a second
 
 
 def paid(reward: Callable[[float], float], swing: float) -> tuple[float, float]:
@@ -70,8 +71,9 @@ def surprises(half: int = HALF) -> np.ndarray:
 
 
 def weighted(lam: float, half: int = HALF) -> np.ndarray:
-    """The terms of the first second's advantage, (seconds,), with PPO's γ."""
-    return surprises(half) * (settings_for("ppo").gamma * lam) ** np.arange(2 * half)
+    """The terms of the first second's advantage, (seconds,), with PPO's γ: 0 where the data have ended."""
+    seconds = np.arange(2 * half)
+    return surprises(half) * (settings_for("ppo").gamma * lam) ** seconds * (seconds < DATA)
 
 
 def later() -> Explorable:
@@ -85,11 +87,15 @@ def later() -> Explorable:
         chart.frame("surprise of a second: filled, as it counts; outlined, in full", "time, s")
         for second, (term, full) in enumerate(zip(terms, fulls, strict=True)):
             x = [second + 0.12, second + 0.88, second + 0.88, second + 0.12]
-            chart.fill(x, [0, 0, term, term], style("ppo").colour if term > 0 else OTHER.colour)
+            if second < DATA:
+                chart.fill(x, [0, 0, term, term], style("ppo").colour if term > 0 else OTHER.colour)
             chart.fill(x, [0, 0, full, full], "none", edge=QUIET)
         chart.line([0, end], [0, 0], INK, 0.8)
+        if end > DATA:
+            chart.line([DATA, DATA], [-0.25, 1.1], INK, 1.2, "--")
+            chart.words(DATA - 0.4, -0.21, f"the data end here, at {DATA} s", INK, "end", 8)
         chart.words(half / 2, 0.12, f"falls back, {MEAN - MOST:g} m/s", INK, "middle", 8)
-        chart.words(half * 1.5, 0.97, f"sprints, {MEAN + MOST:g} m/s", INK, "middle", 8)
+        chart.words(half + 0.1, 0.97, f"sprints, {MEAN + MOST:g} m/s", INK, "start", 8)
         says = says.replace("-", "−")
         return drawing(WIDTH, HEIGHT, [text(4, 20, says, size=14, bold=True), *chart.parts], says)
 

@@ -60,8 +60,8 @@ def speed_and_distance(drive: Rollout) -> Figure:
     times, ahead = series(drive, "distance")
     lowest, ax = int(np.argmin(ahead)), figure.axes[1]
     words = f"{-ahead[lowest]:.0f} m behind"
-    look = {"textcoords": "offset points", "ha": "center", "va": "bottom", "fontsize": SMALL, "color": INK}
-    ax.annotate(words, (times[lowest], ahead[lowest]), (0, 20), **look)
+    look = {"textcoords": "offset points", "ha": "right", "va": "center", "fontsize": SMALL, "color": INK}
+    ax.annotate(words, (times[lowest], ahead[lowest]), (-24, 4), **look)
     ax.plot(times[lowest], ahead[lowest], "o", color=INK, ms=4, zorder=5)
     figure.alt += f" At {times[lowest]:.0f} s it is {words}."
     return figure
@@ -123,4 +123,5 @@ def on_the_way(kinds: Mapping[str, Mapping[str, np.ndarray]]) -> Figure:
         plain_axes(panel, what)
         panel.set(xlim=(0, 800), ylim=(0, most))
     ax.set_xlabel(below, fontsize=TEXT, color=INK)
+    close.set_xlabel("decisions (thousands)", fontsize=TEXT, color=INK)
     return finish(figure, title, f"{below}. {'; '.join(alt)}.")

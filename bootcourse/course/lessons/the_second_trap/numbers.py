@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.the_second_trap import (
-    explorable,  # noqa: F401 (the text names it)
+    explorable,
     ppo_kinds,
     second_trap,
 )
@@ -98,9 +98,18 @@ def drives_of_ten(kind: str, roads: int = len(second_trap.TWELVE)) -> list:
     return [drive for policy in policies for drive in record(policy, second_trap.TWELVE[:roads])]
 
 
-def falls(lam: float) -> float:
-    """The share of the seconds in which the ten of PPO alone begin to fall back that have A > 0."""
-    return float((second_trap.falling_back(drives_of_ten("alone"), lam) > 0).mean())
+@cache
+def falls(lam: float, left: int) -> float:
+    """The share of the seconds in which the ten of PPO alone begin to fall back that have A > 0.
+
+    left: decisions until the data end.
+    """
+    return float((second_trap.falling_back(drives_of_ten("alone"), lam, left) > 0).mean())
+
+
+def falls_anywhere(lam: float) -> float:
+    """The same on average over all places in the data of a road."""
+    return float(np.mean([falls(lam, left) for left in range(1, explorable.DATA + 1)]))
 
 
 @cache
@@ -114,6 +123,12 @@ def steady(speed: float) -> float:
     return float(
         np.mean([discounted(each, ppo_kinds.GAMMA) for each in record(teacher_policy(rule), second_trap.TWELVE)])
     )
+
+
+def steady_worth() -> str:
+    """The same of six speeds, as Markdown."""
+    speeds = range(11, 17)
+    return markdown(["steady speed, m/s", *map(str, speeds)], [["worth", *(f"{steady(each):.0f}" for each in speeds)]])
 
 
 def in_free_lane(driver: str) -> float:

@@ -41,17 +41,18 @@ def speeds(drive: Rollout) -> np.ndarray:
     return drive.states[steps::steps, EGO, SPEED]
 
 
-def falling_back(drives: Sequence[Rollout], lam: float) -> np.ndarray:
+def falling_back(drives: Sequence[Rollout], lam: float, left: int) -> np.ndarray:
     """The advantage of each second in which a drive falls below the traps' speed, if V has only seen that speed.
 
-    As in the example of the lesson: of r_v alone, with PPO's γ. Seconds that fewer than `AFTER` follow are left out.
+    As in the example of the lesson: of r_v alone, with PPO's γ. left: decisions until the data end, this one counted.
+    Seconds that fewer than `AFTER` follow are left out.
     """
     found, mean, decay = [], DEFAULT.traps.speed, settings_for("ppo").gamma * lam
     for drive in drives:
         driven = speeds(drive)
         surprises = np.array([speed_reward(v) for v in driven]) - speed_reward(mean)
         turns = 1 + np.flatnonzero((driven[1:] < mean) & (driven[:-1] >= mean))
-        later = [surprises[t:] for t in turns if len(driven) - t > AFTER]
+        later = [surprises[t : t + left] for t in turns if len(driven) - t > AFTER]
         found += [each @ decay ** np.arange(len(each)) for each in later]
     return np.array(found)
 

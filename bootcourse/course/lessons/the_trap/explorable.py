@@ -14,7 +14,7 @@ from bootcourse.plots.svg import Drawing, SvgAxes, drawing, text
 from bootcourse.policies import idle_policy, plan_policy, rule_policy
 from bootcourse.scenario import DEFAULT
 
-ROAD, SECONDS = 10, 60  # the road of the lesson's drives, and how much of them is shown
+ROAD = 10  # of the lesson's drives
 
 
 def discount() -> Explorable:
@@ -26,20 +26,18 @@ def discount() -> Explorable:
     def draw(gamma: float) -> Drawing:
         agents, quick, out, behind = (np.cumsum(gamma**times * drive.rewards) for drive in drives)
         named = {
-            f"agent with help: {agents[-1]:.2f}": Curve(agents[:SECONDS], style("bootstrapped").colour),
-            f"blind plan: {quick[-1]:.2f}": Curve(quick[:SECONDS], INK),
-            f"rule's way out: {out[-1]:.2f}": Curve(out[:SECONDS], style("rule").colour),
-            f"staying: {behind[-1]:.2f}": Curve(behind[:SECONDS], style("idle").colour, "--"),
+            f"agent with help: {agents[-1]:.2f}": Curve(agents, style("bootstrapped").colour),
+            f"blind plan: {quick[-1]:.2f}": Curve(quick, INK),
+            f"rule's way out: {out[-1]:.2f}": Curve(out, style("rule").colour),
+            f"staying: {behind[-1]:.2f}": Curve(behind, style("idle").colour, "--"),
         }
-        top = 1.15 * max(float(each[SECONDS]) for each in (agents, quick, out, behind))
-        chart = SvgAxes(*CHART, (0.0, SECONDS - 1.0), (0.0, top))
-        chart.frame(
-            "discounted rewards, added up so far", "second of the drive, the first 60 of 150 (dotted: passes trap 1)"
-        )
+        top = 1.15 * max(float(each[-1]) for each in (agents, quick, out, behind))
+        chart = SvgAxes(*CHART, (0.0, times[-1]), (0.0, top))
+        chart.frame("discounted rewards, added up so far", "second of the drive (dotted: passes trap 1)")
         for second, curve in zip(passes, named.values(), strict=False):
             chart.line([second, second], [0, top], curve.colour, 0.8, ":")
         for curve in named.values():
-            chart.line(times[:SECONDS], curve.values, curve.colour, 1.6, curve.dash)
+            chart.line(times, curve.values, curve.colour, 1.6, curve.dash)
         ends = {"an agent's way out": agents[-1], "the blind plan": quick[-1], "staying": behind[-1]}
         best = max(ends, key=ends.get)
         second = "staying more than the rule's" if behind[-1] > out[-1] else "the rule's more than staying"

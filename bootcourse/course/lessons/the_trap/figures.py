@@ -70,6 +70,10 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
         x, y = path_of(decoded[3 * i], seconds, scenario)[-1] + [0, start]
         ax.annotate(words, (x, y), xytext=offset, textcoords="offset points", ha=align,
                     fontsize=TEXT, color=SHADES[i], zorder=7)  # fmt: skip
+    (x, y), (far, low) = (path_of(decoded[action], seconds, scenario)[-1] + [0, start] for action in (4, 8))
+    look = {"textcoords": "offset points", "fontsize": TEXT, "zorder": 7}
+    ax.annotate(f"dots: after {seconds} s", (x, y), xytext=(0, 7), ha="center", color=INK, **look)
+    ax.annotate("right: leaves the road", (far, low), xytext=(8, -3), ha="left", color=SHADES[2], **look)
     for lane, words in enumerate(("left lane: 0", "middle lane: 1", "right lane: 2")):
         ax.text(right - 0.5, lane * width, words, ha="right", va="center", fontsize=SMALL, color=QUIET)
     top, bottom = edges_of(scenario.road)
@@ -114,6 +118,7 @@ def worth_with_crashes(worths: Mapping[str, Worth]) -> Figure:
     ax.axvline(nothing.worth, color=INK, linestyle="--", linewidth=1.4)
     words = f"doing nothing: {nothing.worth:.2f}"
     ax.text(nothing.worth, -0.72, words, fontsize=TEXT, color=INK, ha="center", va="bottom")
+    ax.axvline(ways[-1][1].worth, color=plain, linestyle=":", linewidth=1.2)
     ax.set(xlim=(0, 1.36), xticks=(0, 0.5, 1))
     alt = f"A bar for what each way is worth; doing nothing is worth {nothing.worth:.2f}. {'; '.join(says)}."
     return finish(figure, title, alt)

@@ -17,6 +17,7 @@ from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.episodes.words import overtaken as overtaken
 from bootcourse.policies import PlanPolicy, plan_policy, rule_policy
 from bootcourse.road.state import EGO, SPEED, TRAP_1, X
 from bootcourse.scenario import DEFAULT
@@ -42,6 +43,16 @@ def all_drives(road: int) -> Episodes:
 def unhurt_plans(road: int) -> np.ndarray:
     """Which of all plans get out unhurt on a road, (6561,) bool."""
     return (all_drives(road).success > 0) & (all_drives(road).accident == 0)
+
+
+@cache
+def best_on_others() -> list[int]:
+    """Of the plans that get out unhurt on road 10, the one that does so on most of the first 200 held-out roads."""
+    plans, roads = all_plans()[unhurt_plans(10)], held_out_seeds(1, 200)
+    actions = np.vstack([plans.T, np.full((5, len(plans)), driving.ACCELERATE)])
+    ended = drive_episodes(PlanPolicy(np.repeat(actions, 200, axis=1)), [*roads] * len(plans), together=10_000)
+    unhurt = ((ended.success > 0) & (ended.accident == 0)).reshape(-1, 200)
+    return plans[unhurt.sum(axis=1).argmax()].tolist()
 
 
 @cache
@@ -123,10 +134,14 @@ def crashed_early() -> np.ndarray:
     return by_plan().accident & (by_plan().lasted <= 10)
 
 
-def borne(gamma: float, way: Rollout, accident: float = DEFAULT.reward.accident) -> float:
-    """The risk of an early crash that a way out on road 10 bears, if the crash comes when the lesson's does."""
+def borne(gamma: float, way: Rollout, accident: float = DEFAULT.reward.accident, stay: float | None = None) -> float:
+    """The risk of an early crash that a way out on road 10 bears, if the crash comes when the lesson's does.
+
+    stay: what staying is worth; if None, doing nothing.
+    """
+    stay = discounted(idle(), gamma) if stay is None else stay
     crash = gamma ** np.arange(5) @ [*on_ten().rewards[:4], accident]
-    return bearable_risk.solution(discounted(idle(), gamma), discounted(way, gamma), crash)
+    return bearable_risk.solution(stay, discounted(way, gamma), crash)
 
 
 @cache

@@ -4,9 +4,10 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons.update_and_loop import by_hand  # noqa: F401 (the text names it, and γ)
+from bootcourse.course.lessons.update_and_loop import by_hand as by_hand  # the text names it, and γ
+from bootcourse.course.lessons.update_and_loop import exercises, worlds
 from bootcourse.course.lessons.update_and_loop.pole import BLOCK
-from bootcourse.course.lessons.update_and_loop.worlds import BEFORE, GAMMA, to_one_side  # noqa: F401
+from bootcourse.course.lessons.update_and_loop.worlds import BEFORE, GAMMA
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.research.problems import cartpole
 from bootcourse.research.results import Results
@@ -46,6 +47,29 @@ def learned(kind: str) -> str:
     return f"{(stood(kind) > LEARNED).sum()} of {len(stood(kind))}"
 
 
+def untrained() -> np.ndarray:
+    """For how many pushes each of these agents balances the pole before it learns."""
+    return np.concatenate([agents(each).notes["tests"][:, 0] for each in ("unmarked", "more-unmarked")])
+
+
+@cache
+def made_up(pay: int) -> float:
+    """What the fallen state is worth to an agent with the bug in a world in which one push pays so much, then it falls:
+    V(fallen), from Q of the start.
+    """
+    world, train, update = worlds.World(((pay, pay),), True, ""), exercises.train.solution, exercises.update.solution
+    learned = worlds.learned_in(
+        world, train, update, lambda size: worlds.Unmarked(exercises.ReplayBuffer.solution(size))
+    )
+    return (learned.q.mean().item() - pay) / GAMMA
+
+
+def gained(kind: str) -> float:
+    """By how much Q eight pushes before the fall is above that of a fallen pole, each the median of these agents."""
+    before, *_, fallen = np.median(expected(kind), axis=0)
+    return before - fallen
+
+
 def spread(kind: str) -> str:
     """The least and the most pushes of those that have learned something, in words."""
     pushes = stood(kind)[stood(kind) > LEARNED]
@@ -60,11 +84,6 @@ def expected(kind: str) -> np.ndarray:
 def drop(kind: str) -> bool:
     """Whether in all these agents Q of a fallen pole is less than a quarter of Q eight pushes before."""
     return bool((expected(kind)[:, -1] < expected(kind)[:, 0] / 4).all())
-
-
-def one_sided() -> float:
-    """For how many pushes a pole stands that is pushed to one side only, a mean of `worlds.to_one_side`'s."""
-    return float(np.mean([len(states) - 1 for states in to_one_side()]))
 
 
 def pushes() -> list[int]:

@@ -64,15 +64,17 @@ class Learned(NamedTuple):
 
 def learn(loop, update, buffer) -> dict[str, Learned]:
     """What a new agent learns in each of the small worlds. loop, update, buffer: the exercises' answers."""
-    learned = {}
-    for words, world in WORLDS.items():
-        agent, env = by_hand.SAC(), Small(world)
-        agent.gamma, agent.tau = GAMMA, 0.5  # so that 75 updates are enough
-        loop(agent, env, buffer(1_000), update, 556, np.random.default_rng(0))
-        start = torch.from_numpy(env.reset()[0])[None]
-        with torch.no_grad():
-            learned[words] = Learned(agent.q(start).mean((0, 1)), agent.log_pi(start)[0].exp())
-    return learned
+    return {words: learned_in(world, loop, update, buffer) for words, world in WORLDS.items()}
+
+
+def learned_in(world: World, loop, update, buffer) -> Learned:
+    """What a new agent learns in one world."""
+    agent, env = by_hand.SAC(), Small(world)
+    agent.gamma, agent.tau = GAMMA, 0.5  # so that 75 updates are enough
+    loop(agent, env, buffer(1_000), update, 556, np.random.default_rng(0))
+    start = torch.from_numpy(env.reset()[0])[None]
+    with torch.no_grad():
+        return Learned(agent.q(start).mean((0, 1)), agent.log_pi(start)[0].exp())
 
 
 class Unmarked:
@@ -121,12 +123,18 @@ class FrozenGuess(by_hand.SAC):
         return torch.where(fallen(states)[:, None], self.guess(states), super().slow_q(states))
 
 
-class FrozenAt30(FrozenGuess):
-    """An agent whose targets say that a fallen pole is worth 30, whatever it learns."""
+def frozen_at(worth: float) -> type[FrozenGuess]:
+    """A kind of agent whose targets say that a fallen pole is worth so much, whatever it learns."""
 
-    def guess(self, states: Tensor) -> Tensor:
-        """30 for each: (batch, 4) -> (2, batch, 2)."""
-        return torch.full((2, len(states), by_hand.SIZES[1]), 30.0)
+    class FrozenAt(FrozenGuess):
+        def guess(self, states: Tensor) -> Tensor:
+            """The same for each: (batch, 4) -> (2, batch, 2)."""
+            return torch.full((2, len(states), by_hand.SIZES[1]), float(worth))
+
+    return FrozenAt
+
+
+FrozenAt30 = frozen_at(30)
 
 
 @cache

@@ -178,10 +178,11 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
     return _values(title, rows, 3, key, heads, "The larger Q", alone=0, look=OPEN)
 
 
-def after_arrivals(q: np.ndarray, step: float, most: int = 14) -> Figure:
+def after_arrivals(q: np.ndarray, step: float, gamma: float, most: int = 14) -> Figure:
     """How many learners reach the free road once, twice, ..., and for how many of these leaving then wins.
 
-    q: the Q (5, 2) of each before its first walk and after each, (walks + 1, learners, 5, 2); step: of Q-learning.
+    q: the Q (5, 2) of each before its first walk and after each, (walks + 1, learners, 5, 2);
+    step, gamma: of Q-learning.
     """
     times, had, wins = np.arange(1, most + 1), np.zeros(most, dtype=int), np.zeros(most, dtype=int)
     for learner in range(q.shape[1]):
@@ -189,7 +190,7 @@ def after_arrivals(q: np.ndarray, step: float, most: int = 14) -> Figure:
             had[k] += 1
             wins[k] += chain.leaves(q[walk, learner])
     enough = [k for k, all_of, won in zip(times, had, wins, strict=True) if won > all_of / 2]
-    title = f"With a step of {step:g} leaving wins "
+    title = f"With a step of {step:g} and γ = {gamma:g} leaving wins "
     title += f"for most learners that have arrived {enough[0]} times" if enough else "for hardly any learner"
     figure, ax = one_axes(3.2, title, "arrivals so far", f"learners of C, of {q.shape[1]}")
     for values, colour in ((had, LIGHT), (wins, DARK)):

@@ -27,18 +27,16 @@ def wins_after(arrivals: int, step: float = 0.3) -> list[bool]:
     return [chain.leaves(q[each[arrivals - 1], k]) for k, each in walks.items() if len(each) >= arrivals]
 
 
-def arrives_once_open() -> float:
-    """In which share of their walks those learners arrive from when leaving wins for good."""
-    q = as_c()
-    opened = [k for k in range(300) if chain.leaves(q[-1, k])]
-    later = [(k, diagrams.goes_on_from(q[:, k], 0)) for k in opened]
-    came = sum((chain.arrivals(q[:, k]) > walk).sum() for k, walk in later)
-    return float(came / sum(len(q) - 1 - walk for _, walk in later))
+def opens_3(gamma: float = 0.8) -> float:
+    """For which share of those that arrive twice going on wins in state 3 right after it."""
+    q = as_c(gamma)
+    walks = {k: chain.arrivals(q[:, k]) for k in range(300)}
+    return float(np.mean([np.diff(q[each[1], k, 3])[0] > 0 for k, each in walks.items() if len(each) > 1]))
 
 
-def leave_later(explore: float) -> int:
+def leave_later(explore: float, gamma: float = 0.8) -> int:
     """How many of thirty learners learn to leave in 10,000 decisions."""
-    return sum(map(chain.leaves, chain.many(explore, 0.8, 30, decisions=10_000)[-1]))
+    return sum(map(chain.leaves, chain.many(explore, gamma, 30, decisions=10_000)[-1]))
 
 
 def own_arrivals(replays: int) -> list[int]:

@@ -54,6 +54,17 @@ def wrong_states() -> int:
     return loops.states(seen[taught != good])
 
 
+def flags() -> list[float]:
+    """Which share of the drives with both aids reaches MountainCar's flag with c = 2, for each teacher."""
+    return [score("mountain-car", teacher, "both") for teacher in TEACHERS]
+
+
+def wrong_labels() -> float:
+    """The share of DoorKey's labels that are wrong."""
+    _, taught, _, good = labels("doorkey")
+    return float((taught != good).mean())
+
+
 def clone_as_taught(once: bool) -> tuple[float, float]:
     """In which share of DoorKey's labels and states its clone does as taught: from all labels, or each state once."""
     seen, taught, cloned, _ = labels("doorkey", once) if once else labels("doorkey")

@@ -54,9 +54,7 @@ def exams(rules: Mapping[str, Rule]) -> Markdown:
         driven = exam.episodes
         shares = (100 * driven.success.mean(), 100 * np.mean(driven.accident > 0))
         rows.append([name, *(f"{share:.0f}" for share in shares), f"{driven.returns.mean():.0f}"])
-    return table(
-        [f"{len(driven.success)} roads", "gets out (ends ahead, even in a crash), %", "accidents, %", "return"], rows
-    )
+    return table([f"{len(driven.success)} roads", "gets out, %", "accidents, %", "return"], rows)
 
 
 def cars_in_rows(cars: np.ndarray, shown: int = 3) -> Markdown:
@@ -94,7 +92,7 @@ def of_six_teachers(computed: Cells) -> Figure:
     groups = {words: scores(computed[name, "bootstrapped"]) for name, words in SIX.items()}
     shown = {words: free_lane.shown(name) for name, words in SIX.items()}
     cells = {words: (f"{100 * crash:.3g}", f"{100 * reach:.3g}") for words, (reach, crash) in shown.items()}
-    headings = "its drives crash, %", "reach lane 0, %"
+    headings = "crash, %", "reach lane 0, %"
     methods = ["bootstrapped"] * len(SIX)
     return in_rows(title, groups, methods, "success", left=2.75, width=2.2, of_drives=(headings, cells))
 
@@ -182,8 +180,9 @@ def in_rows(
     inches; of_drives: two headings, {name: cells} about the teacher's drives, left of the dots.
     """
     row, alt_parts, is_success = 0.42, [], drawn == "success"
-    figure = new_figure(HEAD + row * len(groups) + FOOT)
-    ax = axes_at(figure, left, HEAD, width, row * len(groups))
+    head = HEAD + 0.2 * (of_drives is not None)
+    figure = new_figure(head + row * len(groups) + FOOT)
+    ax = axes_at(figure, left, head, width, row * len(groups))
     if is_success:
         ax.axvline(100 * ESCAPES, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
     for place, ((name, group), method) in enumerate(zip(groups.items(), methods, strict=True)):
@@ -204,6 +203,8 @@ def in_rows(
     beside(ax, -0.75, "escape", "return", "accidents, %", colour=QUIET)
     if of_drives:
         before(ax, -0.75, *of_drives[0], colour=QUIET)
+        before(ax, -1.25, "", "the teacher's drives")
+        beside(ax, -1.25, "the students")
     of_success = f"success of a student (%); filled: {100 * ESCAPES:.0f} % or more, it escapes"
     name_rows(ax, list(groups), of_success if is_success else "return of an agent after training; filled: it escapes")
     if of_drives:

@@ -92,6 +92,13 @@ def crash_p(kind: str) -> float:
     return taught_agents.p_value(agents[kind].scores("success"), agents["all"].scores("success"))
 
 
+def racer_long() -> tuple[np.ndarray, np.ndarray]:
+    """What the racer's ten students of a long training earn: (those that escape, the others)."""
+    long = students(taught_agents.RACER_LONG)
+    escapes = long["success"] >= ESCAPES
+    return long["returns"][escapes], long["returns"][~escapes]
+
+
 def half_random_against_rule(score: str) -> float:
     """The rank test's p of "success" or "returns" of half random's ten students and the rule's."""
     both = (worth()[teacher, "bootstrapped"].scores(score) for teacher in ("random-50", "rule"))
@@ -113,6 +120,11 @@ def in_free_lane(teacher: str) -> float:
     return free_lane.shown(teacher)[0]
 
 
+def in_it(teacher: str) -> tuple[float, float]:
+    """(mean speed in m/s in the free lane, how many decisions there) of those drives that reach it."""
+    return free_lane.driven_in_it(teacher)
+
+
 def escape_of(teachers: list[str]) -> int:
     """How many of ten bootstrapped students each of these teachers escape, in the experiment `teachers`, together."""
     return sum(worth()[teacher, "bootstrapped"].escapers("bootstrapped") for teacher in teachers)
@@ -121,11 +133,6 @@ def escape_of(teachers: list[str]) -> int:
 def taught_returns(teacher: str) -> float:
     """What the ten bootstrapped students of one of these teachers earn on average."""
     return worth()[teacher, "bootstrapped"].scores("returns").mean()
-
-
-def taught_accidents(teacher: str) -> float:
-    """The share of their drives that end in an accident."""
-    return worth()[teacher, "bootstrapped"].scores("accident").mean()
 
 
 def worth() -> dict:
