@@ -309,9 +309,8 @@ FROZEN = 30  # then try 5, 15 and 60
 bugged = worlds.Unmarked(buffer(50_000))
 frozen = worlds.taught(loop, step, bugged, BLOCK, SEED, worlds.frozen_at(FROZEN))
 guessed = worlds.along_falls(frozen)[-1]
-bc.show(
-    figures.with_frozen_guess(expects[0], unmarked, frozen, FROZEN, by_hand.balanced(frozen))
-)
+stands = by_hand.balanced(frozen)
+bc.show(figures.with_frozen_guess(expects[0], unmarked, frozen, FROZEN, stands))
 
 # %% [markdown]
 # **Explain.** **Q did feed itself.** With the guess frozen, Q of a fallen pole stays near 30. *But a guess that does
