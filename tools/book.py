@@ -114,6 +114,7 @@ def is_folded_text(cell: dict) -> bool:
 
 
 def says_what_is_seen(cell: dict) -> bool:
+    """Whether a cell is folded, or begins with **See.** or **Explain.**, which are not where no prediction is asked."""
     text = "".join(cell["source"]) if cell["cell_type"] == "markdown" else ""
     return is_folded_text(cell) or text.startswith(("**See.**", "**Explain.**"))
 

@@ -141,9 +141,12 @@ def clocks() -> dict[tuple[str, str], Results]:
 escapers = Results.escapers  # (results, method): how many of a method's agents in these results escape
 
 
-def fisher(first: int, second: int, of: int = 10) -> float:
-    """Fisher's p of two numbers of agents that escape: the first of ten, the second of as many or of `of`."""
-    return float(stats.fisher_exact([[first, 10 - first], [second, of - second]]).pvalue)
+def fisher(first: int, second: int, of: int = 10, second_of: int | None = None) -> float:
+    """Fisher's two-sided p of two counts, such as of agents that escape: the first of `of`, the second of as many or of
+    `second_of`.
+    """
+    of_both = (of, of if second_of is None else second_of)
+    return float(stats.fisher_exact([[n, of - n] for n, of in zip((first, second), of_both, strict=True)]).pvalue)
 
 
 def accidents(method: str) -> float:

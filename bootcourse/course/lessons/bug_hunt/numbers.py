@@ -4,7 +4,6 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import fisher_exact
 
 from bootcourse.course.lessons.bug_hunt import bugs, figures
 from bootcourse.course.lessons.bug_hunt.exercises import end_error
@@ -15,6 +14,7 @@ from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.replay_buffer import Batch
 from bootcourse.policies import stochastic_rule_policy
 from bootcourse.scenario import DEFAULT
+from tools.course.known import fisher
 
 hunt = cache(bugs.Hunt)  # the agents of the bug hunt
 
@@ -114,7 +114,7 @@ def early(name: str) -> float:
 def more_crashes(name: str) -> float:
     """Fisher's two-sided p of the accidents of an agent and of the healthy one on the new roads."""
     crashed = [round(driven(each).accidents * len(figures.ROADS)) for each in (name, "healthy")]
-    return float(fisher_exact([[n, len(figures.ROADS) - n] for n in crashed]).pvalue)
+    return fisher(*crashed, len(figures.ROADS))
 
 
 def size_of_errors(name: str) -> float:

@@ -392,8 +392,8 @@ compare_predictions(
 # %% [markdown] tags=["instructor"] minutes=1
 # Answers to the three questions. (1) The promise: it costs one pass through the networks, needs neither
 # accidents nor a teacher, and its limit is known, the largest reward of a second divided by 1 − γ, here 5,
-# and at most 15 with bonuses. (2) They stand below the question. (3) From the printed text hardly; from the
-# code, if it ships, with tests of single functions; or when somebody else's program of the same method earns less.
+# and at most 15 with bonuses. (2) They stand below the question. (3) Hardly from
+# the printed text. If the code ships, from tests of single functions; or when another program of the method earns less.
 
 # %% [markdown]
 # **Read on**: Henderson et al., *Deep Reinforcement Learning that Matters* (arXiv 1709.06560); Engstrom et

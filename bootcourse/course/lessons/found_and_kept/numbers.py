@@ -17,7 +17,7 @@ from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, found_after, lost
-from tools.course.known import ROAD, SETTINGS, clocks, others, shipped_experiment, shipped_results
+from tools.course.known import ROAD, SETTINGS, clocks, fisher, others, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
 STUDY = shipped_results().curves["success"].shape[1]  # training episodes of the study's agents
@@ -114,8 +114,7 @@ def stays(gamma: float = SETTINGS.gamma) -> float:
 
 def undiscounted() -> np.ndarray:
     """What the ways out of `before` earn without discount, the bonus not counted."""
-    agents = watched("demos")
-    return ways.at(agents, ways.BEFORE, "return")[ways.at(agents, ways.BEFORE, "success") > 0.5]
+    return ways.at(watched("demos"), ways.BEFORE, "return")[had_a_way("demos")]
 
 
 def falls_back(later: bool = False) -> np.ndarray:
@@ -124,7 +123,7 @@ def falls_back(later: bool = False) -> np.ndarray:
     later: instead, at the end of training, those of them that are then ahead on ways worth more than 1.
     """
     agents = watched("demos")
-    had, way = ways.at(agents, ways.BEFORE, "success") > 0.5, ways.at(agents, ways.BEFORE, "way")
+    had, way = had_a_way("demos"), ways.at(agents, ways.BEFORE, "way")
     if later:
         way = agents.notes["way"][:, -1]
         had = had & (agents.notes["success"][:, -1] > 0.5) & (agents.notes["worth"][:, -1] > 1)
@@ -136,6 +135,11 @@ def stays_back() -> float:
     states = record(idle_policy, [ways.SHOWN])[0].states[:: DEFAULT.clock.steps]
     gap = states[:, EGO, X] - states[:, TRAP_1, X]
     return float(gap[0] - gap[10])
+
+
+def had_a_way(cell: str) -> np.ndarray:
+    """Which agents get ahead on most roads just before β ends, (agents,) bool."""
+    return ways.at(watched(cell), ways.BEFORE, "success") > 0.5
 
 
 def before(cell: str) -> np.ndarray:
@@ -184,8 +188,7 @@ def first_lost() -> int:
 
 def lost_later(cell: str) -> np.ndarray:
     """Which agents with a way out just before β ends lose it in a window that ends later: (agents,) bool."""
-    had = ways.at(watched(cell), ways.BEFORE, "success") > 0.5
-    return had & _lows(cell)[:, ENDS - WINDOW + 1 :].any(axis=1)
+    return had_a_way(cell) & _lows(cell)[:, ENDS - WINDOW + 1 :].any(axis=1)
 
 
 def crashes_of_losers() -> float:
@@ -205,15 +208,15 @@ def gone() -> int:
 def fates(cell: str) -> tuple[int, int, int]:
     """Of the agents with a way out just before β ends: how many end ahead, behind and unhurt, and with accidents."""
     agents = watched(cell)
-    had = ways.at(agents, ways.BEFORE, "success") > 0.5
+    had = had_a_way(cell)
     ahead, hurt = (agents.notes[name][had, -1] > 0.5 for name in ("success", "accident"))
     return int(ahead.sum()), int((~ahead & ~hurt).sum()), int((~ahead & hurt).sum())
 
 
 def fisher_of_fates() -> float:
     """p of Fisher's exact test: of those with a way out before β ends, do more end ahead if it never ends?"""
-    rows = [(ahead, len(before(cell)) - ahead) for cell in ("demos", "demos, β for ever") for ahead in fates(cell)[:1]]
-    return float(stats.fisher_exact(rows).pvalue)
+    cells = ("demos", "demos, β for ever")
+    return fisher(*(fates(cell)[0] for cell in cells), *(len(before(cell)) for cell in cells))
 
 
 @cache
@@ -226,14 +229,14 @@ def rule_ahead() -> int:
 def ends(cell: str, ahead: bool) -> np.ndarray:
     """The worths at the end of those with a way out just before β ends that end ahead, or do not."""
     agents = watched(cell)
-    had = ways.at(agents, ways.BEFORE, "success") > 0.5
+    had = had_a_way(cell)
     return agents.notes["worth"][had & ((agents.notes["success"][:, -1] > 0.5) == ahead), -1]
 
 
 def rise(cell: str) -> int:
     """How many of those with a way out just before β ends drive at the end what is worth more."""
     agents = watched(cell)
-    had = ways.at(agents, ways.BEFORE, "success") > 0.5
+    had = had_a_way(cell)
     return int((agents.notes["worth"][had, -1] > before(cell)).sum())
 
 

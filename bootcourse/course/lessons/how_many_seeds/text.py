@@ -119,7 +119,7 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # **See.** *Twenty drives of one agent are one sample of how often training succeeds.* At a true rate of 2.5 % one
 # agent of one escapes in 2.5 % of studies: there its interval begins. If one agent stands behind the paper's 100 %,
 # it need not contradict our 0 of 10: at a true rate of 10 % each comes in more than 2.5 % of studies.
-# <!-- claim: min(0.1, 0.9**10) > 0.025 and stats.fisher_exact([[1, 0], [0, 10]]).pvalue > 0.05 -->
+# <!-- claim: min(0.1, 0.9**10) > 0.025 and fisher(1, 0, 1, 10) > 0.05 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Let them vote before the three intervals and keep the votes. What is the sample here: a drive, or a

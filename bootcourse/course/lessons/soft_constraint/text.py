@@ -344,7 +344,7 @@ bc.show(figures.courses(kinds[2:]))
 # <!-- claim: of('rule').scores('accident').max() == 0 -->
 # <!-- claim: losing(floored()) == 0 and losing([others('soft')]) == len(others('soft')) == 10 and
 #   others('soft').curves['success'].shape[1] == 2 * of('soft').curves['success'].shape[1] -->
-# <!-- claim: stats.fisher_exact([[20, 0], [20 - losing(fading()), losing(fading())]]).pvalue < 1e-6 -->
+# <!-- claim: fisher(20, 20 - losing(fading()), 20) < 1e-6 -->
 # <!-- claim: twenty(len) == twenty(found) == twenty(kept) == twenty(fast_keepers) == 20 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -352,7 +352,7 @@ bc.show(figures.courses(kinds[2:]))
 # without a pull; with one they could save some of it. That is why it gives an order of size, no more. With ξ
 # towards 0 {{ in_all(kept) }} of twenty escape after training, which chance could explain; the losses in
 # training it hardly can.
-# <!-- claim: stats.fisher_exact([[20, 0], [in_all(kept), 20 - in_all(kept)]]).pvalue > 0.1 -->
+# <!-- claim: fisher(20, in_all(kept), 20) > 0.1 -->
 
 # %%
 compare_predictions(

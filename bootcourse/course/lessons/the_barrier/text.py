@@ -289,8 +289,8 @@ bc.show(figures.escapes(trained, easier.SHOWN))
 # <!-- claim: crash_on_most(CHEAP) > 10 and ends(MIDDLE)[3] > 10 and stay(MIDDLE) > 10 -->
 # <!-- claim: all(len(easy(kind)) == 20 for kind in (BOTH, CHEAP, MIDDLE)) and
 #   DEFAULT.reward.accident == -10 -->
-# <!-- claim: all(stats.fisher_exact([[easy(kind).escapers('sac'), 20 - easy(kind).escapers('sac')]
-#   for kind in (one, BOTH)]).pvalue < 0.001 for one in (MIDDLE, CHEAP)) -->
+# <!-- claim: all(fisher(easy(one).escapers('sac'), easy(BOTH).escapers('sac'), 20) < 0.001 for one in (MIDDLE,
+#   CHEAP)) -->
 # <!-- claim: all(easy(stressed(one)).escapers('sac') < 10 for one in (MIDDLE, CHEAP)) and
 #   len(easy(stressed(BOTH))) == 20 < 2 * easy(stressed(BOTH)).escapers('sac') -->
 # <!-- claim: all(easy(one).escapers('sac') <= 6 for one in (MIDDLE, CHEAP)) -->

@@ -35,8 +35,9 @@ def lost_in_change(floor: float) -> np.ndarray:
 
 
 def called_off() -> np.ndarray:
-    """Which drives (roads,) with a sight of 20 m call off the first lane change that they begin: four seconds later
-    they are in no new lane, and one second after the change began the rule sees nobody ahead.
+    """Which drives (roads,) with a sight of 20 m call off the first lane change that they begin.
+
+    Four seconds later the car is still in its lane, and one second after the change began the rule sees nobody ahead.
     """
     reasons, _, cars, _ = decided(20.0)
     changes, roads = reasons == Reason.CHANGE, np.arange(len(ROADS))

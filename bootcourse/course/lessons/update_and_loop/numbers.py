@@ -1,5 +1,6 @@
 """What the text of the lesson on SAC's update and loop names: the agents of the experiment `pole`, as they ship."""
 
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -37,9 +38,14 @@ def gets_worse() -> int:
 LEARNED = 50  # pushes that an agent balances the pole at least if it has learned something
 
 
+def of_each(kind: str, read: Callable[[Results], np.ndarray]) -> np.ndarray:
+    """What is read of the agents of a kind, and of those of it with more seeds."""
+    return np.concatenate([read(agents(each)) for each in (kind, f"more-{kind}")])
+
+
 def stood(kind: str) -> np.ndarray:
-    """For how many pushes each agent of a kind balances the pole after its first block, with those of more seeds."""
-    return np.concatenate([agents(each).notes["tests"][:, 1] for each in (kind, f"more-{kind}")])
+    """For how many pushes each of these balances the pole after its first block."""
+    return of_each(kind, lambda them: them.notes["tests"][:, 1])
 
 
 def learned(kind: str) -> str:
@@ -49,7 +55,7 @@ def learned(kind: str) -> str:
 
 def untrained() -> np.ndarray:
     """For how many pushes each of these agents balances the pole before it learns."""
-    return np.concatenate([agents(each).notes["tests"][:, 0] for each in ("unmarked", "more-unmarked")])
+    return of_each("unmarked", lambda them: them.notes["tests"][:, 0])
 
 
 @cache
@@ -78,7 +84,7 @@ def spread(kind: str) -> str:
 
 def expected(kind: str) -> np.ndarray:
     """What each of these expects along a fall after its first block, (agents, 9): see `worlds.along_falls`."""
-    return np.concatenate([agents(each).notes["q"][:, : BEFORE + 1] for each in (kind, f"more-{kind}")])
+    return of_each(kind, lambda them: them.notes["q"][:, : BEFORE + 1])
 
 
 def drop(kind: str) -> bool:
@@ -99,4 +105,4 @@ def middle(kind: str) -> str:
 
 def limit(kind: str) -> np.ndarray:
     """The most that Q can be for each of these agents, (agents,)."""
-    return np.concatenate([agents(each).measured["most"] for each in (kind, f"more-{kind}")])
+    return of_each(kind, lambda them: them.measured["most"])

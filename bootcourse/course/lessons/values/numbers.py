@@ -19,19 +19,22 @@ def leave_c(gamma: float = 0.8) -> int:
     return sum(map(chain.leaves, as_c(gamma)[-1]))
 
 
+def arrived(q: np.ndarray) -> list[tuple[int, np.ndarray]]:
+    """(learner, the walks in which it reaches the free road), of the Q of learners after each walk."""
+    return [(k, chain.arrivals(q[:, k])) for k in range(q.shape[1])]
+
+
 @cache
 def wins_after(arrivals: int, step: float = 0.3) -> list[bool]:
     """Whether leaving wins right after this arrival, of each of those learners that has arrived so often."""
     q = as_c(step=step)
-    walks = {k: chain.arrivals(q[:, k]) for k in range(300)}
-    return [chain.leaves(q[each[arrivals - 1], k]) for k, each in walks.items() if len(each) >= arrivals]
+    return [chain.leaves(q[each[arrivals - 1], k]) for k, each in arrived(q) if len(each) >= arrivals]
 
 
 def opens_3(gamma: float = 0.8) -> float:
     """For which share of those that arrive twice going on wins in state 3 right after it."""
     q = as_c(gamma)
-    walks = {k: chain.arrivals(q[:, k]) for k in range(300)}
-    return float(np.mean([np.diff(q[each[1], k, 3])[0] > 0 for k, each in walks.items() if len(each) > 1]))
+    return float(np.mean([np.diff(q[each[1], k, 3])[0] > 0 for k, each in arrived(q) if len(each) > 1]))
 
 
 def leave_later(explore: float, gamma: float = 0.8) -> int:
@@ -42,7 +45,7 @@ def leave_later(explore: float, gamma: float = 0.8) -> int:
 def own_arrivals(replays: int) -> list[int]:
     """In how many walks after the first each of thirty learners as E arrives, if replays follow so many decisions."""
     q = chain.many(0.1, 0.8, 30, chain.WAY_OUT, replays)
-    return [int((chain.arrivals(q[:, k]) > 1).sum()) for k in range(30)]
+    return [int((walks > 1).sum()) for _, walks in arrived(q)]
 
 
 def goes_on(replays: int) -> int:
