@@ -18,6 +18,7 @@ from tests.browser import Page, open_browser
 CALM = {  # nothing that moves or asks while a test looks; cells far away are not drawn, as a student's are not
     "@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": False},
     "@jupyterlab/docmanager-extension:plugin": {"autosave": False},
+    "@jupyter-widgets/jupyterlab-manager:plugin": {"saveState": True},
 }
 
 

@@ -10,6 +10,7 @@ import pytest
 
 import bootcourse as bc
 from bootcourse.course.lessons import LESSONS, stem
+from bootcourse.course.predictions import NOTHING
 from bootcourse.panels.number import Number, whole_number
 from tests.browser import ARTEFACTS, is_blank, needs_browser, open_browser
 from tools import book, draggable
@@ -79,6 +80,13 @@ def test_what_a_lesson_cites_is_in_the_bibliography(path):
     known = re.findall(r"eprint = \{([\d.]+)\}", (book.ROOT / "book/references.bib").read_text(encoding="utf-8"))
     cited = re.findall(r"\barXiv[\s:#]+(\d{4}\.\d{4,5})", path.read_text(encoding="utf-8"))
     assert [number for number in cited if number not in known] == []
+
+
+def test_the_pages_are_linked_in_the_repository_too():
+    pages = [page for page in (book.ROOT / "book").rglob("*.md") if page.name != "index.md"]
+    pages += [book.ROOT / name for name in ("README.md", "CONTRIBUTING.md", "assets/report/report.md")]
+    links = [(page, link) for page in pages for link in re.findall(r"\]\(([^)#\s:]+)[)#]", page.read_text("utf-8"))]
+    assert len(links) > 40 and [(page, link) for page, link in links if not (page.parent / link).exists()] == []
 
 
 def test_a_dead_link_stops_the_book(tmp_path, capfd):
@@ -190,6 +198,15 @@ def test_a_world_in_a_lesson_is_the_live_page_in_the_book(tmp_path):
     [output] = nbformat.read(tmp_path / "page.ipynb", 4).cells[0].outputs
     assert 'src="../trap.html#road=7&amp;ghost=sac&amp;driver=you' in output.data["text/html"]
     assert set(output.data) == {"text/html", "text/plain"}
+
+
+def test_a_page_does_not_ask_for_what_takes_a_kernel(tmp_path):
+    notebook = book.ROOT / "notebooks" / f"{stem('the_barrier')}.ipynb"
+    book.as_a_page(notebook, tmp_path / "page.ipynb")
+    came, page = notebook.read_text("utf-8"), (tmp_path / "page.ipynb").read_text("utf-8")
+    for words in ("Run this cell to answer", "predictions committed", NOTHING):
+        assert words in came and words not in page
+    assert "Prediction 5.1" in page and "The answers are: 5.1: " in page
 
 
 def test_where_a_lesson_trains_its_reader_trains_in_the_page_below_what_is_said_of_it(tmp_path):

@@ -155,10 +155,10 @@ def test_a_move_is_answered_at_once():
         assert best < 0.1, (lesson, name)
 
 
-def test_the_untrained_pole_falls_at_the_push_that_ends_its_episode_and_the_rules_stands():
+def test_the_pole_of_the_agent_with_the_bug_falls_at_its_last_recorded_push_and_the_other_s_stands():
     panel = shown("update_and_loop", "two_poles")
     from_page(panel.numbers["push"].field, value=30)
-    last = int(re.search(r"agent fell at push (\d+)", panel.svg.alt)[1])
+    last = int(re.search(r"agent 2 fell at push (\d+)", panel.svg.alt)[1])
     for push, fell in ((last - 1, False), (last, True)):
         from_page(panel.numbers["push"].field, value=push)
-        assert ("untrained agent fell" in panel.svg.alt) == fell and "rule leans" in panel.svg.alt
+        assert ("agent 2 fell" in panel.svg.alt) == fell and "agent 1 leans" in panel.svg.alt

@@ -50,6 +50,31 @@ def test_solutions_are_closed_in_it_until_the_lecturer_opens_them_and_hints_are_
 
 
 @pytest.mark.parametrize(
+    "work",
+    [
+        lambda cell: cell.update(
+            source=cell["source"].replace("    ...\n", "    return 1 - (1 - good / 9) ** tries\n")
+        ),
+        lambda cell: cell.update(
+            outputs=[{"data": {"application/vnd.jupyter.widget-view+json": {}, "text/plain": "3"}}]
+        ),
+    ],
+)
+def test_a_lesson_in_which_the_lecturer_has_worked_is_not_handed_out(tmp_path, small, monkeypatch, work):
+    (tmp_path / "kit/notebooks").mkdir(parents=True)
+    path = tmp_path / "kit" / NAME
+    lesson = json.loads((handout.KIT / NAME).read_text())
+    (exercise,) = [cell for cell in lesson["cells"] if "def luck" in handout.source(cell)]
+    exercise["source"] = handout.source(exercise)
+    work(exercise)
+    path.write_text(json.dumps(lesson))
+    monkeypatch.setattr(handout, "KIT", tmp_path / "kit")
+    with pytest.raises(BootcourseError, match=f"git restore {NAME}"):
+        handout.write(tmp_path / "course", None, False)
+    assert not (tmp_path / "course").exists()
+
+
+@pytest.mark.parametrize(
     "how, sentence",
     [(("full", None), "exists already"), (("new", {77}), "none of these lessons")],
 )

@@ -353,3 +353,16 @@ def test_a_panel_whose_kernel_has_ended_says_so_once(page):
     marks = "them => them.map(each => getComputedStyle(each, '::before').content).filter(mark => mark !== 'none')"
     said = lambda: shown.locator(".bc-panel, .bc-panel *").evaluate_all(marks)  # noqa: E731
     assert until(lambda: said() == ['"The kernel has ended: run this cell again."'])
+
+
+def test_a_panel_is_there_again_when_its_notebook_is_opened_without_its_kernel(page):
+    number, _ = place_of("ended")
+    page.run(number, number)
+    page.cell(number).locator(".bc-panel svg").wait_for()
+    page.page.evaluate("() => jupyterapp.commands.execute('docmanager:save')")
+    page.page.evaluate("() => jupyterapp.shell.currentWidget.sessionContext.session.kernel.restart()")
+    page.page.reload()
+    page.page.wait_for_function(f"() => jupyterapp.shell.currentWidget?.content.widgets?.length === {number + 1}")
+    page.page.evaluate(f"() => jupyterapp.shell.currentWidget.content.scrollToItem({number})")
+    page.cell(number).locator(".bc-panel svg").wait_for()
+    assert page.page.get_by_text("model not found").count() == 0

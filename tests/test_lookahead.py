@@ -287,6 +287,22 @@ def results_of(hurt: int, returns: float = 130.0) -> Results:
     return Results([{"method": "ppo_cloned", "seed": seed} for seed in range(2)], np.full(2, -1), measured=measured)
 
 
+def test_a_look_ahead_in_noise_picks_among_its_own_action_and_so_many_others_by_the_mean_of_so_many_roads():
+    there, seen = Reached(idle_policy, 2), []
+
+    def values_of(cars, decide, horizon, gamma, worth):  # the first road favours the last action, the others the first
+        seen.append(cars[:, EGO + 1 :, X])
+        return np.tile(np.arange(9.0) if len(seen) % 3 == 1 else np.arange(9.0)[::-1], (len(cars), 1))
+
+    def decides(**how):
+        seen.clear()
+        return imagined.in_noise(values_of, idle_policy, **how)(there.observations, there.cars).actions.tolist()
+
+    assert decides(others=0) == idle_policy(there.observations, there.cars).actions.tolist()
+    assert decides() == [8, 8] and decides(roads=3) == [0, 0]
+    assert np.std(np.subtract(*seen[:2])) > 0.5, "each road is drawn anew"
+
+
 def test_the_figure_and_the_table_say_how_many_drives_end_in_an_accident():
     computed = {cell.name: results_of(60 if cell.form == "alone" else 8) for cell in every_cell()}
     assert "others keep speed and lane 4.0;" in wrong_models(computed).alt

@@ -139,7 +139,7 @@ def test_a_buffer_in_float64_is_refused_by_the_comparison_and_by_the_training():
         training.run(progress=False, stop=lambda: training.updates >= 2)
 
 
-@pytest.mark.parametrize("method", ["sac", "soft", "margin_soft", "cql", "gail", "rlpd", "ibrl"])
+@pytest.mark.parametrize("method", ["sac", "soft", "margin_soft", "cql", "gail", "ibrl"])
 @pytest.mark.parametrize("left_out", [(), tuple(LATER)], ids=["with the later parts", "without"])
 def test_the_solutions_make_the_library_s_update(method, left_out):
     agents, batch = with_seeds(settings_for(method, hidden=(8,), alpha_init=0.3), 2), own_code.batch_with_everything(2)

@@ -7,6 +7,7 @@ import torch
 
 from bootcourse.course.lessons.update_and_loop import by_hand, exercises, explorable, pole, worlds
 from bootcourse.course.shipped import shipped_experiment
+from bootcourse.research.experiments import checks
 
 
 def test_agents_train_for_some_blocks_with_marks_and_for_one_without(monkeypatch):
@@ -56,7 +57,13 @@ def test_the_targets_of_a_frozen_guess_take_only_a_fallen_poles_value_from_the_u
     assert (at_30[:, 1:] == 30).all() and torch.equal(at_30[:, 0], untrained[:, 0])
 
 
-def test_two_trained_poles_are_first_shown_where_one_has_fallen():
-    panel = explorable.trained_poles(by_hand.SAC(seed=1), by_hand.SAC(seed=0))
+def test_two_poles_are_first_shown_where_the_recorded_pushes_let_one_fall():
+    fell = {}
+    for name, pushes in explorable.PUSHES.items():
+        states = torch.from_numpy(explorable.episode(pushes) / checks.CARTPOLE_SCALES)
+        fell[name] = worlds.fallen(states).tolist()
+        assert not any(fell[name][:-1])
+    assert [each[-1] for each in fell.values()] == [False, True]
+    panel = explorable.two_poles()
     push = int(panel.numbers["push"].value)
-    assert re.match(rf"Push {push}: .*fell at push {push} ", panel.svg.alt) and push > 0
+    assert re.match(rf"Push {push}: .*agent 2 fell at push {push} ", panel.svg.alt) and push > 0

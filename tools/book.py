@@ -37,6 +37,7 @@ LEARNED = {
 }
 AFTER = {"soft_constraint": "figures.courses("}  # lesson -> in the code of the cell below which it trains
 BEFORE_THE_RULE = ("the_trap", "the_barrier")  # the sliders of the page that learns are of later lessons
+BY_HAND = re.compile(r'<div class="bc-by-hand">.*?</div>')  # how to answer a prediction, which takes a kernel
 WORLD = re.compile(r'<img [^>]*data-world="([^"]*)"[^>]*>')  # the picture that a world leaves where no kernel runs
 SOLVED = re.compile(r"\[([^]]*)\]\(\.\./solved/([^)]*)\)")
 
@@ -59,8 +60,8 @@ def gather(to: Path, edition: str = "student") -> None:
     (to / "paper_map.md").write_text(paper_map.page(), encoding="utf-8")
     for page in (*to.glob("*.md"), *to.glob("teaching/*.md")):
         text = INSTRUCTOR.sub(r"\1" if edition == "instructor" else "", page.read_text(encoding="utf-8"))
-        folder = "lessons/" if page.parent == to else "../lessons/"
-        page.write_text(resolved(fill_in(text), folder), encoding="utf-8")
+        up = "" if page.parent == to else "../"
+        page.write_text(resolved(fill_in(as_linked_here(text, up)), f"{up}lessons/"), encoding="utf-8")
     (to / "lessons/instructor").mkdir(parents=True)
     for notebook in sorted((ROOT / "notebooks").glob("*.ipynb")):
         as_a_page(notebook, to / "lessons" / notebook.name)
@@ -81,6 +82,15 @@ def gather(to: Path, edition: str = "student") -> None:
     (to / "claims.md").write_text(claims_page(), encoding="utf-8")
 
 
+def as_linked_here(text: str, up: str) -> str:
+    """A page of book/, which is read in the repository, too, with its links as they are in the book.
+
+    up: the way from the page to the book's first folder.
+    """
+    text = re.sub(r"\]\((?:\.\./)*notebooks/\d\d_", f"]({up}lessons/", text)
+    return re.sub(r"\]\((?:\.\./)*assets/", f"]({up}", text).replace("](paper_map.toml)", "](paper_map.md)")
+
+
 def frame(address: str, height: int) -> str:
     """The page that drives, within a lesson's page, so many pixels high."""
     page = f'<iframe src="../trap.html#{address}" title="The trap" loading="lazy"'
@@ -91,8 +101,9 @@ def as_a_page(notebook: Path, to: Path) -> None:
     """Copy a notebook as it came, with the page that drives in the place of each world, which needs a kernel, and
     sliders that move on its panels.
 
-    The first word of what JupyterLab folds is bold again.
+    The first word of what JupyterLab folds is bold again. How much of the lesson is done, and how to answer, go.
     """
+    from bootcourse.course.predictions import NOTHING
     from tools import draggable
 
     content, lesson = json.loads(as_it_came(notebook)), notebook.stem.partition("_")[2]
@@ -100,8 +111,13 @@ def as_a_page(notebook: Path, to: Path) -> None:
         moves = draggable.page_of(lesson, "".join(cell["source"])) if cell["cell_type"] == "code" else None
         if is_folded_text(cell):
             cell["source"] = re.sub(r"\A(\w+\.)\n", r"**\1** ", "".join(cell["source"]))
-        for output in cell.get("outputs", []):
+        outputs = [each for each in cell.get("outputs", []) if "bc-progress" not in str(each.get("data"))]
+        if cell["cell_type"] == "code":
+            cell["outputs"] = outputs
+        for output in outputs:
             shown = output.get("data", {})
+            for mime in {"text/html", "text/plain"} & {*shown}:
+                shown[mime] = BY_HAND.sub("", "".join(shown[mime])).replace(f"{NOTHING} ", "")
             if address := WORLD.search("".join(shown.get("text/html", ""))):
                 output["data"] = {"text/html": frame(address[1], 750), "text/plain": shown["text/plain"]}
             elif moves and "data:image/svg+xml" in "".join(shown.get("text/html", "")):

@@ -26,11 +26,13 @@ install --require-hashes -r "$lock" \
     || stop "Some packages cannot be fetched: check the network and the free disk space, then run this again"
 install --no-build-isolation --editable .
 
-# JupyterLab reads this file of its environment: no question about news at the first start.
+# JupyterLab reads this file of its environment: no question about news at the first start, and panels are saved
+# with their notebook, so that they are still there when it is opened on another day.
 settings=$("$python" -c "import sys; print(sys.prefix)")/share/jupyter/lab/settings
 mkdir -p "$settings"
 [ -e "$settings/overrides.json" ] || cat > "$settings/overrides.json" << 'JSON'
-{"@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": false}}
+{"@jupyterlab/apputils-extension:notification": {"fetchNews": "false", "checkForUpdates": false},
+ "@jupyter-widgets/jupyterlab-manager:plugin": {"saveState": true}}
 JSON
 
 echo "Now the road and the learner are compiled, once."

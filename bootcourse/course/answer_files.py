@@ -23,7 +23,7 @@ PARTS = (  # the exercises whose answers train the agent: see own_code.py
     "update", "train",
     "soft_constraint", "constrained_loss", "constrained_target", "mixed_batch",
     "imitation_reward", "offline_loss", "advantages", "clipped_loss",
-    "rollout_values", "shield", "smallest_of", "better_of_two", "guide_shrinks",
+    "rollout_values", "shield", "better_of_two", "guide_shrinks",
 )  # fmt: skip
 CONSTANTS = (bool, int, float, str, type(None))
 HEAD = '"""Your `{0}`, which passed its check. Without this file, the library\'s own is used."""'

@@ -25,7 +25,6 @@ LIBRARY = {  # exercise -> the library's functions; the exercise's own solution 
     "power": ("bootcourse.statistics.power",),
     "my_rule": (f"{COURSE}.lessons.your_teacher.example_teachers.watchful", f"{COURSE}.gap_rule.gap_rule"),
     "rollout_values": ("bootcourse.episodes.lookahead.rollout_values", "bootcourse.episodes.lookahead.nine_drives"),
-    "smallest_of": (f"{LEARN}.rlpd.smallest_of",),
     "better_of_two": (f"{LEARN}.ibrl.better_of_two",),
     "guide_shrinks": (f"{LEARN}.jsrl.holds",),
     "climb_rule": ("bootcourse.research.problems.with_the_motion", "bootcourse.research.problems.swing"),

@@ -56,9 +56,9 @@ def keep(name: str, answer: Callable) -> str:
     if name not in PARTS:
         return ""
     try:
-        return f"From here on, agents train with your `{name}`. It is kept in {answer_files.write(name, answer)}."
+        return f"From here on, the lessons use your `{name}`. It is kept in {answer_files.write(name, answer)}."
     except BootcourseError as error:
-        return f"From here on, agents train with your `{name}`, in this notebook alone: {error}"
+        return f"From here on, lessons use your `{name}`, in this notebook alone: {error}"
 
 
 def load() -> None:

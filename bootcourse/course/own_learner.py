@@ -22,7 +22,6 @@ from bootcourse.learn.learner import SACLearner
 from bootcourse.learn.networks import mlp
 from bootcourse.learn.ppo import PPOLearner
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
-from bootcourse.learn.rlpd import RLPDLearner
 from bootcourse.learn.settings import Settings
 from bootcourse.methods import METHODS
 
@@ -32,7 +31,7 @@ BUFFER = ("ReplayBuffer", "mixed_batch")
 ALONE = {  # the parts of a method that shares none with SAC's exercises
     "cql": ["offline_loss"],
     "gail": ["imitation_reward"],
-    "rlpd": ["smallest_of"],
+    "rlpd": [],
     "ibrl": ["better_of_two"],
     "jsrl": ["guide_shrinks"],
 }
@@ -169,14 +168,6 @@ class OwnPPO(Own, PPOLearner):
         return self.each(lambda i: loss(ratio[i], advantage[i], clip))
 
 
-class OwnRLPD(Own, RLPDLearner):
-    """RLPD: the target's choice of the smallest of the chosen critics."""
-
-    def target_q(self, states: Tensor) -> Tensor:
-        q, chosen = self.q_pair(self.target_critics, states), self.drawn_critics()
-        return self.each(lambda i: self.part("smallest_of")(q[:, i], chosen[i]))
-
-
 class OwnIBRL(Own, IBRLLearner):
     """IBRL: the choice between the rule's action and the agent's own."""
 
@@ -199,7 +190,6 @@ LEARNERS = {
     CQLLearner: OwnCQL,
     GAILLearner: OwnGAIL,
     PPOLearner: OwnPPO,
-    RLPDLearner: OwnRLPD,
     IBRLLearner: OwnIBRL,
     JSRLLearner: OwnJSRL,
 }  # the library's learner -> the one that is made of parts

@@ -97,7 +97,8 @@ class PredictionForm(Panel):
         question = self.question
         choices = joined(html("<li>{}</li>", marked(choice)) for choice in question.choices)
         choices = html("<ul>{}</ul>", choices) if choices else ""
-        page = '<div class="bc-prediction"><strong>Prediction {}</strong> {}{}<div><small>{}</small></div></div>'
+        by_hand = html('<div class="bc-by-hand"><small>{}</small></div>', by_hand)  # the book takes it out
+        page = '<div class="bc-prediction"><strong>Prediction {}</strong> {}{}{}</div>'
         page = html(page, question.number, marked(question.text), choices, by_hand)
         text = " / ".join([f"Prediction {question.number}: {question.text}", *question.choices])
         return widgets.VBox._repr_mimebundle_(self, **kwargs) | {"text/html": str(page), "text/plain": text}

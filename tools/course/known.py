@@ -18,7 +18,6 @@ from bootcourse.course import shipped
 from bootcourse.course.lessons import LESSONS, registry
 from bootcourse.course.lessons.bug_hunt import bugs
 from bootcourse.course.lessons.the_second_trap import ppo_kinds, second_trap
-from bootcourse.course.lessons.the_trap import time_step
 from bootcourse.course.lessons.values import chain
 from bootcourse.course.lessons.values.chain import leaving
 from bootcourse.course.lessons.your_teacher import example_teachers, taught_agents

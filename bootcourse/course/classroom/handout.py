@@ -8,6 +8,7 @@ handout is written or read.
 
 import hashlib
 import os
+import re
 import shutil
 import tempfile
 from pathlib import Path
@@ -124,14 +125,36 @@ def hashed(data: bytes) -> str:
     return hashlib.sha256(unix_lines(data)).hexdigest()[:16]
 
 
+def was_worked_in(cells: list[dict]) -> bool:
+    """Does a lesson's notebook hold an answer, or a widget, which only who runs a cell sees?"""
+    of_exercises = [text for text in map(source, cells) if re.search(r"^check\.(\w+)\(\1\)$", text, re.MULTILINE)]
+    blank = all(re.search(r"^ +\.\.\.$", text, re.MULTILINE) for text in of_exercises if "def " in text)
+    shown = [mime for cell in cells for output in cell.get("outputs", []) for mime in output.get("data", {})]
+    return not blank or "application/vnd.jupyter.widget-view+json" in shown
+
+
+def source(cell: dict) -> str:
+    """What stands in a cell."""
+    return "".join(cell["source"])
+
+
 def content(lessons: set[int] | None, solutions: bool) -> dict[str, bytes]:
-    """{name: data} of every file of a handout. Raises BootcourseError where the notebooks are not installed."""
+    """{name: data} of every file of a handout.
+
+    Raises BootcourseError where the notebooks are not installed, and for one in which somebody has worked.
+    """
     files, titles = {}, []
     for path in sorted((KIT / "notebooks").glob("[0-9][0-9]_*.ipynb")):
         if lessons is None or int(path.name[:2]) in lessons:
             name = f"notebooks/{path.name}"
             files[name] = read_bytes(path)
-            title = "".join(read_json(path, dict)["cells"][0]["source"]).partition("\n")[0].lstrip("# ")
+            cells = read_json(path, dict)["cells"]
+            if was_worked_in(cells):
+                raise BootcourseError(
+                    f"{name} holds somebody's work, perhaps right answers: hand out from a fresh clone, or keep "
+                    f"a copy of it and put the lesson back with `git restore {name}`."
+                )
+            title = source(cells[0]).partition("\n")[0].lstrip("# ")
             titles.append(f"- [{title}]({name})")
     if not files:
         raise BootcourseError(f"{KIT}/notebooks has none of these lessons: install the course as its README says.")

@@ -73,8 +73,8 @@ def promises(hunt: Hunt) -> Figure:
         panel.yaxis.set_major_formatter("{x:g}")
         panel.yaxis.set_minor_locator(NullLocator())
         panel.axhline(most(False), color=charts.INK, linewidth=1, linestyle=(0, (1, 2)), zorder=1)
-    names = {f"limit without bonus: {most(False):.0f}": most(False)}
-    at_dotted(figure, {**names, f"limit with the bonus always: {most():.0f}": most()})
+    names = {f"ceiling without bonus: {most(False):.0f}": most(False)}
+    at_dotted(figure, {**names, f"ceiling with the bonus always: {most():.0f}": most()})
     return figure
 
 

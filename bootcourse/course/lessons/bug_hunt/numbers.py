@@ -1,7 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -42,18 +41,10 @@ def late(name: str, what: str) -> list[int]:
     return [round(30 * share) for share in hunt().at_the_end(what)[name]]
 
 
-class Driven(NamedTuple):
-    """On how many of some roads a policy gets out, and crashes, as shares."""
-
-    out: float
-    accidents: float
-
-
 @cache
-def driven(name: str) -> Driven:
-    """How an agent drives on new roads, by its likeliest actions."""
-    drives = drive_episodes(hunt().agent(name).as_policy(), figures.ROADS)
-    return Driven(float(drives.success.mean()), float(np.mean(drives.accident > 0)))
+def driven(name: str) -> float:
+    """The share of new roads on which an agent crashes, by its likeliest actions."""
+    return float(np.mean(drive_episodes(hunt().agent(name).as_policy(), figures.ROADS).accident > 0))
 
 
 @cache
@@ -105,22 +96,10 @@ def now_not_next(name: str) -> np.ndarray:
     return figures.now_not_next(hunt())[name][1]
 
 
-def early(name: str) -> float:
-    """The same between updates 1,000 and 5,000: the mean of both seeds."""
-    during = (hunt().updates >= 1000) & (hunt().updates <= 5000)
-    return float(now_not_next(name)[:, during].mean())
-
-
 def more_crashes(name: str) -> float:
     """Fisher's two-sided p of the accidents of an agent and of the healthy one on the new roads."""
-    crashed = [round(driven(each).accidents * len(figures.ROADS)) for each in (name, "healthy")]
+    crashed = [round(driven(each) * len(figures.ROADS)) for each in (name, "healthy")]
     return fisher(*crashed, len(figures.ROADS))
-
-
-def size_of_errors(name: str) -> float:
-    """The mean |Q - r| of an agent at the accidents of the student's probe."""
-    q = hunt().agent(name).q_values(seen().states)[ended()]
-    return float(np.abs(q[np.arange(len(q)), seen().actions[ended()]] - seen().rewards[ended()]).mean())
 
 
 @cache

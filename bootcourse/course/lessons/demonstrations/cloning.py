@@ -21,7 +21,7 @@ from bootcourse.learn.settings import settings_for
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.observation import Y_SCALE
 from bootcourse.road.state import EGO, Accident, Y
-from bootcourse.scenario import DEFAULT, N_ACTIONS
+from bootcourse.scenario import DEFAULT
 
 SIZE = DEFAULT.observation_size
 ACTION, RULE_ACTION = 2 * SIZE, 2 * SIZE + 3  # columns of a transition
@@ -145,15 +145,6 @@ def rows_to_add(of_rule: Tensor, labelled: Tensor) -> dict[str, Tensor]:
 def beyond_in(of_rule: Tensor, rows: Tensor) -> Tensor:
     """Which rows are from a place left of all of the rule's rows."""
     return left_in(rows) > left_in(of_rule).max()
-
-
-def diced(rows: Tensor, share: float) -> Tensor:
-    """These rows, with one of the other eight actions, drawn evenly, in so large a share of them."""
-    rng, rows = np.random.default_rng(0), rows.clone()
-    chosen = torch.from_numpy(rng.random(len(rows)) < share)
-    by = torch.from_numpy(rng.integers(1, N_ACTIONS, int(chosen.sum())))
-    rows[chosen, ACTION] = (rows[chosen, ACTION] + by) % N_ACTIONS
-    return rows
 
 
 def with_added(rows: Tensor, more: Tensor, copies: int = 5) -> Tensor:

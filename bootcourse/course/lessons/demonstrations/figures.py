@@ -69,27 +69,31 @@ def added(measured: dict[str, np.ndarray], fed: dict[str, np.ndarray], longer: d
     """What rows added to the rule's change: as `clones`, with the agreement with the rule in the clones' own states.
 
     measured: as in `clones`, last the rule's drives and the stochastic rule's. fed: the rule's with three kinds of
-    others, the last two from the band's rim and from beyond it; then the stochastic rule's states with the rule's
-    labels, and the rule's with some by chance. longer: after a longer training.
+    others, the last two from the band's rim and from beyond it. longer: after a longer training.
     """
     rule_s, stochastic = [*measured][-2:]
-    *kinds, labelled, diced = fed
     crash = {name: values[:, 2].mean() for name, values in (measured | fed).items()}
     title = "Accidents, with rows added to the rule's"
-    if max(crash[kind] for kind in kinds[1:]) < crash[rule_s] / 2:
+    if max(crash[kind] for kind in [*fed][1:]) < crash[rule_s] / 2:
         title = "Rows from the band's rim and beyond prevent more than half of the accidents"
-    names = [rule_s, *kinds, stochastic, labelled, diced, *longer]
-    rows = {name: (measured | fed | longer)[name] for name in names}
-    return _panels(rows, {1: "agree with the rule, own states (%)", 2: "have an accident (%)"}, title)
+    rows = {name: (measured | fed | longer)[name] for name in (rule_s, *fed, stochastic, *longer)}
+    cures = {"shows the way back": (2, 4), "seldom leaves the band": (5, 5)}
+    return _panels(rows, {1: "agree with the rule, own states (%)", 2: "have an accident (%)"}, title, cures)
 
 
 SHIPPED = {0: "agrees", 1: "own", 2: "accidents"}  # what the columns of `cloning.measure` are called there
 
 
-def _panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str) -> Figure:
+def _panels(
+    measured: dict[str, np.ndarray],
+    columns: dict[int, str],
+    title: str,
+    bands: dict[str, tuple[int, int]] | None = None,
+) -> Figure:
     """A row for each name, a panel for each of two or three columns of `cloning.measure`.
 
-    A square: the mean of the fifteen clones that ship, of the kinds of which some do.
+    A square: the mean of the fifteen clones that ship, of the kinds of which some do. bands: words that stand, in the
+    last panel, beside the rows from one to another, which are tinted.
     """
     figure, fifteen = new_figure(1.45 + 0.5 * len(measured)), shipped_experiment("clones")
     alt_parts = {name: [] for name in measured}
@@ -108,6 +112,18 @@ def _panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str
                 ax.plot(mean, row + 0.27, "s", color="none", markeredgecolor=INK, markersize=5)
                 alt_parts[name][-1] += f" (fifteen others {mean:.0f} %)"
             ax.text(shown.mean(), row - 0.32, f"{shown.mean():.0f}", fontsize=TEXT, color=INK, ha="center")
+        for words, (first, last) in (bands or {}).items():
+            ax.axhspan(first - 0.47, last + 0.47, color=style("bc").colour, alpha=0.07, linewidth=0)
+            if place == len(columns) - 1:
+                ax.text(
+                    103,
+                    (first + last) / 2,
+                    words.replace(" ", "\n", 1),
+                    fontsize=TEXT,
+                    color=INK,
+                    ha="right",
+                    va="center",
+                )
         plain_axes(ax, label, grid="x")
         ax.set_yticks(range(len(measured)), list(measured) if place == 0 else [""] * len(measured))
         ax.tick_params(axis="y", labelcolor=INK, labelsize=TEXT)
@@ -115,6 +131,7 @@ def _panels(measured: dict[str, np.ndarray], columns: dict[int, str], title: str
     words = "a dot: a clone; a bar: their mean; a square: the mean of fifteen other clones"
     figure.text(0.27, 0.12 / height, words, fontsize=SMALL, color=INK)
     words = "; ".join(f"{name}: {', '.join(parts)}" for name, parts in alt_parts.items())
+    words += "".join(f". {cure.capitalize()}: rows {a + 1} to {b + 1}" for cure, (a, b) in (bands or {}).items())
     return finish(figure, title, f"Clones' means, by data. {words}.")
 
 
@@ -126,7 +143,7 @@ PLACES = {-1.0: "1 m right", 0.0: "left lane's\nmiddle", 1.0: "1 m left", 2.0: "
 def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
     """Where the clones' cars were in the last seconds before they left the road on the left, and where they erred.
 
-    A few of the drives, see `unlike`, are drawn; `errors` counts in all of them.
+    A few of the drives, see `unlike`, are drawn; all are counted in what it says.
     """
     ended = [drive for drive in own if cloning.off_on_the_left(drive)]
     high = cloning.left_in(of_rule).max().item()
@@ -155,7 +172,7 @@ def off_the_road(own: Sequence[Rollout], of_rule: Tensor) -> Figure:
     kinds = (f"{a} of {b}" for a, b in zip(*((beyond, of - beyond) for beyond, of in parts), strict=True))
     words = f"time before the car is off the road (s); drawn: {' drives ever left of the band, '.join(kinds)} never"
     ax.set_xlabel(words, fontsize=TEXT, color=INK)
-    (left_of_it, elsewhere), _ = errors(own, of_rule)
+    left_of_it, elsewhere = errors(ended, high)
     title = f"The last {BEFORE} s of {len(drawn)} drives off the left edge, and their errors"
     if 0 < ever_beyond(ended, of_rule) < len(ended):
         title = "Cars leave the road from beyond the green band, and from inside it"
@@ -179,31 +196,11 @@ def unlike(drives: Sequence[Rollout], count: int) -> list[Rollout]:
     return [drives[k] for k in chosen]
 
 
-def errors(own: Sequence[Rollout], of_rule: Tensor) -> np.ndarray:
-    """The share of errors left of all of the rule's rows, and elsewhere: of drives off the left edge, of those that
-    end without an accident, (2, 2).
-    """
-    high, shares = cloning.left_in(of_rule).max().item(), []
-    for some in both_ends(own).values():
-        wrong = np.concatenate([drive.actions != drive.rule_actions for drive in some])
-        beyond = np.concatenate([cloning.metres_left(drive) > high for drive in some])
-        shares.append([wrong[beyond].mean(), wrong[~beyond].mean()])
-    return np.array(shares)
-
-
-def both_ends(own: Sequence[Rollout]) -> dict[str, list[Rollout]]:
-    """The drives that end off the left edge, and those that end without an accident."""
-    ended = [drive for drive in own if cloning.off_on_the_left(drive)]
-    return {"off the left edge": ended, "no accident": [drive for drive in own if not drive.accident]}
-
-
-def error_rows(own: Sequence[Rollout], of_rule: Tensor) -> list[list[str]]:
-    """Rows of a table: how drives end, how many were left of the rule's rows, and their errors there and elsewhere."""
-    rows = []
-    for (name, some), shares in zip(both_ends(own).items(), errors(own, of_rule), strict=True):
-        beyond = ever_beyond(some, of_rule)
-        rows.append([f"{name}: {len(some)}", f"{beyond}", *(f"{100 * share:.0f} %" for share in shares)])
-    return rows
+def errors(drives: Sequence[Rollout], high: float) -> tuple[float, float]:
+    """The share of errors among these drives' decisions farther left than this (m), and among the others."""
+    wrong = np.concatenate([drive.actions != drive.rule_actions for drive in drives])
+    beyond = np.concatenate([cloning.metres_left(drive) > high for drive in drives])
+    return wrong[beyond].mean(), wrong[~beyond].mean()
 
 
 def ever_beyond(drives: Sequence[Rollout], of_rule: Tensor) -> int:

@@ -9,7 +9,7 @@ from bootcourse.colours import INK, PALE, TRAP
 from bootcourse.course import table
 from bootcourse.course.dots import name_rows
 from bootcourse.course.lessons.discrete_sac.explorable import ACTIONS, ALPHA, START
-from bootcourse.course.lessons.discrete_sac.own_parts import GAMMA, STEPS, SURE, Descent, Fit, Walked
+from bootcourse.course.lessons.discrete_sac.own_parts import STEPS, SURE, Descent, Walked
 from bootcourse.methods import style
 from bootcourse.plots.figure import SMALL, TEXT, axes_at, finish, new_figure
 
@@ -23,13 +23,6 @@ def descents(ends: Mapping[str, Descent]):
         numbers = end.pi[straight], end.q[straight], end.loss
         rows.append([name, *(f"{number:.2f}".replace("-", "−") for number in numbers)])
     return table([f"after {STEPS} steps", "π(straight)", "Q(straight)", "loss"], rows)
-
-
-def fits(ends: Mapping[str, Fit]):
-    """A table of where the critics end on one transition: {which loss: its end}."""
-    rows = [["at first", "0", "1", f"{2 * GAMMA**2:.2f}"]]
-    rows += [[name, *(f"{number:.2f}" for number in end)] for name, end in ends.items()]
-    return table([f"r = 0, γ = {GAMMA}; after {STEPS} steps", "Q(s, a)", "V(s′)", "loss"], rows)
 
 
 def constant_alpha(alphas: Sequence[float], walked: Walked) -> Figure:

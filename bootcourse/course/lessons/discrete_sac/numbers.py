@@ -9,15 +9,13 @@ from functools import cache
 import numpy as np
 import torch
 
-from bootcourse.course.lessons.discrete_sac.exercises import critic_loss as critic_loss
 from bootcourse.course.lessons.discrete_sac.explorable import ALPHA, START, highest_estimates
 from bootcourse.course.lessons.discrete_sac.own_parts import GAMMA as GAMMA
 from bootcourse.course.lessons.discrete_sac.own_parts import LEARNERS as LEARNERS
 from bootcourse.course.lessons.discrete_sac.own_parts import STEP as STEP
 from bootcourse.course.lessons.discrete_sac.own_parts import SURE, Walked, descended, less_log_2, soft_sweeps, walked
-from bootcourse.course.lessons.discrete_sac.own_parts import bare_loss as bare_loss
-from bootcourse.course.lessons.discrete_sac.own_parts import fitted as fitted
 from bootcourse.course.lessons.discrete_sac.own_parts import unpaid as unpaid
+from bootcourse.course.lessons.values import chain
 from bootcourse.learn import sac
 
 q = np.array(START)
@@ -86,17 +84,6 @@ def falling(value: Callable = sac.soft_value, start: float = 10, seed: int = 0) 
     return walked(value, sac.critic_target, torch.tensor(np.geomspace(start, 0.01, DECISIONS))[:, None], seed)
 
 
-def from_start(start: float) -> str:
-    """How many are sure of leaving in the end with the pay α H, with α (H − log 2) and with none."""
-    one, two, three = (sure(falling(value, start))[0] for value in (sac.soft_value, less, unpaid))
-    return f"{one}, {two} and {three}"
-
-
-def arrivals(start: float) -> float:
-    """On how many of their 50 walks the learners without pay in the target reach the free road, on average."""
-    return float(falling(unpaid, start).walks.mean())
-
-
 def others() -> list[int]:
     """How many of two more sets of such learners, which draw other numbers, are sure of leaving in the end."""
     return [int(sure(falling(seed=seed))[0]) for seed in (1, 2)]
@@ -108,10 +95,19 @@ def begun(value: Callable = sac.soft_value) -> Walked:
     return walked(value, sac.critic_target, torch.tensor(np.geomspace(10, 0.01, DECISIONS)[:100, None]))
 
 
-def early(value: Callable = sac.soft_value) -> tuple[float, float, float]:
-    """The mean Q then of staying, of leaving, and on the free road, of the learners that have been there."""
-    q = begun(value).q[begun(value).found]
-    return q[:, 0, 0].mean(), q[:, 0, 1].mean(), q[:, 4].mean()
+def early(of: np.ndarray) -> np.ndarray:
+    """The mean of those learners in each state, (5,): of their decisions there, or of the Q of both actions."""
+    return of[0].reshape(LEARNERS, chain.STATES, -1).mean(axis=(0, 2))
+
+
+def row(of: np.ndarray, digits: int = 1) -> str:
+    """The same, as cells of a table."""
+    return " | ".join(f"{each:.{digits}f}" for each in early(of))
+
+
+def most_visited(of: Walked) -> float:
+    """For which share of such learners the state with the highest mean Q is the one that they decided in most often."""
+    return float((of.q[0].mean(axis=2).argmax(axis=1) == of.decided[0].argmax(axis=1)).mean())
 
 
 def sure(of: Walked) -> np.ndarray:

@@ -40,37 +40,6 @@ def descended(loss: Callable[[Tensor, Tensor, Tensor], Tensor]) -> Descent:
     return Descent(logits.detach().softmax(-1)[0].numpy(), q.detach()[0].numpy(), value)
 
 
-class Fit(NamedTuple):
-    """Where the critics end: Q(s, a) of the first, V(s'), and the loss."""
-
-    q: float
-    v: float
-    loss: float
-
-
-def fitted(loss: Callable[[Tensor, Tensor, Tensor], Tensor]) -> Fit:
-    """Gradient steps on `loss(q_pair, action, target)` for one transition that pays 0, from Q(s, a) = 0 and V(s') = 1.
-
-    Two actions, of which the first was taken. What of V(s') the loss has a gradient for moves, too.
-    """
-    q, v = torch.zeros(2, 1, 2, requires_grad=True), torch.ones(1, requires_grad=True)
-    action = torch.zeros(1, dtype=torch.long)
-    for _ in range(STEPS):
-        loss(q, action, GAMMA * v).backward()
-        with torch.no_grad():
-            for numbers in (q, v):
-                if numbers.grad is not None:
-                    numbers -= 0.1 * numbers.grad
-                    numbers.grad = None
-    return Fit(q[0, 0, 0].item(), v.item(), loss(q, action, GAMMA * v).item())
-
-
-def bare_loss(q_pair: Tensor, action: Tensor, target: Tensor) -> Tensor:
-    """The loss of both critics with a target that is not held fixed, a scalar."""
-    q_taken = q_pair.gather(-1, action.expand(2, -1).unsqueeze(-1)).squeeze(-1)
-    return (q_taken - target).square().mean(-1).sum()
-
-
 def soft_sweeps(value: Callable, target: Callable, alpha: float) -> Tensor:
     """The chain's Q after SWEEPS of the soft Bellman equation: (5, 2). Its policy is softmax(Q / α).
 

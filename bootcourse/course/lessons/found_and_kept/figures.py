@@ -13,50 +13,43 @@ from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figur
 from bootcourse.research.cells import VARIED
 from bootcourse.research.results import Results
 
-WORTHS = {  # the title of each picture
-    "demos": "Just before the bonus ends, the ways out are worth less than staying",
-    "demos, β for ever": "If the bonus never ends, {} of {} are ahead at the end, on ways worth less than staying",
+WORTHS = {  # the title of each picture: (the agents that are ahead later, of all)
+    "demos": "All {1} climb: {0} to a faster way out, the others to staying",
+    "demos, β for ever": "If the bonus never ends, {0} of {1} stay ahead, and none climbs",
 }
-LINE = 68  # letters of a title on one line
 
 
 def worths(cell: str) -> Figure:
-    """What the ways out are worth just before β ends, and what the same agents' drives are worth at the end.
+    """What the ways out are worth just before β ends, and what the same agents' drives are worth late in training.
 
     cell: of the experiment `ways`. Shown: the agents that get ahead on most roads just before β ends.
     """
     agents = shipped_experiment("ways")[cell]
-    had = ways.at(agents, ways.BEFORE, "success") > 0.5
-    before, after = ways.at(agents, ways.BEFORE)[had], agents.notes["worth"][had, -1]
-    ahead, hurt = (agents.notes[name][had, -1] > 0.5 for name in ("success", "accident"))
+    had = ways.had_a_way(agents)
+    before, after = ways.at(agents, ways.BEFORE)[had], ways.late(agents)[had]
+    ahead = ways.late(agents, "success")[had] > 0.5
     staying, colour = ways.staying(agents.agents[0]["gamma"]), style(agents.methods[0]).colour
-    top = 0.65 + 0.25 * (len(WORTHS[cell]) > LINE)
-    figure = new_figure(top + 3.15)
-    ax = axes_at(figure, 0.55, top, 4.3, 2.6)
+    figure = new_figure(3.8)
+    ax = axes_at(figure, 0.55, 0.65, 4.3, 2.6)
     plain_axes(ax, f"worth of a drive at γ = 0.8, without the bonus (mean of {ways.ROADS} roads)")
     ax.set(xlim=(-0.12, 1.06), ylim=(0, 1.8), yticks=(0, 0.5, 1, 1.5))
-    ax.set_xticks((0, 1), ("just before episode 1,000", f"episode {ways.EPISODES:,}"), fontsize=TEXT, color=INK)
-    for first, last, out, crash in zip(before, after, ahead, hurt & ~ahead, strict=True):
+    late = f"episodes {ways.LATE:,} to {ways.EPISODES:,} (median)"
+    ax.set_xticks((0, 0.95), ("just before episode 1,000", late), fontsize=TEXT, color=INK)
+    for first, last, out in zip(before, after, ahead, strict=True):
         look = {"color": colour if out else TRAP, "zorder": 3 if out else 4}
         ax.plot((0, 1), (first, last), "-" if out else "--", linewidth=1.2, alpha=0.8, **look)
-        ax.plot(0, first, "o", ms=6, mec="white", mew=0.6, **look)
-        if not crash:
-            ax.plot(1, last, "o", ms=6, mec="white", mew=0.6, **look)
-        else:  # where its line leaves the picture
-            ax.plot(first / (first - last), 0.04, "v", ms=7, mew=0, **look)
+        ax.plot((0, 1), (first, last), "o", ms=6, mec="white", mew=0.6, **look)
     ax.axhline(staying, color=INK, linewidth=1.5, zorder=2)
     ax.text(1.09, staying + 0.04, f"staying behind: {staying:.2f}", fontsize=TEXT, color=INK, va="center")
     ax.text(1.09, np.median(after[ahead]), f"{ahead.sum()} ahead of trap 1", fontsize=TEXT, color=colour, va="center")
-    if behind := (~ahead & ~hurt).sum():
-        ax.text(1.09, staying - 0.1, f"{behind} behind, unhurt", fontsize=TEXT, color=TRAP, va="center")
-    if (hurt & ~ahead).any():
-        words = f"{(hurt & ~ahead).sum()} in an accident:\nbelow 0"
-        ax.text(1.09, 0.12, words, fontsize=TEXT, color=TRAP, va="center")
-    each = [", ".join(f"{one:.2f}" for one in np.sort(worth)) for worth in (before, after[ahead])]
+    if behind := (~ahead).sum():
+        ax.text(1.09, staying - 0.1, f"{behind} behind it", fontsize=TEXT, color=TRAP, va="center")
+    each = [", ".join(f"{one:.2f}" for one in np.sort(worth)) for worth in (before, after[ahead], after[~ahead])]
     alt = (
-        f"A line for each of {had.sum()} agents. Just before episode 1,000 their ways out are worth {each[0]}. At "
-        f"episode {ways.EPISODES:,} {ahead.sum()} are ahead, on ways worth {each[1]}; {behind} are behind and "
-        f"unhurt, {(~ahead & hurt).sum()} in an accident. Staying behind is worth {staying:.2f}."
+        f"A line for each of {had.sum()} agents. Just before episode 1,000 their ways out are worth {each[0]}. In the "
+        f"{late}, {ahead.sum()} are ahead, on ways worth {each[1]}"
+        + (f"; {behind} are behind, worth {each[2]}" if behind else "")
+        + f". Staying behind is worth {staying:.2f}."
     )
     return finish(figure, WORTHS[cell].format(ahead.sum(), had.sum()), alt)
 

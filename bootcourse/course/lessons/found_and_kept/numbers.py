@@ -1,6 +1,7 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 from functools import cache
+from itertools import count, islice
 from typing import NamedTuple
 
 import numpy as np
@@ -8,16 +9,16 @@ from scipy import stats
 
 from bootcourse.course.lessons.found_and_kept import ways
 from bootcourse.course.lessons.found_and_kept.explorable import groups
+from bootcourse.episodes.driving import one_episode_each, steps
 from bootcourse.episodes.record import record
-from bootcourse.policies import idle_policy, rule_policy
-from bootcourse.research.cells import VARIED
+from bootcourse.policies import PolicyOutput, rule_policy
 from bootcourse.research.experiments import clocks as study_clocks
-from bootcourse.research.paper import EPISODES, PRINTED
+from bootcourse.research.paper import PRINTED  # noqa: F401 (the text names it)
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, TRAP_1, X
-from bootcourse.scenario import DEFAULT
-from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, found_after, lost
-from tools.course.known import ROAD, SETTINGS, clocks, fisher, others, shipped_experiment, shipped_results
+from bootcourse.scenario import DEFAULT, IDLE
+from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, found_after, lost  # noqa: F401 (the text names them)
+from tools.course.known import ROAD, SETTINGS, clocks, fisher, shipped_experiment, shipped_results
 
 WINDOW = IN_A_ROW
 STUDY = shipped_results().curves["success"].shape[1]  # training episodes of the study's agents
@@ -36,7 +37,6 @@ class Group(NamedTuple):
     """What is said of a group of ten agents."""
 
     lost: np.ndarray  # which agents lose the way out
-    earned: np.ndarray  # return after training, of each agent
     escapes: np.ndarray  # which agents escape in the test
 
 
@@ -54,18 +54,7 @@ def way(results: Results, method: str) -> Counted:
 def group(words: str) -> Group:
     """Of round 3: see `groups`."""
     agents = groups()[words]
-    return Group(lost(agents.curves["success"]), agents.scores("returns"), agents.scores("success") >= ESCAPES)
-
-
-def earned_by_escapers(words: str) -> str:
-    """The returns of a group's agents that escape, as "49 to 86"."""
-    earned = group(words).earned[group(words).escapes]
-    return f"{earned.min():.0f} to {earned.max():.0f}"
-
-
-def accidents_of_rest(words: str) -> np.ndarray:
-    """In which share of their test drives the agents of a group crash that do not escape."""
-    return groups()[words].scores("accident")[~group(words).escapes]
+    return Group(lost(agents.curves["success"]), agents.scores("success") >= ESCAPES)
 
 
 def lost_least_if_both(low: int, high: int) -> bool:
@@ -90,18 +79,6 @@ def lowest() -> int:
 
 
 @cache
-def resampled() -> tuple[float, float]:
-    """How often, in %, single agents give the paper's rates: the bootstrap's 95 % over the agents of each method."""
-    rng, chance = np.random.default_rng(0), 1.0
-    for method in VARIED:
-        success = clocks()["2", "π̃"].of(method).scores("success")
-        drives = (success if PRINTED[method]["success"].mean else 1 - success) ** EPISODES
-        chance = chance * drives[rng.integers(len(drives), size=(10_000, len(drives)))].mean(axis=1)
-    low, high = 100 * np.quantile(chance, [0.025, 0.975])
-    return float(low), float(high)
-
-
-@cache
 def watched(cell: str) -> Results:
     """The agents of round 2 that were looked at in training."""
     return shipped_experiment("ways")[cell]
@@ -110,36 +87,6 @@ def watched(cell: str) -> Results:
 def stays(gamma: float = SETTINGS.gamma) -> float:
     """The worth of staying behind trap 1."""
     return ways.staying(gamma)
-
-
-def undiscounted() -> np.ndarray:
-    """What the ways out of `before` earn without discount, the bonus not counted."""
-    return ways.at(watched("demos"), ways.BEFORE, "return")[had_a_way("demos")]
-
-
-def falls_back(later: bool = False) -> np.ndarray:
-    """By how many m the agents of `before` fall back behind trap 1 in ten seconds, on the one road that was noted.
-
-    later: instead, at the end of training, those of them that are then ahead on ways worth more than 1.
-    """
-    agents = watched("demos")
-    had, way = had_a_way("demos"), ways.at(agents, ways.BEFORE, "way")
-    if later:
-        way = agents.notes["way"][:, -1]
-        had = had & (agents.notes["success"][:, -1] > 0.5) & (agents.notes["worth"][:, -1] > 1)
-    return (way[:, 0, 0] - way[:, 10, 0])[had]
-
-
-def stays_back() -> float:
-    """The same of a car that stays."""
-    states = record(idle_policy, [ways.SHOWN])[0].states[:: DEFAULT.clock.steps]
-    gap = states[:, EGO, X] - states[:, TRAP_1, X]
-    return float(gap[0] - gap[10])
-
-
-def had_a_way(cell: str) -> np.ndarray:
-    """Which agents get ahead on most roads just before β ends, (agents,) bool."""
-    return ways.at(watched(cell), ways.BEFORE, "success") > 0.5
 
 
 def before(cell: str) -> np.ndarray:
@@ -157,60 +104,10 @@ def first_had() -> int:
     return int(found_after(watched("demos").curves["success"])[_shown()])
 
 
-@cache
-def _lows(cell: str) -> np.ndarray:
-    """Of each agent, at which training episodes a window ends that counts as a loss: (agents, windows) bool."""
-    sums = np.cumsum(np.pad(watched(cell).curves["success"], ((0, 0), (1, 0))), axis=1)
-    ahead = sums[:, WINDOW:] - sums[:, :-WINDOW]
-    return np.maximum.accumulate(ahead >= HAD, axis=1) & (ahead <= LOST)
-
-
-def p_of_returns() -> float:
-    """p of Mann and Whitney's test: do the agents whose β ends earn more without the bonus?"""
-    return float(stats.mannwhitneyu(group("β ends, no bonus").earned, group("β ends, bonus").earned).pvalue)
-
-
-def escapers_of_others(kind: str) -> int:
-    """How many of the ten others of a kind escape."""
-    return int((others(kind).scores("success") >= ESCAPES).sum())
-
-
-def first_losses(cell: str = "demos") -> np.ndarray:
-    """The training episode after which each agent had lost the way out, 0 if it never did: (agents,)."""
-    lows = _lows(cell)
-    return np.where(lows.any(axis=1), lows.argmax(axis=1) + WINDOW, 0)
-
-
-def first_lost() -> int:
-    """That of the agent of the first picture."""
-    return int(first_losses()[_shown()])
-
-
-def lost_later(cell: str) -> np.ndarray:
-    """Which agents with a way out just before β ends lose it in a window that ends later: (agents,) bool."""
-    return had_a_way(cell) & _lows(cell)[:, ENDS - WINDOW + 1 :].any(axis=1)
-
-
-def crashes_of_losers() -> float:
-    """Of the looks at those whose β never ends that find them behind after all: on how many most drives crash."""
-    agents = watched("demos, β for ever")
-    after = np.arange(agents.notes["success"].shape[1]) * ways.EVERY > ENDS
-    behind = (agents.notes["success"] <= 0.5) & after & lost_later("demos, β for ever")[:, None]
-    return float((agents.notes["accident"][behind] > 0.5).mean())
-
-
 def gone() -> int:
     """The look from which on it is behind trap 1 on most roads."""
     ahead = watched("demos").notes["success"][_shown()] > 0.5
     return int(np.flatnonzero(ahead)[-1] + 1) * ways.EVERY
-
-
-def fates(cell: str) -> tuple[int, int, int]:
-    """Of the agents with a way out just before β ends: how many end ahead, behind and unhurt, and with accidents."""
-    agents = watched(cell)
-    had = had_a_way(cell)
-    ahead, hurt = (agents.notes[name][had, -1] > 0.5 for name in ("success", "accident"))
-    return int(ahead.sum()), int((~ahead & ~hurt).sum()), int((~ahead & hurt).sum())
 
 
 def fisher_of_fates() -> float:
@@ -226,26 +123,76 @@ def rule_ahead() -> int:
     return int(np.argmax(states[:, EGO, X] > states[:, TRAP_1, X]))
 
 
-def ends(cell: str, ahead: bool) -> np.ndarray:
-    """The worths at the end of those with a way out just before β ends that end ahead, or do not."""
-    agents = watched(cell)
-    had = had_a_way(cell)
-    return agents.notes["worth"][had & ((agents.notes["success"][:, -1] > 0.5) == ahead), -1]
-
-
-def rise(cell: str) -> int:
-    """How many of those with a way out just before β ends drive at the end what is worth more."""
-    agents = watched(cell)
-    had = had_a_way(cell)
-    return int((agents.notes["worth"][had, -1] > before(cell)).sum())
-
-
-def accidents_of_those_behind() -> np.ndarray:
-    """In which share of their test drives the agents of round 3 crash that get ahead on fewer than half of them."""
-    scores = [(each.scores("success"), each.scores("accident")) for each in groups().values()]
-    return np.concatenate([accident[success < 0.5] for success, accident in scores])
-
-
 def speed(words: str) -> float:
     """The mean speed of a group of round 3 in the test."""
     return float(groups()[words].scores("speed").mean())
+
+
+def had_a_way(cell: str) -> np.ndarray:
+    """Which agents get ahead on most roads just before β ends, (agents,) bool."""
+    return ways.had_a_way(watched(cell))
+
+
+def falls_back() -> np.ndarray:
+    """By how many m the agents of `before` fall back behind trap 1 in ten seconds, on the one road that was noted."""
+    way = ways.at(watched("demos"), ways.BEFORE, "way")[had_a_way("demos")]
+    return way[:, 0, 0] - way[:, 10, 0]
+
+
+def ahead_late(cell: str) -> np.ndarray:
+    """Which of those with a way out just before β ends are ahead of trap 1 later, (those,) bool."""
+    return ways.late(watched(cell), "success")[had_a_way(cell)] > 0.5
+
+
+def fates(cell: str) -> tuple[int, int]:
+    """Of those with a way out just before β ends: how many are ahead of trap 1 later, and how many are behind."""
+    ahead = ahead_late(cell)
+    return int(ahead.sum()), int((~ahead).sum())
+
+
+def ends(cell: str, ahead: bool) -> np.ndarray:
+    """What the drives of those are worth later that are then ahead, or are not."""
+    return ways.late(watched(cell))[had_a_way(cell)][ahead_late(cell) == ahead]
+
+
+def before_of(cell: str, ahead: bool) -> np.ndarray:
+    """What their ways out were worth just before β ended."""
+    return before(cell)[ahead_late(cell) == ahead]
+
+
+def rise(cell: str) -> int:
+    """Of how many the drives are worth more later than the way out was."""
+    return int((ways.late(watched(cell))[had_a_way(cell)] > before(cell)).sum())
+
+
+def p_of_hills() -> float:
+    """p of Mann and Whitney's test: were the ways out of those that are ahead later worth more?"""
+    return float(stats.mannwhitneyu(*(before_of("demos", ahead) for ahead in (True, False))).pvalue)
+
+
+TRIED = 40  # roads on which one decision of the rule is changed
+FASTER = 7  # accelerate, straight on
+
+
+@cache
+def _rule_with(action: int | None, second: int = 0) -> np.ndarray:
+    """The worth of the rule's drive with another action in one second, (TRIED,); None: as it is."""
+    clock = count()
+
+    def decide(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        chosen = rule_policy(DEFAULT)(observations, cars).actions
+        return PolicyOutput(np.full_like(chosen, action) if next(clock) == second and action is not None else chosen)
+
+    first = steps(decide, one_episode_each(TRIED, DEFAULT, None), list(range(TRIED)))
+    rewards = [step.rewards * step.running for step in islice(first, 40)]  # later ones count next to nothing
+    return SETTINGS.gamma ** np.arange(len(rewards)) @ np.array(rewards)
+
+
+def less_braking() -> np.ndarray:
+    """How much more the rule's drive is worth if it does not brake in the first second, (TRIED,)."""
+    return _rule_with(IDLE) - _rule_with(None)
+
+
+def sooner() -> np.ndarray:
+    """How much more it is worth if it accelerates, straight on, in the twelfth second, (TRIED,)."""
+    return _rule_with(FASTER, 11) - _rule_with(None)

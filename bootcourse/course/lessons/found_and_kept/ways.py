@@ -30,6 +30,7 @@ from bootcourse.scenario import DEFAULT
 
 EPISODES, EVERY, ROADS = 2000, 50, 20
 BEFORE = 999  # the last look before β ends: at most so many episodes
+LATE = 1500  # from here on looks count as the end of the training: an agent crashes in a single one
 SHOWN, SECONDS = 10, 40  # the road of the drive that is kept, and how much of it
 CELLS = {"demos": 30, "demos, β for ever": 30, "bootstrapped": 10}  # and how many agents
 SECTION = f"""Every {EVERY} training episodes agents drive {ROADS} held-out roads by their most probable actions. The
@@ -109,6 +110,16 @@ def gives_up(agents: Results) -> int:
     ahead, looks = agents.notes["success"] > 0.5, np.arange(agents.notes["success"].shape[1]) * EVERY
     end = EPISODES // 2
     return int(np.flatnonzero(ahead[:, looks == end].all(axis=1) & ~ahead[:, looks >= end + 100].any(axis=1))[0])
+
+
+def had_a_way(agents: Results) -> np.ndarray:
+    """Which agents get ahead on most roads just before β ends, (agents,) bool."""
+    return at(agents, BEFORE, "success") > 0.5
+
+
+def late(agents: Results, name: str = "worth") -> np.ndarray:
+    """What was noted of each agent from episode `LATE` on: the median of the looks, (agents,)."""
+    return np.median(agents.notes[name][:, LATE // EVERY :], axis=1)
 
 
 def out(agents: Results, episode: int) -> np.ndarray:

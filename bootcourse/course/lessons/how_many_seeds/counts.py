@@ -1,11 +1,13 @@
-"""Computed for the lesson: two groups of an ablation, and comparisons in which nothing was changed."""
+"""Computed for the lesson: groups of an ablation, comparisons in which nothing was changed, the course's sentences."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
+import scipy
 
+from bootcourse.course.shipped import shipped_experiment, shipped_results
 from bootcourse.research.results import Results
-from bootcourse.statistics import Estimate, all_resamples, bracketed, difference, iqm
+from bootcourse.statistics import Estimate, all_resamples, bracketed, difference, iqm, lost
 
 ABLATION = ["success, %", "IQM", "the agents, sorted"]
 RESAMPLES = 10_000
@@ -69,3 +71,47 @@ def of_new_agents(new: Mapping[str, Results], agents: int) -> Estimate:
     """Success (%) of the first so many agents of the experiment `new_agents`: changed less unchanged."""
     changed, unchanged = (100 * new[group].measured["success"][:agents] for group in ("changed", "as it is"))
     return difference(changed, unchanged)
+
+
+SENTENCES = ["sentence", "agents that do", "p"]
+
+
+def compared() -> dict[str, tuple[int, int, int]]:
+    """Sentences of the course about two groups of agents: {sentence: (of the first, of the second, of how many)}.
+
+    Groups of twenty are the study's ten and ten others, or those of the lesson on the barrier.
+    """
+    study, others, changed = shipped_results(), shipped_experiment("stress"), shipped_experiment("ablations")
+    easier = {kind: agents.escapers("sac") for kind, agents in shipped_experiment("easier").items()}
+    fading = [study.of("soft"), others["soft"]]
+    weak, floor = ([changed[kind].of("soft"), others[f"soft, {kind}"]] for kind in ("ξ stays at 0.1", "ξ falls to 0.1"))
+    both = [study.of("bootstrapped"), others["bootstrapped"]]
+
+    def escape(groups: Sequence[Results]) -> int:
+        return sum(agents.escapers(agents.methods[0]) for agents in groups)
+
+    def lose(groups: Sequence[Results]) -> int:
+        return sum(int(lost(agents.curves["success"]).sum()) for agents in groups)
+
+    cheap, free = easier["mid-lane, and accidents cost 1"], easier["a later start, mid-lane"]
+    return {
+        "1. Agents with both aids escape more often than plain ones": (escape(both[:1]), study.escapers("sac"), 10),
+        "2. Cheap accidents and a free lane do more than a free lane": (cheap, free, 20),
+        "3. A free lane alone does more than nothing": (free, easier["as it is"], 20),
+        "4. With a floor under ξ more agents escape": (escape(floor), escape(fading), 20),
+        "5. With a floor under ξ fewer agents lose the way out": (lose(floor), lose(fading), 20),
+        "6. With a pull that is weak throughout fewer escape": (escape(weak), escape(floor), 20),
+        "7. Beside the pull, demonstrations let more agents escape": (escape(both), escape(fading), 20),
+    }
+
+
+def p_values() -> list[float]:
+    """Fisher's two-sided p of each sentence."""
+    tables = [[[k, n - k], [j, n - j]] for k, j, n in compared().values()]
+    return [float(scipy.stats.fisher_exact(each).pvalue) for each in tables]
+
+
+def sentences() -> list[list[str]]:
+    """The rows below `SENTENCES`."""
+    p = [f"{each:.2g}" if each >= 0.0001 else "< 0.0001" for each in p_values()]
+    return [[said, f"{k} and {j} of {n}", each] for (said, (k, j, n)), each in zip(compared().items(), p, strict=True)]

@@ -65,12 +65,6 @@ bc.recording(drives, height=360)
 study = bc.shipped_results()
 bc.show(figures.who_escapes(study, ("sac", "soft", "demos", "bootstrapped")))
 
-# %% [markdown]
-# One bootstrapped agent gets out on {{ 100 * just_below() | .0f }} %; a line at 90 % would count it. Draw the line
-# before you look.
-# <!-- claim: 0.9 < just_below() < ESCAPES and (of('bootstrapped').scores('success') >= 0.9).sum() == 8 and
-#   all((of(m).scores('success') >= 0.9).sum() == escaped(m) for m in ('sac', 'soft', 'demos')) -->
-
 # %% [markdown] tags=["instructor"] minutes=2
 # Ask how many of them have published or handed in a figure with one training behind each line.
 
@@ -118,7 +112,7 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # %% [markdown]
 # **See.** *Twenty drives of one agent are one sample of how often training succeeds.* At a true rate of 2.5 % one
 # agent of one escapes in 2.5 % of studies: there its interval begins. If one agent stands behind the paper's 100 %,
-# it need not contradict our 0 of 10: at a true rate of 10 % each comes in more than 2.5 % of studies.
+# it need not contradict our 0 of 10.
 # <!-- claim: min(0.1, 0.9**10) > 0.025 and fisher(1, 0, 1, 10) > 0.05 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -131,8 +125,8 @@ for k, n in ((20, 20), (1, 1), (0, 10)):
 # With both aids seven of ten agents escape, with plain SAC one. Suppose that the methods are alike. Then it is
 # chance which eight of the twenty agents escape. How often would chance split the eight at least as unevenly as
 # seven to one? That is the **p value**. *Fisher's exact test* computes it: {{ fisher(7, 1) | .3f }}. Below 0.05 we
-# speak of a difference. (The exact intervals, {{ percent(7) }} and {{ percent(1) }} %, overlap; that decides nothing.)
-# <!-- claim: rate(np.arange(10) < 7).low < rate(np.arange(10) < 1).high and fisher(7, 1) < 0.05 -->
+# speak of a difference.
+# <!-- claim: fisher(7, 1) < 0.05 -->
 # <!-- claim: [escaped(m) for m in ('bootstrapped', 'demos', 'sac', 'soft')] == [7, 0, 1, 8] -->
 #
 # > **Predict.** The true rates are 80 and 30 %. You train ten agents of each. On average eight and three escape,
@@ -154,16 +148,15 @@ predicted("how_many_seeds.2")
 explorable.studies()
 
 # %% [markdown]
-# **See.** *With ten agents of each, more than half of the studies miss even this large difference.* (As counts are
-# whole, 14 agents can do worse than 13: {{ 100 * power(0.8, 0.3, 14) | .0f }} % after
-# {{ 100 * power(0.8, 0.3, 13) | .0f }} %.) The soft constraint's eight against both aids' seven
-# (p = {{ fisher(8, 7) | .0f }}) shows no difference. It does not show that the two are alike.
+# **See.** *With ten agents of each, more than half of the studies miss even this large difference.* The soft
+# constraint's eight against both aids' seven (p = {{ fisher(8, 7) | .0f }}) shows no difference. It does not show
+# that the two are alike.
 # <!-- claim: power(0.8, 0.3, 10) < 0.5 < fisher(8, 7) and fisher(8, 3) > 0.05 -->
 # <!-- claim: [stats.binom.pmf(range(11), 10, share).argmax() for share in (0.8, 0.3)] == [8, 3] -->
 #
 # The share of studies that find a difference is the **power** of the comparison. Compute it before you train: say
-# which difference would matter to you, the **smallest effect of interest**, and take enough agents for a power of
-# 80 %. For 80 against 30 % that is {{ enough(0.8, 0.3) }} of each.
+# which difference would matter to you, the **smallest effect of interest**, and take enough agents for 80 %. For 80
+# against 30 % that is {{ enough(0.8, 0.3) }} of each.
 # <!-- claim: min(power(0.8, 0.3, n) for n in range(enough(0.8, 0.3), 31)) >= 0.8 -->
 #
 # **Exercise (12 min, ●●○).** Write the power: add up the chances of the filled discs. In each group the
@@ -213,20 +206,19 @@ predict(
 )
 
 # %% [markdown]
-# **Drag** the number of seeds to 10. How many miss now, and are they still the shortest?
+# **Drag** the number of seeds to 10. How many miss now?
 
 # %%
 predicted("how_many_seeds.3")
 explorable.intervals()
 
 # %% [markdown]
-# **See.** *Of 100 intervals {{ explorable.holding(3) }} contain the mean, not 95, and the shortest miss it.* All three
-# agents do well in 0.7³ = {{ 100 * 0.7**3 | .0f }} % of studies, all three badly in 0.3³ =
-# {{ 100 * 0.3**3 | .0f }} %: resampling cannot know the other agents. With ten seeds {{ explorable.holding(10) }} of
-# 100 contain the mean. Seven of the misses are the shortest of all; three are long, but too low.
-# Print every agent beside the interval.
-# <!-- claim: missing(10) == ([0, 1, 2, 3, 4, 5, 6], 3) -->
-# <!-- claim: 100 - explorable.holding(3) == round(100 * (0.7**3 + 0.3**3)) and explorable.holding(10) < 95 -->
+# **See.** *Of 100 intervals {{ explorable.holding(3) }} contain the mean, not 95, and the shortest miss it.*
+#
+# **Explain.** Resampling knows only the agents that you trained. In 0.7³ = {{ 100 * 0.7**3 | .0f }} % of studies all
+# three do well. They then agree, so their interval is short, and wrong: nothing in it says that three of ten agents
+# fail. Ten seeds seldom agree like that; {{ explorable.holding(10) }} of 100 contain the mean.
+# <!-- claim: 100 - explorable.holding(3) == round(100 * (0.7**3 + 0.3**3)) and 80 < explorable.holding(10) < 95 -->
 # <!-- claim: round(100 * held('bootstrapped', 3)) == explorable.holding(3) == 63 -->
 # <!-- claim: (lambda low, high, holds: not holds[np.argsort(high - low)[:37]].any() and (low >
 #   of('bootstrapped').scores('returns').mean()).sum() == round(100 * 0.7**3) == 34)(
@@ -247,10 +239,10 @@ check.bootstrap_interval(bootstrap_interval)
 # Ask for another way to summarise ten agents in one number, and try it on the bootstrapped ones.
 
 # %% [markdown]
-# ## Round 4: what do your five seeds show?
+# ## Round 4: what would you print?
 #
-# We compare groups by their **interquartile means** (IQM): sort, leave out the lowest and the highest quarter, and
-# take the mean. One odd agent decides little. But the IQM can hide failures: Round 3's ten have the mean
+# We compare groups by their **interquartile means** (IQM): leave out the lowest and the highest quarter, and take the
+# mean. The IQM can hide failures: Round 3's ten have the mean
 # {{ of('bootstrapped').scores('returns').mean() | .0f }}, and the IQM {{
 # iqm(of('bootstrapped').scores('returns')) | .0f }}.
 #
@@ -284,7 +276,7 @@ bc.show(figures.nothing_changed(study))
 
 # %% [markdown]
 # **See.** *In {{ sum(map(counts.leaves_out_0, twice())) }} of these 100 studies the interval leaves out 0, by
-# luck alone.* An exact 95 % interval would in 5; the bootstrap is not exact.
+# luck alone.*
 # <!-- claim: 1 < sum(map(counts.leaves_out_0, twice())) <= 10 -->
 #
 # Train five agents with one number changed and five without. `bonus=0.0` pays no bonus for demonstrated seconds.
@@ -303,8 +295,7 @@ interval_of = own_code.yours_or_ours("difference_interval", doing="Comparing")
 table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
-# An interval that contains 0 does not say that both learn alike; one that leaves out 0 may be luck. So we trained
-# *new* agents without the bonus and with it: 40 each, a number decided beforehand.
+# An interval that leaves out 0 may be luck. So we trained *new* agents, 40 of each, a number decided beforehand.
 # <!-- claim: {len(each) for each in shipped_experiment('new-agents').values()} == {40} -->
 
 # %%
@@ -313,27 +304,48 @@ bc.show(figures.new_agents(new, success, interval_of))
 
 # %% [markdown]
 # **See.** *By forty of each, a difference above {{ new(40).high | .0f }} points is not believable*: was yours larger?
-# Four times as many agents, about half the length. The first five's interval is {{ fives()[0] | .0f }} points long,
-# those of the other seven fives {{ fives()[1:].min() | .0f }} to {{ fives()[1:].max() | .0f }}: an interval of five is
-# itself a guess.
-# <!-- claim: len(fives()) == 8 and 0.4 < length(40) / length(10) < 0.6 and length(10) / length(5) > 0.85 and
-#   fives()[0] == length(5) < fives()[1:].min() -->
+# Four times as many agents, about half the length.
+# <!-- claim: 0.4 < length(40) / length(10) < 0.6 and new(40).low < 0 < new(40).high < 25 -->
 #
-# Forty of each differ by {{ bracketed(new(40)).replace('-', '−') }} points. A doubling of the IQM is still believable:
-# changed over unchanged is {{ ratio(iqm) }}. A doubling of the *mean* is just outside: {{ ratio(np.mean) }}. Say first
-# which counts.
-# <!-- claim: -10 < new(40).low < 0 < new(40).high < 25 and ratios(iqm).high > 2.5 and
-#   1.9 < ratios(np.mean).high < 2 -->
+# **Explain.** Why four times? The errors of agents cancel only in part: some are high, some low. The mean of n is off
+# by about their spread divided by √n.
 
 # %% [markdown]
-# ### If you try many changes
+# ### Which of our sentences would you print?
 #
-# Even at 5 %, at least one of twenty independent comparisons leaves out 0 in {{ 100 * (1 - 0.95**20) | .0f }} %
-# of cases. This is **multiplicity**. Say beforehand which comparison counts, or multiply each p by their number
-# (*Bonferroni*). For all six pairs of our four methods Round 2's p of {{ fisher(7, 1) | .3f }} would become
-# {{ 6 * fisher(7, 1) | .2f }}, and no longer count. Eight against none would:
-# 6 × {{ fisher(8, 0) | .4f }} = {{ 6 * fisher(8, 0) | .3f }}.
-# <!-- claim: fisher(7, 1) < 0.05 < 6 * fisher(7, 1) and 6 * fisher(8, 0) < 0.05 -->
+# Seven sentences of lessons [[the_barrier]] to [[how_many_seeds]], and the agents behind them:
+
+# %%
+sentences = counts.sentences()
+table(counts.SENTENCES[:2], [row[:2] for row in sentences])
+
+# %% [markdown]
+# > **Predict.** Mark those that you would print. Sentences 4 and 5 are about the same forty agents. Which of the two
+# > has a p below 0.05?
+
+# %%
+which = ["both", "only that more escape", "only that fewer lose it", "neither"]
+predict("how_many_seeds.5", "Which sentence about the floor has p below 0.05?", which)
+
+# %%
+predicted("how_many_seeds.5")
+table(counts.SENTENCES, sentences)
+
+# %% [markdown]
+# **See.** *What you count decides what you can see*: of the floor's two sentences the second alone has p < 0.05.
+# <!-- claim: fisher(20, 16, 20, 20) > 0.05 > 0.001 > fisher(0, 17, 20, 20) -->
+# <!-- claim: [row[1] for row in counts.sentences()] == ['7 and 1 of 10', '18 and 6 of 20', '6 and 1 of 20',
+#   '20 and 16 of 20', '0 and 17 of 20', '13 and 20 of 20', '16 and 16 of 20'] -->
+#
+# **Explain.** Most agents escape without the floor, too, so escapes leave it little to improve. A loss was looked for
+# in every window of the training, and most agents without the floor had one.
+#
+# Seven tests are seven chances for luck: with nothing behind them, at least one of seven independent ones comes out
+# below 0.05 in {{ 100 * (1 - 0.95**7) | .0f }} % of cases. This is **multiplicity**. Say beforehand which comparison
+# counts, or correct each p. *Holm* multiplies the smallest by 7, the next by 6, and so on, up to the first product
+# above 0.05. Three sentences stay. The first becomes {{ 4 * fisher(7, 1) | .2f }}, and goes.
+# <!-- claim: (holm(counts.p_values()) < 0.05).tolist() == [False, True, False, False, True, True, False] and
+#   math.isclose(holm(counts.p_values())[0], 4 * fisher(7, 1)) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Give each group another number to change, and collect the results on the board: one row for each group, with
@@ -348,6 +360,7 @@ compare_predictions(
         2: round(100 * bc.statistics.power(0.8, 0.3, 10)),
         3: explorable.holding(3),
         4: left_out[1],
+        5: which[2],
     },
 )
 
@@ -355,33 +368,27 @@ compare_predictions(
 # ## What you now know
 #
 # 1. The sample is the training: twenty drives of one agent are one sample of a method.
-# 2. The exact interval of k out of ten is wide: ask how many agents stand behind a row.
-# <!-- claim: all(escapes(of(m).scores('success')).high - escapes(of(m).scores('success')).low > 0.3
-#   for m in ('sac', 'soft', 'demos', 'bootstrapped')) -->
-# 3. Compute the power before you train, for the smallest effect of interest.
-# 4. A short interval of three seeds may be luck. Half the length takes about four times as many agents.
-# 5. Of 100 comparisons without a change {{ sum(map(counts.leaves_out_0, twice())) }} showed a difference. Name
-#    beforehand the one that counts, or correct each p.
+# 2. Compute the power before you train, for the smallest effect of interest.
+# 3. What you count decides what you can see.
 #
 # **Three questions to think about**
 # - Can 20 drives of each show that two *agents* differ? That two *methods* do?
 # - You may train forty more agents. Ten of each method? Or one in each of forty settings, to report the best?
 # - Your sixth change raises the success, p = 0.04. What do you write?
 #
-# **Read on**: [the next lesson](found_and_kept.ipynb). Agarwal et al. (arXiv 2108.13264); Henderson et al.
-# (arXiv 1709.06560).
-
-# %% [markdown] tags=["instructor"]
-# **Model answers.**
+# <details><summary>Answers</summary>
 #
-# - *What can 20 drives show?* Of two agents: with 20 of 20 the interval of the rate begins at
-#   {{ 100 * rate(np.ones(20)).low | .0f }} %, so a difference of 30 points or more, roughly, shows. Of two
-#   methods: with one agent behind each row, nothing beyond these two agents.
-# - *40 more agents?* Ten more seeds for each method, if the question is whether the methods differ: eight
-#   against seven of ten does not say. Forty settings, if a better one is looked for: the best came out best
-#   partly by the luck of its seed, so report it with ten new ones.
-# - *The sixth change?* After Bonferroni a p value of six has to be below 0.05 / 6. Write that six changes
-#   were tried, which one looked best, and that new seeds have to confirm it.
+# - *What can 20 drives show?* That two agents differ by some 30 points: after 20 of 20 the interval begins at
+#   {{ 100 * rate(np.ones(20)).low | .0f }} %. Of two methods nothing, with one agent of each.
+# - *Forty more agents?* Ten of each method, to compare the methods. The best of forty settings is best partly by the
+#   luck of its seed.
+# - *The sixth change?* That six were tried; the smallest of six p has to be below 0.05 / 6 (Holm). New seeds have to
+#   confirm it.
+#
+# </details>
+#
+# **Read on**: Agarwal et al. (arXiv 2108.13264). A rate at the end is a
+# photograph. [The next lesson](found_and_kept.ipynb) looks at the film.
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** Four rows of ten dots each, dark where the agent escapes; beside each row its exact

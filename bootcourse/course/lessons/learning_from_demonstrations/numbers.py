@@ -5,10 +5,10 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.learning_from_demonstrations import measures
+from bootcourse.course.lessons.learning_from_demonstrations.measures import ahead as ahead
 from bootcourse.course.lessons.learning_from_demonstrations.measures import kinds
 from bootcourse.course.lessons.soft_constraint.examples import fast_and_rule, reward_and_kl
 from bootcourse.episodes.record import record
-from bootcourse.learn.bootstrap import large_margin_loss
 from bootcourse.panels.bonus import bonus_numbers
 from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.research.results import Results
@@ -79,11 +79,6 @@ def updates_ratio() -> int:
         for a in (clocks()["2", "π̃"].of("demos").agents[0], clocks()["1/4", "π̃"].of("demos").agents[0])
     )
     return round(often / seldom)
-
-
-def pushed() -> list[list[str]]:
-    """The rows of the table of Round 4, with the library's loss."""
-    return measures.pushed(large_margin_loss)
 
 
 def fast_pays_more() -> float:

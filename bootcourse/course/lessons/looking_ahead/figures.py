@@ -5,8 +5,10 @@
 """
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
+import torch
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
@@ -17,7 +19,7 @@ from bootcourse.episodes.lookahead import nine_drives
 from bootcourse.episodes.record import Rollout
 from bootcourse.errors import BootcourseError
 from bootcourse.learn.agent import Agent
-from bootcourse.learn.road_model import ImaginedAhead, RoadModel
+from bootcourse.learn.road_model import RoadModel, imagine
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.experiments import learned_model
@@ -28,10 +30,8 @@ from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
 MEANINGS = {  # of the wrong models that the lesson shows, for readers
     "others keep speed and lane": "nobody accelerates, brakes or changes lane",
-    "twice the time gap": "the others follow at twice the seconds",
     "only the four visible cars": "those that the agent does not see are missing",
     "places off by 1 m, speeds by 0.5 m/s": "noise on the others, drawn anew each second",
-    "the others a second late": "the others where they were a second ago, moved on at their speed",
     "everything a second late": "all as it was a second ago, not moved on",
 }
 LEARNED_FORM = "mean of five"  # of the look-ahead in a learned model, as the lesson shows it
@@ -110,14 +110,38 @@ def each_agent(cells: dict[str, Results], base: str) -> Figure:
     return finish(figure, title, alt)
 
 
-def judged(agent: Agent, model: RoadModel, drive: Rollout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """At each decision of a drive: Q̂ in a model, Q̂ on the true road, and the true drive's accident, if not 0.
+class Judged(NamedTuple):
+    """What a learned model says of the nine actions at each decision of a drive, and what is true; each (decisions, 9).
 
-    Each (decisions, 9).
+    An imagined drive is ten decisions long: the action, then the agent's own ones.
     """
-    values = ImaginedAhead(agent, model)(drive.observations[: len(drive.actions)], drive.cars).q_values
+
+    values: np.ndarray  # Q̂ in the model, the mean of its networks
+    risks: np.ndarray  # how probable the model finds an accident within the ten decisions
+    true_values: np.ndarray  # Q̂ on the true road
+    accidents: np.ndarray  # int: how the drive on the true road ends, an Accident's number
+
+
+def judged(agent: Agent, model: RoadModel, drive: Rollout) -> Judged:
+    """The model and the true road at each decision of a drive that the agent itself drove."""
+    states = torch.from_numpy(drive.observations[: len(drive.actions)]).float()
+    values, risks = imagine(model, agent, states, torch.arange(N_ACTIONS).expand(len(states), -1))
     true = nine_drives(drive.cars, agent.as_policy(), drive.scenario)
-    return values, true.values, true.accidents
+    return Judged(values.mean(0).numpy(), risks.mean(0).numpy(), true.values, true.accidents)
+
+
+def own_and_others(agent: Agent, model: RoadModel, drives: Sequence[Rollout]) -> tuple[list[str], list[list]]:
+    """A table of the agent's own drives: how many imagined futures crash, in the model and on the true road."""
+    parts = zip(*(judged(agent, model, drive) for drive in drives), strict=True)
+    values, risks, _, accidents = (np.concatenate(part) for part in parts)
+    own = np.eye(N_ACTIONS, dtype=bool)[np.concatenate([drive.actions for drive in drives])]
+    picked = np.eye(N_ACTIONS, dtype=bool)[values.argmax(axis=1)]
+    kinds = {"the agent's own": own, "the eight others": ~own, "the best of nine in the model": picked}
+    rows = [
+        [name, f"{100 * risks[kind].mean():.0f}", f"{100 * (accidents[kind] > 0).mean():.0f}"]
+        for name, kind in kinds.items()
+    ]
+    return ["first action", "the model says: crash, %", "true road: crash, %"], rows
 
 
 def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
@@ -126,7 +150,7 @@ def promised(agent: Agent, model: RoadModel, drive: Rollout) -> Figure:
     It is the first at which the best of nine in the model ends in an accident and another action would not; without
     one, the drive's first.
     """
-    values, true, hurt = judged(agent, model, drive)
+    values, _, true, hurt = judged(agent, model, drive)
     chosen = values.argmax(1)
     misled = (hurt[np.arange(len(chosen)), chosen] > 0) & (hurt == 0).any(1)
     now = int(misled.argmax())

@@ -4,15 +4,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bootcourse.episodes.lookahead import nine_drives, worth_of_speed
-from bootcourse.learn.road_model import ImaginedAhead, Transitions
+from bootcourse.episodes.lookahead import HORIZON, nine_drives, worth_of_speed
+from bootcourse.episodes.models import Model
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.branching import advance
 from bootcourse.road.constants import constants
 from bootcourse.road.observation import observe_all
-from bootcourse.scenario import DEFAULT, N_ACTIONS
+from bootcourse.scenario import DEFAULT
 
 Decide = Callable[[np.ndarray], np.ndarray]  # cars (roads, vehicles, 10) -> actions (roads,)
+NOISE = Model(noise=1.0)  # the others' places off by 1 m, their speeds by 0.5 m/s
 
 
 def step(cars: np.ndarray, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -70,17 +71,20 @@ def shielded(shield: Callable, policy: Policy, horizon: int) -> Policy:
     return drive
 
 
-def only_shown(ahead: ImaginedAhead, drives: Transitions) -> Policy:
-    """A look-ahead in a learned model that may only take actions which these drives show in the car's lane."""
+def in_noise(values_of: Callable, policy: Policy, others: int = 8, roads: int = 1) -> Policy:
+    """A look-ahead that sees the other cars a little off, by `NOISE`, drawn anew at each decision.
 
-    def lanes(observations: np.ndarray) -> np.ndarray:  # an observation's third number is y, in lanes
-        return observations[:, 2].round().astype(np.int64).clip(0, DEFAULT.road.lanes - 1)
-
-    shown = np.zeros((DEFAULT.road.lanes, N_ACTIONS), dtype=bool)
-    shown[lanes(drives.states.numpy()), drives.actions.numpy()] = True
+    It imagines its futures on so many noisy roads and goes by the mean of their values. It may pick the policy's own
+    action and so many others, drawn at each decision.
+    """
+    decide, rng = decide_by(policy), np.random.default_rng(0)
 
     def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-        values = np.where(shown[lanes(observations)], ahead(observations, cars).q_values, -np.inf)
-        return PolicyOutput(values.argmax(axis=1))
+        noisy = [NOISE.seen(cars, None, DEFAULT, rng) for _ in range(roads)]
+        values = np.mean([values_of(each, decide, HORIZON, 1.0, worth) for each in noisy], axis=0)
+        order = rng.random(values.shape)
+        order[np.arange(len(cars)), policy(observations, cars).actions] = -1  # the own action is always among them
+        allowed = order.argsort(axis=1).argsort(axis=1) <= others
+        return PolicyOutput(np.where(allowed, values, -np.inf).argmax(axis=1))
 
     return drive

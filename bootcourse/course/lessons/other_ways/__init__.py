@@ -1,1 +1,1 @@
-"""You will write what RLPD, IBRL and jump-start RL take from a teacher, and compare them at equal decisions."""
+"""You will write what IBRL and jump-start RL take from a teacher, and compare five methods at equal decisions."""

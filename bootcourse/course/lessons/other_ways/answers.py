@@ -4,15 +4,6 @@ import torch
 
 from tests.answers import right, right_lines, wrong_lines
 
-right_lines("""smallest_of
-    indexed: torch.index_select(q, 0, chosen).min(dim=0)[0]
-    the others left out: q[[int(i) for i in chosen]].amin(dim=0)
-""")
-
-right_lines("""smallest_of
-    nine by nine: torch.tensor([[min(float(q[c, b, a]) for c in chosen) for a in range(9)] for b in range(q.shape[1])])
-""")
-
 right_lines("""better_of_two
     with nine actions: stays = pi * (q > q.gather(1, rule_actions[:, None]))
         stays + (1 - stays.sum(1, keepdim=True)) * functional.one_hot(rule_actions, 9)
@@ -25,11 +16,6 @@ right_lines("""guide_shrinks
     step by step: last = returns[-window:]; bool(len(last) == window and sum(last) / window + tolerance * abs(best) >= best)
     never worse than the best: mean = np.mean(returns[-window:] or [0.0]); top = max(mean, best); bool(len(returns) >= window and mean >= top - tolerance * abs(top))
 """)  # noqa: E501
-
-wrong_lines("""smallest_of
-    the smallest of each state: q[chosen].amin(0).amin(-1)  # shape
-    two at a time: torch.minimum(q[chosen[0]], q[chosen[-1]])
-""")
 
 wrong_lines("""better_of_two
     the soft choice: w = torch.sigmoid(q - q.gather(-1, rule_actions[:, None])); t = pi * w; t.scatter_add(-1, rule_actions[:, None], (pi - t).sum(-1, keepdim=True))
@@ -51,11 +37,6 @@ def action_by_action(pi, q, rule_actions):
             found[i, a if q[i, a] > q[i, rule] else rule] += pi[i, a]
     return found
 
-
-wrong_lines("""smallest_of
-    capped: solution(q, chosen).clamp(-100, 100)
-    from a large number down: torch.minimum(torch.full_like(q[0], 1e4), q[chosen].amin(0))
-""")
 
 wrong_lines("""better_of_two
     ties stay: q_rule = q.gather(-1, rule_actions[:, None]); own = functional.one_hot(rule_actions, q.shape[-1])

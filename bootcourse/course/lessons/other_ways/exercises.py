@@ -1,65 +1,9 @@
-"""Exercises of the lesson on other ways to use a teacher: what RLPD, IBRL and jump-start RL take from it."""
+"""Exercises of the lesson on other ways to use a teacher: what IBRL and jump-start RL take from it."""
 
 import numpy as np
 import torch
 
 from bootcourse.course.exercise import MANY_ROWS, exercise
-
-
-def ensemble_cases(rng):
-    """Two of five critics, one of them, all, the same critic lowest everywhere, Q of ±200; then 20 at random.
-
-    At last a batch of 130 rows whose Q are all above 3,000, or all below -3,000.
-    """
-    five = torch.tensor(rng.normal(0, 2, (5, 4, 9)))
-    for chosen in ([1, 4], [3], [4, 0, 1, 2, 3]):
-        yield five, torch.tensor(chosen)
-    yield torch.cat([five[:2] + 10, five[2:] - 10]), torch.tensor([0, 1])
-    yield 100 * five, torch.tensor([2, 0])
-    for _ in range(20):
-        critics = rng.integers(2, 8)
-        chosen = rng.choice(critics, rng.integers(1, critics + 1), replace=False)
-        yield torch.tensor(rng.normal(0, 2, (critics, rng.integers(1, 6), 9))), torch.tensor(chosen)
-    for middle in (1e5, -1e5):
-        yield torch.tensor(rng.normal(middle, 3000, (5, MANY_ROWS, 9))), torch.tensor([4, 2])
-
-
-# Three critics, one state
-THREE = torch.tensor([[[1.0, 5.0] + [4.0] * 7], [[2.0, 3.0] + [4.0] * 7], [[0.0, 9.0] + [4.0] * 7]])
-
-
-@exercise(
-    "min over Z of Q_i(s', a'), Z: k critics drawn for this update, arXiv 2302.02948, Algorithm 1",
-    minutes=4, difficulty=1, cases=ensemble_cases,
-    worked=[
-        ((THREE, torch.tensor([0, 1])), torch.tensor([[1.0, 3.0] + [4.0] * 7])),  # the third critic is not asked
-        ((THREE, torch.tensor([2])), torch.tensor([[0.0, 9.0] + [4.0] * 7])),
-    ],
-    hints=(
-        "First the chosen critics, (k, batch, 9), then the smallest value over the first axis.",
-        "A tensor of whole numbers picks rows: `q[chosen]`.",
-    ),
-    mistakes={
-        "q[chosen] -> q":
-            "You ask all critics. The target asks the chosen ones alone: the smallest of all five would be too low in "
-            "most states.",
-        "amin(0) -> min(0)":
-            "`min(0)` gives two tensors, the values and whose they are: take `.values`, or use `amin`.",
-        "amin -> mean":
-            "You take the mean of the chosen critics. Their mean does not keep the largest guesses out of the target: "
-            "take the smallest.",
-        "amin -> amax":
-            "You take the largest value, so each target contains the most hopeful guess. Take the smallest.",
-        "amin(0) -> amin(-1)":
-            "You take the smallest value over the *actions*, in the last axis. The critics stand in the first one.",
-        "q[chosen] -> q[: len(chosen)]":
-            "You ask the first critics instead of the chosen ones: `chosen` holds their numbers.",
-        "return q[chosen].mean(-1).argmin(0)":
-            "This is the number of a critic. Return values, for each state and action: (batch, 9).",
-    },
-)  # fmt: skip
-def smallest_of(q, chosen):
-    return q[chosen].amin(0)
 
 
 def two_cases(rng):

@@ -87,24 +87,25 @@ def what_is_taken() -> Diagram:
 def believed(updates: Sequence[int], values: Mapping[str, np.ndarray], gamma: float) -> Figure:
     """Each critic's mean Q of the rule's actions, {agent: (critics, points)}, beside what these actions are worth.
 
-    The axis ends a little above what any drive can be worth.
+    The axis ends a little above the ceiling, what no drive can be worth more than.
     """
-    bound, truth = worth_at_most(gamma), worth_of_rule(gamma)
-    over = [words for words, each in values.items() if (each[:, -1] > bound).all()]
-    whose = {1: "one agent", 2: "two agents"}.get(len(over), "each agent")
-    all_of = f"All {len(values[AGENTS[1]])} critics of {whose} pass what any drive can earn"
-    title = all_of if over else "No agent's critics all pass what any drive can earn"
-    looks = [Style(style("rlpd").colour), OTHER, style("rule")]
-    marks = {f"no drive is worth more than {bound:.0f}": bound, f"the rule's drives are worth {truth:.1f}": truth}
+    ceiling, truth = worth_at_most(gamma), worth_of_rule(gamma)
+    guessing = list(AGENTS)[1]  # nothing stops its guesses
+    critics = len(values[guessing])
+    over = [words for words, each in values.items() if (each[:, -1] > ceiling).all()]
+    title = "No agent's critics all pass the ceiling"
+    if over:
+        whose = {1: "one agent", 2: "two agents"}.get(len(over), f"{len(over)} agents")
+        title = f"All {critics} critics of {whose} pass the ceiling"
+        title += ", with drives of its own none does" if over == [guessing] else ""
+    looks = [Style(style("rlpd").colour), OTHER, style("rule"), Style(INK)]
+    marks = {f"the ceiling, {ceiling:.0f}": ceiling, f"the rule's drives are worth {truth:.1f}": truth}
     ends = [f"{words}: {each[:, -1].min():.1f} to {each[:, -1].max():.1f}" for words, each in values.items()]
-    worth = f"The rule's actions are worth {truth:.1f}, no drive more than {bound:.0f}"
-    top = 1.25 * bound
+    top = 1.25 * ceiling
     shown = {words: np.where(each < top, each, np.nan) for words, each in values.items()}
-    apart = max(np.ptp(each, axis=0)[each.max(axis=0) < top].max() for each in values.values())
-    label = f"mean Q of the rule's actions: {len(values[AGENTS[1]])} lines for each agent"
-    label += ", nearly one on the other" if apart < bound / 8 else ""
-    alt = f"At the end, {'; '.join(ends)}. {worth}."
-    return charts.lines(updates, shown, title, "update", label, looks=looks, marks=marks, limits=(-2.0, top), alt=alt)
+    label = f"mean Q of the rule's actions: {critics} lines for each agent"
+    alt = f"At the end, {'; '.join(ends)}. The ceiling is {ceiling:.0f}; the rule's drives are worth {truth:.1f}."
+    return charts.lines(updates, shown, title, "update", label, looks=looks, marks=marks, limits=(-4.0, top), alt=alt)
 
 
 def who_chose(driven: Episodes) -> Figure:

@@ -26,7 +26,12 @@ from bootcourse.research.paper import earned_at
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 
-AGENTS = ("normalised", "not normalised", "the target asks the rule")  # of the first round
+AGENTS = {  # of the first round: the share of demonstrations in a batch
+    "normalised": 1.0,
+    "not normalised": 1.0,
+    "the target asks the rule": 1.0,
+    "half its own drives": 0.5,
+}
 SECONDS, DECISIONS = "seconds of computing", "decisions"  # two counts of what a training spends
 
 
@@ -54,43 +59,39 @@ def worth_of_rule(gamma: float) -> float:
 
 
 def first_normalised(parameters: Sequence[Tensor], x: Tensor) -> Tensor:
-    """RLPD's critics for the first of three agents, the same without normalisation for the others."""
-    first = (torch.arange(len(x)) % 3 == 0)[:, None, None]
+    """RLPD's critics for the first of `AGENTS`, the same without normalisation for the others."""
+    first = (torch.arange(len(x)) % len(AGENTS) == 0)[:, None, None]
     for weight, bias in zip(parameters[:-2:2], parameters[1:-2:2], strict=True):
         hidden = torch.baddbmm(bias, x, weight)
         x = torch.where(first, F.layer_norm(hidden, hidden.shape[-1:]), hidden).relu()
     return torch.baddbmm(parameters[-1], x, parameters[-2])
 
 
-def last_asks_the_rule(learner: RLPDLearner, batch: Batch) -> Tensor:
-    """RLPD's target, (agents, batch); the last agent's with Q of the rule's next action instead of the policy's."""
+def third_asks_the_rule(learner: RLPDLearner, batch: Batch) -> Tensor:
+    """RLPD's target, (agents, batch); the third agent's with Q of the rule's next action instead of the policy's."""
     next_q = learner.target_q(batch.next_states)
     log_pi = sac.log_policy(mlp(learner.actor, batch.next_states))
     value = learner.soft_value(log_pi, next_q, learner.alpha, torch.zeros_like(batch.rewards))
-    value[-1] = next_q[-1].gather(-1, batch.next_rule_actions[-1].unsqueeze(-1)).squeeze(-1)
+    value[2] = next_q[2].gather(-1, batch.next_rule_actions[2].unsqueeze(-1)).squeeze(-1)
     return sac.critic_target(batch.rewards, batch.terminated, value, learner.gamma)
 
 
-def from_drives_alone(training: Training, updates: Iterable[int]) -> dict[str, np.ndarray]:
+def beliefs(training: Training, updates: Iterable[int]) -> dict[str, np.ndarray]:
     """Each critic's mean Q of the rule's actions on its way out, after so many updates: {agent: (critics, points)}.
 
-    training: of three agents, whose critics learn from the rule's drives alone. The first has its layers normalised;
-    the last asks for Q of the rule's next action.
+    training: of `AGENTS`. All four drive; only the last has its drives in its batches.
     """
     way = torch.tensor(np.concatenate([drive.observations[:WAY] for drive in by_rule()]), dtype=torch.float32)
     did = torch.tensor(np.concatenate([drive.actions[:WAY] for drive in by_rule()]))
-    learner, asked, found = training.learner, set(updates), []
+    learner, found = training.learner, []
     # A classmethod reads the network from the class: a class of its own changes this learner only.
-    changed = {"critic_network": staticmethod(first_normalised), "critic_target": last_asks_the_rule}
-    learner.__class__ = type("OfThree", (type(learner),), changed)
-    generators = [np.random.default_rng(settings.seed) for settings in learner.settings]
-    for update in range(max(asked) + 1):
-        if update:
-            learner.update(training.replay.sample(64, np.ones(3), generators))  # demonstrations only
-        if update in asked:
-            with torch.no_grad():
-                q = learner.q_pair(learner.critics, way.expand(3, -1, -1))  # (critics, 3, states, 9)
-            found.append(q[:, :, torch.arange(len(did)), did].mean(-1).numpy())
+    changed = {"critic_network": staticmethod(first_normalised), "critic_target": third_asks_the_rule}
+    learner.__class__ = type("OfFour", (type(learner),), changed)
+    for update in updates:
+        training.run(progress=False, updates=update)
+        with torch.no_grad():
+            q = learner.q_pair(learner.critics, way.expand(len(AGENTS), -1, -1))  # (critics, 4, states, 9)
+        found.append(q[:, :, torch.arange(len(did)), did].mean(-1).numpy())
     return dict(zip(AGENTS, np.array(found).transpose(2, 1, 0), strict=True))
 
 

@@ -1,5 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+import math
 from dataclasses import fields
 from functools import cache
 from itertools import combinations
@@ -25,12 +26,22 @@ from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, X
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import Estimate, holm, interval, iqm
-from tools.course.known import shipped_experiment
+from tools.course.known import idle, shipped_experiment
 
 FIRST, SECOND = BUDGETS[:2]
 TAUGHT = tuple(figures.TAKES)  # the methods with a teacher
 FIVE_SECONDS = (equal_decisions.SECONDS, measures.SECONDS)  # what a training spends, in each of two counts
 ON_ROAD = (FIRST, measures.DECISIONS)
+EARLY = 20_000  # decisions of each agent
+SHOWS = {  # what shows the free lane to a method
+    "ppo_cloned": "its first policy",
+    "bootstrapped": "demonstrations, a pull",
+    "jsrl": "the first seconds of each episode",
+    "rlpd": "demonstrations",
+    "ibrl": "demonstrations, the rule's action",
+    "sac": "nothing",
+    "ppo": "nothing",
+}
 
 
 @cache
@@ -56,29 +67,33 @@ def rule_is_ahead() -> float:
     return float(np.median([(each[:, EGO, X] > each[:, TRAP_1, X]).argmax() for each in cars]))
 
 
-def score_at(method: str, budget: int = FIRST) -> Estimate:
-    """The interquartile mean of these agents' returns, with its interval."""
-    return interval(at(method, "returns", budget))
-
-
-def middle(method: str, budget: int = FIRST) -> float:
+def middle(method: str) -> float:
     """The interquartile mean of these agents' returns."""
-    return score_at(method, budget).value
-
-
-def two_budgets() -> str:
-    """What the agents of each method earn at two budgets, as Markdown."""
-    rows = [
-        [display_name(method), *(f"{middle(method, budget):.0f}" for budget in (FIRST, SECOND))] for method in TAUGHT
-    ]
-    return markdown(["return (interquartile mean)", *(f"after {budget:,}" for budget in (FIRST, SECOND))], rows)
+    return iqm(at(method, "returns"))
 
 
 @cache
-def pairs(budget: int, measure: str = "returns") -> dict[tuple[str, str], float]:
-    """{a pair of the methods with a teacher: p of the rank test of their returns, or another measure, after Holm}."""
+def early(method: str) -> np.ndarray:
+    """How many of each agent's training drives within its first `EARLY` decisions earn more than staying, (agents,)."""
+    curves = later(method).curves
+    ended = np.cumsum(np.nan_to_num(curves["decisions"]), axis=1, dtype=float) <= EARLY
+    return (ended & (curves["return"] > math.ceil(idle().rewards.sum()))).sum(axis=1)
+
+
+def early_table() -> str:
+    """What shows the free lane to each method, and these numbers of drives, as Markdown."""
+    rows = []
+    for method, shows in SHOWS.items():
+        drives = early(method)
+        rows.append([display_name(method), shows, f"{np.median(drives):.0f} ({drives.min()} to {drives.max()})"])
+    return markdown(["", "what shows the free lane", "such drives of ten agents: median (least to most)"], rows)
+
+
+@cache
+def pairs(budget: int) -> dict[tuple[str, str], float]:
+    """{a pair of the methods with a teacher: p of the rank test of their returns, after Holm}."""
     of = list(combinations([method for method in compared() if method in TAUGHT], 2))
-    p = [p_value(*(at(method, measure, budget) for method in pair)) for pair in of]
+    p = [p_value(*(at(method, "returns", budget) for method in pair)) for pair in of]
     return {pair: float(each) for pair, each in zip(of, holm(p), strict=True)}
 
 

@@ -1,4 +1,4 @@
-"""Choosing an agent without a simulator: what a policy is worth, estimated from recorded drives alone."""
+"""What a policy is worth, estimated from recorded drives alone, and what it is worth on the road."""
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace

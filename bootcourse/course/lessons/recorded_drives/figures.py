@@ -4,15 +4,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import torch
-from IPython.display import Markdown
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
 from bootcourse.colours import GRID, INK, OTHER, QUIET
-from bootcourse.course import table
 from bootcourse.course.lessons.recorded_drives import choosing
-from bootcourse.course.lessons.recorded_drives.eight_seeds import RULES_NEXT
-from bootcourse.course.shipped import beginning, shipped_agents, shipped_experiment
+from bootcourse.course.shipped import beginning, shipped_agents
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.learner import SACLearner
@@ -172,28 +169,3 @@ def _moved_apart(shares: np.ndarray, least: float = 1.8) -> np.ndarray:
         moved[after] = max(moved[after], moved[before] + least)
     moved[order] -= (moved[order] - shares.ravel()[order]).mean()
     return moved.reshape(shares.shape)
-
-
-def eight_seeds() -> Markdown:
-    """A table of the shipped agents of Round 2, a row for each kind: how often the eight accelerate, and crash."""
-    rows = [
-        [IN_TARGET if kind == RULES_NEXT else kind,
-         f"{100 * each['accelerate'].min():.0f} to {100 * each['accelerate'].max():.0f} %",
-         "100" if each["crashes"].min() == 100 else f"{each['crashes'].min():.0f} to {each['crashes'].max():.0f}"]
-        for kind, each in ((kind, agents.measured) for kind, agents in shipped_experiment("offline").items())
-    ]  # fmt: skip
-    return table(["", "would accelerate", "crashes on 100 roads"], rows)
-
-
-def chosen(guesses: Sequence[Sequence[float]], truth: Sequence[float]) -> Markdown:
-    """A table, a row for each set of agents: what each is worth, the most in bold, and whom each of two fits takes.
-
-    guesses: of two fits; these and truth: of each agent, one set after the other.
-    """
-    names, rows = ["clone", "CQL", "GAIL", "plain SAC", "bootstrapped"], []  # as in `choosing.METHODS`
-    for place, (*fits, truly) in enumerate(zip(*map(choosing.by_set, (*guesses, truth)), strict=True)):
-        most = truly.argmax()
-        cells = [f"**{each:.2f}**" if i == most else f"{each:.2f}" for i, each in enumerate(truly)]
-        taken = [f"{'✓' if fit.argmax() == most else '✗'} {names[fit.argmax()]}" for fit in fits]
-        rows.append([place + 1, *cells, *taken])
-    return table(["set", *names, "first fit takes", "second fit takes"], rows)

@@ -1,17 +1,16 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
-import itertools
 from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons.found_and_kept.ways import staying
 from bootcourse.course.lessons.recorded_drives import choosing, eight_seeds
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
 from bootcourse.course.shipped import shipped_agents
-from bootcourse.episodes.driving import one_episode_each, steps
-from bootcourse.policies import Policy, PolicyOutput, rule_policy
+from bootcourse.episodes.record import record
+from bootcourse.policies import Policy, rule_policy
+from bootcourse.road.state import EGO, SPEED
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
 from tools.course.known import of, shipped_experiment
@@ -33,10 +32,7 @@ def overlaps() -> np.ndarray:
 
 @cache
 def estimated() -> np.ndarray:
-    """What each is worth by the notebook's two fits, (fits, sets, agents).
-
-    Which agent has the largest estimate differs between the two: the text says only what holds for both.
-    """
+    """What each is worth by the notebook's two fits, (fits, sets, agents)."""
     return np.stack([choosing.by_set(fit) for fit in choosing.fits(agents(), choosing.recorded(), times=2)])
 
 
@@ -63,15 +59,16 @@ def agreeing() -> tuple[int, int]:
     return int(agree.sum()), int((agree & (abs(off()) < 0.1).all(axis=0)).sum())
 
 
-@cache
-def successes() -> np.ndarray:
-    """In which share of its drives each gets ahead of trap 1, (sets, agents)."""
-    return np.array([of(method).scores("success")[:SETS] for method in choosing.METHODS]).T
-
-
 def did() -> float:
     """In which share of the recorded seconds the rule accelerated."""
     return eight_seeds.accelerates(choosing.recorded().actions)
+
+
+@cache
+def at_second(second: int) -> np.ndarray:
+    """How fast the rule's car drives at a second on each of 100 roads, m/s."""
+    drives = record(rule_policy(DEFAULT), range(100))
+    return np.array([drive.states[second * DEFAULT.clock.steps, EGO, SPEED] for drive in drives])
 
 
 def eight(kind: str, measure: str) -> list[float]:
@@ -87,50 +84,9 @@ def accelerating(method: str) -> list[float]:
     return [eight_seeds.accelerates(choosing.actions_of(policy, states)) for policy in policies]
 
 
-def would(method: str) -> str:
-    """It as "22 to 25", in %."""
-    return f"{100 * min(accelerating(method)):.0f} to {100 * max(accelerating(method)):.0f}"
-
-
 def apart() -> np.ndarray:
     """How far apart the two fits are, (sets, agents)."""
     return abs(np.diff(estimated(), axis=0)[0])
-
-
-@cache
-def pays_at_once(second: int = 20) -> float:
-    """The rule drives 100 roads up to this second. Where it does not accelerate then: on which share of the roads would
-    accelerating, straight on, earn more in this second?
-    """
-    rewards, slower = [], np.zeros(0)
-    for accelerate in (False, True):
-        clock = itertools.count()
-
-        def decide(observations: np.ndarray, cars: np.ndarray, clock=clock, accelerate=accelerate) -> PolicyOutput:
-            chosen = rule_policy(DEFAULT)(observations, cars).actions
-            return PolicyOutput(np.full_like(chosen, 7) if next(clock) == second and accelerate else chosen)
-
-        drive = steps(decide, one_episode_each(100, DEFAULT, None), list(range(100)))
-        step = next(itertools.islice(drive, second, None))
-        rewards.append(step.rewards)
-        slower = slower if accelerate else step.output.actions < 6
-    return float((rewards[1] > rewards[0])[slower].mean())
-
-
-@cache
-def first_sac() -> np.ndarray:
-    """What the plain SAC agent of the first set earns in each second, the mean of 100 roads."""
-    return choosing.each_second(agents()[3], range(100))
-
-
-def idle_pays() -> float:
-    """What a car earns in a second that only follows."""
-    return stays() * 0.2
-
-
-def stays() -> float:
-    """What such a drive is worth at γ = 0.8."""
-    return staying(0.8)
 
 
 def accidents_of_escapers() -> np.ndarray:

@@ -16,9 +16,9 @@
 # **What you will be able to do**
 # - say what a clone, CQL and GAIL each learn from the same drives;
 # - write CQL's loss (and, *Further*, GAIL's reward);
-# - choose an agent by an estimate from recorded drives, and say when not to trust it.
+# - say when to believe an estimate from recorded drives.
 #
-# **Time** 50 minutes, 10 of them voluntary (*Further*); running it takes under half a minute. **It builds
+# **Time** 50 minutes, 10 of them voluntary (*Further*). **It builds
 # on** lessons [[update_and_loop]], [[demonstrations]] and [[how_many_seeds]].
 
 # %%
@@ -84,8 +84,7 @@ bc.show(figures.returns(study))
 
 # %% [markdown]
 # **See.** *Each CQL agent earns more than its teacher*, each clone a little less, and GAIL's agents much less
-# on average. CQL would accelerate in {{ would('cql') }} % of the recorded seconds (five agents); the rule did in
-# {{ 100 * did() | .0f }} %, clones would in {{ would('bc') }} %.
+# on average. In the recorded seconds CQL's agents would accelerate more often than the rule did, clones less often.
 # <!-- claim: min(accelerating('cql')) > did() > max(accelerating('bc')) and of('cql').scores('speed').min() >
 #   of('rule').scores('speed').mean() > of('bc').scores('speed').max() -->
 # <!-- claim: escaped('cql') == len(of('cql')) == 10 and of('cql').scores('returns').min() >
@@ -98,14 +97,18 @@ bc.show(figures.returns(study))
 # One of GAIL's agents *escapes* (lesson [[how_many_seeds]]), and leaves the road in
 # {{ 100 * accidents_of_escapers().max() | .0f }} % of its drives: *a success rate that counts who is ahead hides later
 # accidents.*
+#
+# The paper prints a success of 0 % for CQL and for GAIL. Here ten and six of ten escape. What would you ask the
+# authors first?
+# <!-- claim: PRINTED['cql']['success'].mean == PRINTED['gail']['success'].mean == 0 and escaped('gail') == 6 -->
 # <!-- claim: (accidents_of_escapers() > 0.5).sum() == 1 and escaped('gail') > 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Collect the votes before the picture. The class will be tempted to conclude that the paper is wrong. The
-# picture shows less: "CQL stays in the trap" is not true of CQL as such. (The paper's CQL row prints a
-# success of 0 %. Of our ten agents of CQL *with an actor*, as SAC has one, none escapes; why is open.) Is it
-# fair to train all methods for as many episodes, updates or seconds, or until each stops improving? It
-# depends on what the table is for, but a paper has to say which it took.
+# Collect the votes before the picture. The class will be tempted to conclude that the paper is wrong. The picture
+# shows less: "CQL stays in the trap" is not true of CQL as such. Of our ten agents of CQL *with an actor*, as SAC has
+# one, none escapes: one may ask the authors which of the two they trained, and for how long. Is it fair to train all
+# methods for as many episodes, updates or seconds, or until each stops improving? It depends on what the table is
+# for, but a paper has to say which it took.
 # <!-- claim: PRINTED['cql']['success'].mean == 0 == escaped('cql_sac') and len(of('cql_sac')) == 10 -->
 
 # %% [markdown]
@@ -140,8 +143,7 @@ bc.show(figures.would_do({"Q-learning": without}))
 
 # %% [markdown]
 # **See.** *Both crash on every road.* They would accelerate in nearly every recorded second; the rule did in
-# {{ 100 * did() | .0f }} %. In the other seconds their Q of accelerating is a guess, which no record corrects. At the
-# start of a drive it *promises* a gain; what they *earn* is a loss.
+# {{ 100 * did() | .0f }} %. At the start of a drive their Q *promises* a gain; what they *earn* is a loss.
 # <!-- claim: min(eight("Q-learning", "accelerate")) > 0.9 and
 #   set(eight("Q-learning", "crashes")) == {100} -->
 # <!-- claim: all(0 < promise < -worth for promise, worth in
@@ -165,6 +167,28 @@ bc.show(figures.would_do({figures.IN_TARGET: rules_next}))
 # %% [markdown]
 # **See.** *They crash on every road, too: choosing the highest guess is enough.*
 # <!-- claim: set(eight(eight_seeds.RULES_NEXT, "crashes")) == {100} -->
+#
+# **Explain.** This is lesson [[discrete_sac]]'s **optimist's error**. *Who guesses?* A critic, about the eight actions
+# that were not recorded in a second. *Who picks?* The choice, and it picks the friendliest guess. Driving would
+# correct it; here nobody drives.
+#
+# **A story, and its test.** *The rule never crashed, so no critic trained on its drives can know that a crash
+# exists.* If this is the whole reason, drives with crashes help. The stochastic rule's (lesson [[the_rule]]) have
+# some:
+# <!-- claim: bool(choosing.recorded().rewards.min() > 0) -->
+
+# %%
+settings = bc.settings_for("cql", cql_weight=0.0, stochastic_demonstrations=True)
+crashed = learn(bc.Training(bc.with_seeds(settings, 2)))
+bc.show(figures.would_do({"drives with crashes": crashed}))
+
+# %% [markdown]
+# **See.** *It is not the whole reason: these agents crash, too.*
+#
+# **Explain.** Five seconds of accelerating bring an agent close behind trap 1 at 15 m/s. The rule is there at
+# {{ at_second(5).max() | .0f }} m/s at most. A crash that was recorded elsewhere says little about *this* place, and
+# the guess stays friendly.
+# <!-- claim: DEFAULT.ego.speed + 5 * DEFAULT.ego.acceleration == 15 and bool(at_second(5).max() < 9) -->
 #
 # CQL's remedy is a term in the critic's loss, the mean of
 #
@@ -193,10 +217,9 @@ check.conservative_loss(conservative_loss)
 # <!-- claim: bool(torch.isclose(conservative_loss(torch.eye(9)[2:3], torch.tensor([4])),
 #   torch.nn.functional.cross_entropy(torch.eye(9)[2:3], torch.tensor([4])))) -->
 #
-# **Exercise (20 min, ●●●).** Write the whole loss of CQL's critic. Of two target critics you get the smaller value,
-# `next_target`. In the target y the critic, `next_q`, chooses the best action a', and `next_target` gives its value
-# (*double Q-learning*). Which part must have no gradient? What is y after
-# an accident?
+# **Exercise (20 min, ●●●).** Write the whole loss of CQL's critic. In the target y the critic, `next_q`, chooses the
+# best action a', and `next_target` gives its value (*double Q-learning*). Which part must have no gradient? What is y
+# after an accident?
 
 
 # %%
@@ -213,39 +236,28 @@ def offline_loss(q, next_q, next_target, actions, rewards, terminated, gamma, we
 check.offline_loss(offline_loss)
 
 # %% [markdown]
-# Now train two agents with your loss.
+# Train two agents with your loss.
 
 # %%
 with_term = learn(own_code.training(bc.with_seeds(bc.settings_for("cql"), 2)))
 bc.show(figures.would_do({"with CQL's term": with_term}))
 
 # %% [markdown]
-# Eight agents of each kind, trained in the same way:
+# **See.** *Agents still crash, but on under a third of the roads*  (eight agents). Round 1's, trained
+# longer, crash on under 3 % of their drives.
+# <!-- claim: max(eight("with CQL's term", "crashes")) < 100 / 3 and of('cql').scores('accident').max() < 0.03 -->
 
-# %%
-figures.eight_seeds()
-
-# %% [markdown]
-# **See.** *With the term agents still crash, but on under a third of the roads.* At γ = 0.01, where the target is
-# almost the reward alone, agents without the term crash on every road. (Where the rule did otherwise in second 20,
-# accelerating straight on would have paid more then on {{ 100 * pays_at_once() | .0f }} % of the roads.)
-# Round 1's CQL agents, trained longer, crash on under 3 % of their drives.
-# <!-- claim: max(eight("with CQL's term", "crashes") + eight("CQL's term, γ = 0.01", "crashes")) < 100 / 3 and
-#   set(eight("no term, γ = 0.01", "crashes")) == {100} and of('cql').scores('accident').max() < 0.03 -->
-# <!-- claim: pays_at_once() > 0.6 and min(eight("no term, γ = 0.01", "accelerate")) > 2 * did() -->
-
-# %% [markdown] tags=["instructor"] minutes=5
+# %% [markdown] tags=["instructor"] minutes=7
 # Let each group say in one sentence what the term does to an action that is missing from the data, to one
 # that is there, and to the car. For the fast: `settings_for("cql", cql_weight=5.0)`; a very large weight is a
 # clone.
 
 # %% [markdown]
-# ## Round 3: choosing without a simulator
+# ## Round 3: when do you believe an estimate?
 #
-# You have the recorded drives and three sets of five trained agents: a clone, CQL, GAIL, plain SAC and bootstrapped
-# SAC. Choose the best of each set. An agent's *worth* is what it earns, discounted, on average from the start of a
-# drive. **Fitted Q evaluation** (FQE) estimates it from the recorded seconds alone: it learns Q of a *given* policy π,
-# with the target r + γ Q(s', π(s')).
+# You have the recorded drives and three agents of each of five methods. An agent's *worth* is what it earns,
+# discounted, from the start of a drive. **Fitted Q evaluation** (FQE) estimates it from the recorded seconds alone:
+# it learns Q of a *given* policy π, with the target r + γ Q(s', π(s')).
 #
 # > **Predict.** Two fits with different seeds agree within 0.1. Are both then within 0.1 of the truth?
 
@@ -265,38 +277,19 @@ same = choosing.worth(bc.rule_policy(bc.DEFAULT), range(100), gamma=0.8)  # the 
 bc.show(figures.estimates([*sets[0]], choosing.by_set(alike), fits, choosing.by_set(truth), same))
 
 # %% [markdown]
-# **See.** *Two fits agree for {{ agreeing()[0] }} of the 15 agents; for {{ agreeing()[1] }} of these both are within
-# 0.1.* The bootstrapped agents' estimates are all too low, one by about {{ -off()[:, 0, 4].mean() | .1f }}. For clones
-# and CQL agents a constant, the rule's worth of {{ constant() | .2f }} (×), is less than 0.05 off.
-# <!-- claim: (apart()[:, 4] < 0.1).all() and (off()[:, :, 4] < -0.1).all() and (apart()[:, 3] > 0.3).all() and
-#   agreeing() == (12, 9) -->
-# <!-- claim: agreeing()[0] / 2 < agreeing()[1] < agreeing()[0] -->
-# <!-- claim: abs(constant() - truth()[:, :2]).max() < 0.05 -->
-# <!-- claim: -0.7 < off()[:, 0, 4].min() <= off()[:, 0, 4].max() < -0.35 and
-#   abs(np.diff(off()[:, 0, 4])[0]) < 0.2 -->
-# <!-- claim: (abs(np.diff(off(), axis=0)[0])[:, 3] > 0.25).sum() > 1 -->
-# <!-- claim: abs(off()[:, :, :2]).max() < 0.1 and overlaps()[:, :2].min() > 0.85 -->
-# <!-- claim: overlaps()[:, 2:].max() < 0.7 -->
-# <!-- claim: ((abs(off()) > 0.3) & (overlaps() < 0.4)).sum((1, 2)).min() > 2 -->
+# **See.** *Where an agent does what was recorded, both fits are close; elsewhere they can be far off, either way.* Two
+# fits agree for {{ agreeing()[0] }} agents; for {{ agreeing()[1] }} of these both are within 0.1.
 #
-# **Best of N** takes from each set the agent with the largest estimate. The table shows what each is worth on the
-# road (bold: most), and whom each fit takes.
+# **Explain.** FQE is Q-learning's guess again. Nobody picks: the target copies the guess about π's action, and where
+# that was not recorded, no row corrects it. Two fits can agree on a wrong guess, since both lack the same rows.
+# *Before you believe an estimate from recorded drives, count how often the agent does what was recorded.* If it often
+# does, it is about as good as the teacher: for clones and CQL a constant (×), the rule's worth, is as close.
+# <!-- claim: agreeing() == (12, 9) and (apart()[:, 4] < 0.1).all() and (off()[:, :, 4] < -0.1).all() -->
+# <!-- claim: abs(off()[:, :, :2]).max() < 0.1 and overlaps()[:, :2].min() > 0.85 and overlaps()[:, 2:].max() < 0.7 -->
+# <!-- claim: ((abs(off()) > 0.3) & (overlaps() < 0.4)).sum((1, 2)).min() > 2 and off().max() > 0.3 -->
+# <!-- claim: abs(constant() - truth()[:, :2]).max() < 0.05 -->
 
-# %%
-figures.chosen(guesses, truth)
-
-# %% [markdown]
-# **See.** *The seed of the fit can decide.* Neither fit beats taking always the bootstrapped agent (right in two
-# sets). In set 1 even the right choice is a bad one: the plain SAC agent stays in the trap. At γ = 0.8 that is
-# worth more than CQL's way out: {{ truth()[0, 3] | .2f }} against {{ truth()[0, 1] | .2f }}. (Lesson
-# [[found_and_kept]]'s {{ stays() | .2f }} is a car that only follows; this one earns more for eight seconds.)
-# <!-- claim: (first_sac()[:8] > idle_pays() + 0.001).all() and abs(first_sac()[8:] - idle_pays()).max() < 0.005 -->
-# <!-- claim: truth()[0].argmax() == 3 and successes()[0, 3] == 0 and successes()[0, 1] > 0.9 -->
-# <!-- claim: (estimated()[0].argmax(1) != estimated()[1].argmax(1)).any() -->
-# <!-- claim: (truth().argmax(1) == 4).sum() == 2 >= max((fit.argmax(1) == truth().argmax(1)).sum() for fit in
-#   estimated()) and SETS == 3 -->
-
-# %% [markdown] tags=["instructor"] minutes=5
+# %% [markdown] tags=["instructor"] minutes=3
 # Ask who would let the agent with the largest estimate drive, and who CQL. Then ask for a second look that
 # needs no simulator: overlap, more fits, γ nearer to 1.
 
@@ -323,8 +316,7 @@ predict(
 # <!-- claim: math.isclose(torch.tensor(0.7).double().sigmoid(), 1 / (1 + math.exp(-0.7)),
 #   rel_tol=1e-6) -->
 #
-# **Exercise (6 min, ●●○).** Write the reward as a function of x. (torch has a function that is right for very large x,
-# too.)
+# **Exercise (6 min, ●●○).** Write the reward as a function of x.
 
 
 # %%
@@ -347,8 +339,9 @@ rows = [[name, *(f"{pay * weight:.2f}" for weight in weights)] for name, pay in 
 table(["reward at D = ½", "crash after 5 s", "drive of 150 s"], rows)
 
 # %% [markdown]
-# **Explain.** *The sign decides.* −log (1 − D) is above 0, so each second pays. log D is below 0, so each second costs,
-# and the early crash is cheapest.
+# **Explain.** *The sign decides.* −log (1 − D) is above 0, so each second pays. log D is below 0, so each second
+# costs, and the early crash is cheapest. (Lesson [[soft_constraint]]'s story had this arithmetic, and failed its
+# test.)
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Let them say in one sentence what a clone is told in a state that no demonstration holds, and what the
@@ -363,39 +356,38 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. A success rate that counts who is ahead hides accidents.
-# 2. Q of an action that the data lack is a guess. Agents that chose the highest guess crashed on every road, even where
-#    their target took what the rule did next.
-# 3. With CQL's term, a cloning loss, agents stayed near the data, and crashed on under a third of the roads.
-# 4. FQE's estimates were close for agents that act as the recorded drives do (so was a constant); for others some were
-#    far off.
-# 5. The agent that is worth most at γ = 0.8 can be one that stays in the trap.
+# 1. Q of an action that the data lack is a guess. Agents that picked the highest guess crashed; CQL's term kept them
+#    near the data.
+# 2. Before you believe an estimate from recorded drives, count how often the agent does what was recorded.
 #
 # **Three questions to think about**
-# - Suppose that the discriminator has found GAIL out: D = 0.1. Five more seconds then pay
-#   {{ -math.log(0.9) * (1 - 0.8**5) / 0.2 | .2f }} in all (γ = 0.8), half of *one* second at D = ½. What does the agent
-#   lose by leaving the road?
-# - What would show how *often* Best of N goes wrong?
-# - How would you choose among the five without driving?
+# - The discriminator has found GAIL out: D = 0.1. What does its agent lose by leaving the road?
+# - You may record 100 more drives. Whose?
+# - How would you choose among the five kinds of agents without driving?
 # <!-- claim: abs(-math.log(0.9) * (1 - 0.8**5) / 0.2 / math.log(2) - 0.5) < 0.02 -->
 # <!-- claim: of('gail').scores('road_departure').mean() > 0.25 and of('gail').agents[0]['target_entropy'] < 0 -->
 
-# %% [markdown] tags=["instructor"]
-# Answers to the three questions. (1) Not settled. Where D is near 0 a second more pays nearly nothing,
-# and with γ = 0.8 the agent looks about five seconds ahead: it loses little. Five
-# agents with a target entropy that a policy can have leave the road in {{ departures(1) }} % of their drives,
-# the same seeds without it in {{ departures(0) }} %. Train again with a larger γ, or let the discriminator
-# see what follows an accident (absorbing states, as in Kostrikov et al.), one change at a time. (2) Many
-# sets, each of newly trained agents: three sets and two fits show how it can go, not how often.
-#
-# (3) Overlap says whose estimate to trust, not who drives well; the return needs drives. Let each group write
-# down its way of choosing before it looks at the table, and count its choices.
-
 # %% [markdown]
+# <details><summary>Answers</summary>
+#
+# - *Off the road?* Five more seconds would pay {{ -math.log(0.9) * (1 - 0.8**5) / 0.2 | .2f }}: nearly nothing. A
+#   larger γ would tell.
+# - *Whose drives?* Those of a driver who goes where your agent would go, best the agent itself (lesson
+#   [[demonstrations]]). Its guesses are about these seconds.
+# - *Choose?* The worth of those that often do what was recorded is known. The others have to drive.
+#
+# </details>
+#
 # **Read on**: CQL: Kumar et al. (arXiv 2006.04779); FQE: Le et al. (arXiv 1903.08738); GAIL: Ho and Ermon
-# (arXiv 1606.03476), Kostrikov et al. (arXiv 1809.02925). Next: [the bug hunt](bug_hunt.ipynb).
+# (arXiv 1606.03476). Twice now a critic was wrong, and its curve did not show it.
+# How does one find such an error in one's own code? ([The bug hunt](bug_hunt.ipynb).)
 
 # %% [markdown] tags=["instructor"]
+# On the first question: five agents with a target entropy that a policy can have leave the road in
+# {{ departures(1) }} % of their drives, the same seeds without it in {{ departures(0) }} %. Train again with a larger
+# γ, or let the discriminator see what follows an accident (absorbing states, as in Kostrikov et al.), one change at a
+# time.
+#
 # **On the board.** Three agents as rows; columns: sees actions, sees rewards, drives itself. Then Q of nine
 # actions as bars: those in the data pulled up, the others pushed down.
 #

@@ -7,7 +7,13 @@ from functools import cache
 import numpy as np
 import torch
 
-from bootcourse.course.lessons.soft_constraint.examples import entropy_in, fast_and_rule, kl_in, later, reward_and_kl
+from bootcourse.course.lessons.soft_constraint.examples import (
+    entropy_in,
+    fast_and_rule,
+    later,
+    reward_and_kl,
+    three_agents,
+)
 from bootcourse.course.lessons.soft_constraint.figures import ways_out as ways_out
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
@@ -81,11 +87,6 @@ def losing(agents: list[Results]) -> int:
     return sum(int(lost(each.of("soft").curves["success"]).sum()) for each in agents)
 
 
-def crashes(agents: list[Results]) -> float:
-    """The share of their drives that end in an accident."""
-    return float(np.mean([each.of("soft").scores("accident") for each in agents]))
-
-
 @cache
 def ways_of_the_panel(xi: float, road: int) -> dict[str, Way]:
     """The panel's three ways on from the start of a road, with p = 0.9, by their names."""
@@ -115,19 +116,26 @@ def entropy_of_the_fast() -> float:
     return later(fast_and_rule()["five fast agents"], entropy_in)
 
 
-def leaving_the_rule() -> tuple[float, float, float]:
-    """In which share of these seconds the fast agents take another action than the rule; the KL in these, and else."""
-    drives = fast_and_rule()["five fast agents"]
-    left = later(drives, lambda drive: drive.actions != drive.rule_actions)
-    there = later(drives, lambda drive: kl_in(drive) * (drive.actions != drive.rule_actions))
-    return left, there / left, (later(drives, kl_in) - there) / (1 - left)
-
-
 def same_until_the_floor() -> bool:
     """Have the study's agents the same episodes, whether ξ falls towards 0 or to 0.1, until it is at 0.1?"""
     stops, goes_on = floored()[0].of("soft").curves, of("soft").of("soft").curves
     at_the_floor = np.maximum.accumulate(stops["xi"] <= 0.1001, axis=1)
     return bool((at_the_floor | (stops["return"] == goes_on["return"])).all() and at_the_floor.any(1).all())
+
+
+def at_a_twentieth() -> list[int]:
+    """After which training episodes of the study's ten agents ξ has fallen from 2 to 0.1."""
+    return (floored()[0].of("soft").curves["xi"] <= 0.1001).argmax(1).tolist()
+
+
+def early(agents: Results, first: int) -> float:
+    """The mean return of the study's agents in fifty training episodes from this one on."""
+    return float(agents.of("soft").curves["return"][:, first : first + 50].mean())
+
+
+def of_the_even() -> float:
+    """The KL (nats) of a policy with nine equal probabilities, as Round 1 shows it."""
+    return round(float(three_agents()[-1][-1]), 2)
 
 
 def leaving_costs(xi: float) -> float:

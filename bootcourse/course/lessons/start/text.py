@@ -87,8 +87,8 @@ bc.recording([shipped.beginning(drive, seconds) for drive in drives], height=480
 # beginning of the curve to see how it crashed at first.
 # <!-- claim: crashed_at_first() < 10 -->
 #
-# JupyterLab folds what answers a prediction until you commit to one, or click on the three dots. Our results
-# are saved below each cell.
+# JupyterLab folds what answers a prediction until you commit to one, run its cell, or click on the three dots. Our
+# results are saved below each cell.
 #
 # > **Predict.** In how many of its last 50 drives does it end ahead of trap 1 (a **success**, even if
 # > it crashes afterwards)? The rule gets out on all {{ roads() | , }} test roads; your agent ends some
@@ -152,7 +152,7 @@ progress()
 out = [drive.success for drive in mine.attempts]
 success = [drive for drive in learned.curves["success"][0] if drive >= 0][-50:]  # NaN: not driven
 ahead = "none" if not sum(success) else "fewer than half" if sum(success) < 25 else "half or more"
-attempts = out.index(True) + 1 if True in out else "what you counted, once you have driven"
+attempts = out.index(True) + 1 if True in out else f"not out yet, after {len(out)} of your drives"
 compare_predictions("start", {1: attempts, 2: f"in {ahead}"})
 
 # %% [markdown] tags=["instructor"]

@@ -6,11 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import ALARM, PALE
-from bootcourse.course import table
 from bootcourse.course.lessons.the_barrier import easier
 from bootcourse.course.live_curves import LiveCurves
-from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds
-from bootcourse.learn.training import Result, Training
+from bootcourse.learn.training import Training
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
 from bootcourse.research.results import Results
@@ -72,18 +70,6 @@ class LiveReturns(LiveCurves):
         return finish(figure, title, f"After {training.updates:,} updates: {said}.")
 
 
-def tested(result: Result, idle: float):
-    """A table of how each agent of a training drives on 200 test roads, by its most probable actions, over what a car
-    earns that does nothing.
-    """
-    rows = []
-    for agent in result.agents:
-        drives = drive_episodes(agent.as_policy(), held_out_seeds(1, easier.TESTS))
-        rates = (f"{100 * np.mean(each):.0f} %" for each in (drives.success, drives.accident > 0))
-        rows.append([f"γ = {agent.settings.gamma:g}", *rates, f"{drives.returns.mean():.1f}".replace("-", "−")])
-    return table(["tested", "gets out", "accidents", "return"], [*rows, ["does nothing", "0 %", "0 %", f"{idle:.1f}"]])
-
-
 def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]) -> Figure:
     """A square for each agent, coloured by how it ends, crossed if it crashes on most roads: a block for each kind, and
     a row of it for each γ.
@@ -119,7 +105,7 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
         ax.text(x, y + 0.06, says, va="center", fontsize=TEXT, color=INK, fontweight="bold")
         often = np.median(times_ahead(trained[shown[row, column]]))
         says = f"drives that got out while learning: {often:g} (median)"
-        ax.text(x, y + 0.7, says, va="center", fontsize=SMALL, color=QUIET)
+        ax.text(x, y + 0.7, says, va="center", fontsize=SMALL, color=INK)
     earns, poor = [*ENDS][:2]
     keys = {earns: ENDS[earns], poor: ENDS[poor], "does not escape": "white", "a cross: crashes on most roads": ""}
     for place, (words, colour) in enumerate(keys.items()):

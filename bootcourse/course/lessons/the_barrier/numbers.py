@@ -5,21 +5,15 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.the_barrier import attempts, easier, explorable, figures
-from bootcourse.course.lessons.the_barrier.exercises import going_on, luck
+from bootcourse.course.lessons.the_barrier.exercises import luck
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.policies import PlanPolicy, random_policy
 from bootcourse.research.planner import Search, follow, is_staying_optimal, plan_episodes
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, SPEED
-from bootcourse.statistics import ESCAPES
+from bootcourse.road.vector_env import TrapVectorEnv as TrapVectorEnv
 from tools.course.known import ROAD, shipped_experiment
-
-
-@cache
-def planned() -> float:
-    """What the planner's drive on the lesson's road earns."""
-    return plan_episodes([ROAD], search=Search(beam=50))[0].value
 
 
 def planned_speeds() -> np.ndarray:
@@ -69,11 +63,6 @@ def by_luck(good: int) -> float:
 hill = explorable.hill
 
 
-def crash_by(second: int) -> np.ndarray:
-    """On which of lesson 1's roads its plan ends in an accident within so many seconds."""
-    return explorable.by_plan().accident & (explorable.by_plan().lasted <= second)
-
-
 def easy(kind: str) -> Results:
     """The twenty agents of one of `easier.KINDS`."""
     return shipped_experiment("easier")[kind]
@@ -100,34 +89,15 @@ def crash_on_most(kind: str) -> int:
     return int((easy(kind).scores("accident") > 0.5).sum())
 
 
-def escape_and_crash(kind: str) -> int:
-    """How many agents of a kind escape, and have an accident on most roads."""
+def crash_when_out(kind: str) -> float:
+    """Of the test drives of a kind's agents that get out, the share that has an accident."""
     agents = easy(kind)
-    return int(((agents.scores("accident") > 0.5) & (agents.scores("success") >= ESCAPES)).sum())
+    return float(agents.episodes("accident")[agents.episodes("success") > 0].mean())
 
 
 def ends(kind: str) -> np.ndarray:
     """How many agents of a kind end in each way, see `figures.how_they_end`."""
     return figures.how_they_end(easy(kind), easier.staying(kind))[0]
-
-
-def fate(earns_more: bool) -> np.ndarray:
-    """The mean speeds (m/s) of the agents with both changes that escape, do not crash on most roads, and earn more than
-    by staying, or no more.
-    """
-    agents = easy(BOTH)
-    kept = (agents.scores("success") >= ESCAPES) & (agents.scores("accident") <= 0.5)
-    return agents.scores("speed")[kept & ((agents.scores("returns") > easier.staying(BOTH)) == earns_more)]
-
-
-def too_fast() -> np.ndarray:
-    """The mean speeds (m/s) of those that earn no more than by staying."""
-    return fate(earns_more=False)
-
-
-def paid_speeds() -> np.ndarray:
-    """The mean speeds (m/s) of those that earn more."""
-    return fate(earns_more=True)
 
 
 @cache
@@ -137,15 +107,9 @@ def step_to_the_left() -> attempts.Outcome:
 
 
 @cache
-def accelerating(seconds: int) -> attempts.Outcome:
-    """What comes of so many accelerations from a start in the free lane, on 100 roads."""
-    return attempts.drive(PlanPolicy([attempts.ACCELERATE] * seconds), held_out_seeds(7, 100), easier.MidLaneStart)
-
-
-@cache
-def random_from_there() -> attempts.Outcome:
-    """What comes of random drives from that start, on 1,000 roads."""
-    return attempts.drive(random_policy(np.random.default_rng(0)), held_out_seeds(6, 1000), easier.MidLaneStart)
+def accelerating(seconds: int, road: type[TrapVectorEnv] = easier.MidLaneStart) -> attempts.Outcome:
+    """What comes of so many accelerations, from a start in the free lane or on another kind of road, on 100 roads."""
+    return attempts.drive(PlanPolicy([attempts.ACCELERATE] * seconds), held_out_seeds(7, 100), road)
 
 
 @cache
@@ -167,12 +131,6 @@ def times_ahead() -> np.ndarray:
 def often(kind: str) -> float:
     """In how many drives the median agent of a kind gets out while it learns."""
     return float(np.median(figures.times_ahead(easy(kind))))
-
-
-def hill_ahead() -> np.ndarray:
-    """What the rest of five accelerations from the free lane is worth after 0 to 5 s of it, at γ = 0.8."""
-    drives = accelerating(5)
-    return np.array([going_on.solution(drives.rewards, drives.lasted, 0.8, t) for t in range(6)])
 
 
 def once_ahead() -> int:

@@ -10,8 +10,10 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from gymnasium.vector import AutoresetMode
 
 from bootcourse.course import table
+from bootcourse.episodes.driving import steps
 from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seeds
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
@@ -20,6 +22,7 @@ from bootcourse.policies import PolicyOutput, policy_of, rule_policy
 from bootcourse.road.constants import constants
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_1, TRAP_2, X, Y
 from bootcourse.road.traffic import FRONT, NOBODY, REAR, look_around, new_around, sort_by_x
+from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.rule import SETTLED, Reason, rule
 from bootcourse.scenario import DEFAULT, Scenario
 
@@ -71,6 +74,13 @@ def fast_changes(sight: float = 20.0, least: float = 2.5) -> FastChanges:
 def driven(sight: float = DEFAULT.sight.distance, **numbers) -> Episodes:
     """How the rule with these numbers drives; the roads and the other drivers stay the same."""
     return drive_episodes(rule_policy(with_numbers(sight, **numbers)), ROADS)
+
+
+@cache
+def paid(sight: float, roads: int = 40) -> np.ndarray:
+    """What each second of the rule with this sight (m) pays on the first of the lesson's roads, (roads, seconds)."""
+    env = TrapVectorEnv(roads, DEFAULT, AutoresetMode.DISABLED)
+    return np.stack([step.rewards for step in steps(rule_policy(with_numbers(sight)), env, ROADS[:roads])], axis=1)
 
 
 @cache

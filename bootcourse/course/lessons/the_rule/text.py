@@ -16,9 +16,9 @@
 # **What you will be able to do**
 # - read a rule controller: a speed, a distance, and five cases for the lane;
 # - say what a printed condition does to the car, and mend it;
-# - find out why the rule is slow, and repair it where it sees too little.
+# - find out why the rule is slow, and what a quicker one is worth as a teacher.
 #
-# **Time** 41 minutes. **It builds on** [lesson [[the_trap]]](the_trap.ipynb).
+# **Time** 41 minutes, 3 of them voluntary (*Further*). **It builds on** [lesson [[the_trap]]](the_trap.ipynb).
 
 # %%
 import bootcourse as bc
@@ -52,7 +52,7 @@ bc.recording([shipped.beginning(drive, 60)], height=360)
 bc.show(figures.speed_over_time(drive))
 
 # %% [markdown]
-# Why does it slow down, on a road that looks empty? Round 3 answers this. First: how does it choose its speed?
+# Why does it slow down, on a road that looks empty? Round 3 answers this.
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Play the first ten seconds, and read the ten reasons aloud, one by one.
@@ -83,34 +83,7 @@ check.target_speed(target_speed)
 # %% [markdown]
 # With nobody ahead in your lane the target is 15 m/s, and in the leftmost lane only that lane counts.
 #
-# The **tracker** (§) turns the target into actions. While the speed is within
-# {{ DEFAULT.ego.acceleration / 2 | g }} m/s of the target, it neither accelerates nor brakes. This is its *dead band*.
-#
-# *§: the paper leaves this open, and we chose.*
-#
-# > **Predict.** The rule and both traps start at 10 m/s. Give the rule another number of speeds, spread
-# > evenly from 6 to 15 m/s. With which number does it stay behind?
-# <!-- claim: (by_rule().states[0, [EGO, TRAP_1, TRAP_2], SPEED] == 10).all() -->
-
-# %%
-choices = ["2 speeds", "6 speeds", "10 speeds", "none of these"]
-predict("the_rule.1", "With how many speeds does the rule stay behind?", choices)
-
-# %%
-predicted("the_rule.1")
-target, rows = own_code.yours_or_ours("target_speed", doing="Computing targets"), []
-for n in (2, 5, 6, 10):
-    v = target(10.0, 10.0, 6.0, 15.0, n)
-    rows.append([f"{n}", f"{v:.2f} m/s", f"{rules.driven(n=n).success.sum()}"])
-table(["speeds", "target behind the traps", "gets out, of 200 roads"], rows)
-
-# %% [markdown]
-# **Explain.** With six speeds the target is only 0.4 m/s below the traps' speed. The tracker ignores so small a
-# difference, and the gap does not grow.
-# <!-- claim: not driven(n=6).success.any() and driven(n=5).success.all() and driven(n=2).success.all() -->
-# <!-- claim: np.isclose(10 - target_speed(10.0, 10.0, 6.0, 15.0, 6), 0.4) -->
-# <!-- claim: 10 - target_speed(10.0, 10.0, 6.0, 15.0, 6) < DEFAULT.ego.acceleration / 2 <
-#   10 - target_speed(10.0, 10.0, 6.0, 15.0, 5) -->
+# The **tracker** (§) turns the target into actions. *§: the paper leaves this open, and we chose.*
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Somebody will ask why not one speed just below the traps'. Five speeds are easy to explain and to defend,
@@ -128,15 +101,11 @@ table(["speeds", "target behind the traps", "gets out, of 200 roads"], rows)
 # 4. The car behind you in the new lane is too close: wait.
 # 5. Else: change to the new lane.
 #
-# The paper tests case 3, and takes case 4 as met. The other tests are ours (§).
+# The paper tests case 3; the other tests are ours (§).
 #
 # The safety distance is t_safe ({{ DEFAULT.rule.t_safe }} s, §) times the speed by which you are faster than the
 # slower of the two cars ahead, in your lane and in the new one, and at least the *floor*
-# ({{ DEFAULT.rule.floor | g }} m, §). You brake at {{ DEFAULT.ego.acceleration | g }} m/s². In steps of half a second,
-# each at the old speed, braking from v takes ½ (v + (v − ½) + … + ½) = v²/2 + v/4. Up to which difference in speed can
-# you brake within this gap? **Drag** t_safe.
-# <!-- claim: DEFAULT.clock.dt == 0.5 and all(braking_distance(v) == v**2 / 2 + v / 4 ==
-#   DEFAULT.clock.dt * np.arange(v, 0, -DEFAULT.clock.dt).sum() for v in (1.0, 2.5, 3.0)) -->
+# ({{ DEFAULT.rule.floor | g }} m, §). Up to which difference in speed can you brake within this gap? **Drag** t_safe.
 
 # %%
 explorable.gap()
@@ -192,10 +161,10 @@ check.room_to_change(room_to_change)
 
 # %%
 situations = ["slower and far", "slower and near", "faster and far", "faster and near"]
-predict("the_rule.2", "Where can the printed condition be true?", situations)
+predict("the_rule.1", "Where can the printed condition be true?", situations)
 
 # %%
-predicted("the_rule.2")
+predicted("the_rule.1")
 speed_of, distance_of, has_room = own_code.yours_or_ours(
     "target_speed", "safety_distance", "room_to_change", doing="Driving"
 )
@@ -210,8 +179,8 @@ bc.show(figures.when_to_change(drive))
 # %% [markdown]
 # **Explain.** Behind the traps you are slower than they are. Then the left side is negative, and the printed
 # condition is false. It is true only if you come fast and near: a safety distance asks for the opposite. *We read
-# the sign as a misprint*, and turn it. Ours takes the gap from bumper to bumper, and asks for the floor at least
-# (§).
+# the sign as a misprint*, and turn it. With the printed condition there is no teacher. So read a condition by asking:
+# *for which car, and where, is this true?*
 # <!-- claim: not as_printed(target_speed).success.any() and not as_printed(target_speed).accident.any() and
 #   len(as_printed(target_speed).success) == 20 -->
 # <!-- claim: by_rule().rule_reasons.tolist().index(Reason.CHANGE) == 3 -->
@@ -225,7 +194,11 @@ bc.show(figures.when_to_change(drive))
 # ## Round 3: what makes it slow?
 #
 # On each of {{ roads() | , }} roads the rule gets out, without an accident. But it earns only about a third
-# of what 150 s at 15 m/s pay.
+# of what 150 s at 15 m/s pay. (The paper's rule earns {{ PRINTED['rule']['returns'].mean | .1f }}, ours
+# {{ of('rule').scores('returns').mean() | .0f }}, at nearly the same mean speed. The paper does not tell why; ours is
+# at times above 12.5 m/s, where a second pays far more.)
+# <!-- claim: abs(of('rule').scores('speed').mean() - PRINTED['rule']['speed'].mean) < 0.5 and second_pays(15) >
+#   3 * second_pays(12.5) and (by_rule().states[:, EGO, SPEED] > 12.5).mean() > 0.05 -->
 # <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 -->
 # <!-- claim: 0.3 < of('rule').scores('returns').mean() / (150 * second_pays(15)) < 0.37 -->
 #
@@ -237,10 +210,10 @@ bc.show(figures.when_to_change(drive))
 
 # %%
 choices = ["the lane", "the speed", "each of the two", "neither"]
-predict("the_rule.3", "For which job does a sight of 30 m raise the return?", choices)
+predict("the_rule.2", "For which job does a sight of 30 m raise the return?", choices)
 
 # %%
-predicted("the_rule.3")
+predicted("the_rule.2")
 rows = []
 for speed, lane in (200, 200), (200, 30), (30, 200), (30, 30):
     drives = rules.split(speed, lane)
@@ -255,9 +228,7 @@ bc.show(figures.speeds_by_sight(drive, rules.recorded(ROAD, 30)))
 # **Explain.** *On the road that looks empty, the sight for the speed holds the rule back.* A car almost 200 m ahead
 # drives {{ np.median(followed(by_rule(), 11).speed) | .0f }} m/s, so the target is 10.5 m/s. Each time it leaves the
 # sight, the rule accelerates, sees it again, and brakes. With a sight of 30 m the rule closes in at 15 m/s, and the car
-# makes way. (If drivers ignore those behind, the rule then earns {{ ignored(30.0) | .0f }}, not
-# {{ driven(30.0).returns.mean() | .0f }}.)
-# <!-- claim: ignored(30.0) < 0.7 * driven(30.0).returns.mean() -->
+# makes way.
 # <!-- claim: by_rule().rule_reasons[33] == Reason.FREE and 30 < makes_way(recorded(ROAD, 30.0), 4) < 60 -->
 # <!-- claim: np.isclose(closes_in(), 15) -->
 # <!-- claim: len(followed(by_rule(), 11, 33).car) == 22 and (by_rule().rule_speeds[11:33] == 10.5).all() -->
@@ -267,43 +238,123 @@ bc.show(figures.speeds_by_sight(drive, rules.recorded(ROAD, 30)))
 #   (split(200, 30).returns == driven(200.0).returns).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=5
-# Before the table, ask what each job would lose at 30 m. May a teacher rely on others making way? (Among drivers who
-# ignore those behind them a sight of 200 m earns {{ ignored(200.0) | .0f }}.)
+# Before the table, ask what each job would lose at 30 m. May a teacher rely on others making way?
 
 # %% [markdown]
-# ## Round 4: how short may the sight be?
+# ## Round 4: is the quick rule a better teacher?
 #
-# > **Predict.** When a lane change begins, trap 1 is {{ change()[0] | .0f }} to {{ change()[1] | .0f }} m ahead. In the
-# > {{ change()[2] }} s of the change trap 1 is up to {{ slower_in_change() | .0f }} m/s faster than the rule.
-# > Which of four sights, for both jobs, is the shortest without an accident?
-# <!-- claim: change()[1] + change()[2] * slower_in_change() < 30 -->
+# How does your learner count? At γ = 0.8 the first ten seconds of a drive have nine tenths of the weight. So counted,
+# staying is worth {{ discounted(idle(), 0.8) | .2f }}, the slow rule {{ worth(200.0) | .2f }}.
+# <!-- claim: 0.88 < 1 - 0.8**10 < 0.92 and driven(30.0).returns.mean() > 2 * driven(200.0).returns.mean() -->
+#
+# > **Predict.** What is the quick rule worth at γ = 0.8? Look at the last picture.
 
 # %%
-choices = ["100 m", "50 m", "30 m", "20 m"]
-predict("the_rule.4", "Which of these sights is the shortest without an accident?", choices)
+choices = ["less than the slow rule", "more, but less than staying", "more than staying"]
+predict("the_rule.3", "What is the quick rule worth at γ = 0.8?", choices)
+
+# %%
+predicted("the_rule.3")
+weights, rows = 0.8 ** np.arange(150), []
+idle = np.full((1, 150), bc.record(bc.idle_policy, [ROAD])[0].rewards)
+drives = {"staying": idle, "rule, sight 200 m": rules.paid(200), "rule, sight 30 m": rules.paid(30)}
+for name, paid in drives.items():  # what each second pays, on 40 roads
+    ten, all_of_it = (paid[:, :n] @ weights[:n] for n in (10, 150))
+    rows.append([name, f"{paid.sum(1).mean():.0f}", f"{ten.mean():.2f}", f"{all_of_it.mean():.2f}"])
+table(["", "return", "worth of its first 10 s", "worth of all 150 s"], rows)
+
+# %% [markdown]
+# **Explain.** *Still less than staying*, on each of these 40 roads. For the first ten seconds the two drives are one
+# drive: both fall back behind the traps, which pays less than staying. What makes the quick rule quick comes later, and
+# has a tenth of the weight. **To a learner with γ = 0.8 the two teachers are nearly the same teacher.**
+# <!-- claim: (paid(30.0)[:, :10] == paid(200.0)[:, :10]).all() and (paid(30.0)[:, :10] < idle().rewards[0]).all() -->
+# <!-- claim: len(paid(30.0)) == 40 and max(worths(30.0, 0.8).max(), worths(200.0, 0.8).max()) <
+#   discounted(idle(), 0.8) -->
+#
+# This makes lesson [[the_trap]]'s riddle worse: a rule that earns more than twice as much is still worth less than the
+# trap. (Not every teacher is: the planner of lesson [[the_barrier]] is worth more.) How can it help? Lessons
+# [[found_and_kept]] and [[your_teacher]] solve this.
+#
+# We keep {{ DEFAULT.sight.distance | g }} m (§: the paper gives no sight). So in later lessons "earns more than the
+# rule" means more than this **sub-optimal** rule, which *we* made slow.
+
+# %% [markdown] tags=["instructor"] minutes=3
+# Before the table, let them lay a hand over the picture from ten seconds on. Ask which γ would tell the two rules
+# apart.
+
+# %%
+compare_predictions(
+    "the_rule",
+    {
+        1: "faster and near",
+        2: "the speed",
+        3: "more, but less than staying",
+    },
+)
+
+# %% [markdown]
+# ## What you now know
+#
+# 1. The rule falls back until the gap is longer than the safety distance, and then changes lane.
+# 2. With the printed condition it stays behind.
+# 3. It is slow because it sees far: with a sight of 30 m it earns more than twice as much.
+# 4. At γ = 0.8 quick and slow are worth less than staying, because both begin by falling back.
+#
+# **Three questions to think about**
+# - How would you choose the sight for a car that carries people?
+# - The rule reads the true state of the cars, the learner 26 numbers. Can a learner imitate it perfectly?
+# - At γ = 0.85 and 0.9, which of the two rules is worth more than staying?
+#
+# <details><summary>Answers</summary>
+#
+# - It must see further than it takes to slow down: {{ (15 - 5) ** 2 / 2 / DEFAULT.ego.acceleration | .0f }} m from
+#   15 m/s to a car at 5 m/s. And test it on many roads.
+# - No. The rule may depend on a car that the 26 numbers leave out. Then two states look alike, and it acts
+#   differently.
+# - At 0.85 only the quick one ({{ worth(30.0, 0.85) | .2f }} against
+#   {{ 1 / (1 - 0.85) * idle().rewards[0] | .2f }}), at 0.9 both.
+#   <!-- claim: worth(200.0, 0.85) < discounted(idle(), 0.85) < worth(30.0, 0.85) and
+#     discounted(idle(), 0.9) < worth(200.0, 0.9) -->
+#
+# </details>
+#
+# **Read on**: Gipps, *A behavioural car-following model for computer simulation* (1981).
+#
+# The simplest way to use a teacher is to copy it. [This](demonstrations.ipynb) is harder than it looks: a copy goes
+# where its teacher never was.
+#
+# <details><summary>How the tracker steers, and how the car moves</summary>
+#
+# The tracker steers by *model predictive control*: it tries steering sequences on a model of the car, does
+# the *first step* of the best, and begins again. Within
+# {{ DEFAULT.ego.acceleration / 2 | g }} m/s of the target speed, its *dead band*, it keeps its speed.
+#
+# The steering angle $\theta$ sets the angle $\varphi$ between the car's motion and its heading $\psi$; $v$ is
+# its speed, $L$ its length:
+#
+# $$ \dot x = v \cos(\psi + \varphi), \quad \dot y = v \sin(\psi + \varphi), \quad \dot\psi =
+# \frac{2 v}{L} \sin\varphi, \quad \tan\varphi = \tfrac12 \tan\theta $$
+#
+# </details>
+# <!-- claim: np.isclose(formulas.bicycle_step(0.0, 0.0, 0.1, 8.0, 0.0, 0.2, 5.0, 1e-3)[2] - 0.1,
+#   1e-3 * 2 * 8 / 5 * np.sin(np.arctan(np.tan(0.2) / 2))) -->
+
+# %% [markdown] tags=["instructor"] minutes=1
+# **On the board.** Gap against time while the driver falls back; a line at 3 m, where it may change lane.
+#
+# **To discuss.** Is a rule that never crashes in 1,000 drives a good rule? What would you ask about it?
+
+# %% [markdown]
+# ## Further: a crash, and its two causes
+#
+# How short may the sight be?
 
 # %% tags=["hide-input"]
-predicted("the_rule.4")
 sights = [20, 24, 30, 50, 100, 200]
-by_sight = [rules.driven(sight) for sight in sights]
-safe = [s for s in (30, 50, 100) if not rules.driven(s).accident.any()]
-bc.show(figures.against_sight(sights, by_sight))
+bc.show(figures.against_sight(sights, [rules.driven(sight) for sight in sights]))
 
 # %% [markdown]
-# **See.** {{ change()[1] | .0f }} + {{ change()[2] }} · {{ slower_in_change() | .0f }} =
-# {{ change()[1] + change()[2] * slower_in_change() | .0f }} m: 30 m is enough. It is more than enough: only a drive
-# that loses trap 1 in the change's *first* second calls it off, so {{ change()[1] | .0f }} + 1 ·
-# {{ slower_in_change() | .0f }} = {{ change()[1] + slower_in_change() | .0f }} m will do.
-#
-# At 20 m drives crash. {{ waiting().sum() }} others stay behind: most begin several lane changes, and call each off;
-# {{ (begun()[waiting()] == 0).sum() }} begin none, because they lose trap 1 before there is room.
-# <!-- claim: driven(20.0).accident.any() and not (driven(30.0).accident.any() or driven(24.0).accident.any()) -->
-# <!-- claim: driven(24.0).success.all() and lost_and_done(1) == 0 and lost_and_done(2) == 1 -->
-# <!-- claim: (begun()[waiting()] >= 3).mean() > 0.6 and lost_before_room().tolist() ==
-#   np.flatnonzero(waiting() & (begun() == 0)).tolist() -->
-
-# %% [markdown]
-# Play one crash (sight 20 m), and read the rule's reasons.
+# Play a crash at 20 m:
 
 # %%
 bc.recording([rules.crash()], height=360)
@@ -312,36 +363,23 @@ bc.recording([rules.crash()], height=360)
 bc.show(figures.crash_over_time(rules.crash()))
 
 # %% [markdown]
-# **Explain.** Two causes:
+# Two causes:
 #
 # - *First* (4 s): trap 1 is out of sight, so the rule stays in its lane and speeds up (case 1).
-# - *Second* (9 s): trap 1 is in sight again, and the rule changes lane, now {{ faster(crash(), 9) | .2f }} m/s
-#   faster than trap 2. It asks for a gap of {{ crash().rule_distances[9] | .1f }} m, but braking takes
-#   {{ braking_distance(faster(crash(), 9)) | .1f }} m.
+# - *Second* (9 s): it changes lane, now {{ faster(crash(), 9) | .1f }} m/s faster than trap 2. It asks for a gap of
+#   {{ crash().rule_distances[9] | .1f }} m, but braking takes {{ braking_distance(faster(crash(), 9)) | .1f }} m.
 # <!-- claim: crash().rule_distances[9] < gap(crash(), 9) < 5 < braking_distance(3.0) ==
 #   DEFAULT.clock.dt * np.arange(3, 0, -DEFAULT.clock.dt).sum() -->
-# <!-- claim: 3.0 ** 2 / 2 / DEFAULT.ego.acceleration == DEFAULT.rule.t_safe * 3.0 -->
 # <!-- claim: [Reason(r).name for r in crash().rule_reasons[[3, 4, 8, 9]]] ==
 #   ['CHANGE', 'FREE', 'FREE', 'CHANGE'] and crash().accident == 1 -->
+# <!-- claim: called_off()[driven(20.0).accident > 0].all() -->
 #
-# At a sight of 20 m {{ len(fast_changes().gap) }} of 200 drives change lane about 3 m/s faster than trap 2. Which
-# of them crash?
+# The gap decides which of the {{ len(fast_changes().gap) }} drives that change lane so fast crash:
 # <!-- claim: 3 <= fast_changes().faster.min() and fast_changes().faster.max() < 3.1 -->
+# <!-- claim: fast_changes().crashed.sum() == (driven(20.0).accident > 0).sum() -->
 
 # %%
 bc.show(figures.room_to_brake(rules.fast_changes()))
-
-# %% [markdown]
-# **See.** *The gap decides*: of these drives those with less than {{ tells() | .2f }} m crash, and those with more
-# get out. The rule asks for too little. (Braking takes a little less road than {{ braking_distance(3.0) }} m,
-# because the car turns.)
-# <!-- claim: 4.9 < shrinks().min() and shrinks().max() < braking_distance(3.0) and
-#   len(shrinks()) == (~fast_changes().crashed).sum() -->
-# <!-- claim: fast_changes().gap[fast_changes().crashed].max() < tells() <
-#   fast_changes().gap[~fast_changes().crashed].min() -->
-# <!-- claim: fast_changes().crashed.sum() == (driven(20.0).accident > 0).sum() and 4.5 <
-#   fast_changes().gap.min() -->
-# <!-- claim: abs(tells() - braking_distance(3.0)) < 0.15 -->
 
 # %% [markdown]
 # **Repair it.** In `mine`, leave `speed_sight` at 20 and change *one* other number, so that all
@@ -354,93 +392,19 @@ rules.ranked({"the rule": {}, "at a sight of 20 m": {"speed_sight": 20}, "yours"
 # %% [markdown]
 # <details><summary>The answer</summary>
 #
-# Remove the *first* cause, by either of two changes:
+# Two changes remove the *first* cause:
 #
-# - `lane_sight` = 24 or more: it keeps trap 1 in sight, as above.
-# - A *floor of 0.5 m*: the lane change begins earlier, while trap 1 is near. But should trap 2 brake, half a metre
-#   is no room.
+# - `lane_sight` = 24 or more: it keeps trap 1 in sight.
+# - A *floor of 0.5 m*: the lane change begins earlier, while trap 1 is near.
 #
 # A t_safe of 2 s removes only the *second* cause: no drive crashes, but about half stay behind.
 #
 # </details>
-# <!-- claim: all(split(20, far).success.all() and not split(20, far).accident.any()
-#   for far in (24, 25, 30, 50, 100, 200)) -->
-# <!-- claim: split(20, 200).returns.mean() > driven(30.0).returns.mean() -->
+# <!-- claim: all(split(20, far).success.all() and not split(20, far).accident.any() for far in (24, 30, 200)) -->
 # <!-- claim: 0.45 < 1 - driven(20.0, t_safe=2.0).success.mean() < 0.55 -->
-# <!-- claim: lost_in_change(0.5).sum() == 0 < 100 < lost_in_change(3.0).sum() -->
 # <!-- claim: not driven(20.0, t_safe=2.0).accident.any() -->
 # <!-- claim: driven(20.0, floor=0.5).success.all() and not driven(20.0, floor=0.5).accident.any() -->
-#
-# We still keep a sight of {{ DEFAULT.sight.distance | g }} m for both jobs (§). So the teacher is clearly
-# **sub-optimal**. When a later lesson says "earns more than the rule", it means this rule, which *we* made slow: the
-# paper gives no sight.
-# <!-- claim: driven(30.0).returns.mean() > 2 * driven(200.0).returns.mean() -->
-
-# %% [markdown] tags=["instructor"] minutes=4
-# Ask for the cause of the crash before anybody unfolds it. Which number does it point to? Somebody will
-# propose to change two at once. Say why not.
-
-# %%
-compare_predictions(
-    "the_rule",
-    {
-        1: "6 speeds",
-        2: "faster and near",
-        3: "the speed",
-        4: f"{min(safe)} m",
-    },
-)
-
-# %% [markdown]
-# ## What you now know
-#
-# 1. The rule is slower than both traps, and falls back until the gap is longer than the safety distance. Then it
-#    changes lane.
-# 2. With the printed condition it stays behind: there a slower car has no room, however long the gap is.
-# 3. Its target speed counts cars up to {{ DEFAULT.sight.distance | g }} m ahead. With 30 m it earns more than
-#    twice as much.
-# 4. At a sight of 20 m the drives that crash lose trap 1 in a lane change, speed up, and later change lane with too
-#    little room to brake.
-# <!-- claim: called_off()[driven(20.0).accident > 0].all() -->
-#
-# **Three questions to think about**
-# - How would you choose the sight for a car that carries people?
-# - The rule reads the true state of the cars, the learner 26 numbers. Can a learner imitate it perfectly?
-# - With six speeds the rule stays behind. How would it drive with a dead band narrower than 0.4 m/s?
-#
-# **Read on**: the [next lesson](demonstrations.ipynb) learns from this rule's drives. A safety distance that
-# grows with speed: Gipps, *A behavioural car-following model for computer simulation* (1981).
-#
-# <details><summary>How the tracker steers, and how the car moves</summary>
-#
-# The tracker steers by *model predictive control*: it tries steering sequences on a model of the car, does
-# the *first step* of the best, and begins again.
-#
-# The steering angle $\theta$ sets the angle $\varphi$ between the car's motion and its heading $\psi$; $v$ is
-# its speed, $L$ its length:
-#
-# $$ \dot x = v \cos(\psi + \varphi), \quad \dot y = v \sin(\psi + \varphi), \quad \dot\psi =
-# \frac{2 v}{L} \sin\varphi, \quad \tan\varphi = \tfrac12 \tan\theta $$
-#
-# </details>
-# <!-- claim: np.isclose(formulas.bicycle_step(0.0, 0.0, 0.1, 8.0, 0.0, 0.2, 5.0, 1e-3)[2] - 0.1,
-#   1e-3 * 2 * 8 / 5 * np.sin(np.arctan(np.tan(0.2) / 2))) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
-# *Model answers to the three questions:*
-#
-# - **The sight.** Not from this figure. Zero accidents on 200 roads are compatible with a rate of up to
-#   {{ 100 * (1 - 0.05 ** (1 / 200)) | .1f }} % (95 % confidence). Compute first how far it must see: at
-#   {{ DEFAULT.ego.acceleration | g }} m/s² it needs {{ (15 - 5) ** 2 / 2 / DEFAULT.ego.acceleration | .0f }}
-#   m to slow down from 15 m/s to a car at 5 m/s without touching it. Take more than that, and test it on as
-#   many roads as the rate demands that you want to rule out.
-# - **Imitation.** Not perfectly. The rule may depend on a car that the observation leaves out (a fifth one
-#   within its sight) and on the number of its lane, which has to be read off y. Where two states give one
-#   observation and the rule acts differently, a learner can at best learn how often it does which.
-# - **Six speeds.** The target is 9.6 m/s. The car brakes to 9 m/s, accelerates to 10 m/s, and so on. On
-#   average it is then slower than the traps, and the gap grows.
-
-# %% [markdown] tags=["instructor"]
-# **On the board.** Gap against time while the driver falls back; a line at 3 m, where it may change lane.
-#
-# **To discuss.** Is a rule that never crashes in 1,000 drives a good rule? What would you ask about it?
+# Ask for the cause of the crash before anybody unfolds it. Which number does it point to? Somebody will
+# propose to change two at once. Say why not. Is a floor of half a metre room enough, should trap 2 brake?

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.the_second_trap import (
-    explorable,
+    explorable,  # noqa: F401 (the text names it)
     ppo_kinds,
     second_trap,
 )
@@ -99,20 +99,6 @@ def drives_of_ten(kind: str, roads: int = len(second_trap.TWELVE)) -> list:
 
 
 @cache
-def falls(lam: float, left: int) -> float:
-    """The share of the seconds in which the ten of PPO alone begin to fall back that have A > 0.
-
-    left: decisions until the data end.
-    """
-    return float((second_trap.falling_back(drives_of_ten("alone"), lam, left) > 0).mean())
-
-
-def falls_anywhere(lam: float) -> float:
-    """The same on average over all places in the data of a road."""
-    return float(np.mean([falls(lam, left) for left in range(1, explorable.DATA + 1)]))
-
-
-@cache
 def steady(speed: float) -> float:
     """The mean worth, on the twelve roads, of `careful`'s way out and then a steady speed (m/s) in the free lane."""
 
@@ -123,21 +109,6 @@ def steady(speed: float) -> float:
     return float(
         np.mean([discounted(each, ppo_kinds.GAMMA) for each in record(teacher_policy(rule), second_trap.TWELVE)])
     )
-
-
-def steady_worth() -> str:
-    """The same of six speeds, as Markdown."""
-    speeds = range(11, 17)
-    return markdown(["steady speed, m/s", *map(str, speeds)], [["worth", *(f"{steady(each):.0f}" for each in speeds)]])
-
-
-def in_free_lane(driver: str) -> float:
-    """The mean speed (m/s) in the free lane of "the rule", or of the ten agents of a kind, on three roads."""
-    by_rule = driver == "the rule"
-    drives = record(rule_policy(DEFAULT), second_trap.TWELVE[:3]) if by_rule else drives_of_ten(driver, 3)
-    steps = DEFAULT.clock.steps
-    free = [each.states[steps::steps, EGO, LANE] == 0 for each in drives]
-    return float(np.concatenate([second_trap.speeds(each)[at] for each, at in zip(drives, free, strict=True)]).mean())
 
 
 def cloned_escape(teacher: str) -> int:

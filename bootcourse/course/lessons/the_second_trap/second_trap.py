@@ -1,19 +1,16 @@
 """Roads with another reward, for the lesson on the second trap: `Repaid` hands each decision's reward to a function."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 
 from bootcourse.episodes.record import Rollout
-from bootcourse.learn.settings import settings_for
-from bootcourse.road.formulas import speed_reward
 from bootcourse.road.state import EGO, SPEED, Y
 from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
 
 Pay = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]  # see `Repaid`
 TWELVE = range(10, 22)  # roads
-AFTER = 40  # seconds of a drive that must follow a second whose advantage is taken
 PER_LANE = 20.0  # potential of a lane further left
 
 
@@ -39,22 +36,6 @@ def speeds(drive: Rollout) -> np.ndarray:
     """The ego's speed (m/s) after each decision, (decisions,)."""
     steps = drive.scenario.clock.steps
     return drive.states[steps::steps, EGO, SPEED]
-
-
-def falling_back(drives: Sequence[Rollout], lam: float, left: int) -> np.ndarray:
-    """The advantage of each second in which a drive falls below the traps' speed, if V has only seen that speed.
-
-    As in the example of the lesson: of r_v alone, with PPO's γ. left: decisions until the data end, this one counted.
-    Seconds that fewer than `AFTER` follow are left out.
-    """
-    found, mean, decay = [], DEFAULT.traps.speed, settings_for("ppo").gamma * lam
-    for drive in drives:
-        driven = speeds(drive)
-        surprises = np.array([speed_reward(v) for v in driven]) - speed_reward(mean)
-        turns = 1 + np.flatnonzero((driven[1:] < mean) & (driven[:-1] >= mean))
-        later = [surprises[t : t + left] for t in turns if len(driven) - t > AFTER]
-        found += [each @ decay ** np.arange(len(each)) for each in later]
-    return np.array(found)
 
 
 def left_of(cars: np.ndarray) -> np.ndarray:

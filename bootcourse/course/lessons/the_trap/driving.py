@@ -18,7 +18,7 @@ from bootcourse.road.vector_env import TrapVectorEnv
 from bootcourse.scenario import DEFAULT
 
 ACCELERATE = 7  # "accelerate straight"
-STAYS, ALONE, HELPED = "a plain agent that stays", "the plain agent that escapes", "an agent with help"
+ALONE, HELPED = "the plain agent that escapes", "an agent with help"
 
 
 def all_plans() -> np.ndarray:
@@ -71,17 +71,16 @@ class Worth(NamedTuple):
 def worths(reward: Callable, plan: Sequence[str | tuple[str, int]], gamma: float = 0.8) -> dict[str, Worth]:
     """What some drivers' ways are worth on the first 100 held-out roads.
 
-    reward: as in `paid`; plan: what the blind plan does, in words. Of the agents that ship, the first of plain SAC
-    stays, the fourth escapes, and so does the third with the rule's help, which the γ panel shows.
+    reward: as in `paid`; plan: what the blind plan does, in words. Of the agents that ship, the fourth of plain
+    SAC escapes, and so does the third with the rule's help, which the γ panel shows. Staying is doing nothing.
     """
     alone, helped = shipped_agents("sac"), shipped_agents("bootstrapped")
     ways = {
-        "doing nothing": idle_policy,
+        "staying": idle_policy,
         "the rule's way": rule_policy(DEFAULT),
         "the blind plan": plan_policy(plan),
         ALONE: alone[3].as_policy(),
         HELPED: helped[2].as_policy(),
-        STAYS: alone[0].as_policy(),
     }
     return {name: worth(policy, reward, gamma) for name, policy in ways.items()}
 

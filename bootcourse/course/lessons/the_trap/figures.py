@@ -90,18 +90,17 @@ def nine_actions(decoded: np.ndarray, seconds: int = 2, scenario: Scenario = DEF
 
 
 def worth_with_crashes(worths: Mapping[str, Worth]) -> Figure:
-    """What each way is worth at γ = 0.8, crashes included and if they paid 0, against doing nothing.
+    """What each way is worth at γ = 0.8, crashes included and if they paid 0, in order of worth.
 
-    worths: the first driver does nothing; the others follow in the order of `driving.worths`.
+    worths: of `driving.worths`.
     """
-    (_, nothing), *ways = worths.items()
-    title = "Crashes cost the blind plan most of its worth, and the agents little of theirs"
-    plain = style("sac").colour
-    colours = [style("rule").colour, INK, plain, style("bootstrapped").colour, plain]
+    title = "The blind plan's crashes cost most of its worth, the agents' crashes little of theirs"
+    colours = style("idle").colour, style("rule").colour, INK, style("sac").colour, style("bootstrapped").colour
+    ways = sorted(zip(worths.items(), colours, strict=True), key=lambda each: each[0][1].worth)
     high, left, top = 0.42 * len(ways), 2.1, 1.15
     figure, says = new_figure(top + high + 0.6), []
     ax = axes_at(figure, left, top, 2.9, high)
-    for row, ((name, way), colour) in enumerate(zip(ways, colours, strict=True)):
+    for row, ((name, way), colour) in enumerate(ways):
         ax.barh(row, way.unpaid, 0.6, color="white", edgecolor=colour, linewidth=1.2)
         ax.barh(row, way.worth, 0.6, color=colour, edgecolor=colour, linewidth=1.2)
         crashes = f"{100 * way.crashes:.0f}; first in second {way.seconds.min()}" if way.crashes else "none"
@@ -110,18 +109,13 @@ def worth_with_crashes(worths: Mapping[str, Worth]) -> Figure:
         says.append(f"{name} {way.worth:.2f}, if crashes paid 0 {way.unpaid:.2f}, crashes: {crashes}")
     for x, words in ((1.42, "worth"), (1.62, "crashes on 100 roads")):
         ax.text(x, -0.72, words, fontsize=TEXT, color=QUIET, va="bottom")
-    name_rows(ax, [name for name, _ in ways], "worth at γ = 0.8, the mean of 100 roads")
-    row, way = max(enumerate(way for _, way in ways), key=lambda each: each[1].unpaid - each[1].worth)
-    ax.text(
-        (way.worth + nothing.worth) / 2, row, "if crashes paid 0", fontsize=SMALL, color=INK, ha="center", va="center"
-    )
-    ax.axvline(nothing.worth, color=INK, linestyle="--", linewidth=1.4)
-    words = f"doing nothing: {nothing.worth:.2f}"
-    ax.text(nothing.worth, -0.72, words, fontsize=TEXT, color=INK, ha="center", va="bottom")
-    ax.axvline(ways[-1][1].worth, color=plain, linestyle=":", linewidth=1.2)
+    name_rows(ax, [name for (name, _), _ in ways], "worth at γ = 0.8, the mean of 100 roads")
+    row, way = max(enumerate(way for (_, way), _ in ways), key=lambda each: each[1].unpaid - each[1].worth)
+    middle = (way.worth + way.unpaid) / 2
+    ax.text(middle, row, "if crashes paid 0", fontsize=SMALL, color=INK, ha="center", va="center")
+    ax.axvline(worths["staying"].worth, color=colours[0], linestyle="--", linewidth=1.2, zorder=0)
     ax.set(xlim=(0, 1.36), xticks=(0, 0.5, 1))
-    alt = f"A bar for what each way is worth; doing nothing is worth {nothing.worth:.2f}. {'; '.join(says)}."
-    return finish(figure, title, alt)
+    return finish(figure, title, f"A bar for what each way is worth, the least first. {'; '.join(says)}.")
 
 
 def early_crashes(gaps: np.ndarray, early: np.ndarray) -> Figure:

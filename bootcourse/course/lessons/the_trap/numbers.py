@@ -5,10 +5,9 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons.the_barrier.explorable import by_plan
-from bootcourse.course.lessons.the_trap import driving
+from bootcourse.course.lessons.the_trap import driving, time_step  # noqa: F401 (time_step: for the expressions)
 from bootcourse.course.lessons.the_trap.driving import ALONE as ALONE
 from bootcourse.course.lessons.the_trap.driving import HELPED as HELPED
-from bootcourse.course.lessons.the_trap.driving import STAYS as STAYS
 from bootcourse.course.lessons.the_trap.driving import all_plans
 from bootcourse.course.lessons.the_trap.exercises import bearable_risk, reward
 from bootcourse.course.lessons.the_trap.figures import RIGHT_FIRST
@@ -18,10 +17,14 @@ from bootcourse.episodes.evaluate import Episodes, drive_episodes, held_out_seed
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.episodes.words import overtaken as overtaken
-from bootcourse.policies import PlanPolicy, plan_policy, rule_policy
-from bootcourse.road.state import EGO, SPEED, TRAP_1, X
+from bootcourse.policies import PlanPolicy, plan_policy
+from bootcourse.research.paper import PRINTED
+from bootcourse.road.state import EGO, SPEED
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
+from bootcourse.statistics import HAD as HAD
+from bootcourse.statistics import IN_A_ROW as IN_A_ROW
+from bootcourse.statistics import LOST as LOST
 from tools.course.known import by_rule, discounted, idle, shipped_results
 
 PLAN = [*RIGHT_FIRST, ("accelerate straight", 5)]  # it looks at nothing
@@ -81,19 +84,6 @@ def pays_from() -> float:
 
 
 @cache
-def rule_pays(gamma: float) -> float:
-    """On which share of the last figure's 100 roads the rule's way out is worth more than staying."""
-    staying = discounted(idle(), gamma)  # the same on all roads
-    return float(np.mean([discounted(drive, gamma) > staying for drive in rule_on_100()]))
-
-
-@cache
-def rule_on_100() -> list[Rollout]:
-    """The rule on the first 100 held-out roads."""
-    return record(rule_policy(DEFAULT), held_out_seeds(1, 100))
-
-
-@cache
 def at_random() -> Episodes:
     """500 drives whose actions are drawn at random, as an agent's first ones are."""
     actions = np.random.default_rng(0).integers(0, 9, (30, 500))
@@ -109,12 +99,6 @@ def agent_on_ten(agent: int) -> list[Rollout]:
 def first_seconds(agent: int) -> np.ndarray:
     """Its speed (m/s) there at the start and after each of the first nine seconds, (10, 10)."""
     return np.array([drive.states[:20:2, EGO, SPEED] for drive in agent_on_ten(agent)])
-
-
-def closes_up() -> float:
-    """By how much (m) the agent that stays comes closer to trap 1 there, on average."""
-    gaps = [drive.states[:, TRAP_1, X] - drive.states[:, EGO, X] for drive in agent_on_ten(0)]
-    return float(np.mean([gap[0] - gap[-1] for gap in gaps]))
 
 
 @cache
@@ -148,6 +132,11 @@ def borne(gamma: float, way: Rollout, accident: float = DEFAULT.reward.accident,
 def in_steps(tau: float, step: float) -> float:
     """On which share of those roads the plan gets out unhurt, by the traffic's time constant and the time step (s)."""
     return unhurt(PLAN, tau, step)
+
+
+def printed(method: str) -> str:
+    """The paper's success, %, and return of a method, as two cells of a table."""
+    return f"{PRINTED[method]['success'].mean} | {PRINTED[method]['returns'].mean:.2f}"
 
 
 def staying() -> np.ndarray:

@@ -14,11 +14,11 @@
 # # The trap
 #
 # **What you will be able to do**
-# - write a planner of a few lines that finds a way out;
-# - say what a driver is paid for, and watch a program learn to drive;
+# - write a planner that finds a way out;
+# - say what a driver is paid for;
 # - work out when an attempt to leave pays.
 #
-# **Time** 55 minutes. **It builds on** the drive of lesson [[start]] and on Python.
+# **Time** 55 minutes. **It builds on** lesson [[start]] and Python.
 
 # %%
 import bootcourse as bc
@@ -104,7 +104,7 @@ bc.show(figures.nine_actions(decoded, seconds=2))
 # <!-- claim: len(KINDS) == 3 -->
 #
 # A **plan** is a list of actions. Take the {{ 3 ** 8 | , }} plans that keep the speed and steer left, straight or right
-# in each of eight seconds. All then accelerate for five, and go straight on until the episode ends.
+# in each of eight seconds. All then accelerate for five, and go straight on.
 #
 # > **Predict.** Each second of steering turns the car by the same angle, and "straight" keeps its direction.
 # > {{ straight().sum() | , }} of the plans steer left as often as right.
@@ -115,8 +115,8 @@ choices = ["none", "about 100", "about 1,000", "most of them"]
 predict("the_trap.1", "How many of the other 5,454 plans get out unhurt on road 7?", choices)
 
 # %% [markdown]
-# **Exercise (10 min, ●●○).** A **planner** is a program that tries out the future before it acts. Ours tries its
-# plans on the road itself. Draw plans at random, let them drive, and return one that gets out unhurt.
+# **Exercise (10 min, ●●○).** A **planner** tries out the future before it acts. Ours tries its plans on the road
+# itself. Draw plans at random, let them drive, and return one that gets out unhurt.
 
 
 # %%
@@ -155,13 +155,12 @@ title = "This plan steers left once too often"
 bc.show(bc.top_view_over_time(drive, times=[4, 6, 8.5], title=title))
 
 # %% [markdown]
-# **Explain.** You need not brake here: drive the planner's plan in the world above, and then accelerate. But few
-# plans work. A car that ends crooked leaves the road, as here, or hits another car before.
+# **Explain.** You need not brake, but few plans work: a car that steers left more often than right ends crooked.
 # <!-- claim: not unhurt_plans(7)[~straight()].any() and set(all_drives(7).accident[~straight()]) == {1, 2} -->
 # <!-- claim: bool(all_drives(7).accident[(all_plans() == [3, 5, 3, 4, 3, 5, 4, 4]).all(axis=1)][0] == 2) -->
 #
-# On road {{ ROAD }} only {{ unhurt_plans(ROAD).sum() }} plans get out unhurt. We take the best of them on
-# {{ roads() | , }} other roads: the **blind plan**, which looks at nothing.
+# On road {{ ROAD }} only {{ unhurt_plans(ROAD).sum() }} plans get out unhurt. We drive the best of them, the **blind
+# plan**, on {{ roads() | , }} other roads. It looks at nothing.
 # <!-- claim: best_on_others() == [5, 3, 3, 3, 3, 5, 5, 5] -->
 # <!-- claim: unhurt_plans(ROAD)[(all_plans() == [5, 3, 3, 3, 3, 5, 5, 5]).all(axis=1)].all() and ROAD not in
 #   held_out_seeds(1, roads()) -->
@@ -177,10 +176,11 @@ print(f"It crashes on {np.mean(hurt):.0%}, most often in second 5: on {np.mean(e
 bc.show(figures.early_crashes(driving.trap_2_starts(), early))
 
 # %% [markdown]
-# **See.** Where trap 2 starts within 4.6 m the blind plan almost always crashes. The rule, which looks, crashes on none
-# of these roads, but needs {{ overtaken(by_rule()) | .0f }} s on road {{ ROAD }}.
-# <!-- claim: blind_plan().accident[driving.trap_2_starts() < 4.6].astype(bool).mean() > 0.95 and
-#   (driving.trap_2_starts() < 4.6).sum() > 100 -->
+# **See.** In second 5 it crashes only where trap 2 starts close. The rule, which looks, crashes on none of these roads,
+# but needs {{ overtaken(by_rule()) | .0f }} s on road {{ ROAD }}.
+#
+# Two ways out, then: a quick one that is dangerous early, and a slow one that is safe. Which is better depends on what
+# you are paid, and how you count what comes later.
 # <!-- claim: 0.2 < np.mean(blind_plan().accident > 0) < 0.3 and of('rule').episodes('accident').sum() == 0 -->
 # <!-- claim: set(by_plan().lasted[crashed_early()]) == {5} and crashed_early().sum() >
 #   by_plan().accident.sum() / 2 -->
@@ -188,12 +188,7 @@ bc.show(figures.early_crashes(driving.trap_2_starts(), early))
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Collect the guesses before anybody runs the planner. If nobody is sure, let them drive "keep left" once, and then
-# straight. If somebody asks about the fold at the end: a heading's error is multiplied in each step by 1 − 0.5 s / τ,
-# which is {{ 1 - 0.5 / 0.2 | .1f }} for the quicker traffic's time constant τ of {{ time_step.HIGHWAY_ENVS }} s. So
-# does gradient descent diverge if the learning rate times the curvature is above 2. The report's page of claims says
-# which of the course's results we computed again at 0.25 s.
-# <!-- claim: abs(1 - 1.99) < abs(1 - 2) == 1 < abs(1 - 2.01) -->
-# <!-- claim: time_step.HIGHWAY_ENVS == 0.2 and DEFAULT.clock.dt == 0.5 -->
+# straight.
 
 # %% [markdown]
 # ## Round 2: what are you paid for?
@@ -214,7 +209,7 @@ bc.show(figures.reward_curve())
 #   metres away;
 # - $r_\theta = -|\sin\theta|$ charges for steering by an angle $\theta$.
 #
-# > **Predict.** You do nothing: you drive at 10 m/s in the middle of the lane, without steering. Use pen and paper.
+# > **Predict.** You do nothing: you drive at 10 m/s in the middle of the lane, without steering.
 
 # %%
 predict("the_trap.2", "What does one second of doing nothing earn?", unit="")
@@ -257,8 +252,9 @@ print(f"doing nothing, 150 s: {driving.paid(pay, idle).sum():.1f}")
 print(f"the rule's way out, 150 s: {driving.paid(pay, by_rule).sum():.1f}")
 
 # %% [markdown]
-# **Explain.** The rule's way out returns about twice as much as doing nothing, which keeps you behind trap 1. An early
-# crash returns about −10.
+# **Explain.** Behind trap 1 a second at 10 m/s pays little; on the free road one at 15 m/s pays six times as much. So
+# the rule's way out returns about twice as much as doing nothing, although it gets out late.
+# <!-- claim: 5.9 < (1.5 * speed_reward(15) + 0.05) / (1.5 * speed_reward(10) + 0.05) < 6.4 -->
 # <!-- claim: -10 <= 4 * idle().rewards[0] + DEFAULT.reward.accident < -9 -->
 # <!-- claim: 1.8 < by_rule().rewards.sum() / idle().rewards.sum() < 2.2 -->
 # <!-- claim: np.ptp(idle().rewards) < 1e-9 and idle().rewards.min() > 0 -->
@@ -282,8 +278,8 @@ bc.show(diagrams.agent_loop(observation="26 numbers", action="one of nine", rewa
 # The agent's **policy**, π ("pi"), gives each action a probability. Each step of learning, an **update**,
 # changes these probabilities.
 #
-# Four agents now learn for 10 to 20 seconds by *soft actor-critic* (SAC). Two learn alone (*plain SAC*). Two
-# have the rule's help (*bootstrapped SAC*): they also learn from drives of the rule and are pulled towards its actions.
+# Four agents now learn by *soft actor-critic* (SAC), two alone (*plain SAC*) and two with the rule's help
+# (*bootstrapped SAC*): these also learn from its drives, and are pulled towards its actions.
 
 # %% tags=["nbval-ignore-output"]
 agents = bc.with_seeds(bc.settings_for("sac"), 2)
@@ -294,22 +290,19 @@ learned = training.run(progress=False, callback=live, updates=1500)
 live.show(training)
 
 # %% [markdown]
-# **See.** *Success* counts drives that get out, hurt or unhurt. The returns begin near −10: most of the first drives
-# leave the road, after about four seconds. With the rule's help success rises. But most of these successes end in a
-# crash after the pass, and the return stays below that of doing nothing.
+# **See.** The returns begin near −10, because most of the first drives leave the road. With the rule's help *success*
+# rises: drives that get out, hurt or unhurt. Most of these crash after the pass.
 # <!-- claim: (at_random().accident == 2).mean() > 0.65 and 35 < np.median(at_random().distance) < 50 and
 #   -10 < at_random().returns.mean() < -9 -->
 #
 # In our study {{ len(of('sac')) }} agents of each kind, each with its own **seed** (its source of chance), learned
 # for longer. Then each drove {{ roads() | , }} **held-out** roads, not used in training. It **escapes** if it gets
-# out on at least {{ 100 * ESCAPES | .0f }} % of these, hurt or unhurt.
+# out on at least {{ 100 * ESCAPES | .0f }} % of these.
 # <!-- claim: len(of('sac')) == len(of('bootstrapped')) -->
 # <!-- claim: of('sac').curves['success'].shape == of('bootstrapped').curves['success'].shape -->
 #
-# > **Predict.** A plain agent begins with random actions and learns from the rewards that follow. An early crash
-# > returns about −10, doing nothing {{ idle().rewards.sum() | .0f }}, the rule's way
-# > {{ by_rule().rewards.sum() | .0f }}. Of the {{ 3 ** 8 | , }} plans {{ unhurt_plans(ROAD).sum() }} get out unhurt on
-# > road {{ ROAD }}.
+# > **Predict.** A plain agent begins with random actions. An early crash returns about −10, doing nothing
+# > {{ idle().rewards.sum() | .0f }}, the rule's way {{ by_rule().rewards.sum() | .0f }}. Few plans get out.
 
 # %%
 returns = ["about −10", "about 23", "about 45", "above 100"]
@@ -321,9 +314,8 @@ study = bc.shipped_results()
 bc.show(figures.what_they_learned(study, blind))
 
 # %% [markdown]
-# **See.** Eight of plain SAC's ten agents stay behind trap 1. One escapes, and crashes on
-# {{ 100 * alone_out()[0] | .0f }} % of the roads, mostly after the pass: to escape it need only end ahead of trap 1.
-# With the rule's help {{ escaped('bootstrapped') }} escape, and these earn more than the rule and the blind plan.
+# **See.** Eight of plain SAC's ten agents stay behind trap 1. One escapes, and often crashes after the pass. With the
+# rule's help {{ escaped('bootstrapped') }} escape, and these earn more than the rule and the blind plan.
 # <!-- claim: len(alone_out()) == 1 and alone_out()[0] > 2 * (1 - ESCAPES) -->
 # <!-- claim: escaped('sac') == 1 and staying().sum() == 8 and (abs(of('sac').scores('returns') -
 #   idle().rewards.sum()) < 3)[staying()].all() -->
@@ -332,6 +324,24 @@ bc.show(figures.what_they_learned(study, blind))
 #   crash_on_most().sum() and crash_on_most().sum() == 3 and escaped('bootstrapped') == 7 -->
 # <!-- claim: of('bootstrapped').scores('returns')[of('bootstrapped').scores('success') >=
 #   ESCAPES].min() > max(blind_plan().returns.mean(), of('rule').episodes('returns').mean()) -->
+
+# %% [markdown]
+# <details><summary>What the paper reports</summary>
+#
+# | | success, % | return |
+# |---|---|---|
+# | plain SAC | {{ printed('sac') }} |
+# | pulled towards the rule | {{ printed('soft') }} |
+# | with the rule's drives | {{ printed('demos') }} |
+# | bootstrapped SAC: both | {{ printed('bootstrapped') }} |
+# | CQL | {{ printed('cql') }} |
+# | GAIL | {{ printed('gail') }} |
+# | the rule | {{ printed('rule') }} |
+#
+# Our rule returns {{ of('rule').episodes('returns').mean() | .0f }}. Keep this table: lesson [[your_own_problem]]
+# checks it.
+#
+# </details>
 
 # %% [markdown] tags=["instructor"] minutes=5
 # Ask what is missing from the {{ DEFAULT.observation_size }} numbers before they read on: how long ago a car
@@ -348,7 +358,7 @@ bc.show(figures.what_they_learned(study, blind))
 # <!-- claim: SETTINGS.gamma == 0.8 -->
 #
 # > **Predict.** On road {{ ROAD }} the rule drives at 8 to 10 m/s until second 33, and then at 11 to
-# > 15 m/s. Its return is about twice that of staying.
+# > 15 m/s.
 # <!-- claim: (lambda v: 8 == v[:34].min() < v[:34].max() == 10 and 11 == v[34:].min() < v[34:].max()
 #   == 15)(by_rule().states[::2, EGO, SPEED].round(6)) -->
 
@@ -365,9 +375,14 @@ explorable.discount()
 
 # %% [markdown]
 # **See.** The rule's way out costs now and pays later. On road {{ ROAD }} it is worth more than staying only from
-# γ = {{ pays_from() }} on. That depends on the road: at γ = 0.9 it is on {{ 100 * rule_pays(0.9) | .0f }} of 100 roads,
-# at 0.97 on {{ 100 * rule_pays(0.97) | .0f }}. The quicker ways out are worth more at γ = 0.8, too. But what if
-# they crash?
+# γ = {{ pays_from() }} on.
+#
+# So we have a **riddle**. The course's teacher shows a way that is worth *less than the trap*, in the count of the
+# learner that it shall teach. A learner that copied it would do better to stay. Yet of ten agents with its help seven
+# escape, and earn more than the rule. Keep this riddle: lesson [[the_rule]] makes it worse, and lessons
+# [[found_and_kept]] and [[your_teacher]] solve it.
+#
+# The quicker ways out are worth more than staying. But what if they crash?
 # <!-- claim: min(discounted(on_ten(), 0.8), helped_on_ten()) > discounted(idle(), 0.8) > discounted(by_rule(), 0.8) -->
 # <!-- claim: all(discounted(by_rule(), percent / 100) < discounted(idle(), percent / 100) for percent
 #   in range(50, round(100 * pays_from()))) -->
@@ -386,8 +401,7 @@ def bearable_risk(stay, out, crash):
 check.bearable_risk(bearable_risk)
 
 # %% [markdown]
-# How often could the blind plan crash in second 5, and still be worth as much as staying? Your function answers from
-# road {{ ROAD }}'s drives.
+# How often may the blind plan crash in second 5?
 
 # %%
 bearable = own_code.yours_or_ours("bearable_risk", doing="Judging attempts")
@@ -405,32 +419,25 @@ print(f"It could crash in second 5 on {risk:.0%} of the roads, and does on {np.m
 bc.show(figures.worth_with_crashes(driving.worths(pay, blind_plan)))
 
 # %% [markdown]
-# **Explain.** **When a crash comes can matter more than how often.** The blind plan crashes on fewer of these roads
-# than the plain agent that escapes, but mostly in second 5, where −10 counts −10 · 0.8⁴ = −{{ 10 * 0.8**4 | .1f }}.
-# The agent's first crash comes in second {{ worths()[ALONE].seconds.min() }}, where it counts
-# −{{ 10 * 0.8 ** (worths()[ALONE].seconds.min() - 1) | .2f }}. So its way is worth more than staying, and the blind
-# plan's is not.
-#
-# The plain agent that stays is worth more than doing nothing, {{ worths()[STAYS].worth | .2f }}: it closes up to trap 1
-# at 11 m/s. Against this the blind plan could crash in second 5 on {{ 100 * borne(0.8, on_ten(),
-# stay=worths()[STAYS].worth) | .0f }} % of the roads only.
-# <!-- claim: (first_seconds(0)[:, 1:7] > 10.4).mean() > 0.9 and closes_up() > 5 -->
+# **Explain.** **When a crash comes can matter more than how often.** The blind plan crashes less often than the plain
+# agent that escapes, but mostly in second 5, where −10 still counts −10 · 0.8⁴ = −{{ 10 * 0.8**4 | .1f }}. The agent
+# crashes after second {{ worths()[ALONE].seconds.min() - 1 }}, where discounting leaves almost nothing of it. So its
+# way is worth more than staying, and the blind plan's is not.
 # <!-- claim: worths()['the blind plan'].crashes < worths()[ALONE].crashes and worths()[ALONE].seconds.min() > 20 -->
 # <!-- claim: worths()[ALONE].unpaid - worths()[ALONE].worth < 0.01 and
 #   worths()['the blind plan'].unpaid - worths()['the blind plan'].worth > 0.5 -->
 # <!-- claim: worths()['the blind plan'].seconds.min() == 5 and np.median(worths()['the blind plan'].seconds) == 5 -->
-# <!-- claim: worths()['the blind plan'].worth < worths()['doing nothing'].worth < worths()['the blind plan'].unpaid -->
+# <!-- claim: worths()['the blind plan'].worth < worths()['staying'].worth < worths()['the blind plan'].unpaid -->
 # <!-- claim: borne(0.8, on_ten()) < crashed_early().mean() / 3 -->
 # <!-- claim: crashed_early().mean() == np.mean((blind_plan().accident > 0) & (blind_plan().distance < 50)) -->
 #
-# So leaving need not be the worse choice at γ = {{ SETTINGS.gamma }}: **a better way is worth more there, too**. An
-# agent without help has found one: it brakes to 8 m/s, as the rule does, but then accelerates at once. Did the others
-# not find it, or not learn from it? Lesson [[values]] asks this on a small road, and lesson [[the_barrier]] on ours.
+# So **a better way is worth more than staying at γ = {{ SETTINGS.gamma }}, too**. The agent that found one brakes to
+# 8 m/s, as the rule does, but then accelerates at once.
 # <!-- claim: (first_seconds(3)[:, :9].round() == [10, 9, 8, 9, 10, 11, 12, 13, 14]).all() -->
-# <!-- claim: min(worths()[ALONE].worth, worths()[HELPED].worth) > 1.2 * worths()[STAYS].worth >
-#   1.2 * max(worths()['doing nothing'].worth, worths()["the rule's way"].worth) -->
-# <!-- claim: worths()[STAYS].crashes == 0 == of('sac').scores('success')[0] and alone_out().tolist() ==
-#   [of('sac').scores('accident')[3]] and of('bootstrapped').scores('success')[2] >= ESCAPES -->
+# <!-- claim: min(worths()[ALONE].worth, worths()[HELPED].worth) > 1.4 * worths()['staying'].worth -->
+# <!-- claim: worths()['staying'].worth > 1.2 * worths()["the rule's way"].worth -->
+# <!-- claim: alone_out().tolist() == [of('sac').scores('accident')[3]] and
+#   of('bootstrapped').scores('success')[2] >= ESCAPES -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Let them argue about the exercise before the picture is shown: "the agent is stupid" is a common first
@@ -446,22 +453,41 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. One can get out without braking: the blind plan does on most of the roads, but often crashes.
-# 2. A second pays for speed. Doing nothing returns about {{ idle().rewards.sum() | .0f }}, an early crash about −10.
-# 3. An agent learns from the rewards that follow its actions. Of ten agents alone {{ escaped('sac') }} escapes, of
-#    ten with the rule's help {{ escaped('bootstrapped') }}.
-# 4. At γ = {{ SETTINGS.gamma }} what comes late counts little: the rule's slow way out is worth less than staying.
-# 5. There an early crash costs much, a late one next to nothing, and quicker ways can be worth more than staying.
+# 1. A plan that looks at nothing can get out without braking, but often crashes.
+# 2. A second pays for speed. Doing nothing returns about {{ idle().rewards.sum() | .0f }}.
+# 3. Of ten agents alone {{ escaped('sac') }} escapes, of ten with help {{ escaped('bootstrapped') }}.
+# 4. At γ = {{ SETTINGS.gamma }} an early crash costs much, a late one next to nothing.
+# 5. *The riddle*: there the rule's way out is worth less than the trap, yet its help leads agents out.
+#
+# <details><summary>Words that later lessons use</summary>
+#
+# - A drive **gets out** (*success*) if it ends ahead of trap 1, and **unhurt** if without an accident.
+# - An agent **escapes** if, after training, it gets out on at least {{ 100 * ESCAPES | .0f }} % of the held-out roads.
+# - **Found**: more than half of {{ IN_A_ROW }} training drives in a row got out. **Lost**: first {{ HAD }} of
+#   {{ IN_A_ROW }}, later {{ LOST }} or fewer. **Kept**: found, and escapes.
+# - **Return**: the sum of a drive's rewards. **Worth**: their discounted sum.
+#
+# </details>
 #
 # **Three questions to think about**
 # - At γ = 1, which of Round 4's ways are worth more than staying, crashes included?
-# - If an accident paid −1, how often could the blind plan crash in second 5? What else would change?
+# - If an accident paid −1, how often could the blind plan crash in second 5?
 # - An agent's first attempts to get out all end in a crash. What can it learn from them, and what not?
 #
-# **Read on**: [the next lesson](values.ipynb) says what a state is worth. Sutton and Barto, *Reinforcement
-# Learning* (2018), chapter 3. Leurent, *highway-env* (2018).
-
-# %% [markdown]
+# <details><summary>Answers</summary>
+#
+# - All: the worth is then the return. The rule's is {{ of('rule').episodes('returns').mean() | .0f }}, the blind plan's
+#   {{ blind_plan().returns.mean() | .0f }}.
+#   <!-- claim: min(of('rule').episodes('returns').mean(), blind_plan().returns.mean(), of('sac').scores('returns')[3],
+#   of('bootstrapped').scores('returns')[2]) > 1.5 * max(idle().rewards.sum(), of('sac').scores('returns')[0]) -->
+# - On {{ 100 * borne(0.8, on_ten(), -1) | .0f }} %, and so more often than it does.
+#   <!-- claim: borne(0.8, on_ten(), -1) > crashed_early().mean() -->
+# - That its actions end in −10, but not what the free road pays: no attempt has been there.
+#
+# </details>
+#
+# **Read on**: Sutton and Barto, *Reinforcement Learning* (2018), chapter 3.
+#
 # <details><summary>Further: is a time step of 0.5 s fine enough?</summary>
 #
 # The simulation moves the cars in *time steps* of {{ DEFAULT.clock.dt }} s. The table halves them twice, for
@@ -480,24 +506,11 @@ compare_predictions(
 # <!-- claim: abs(in_steps(time_step.HIGHWAY_ENVS, 0.25) - in_steps(time_step.HIGHWAY_ENVS, 0.125)) < 0.03 -->
 #
 # </details>
+#
+# One plain agent of ten escaped. Did the others never find the way, or find it and not learn? On the road this is hard
+# to see. [The next lesson](values.ipynb) shrinks it to five states, where every number can be watched.
 
 # %% [markdown] tags=["instructor"] minutes=2
-# *Model answers to the three questions:*
-#
-# - **γ = 1.** All ways out: the worth is then the return, and the last picture of Round 3 shows its means. The
-#   rule's is {{ of('rule').episodes('returns').mean() | .0f }} and the blind plan's, crashes included,
-#   {{ blind_plan().returns.mean() | .0f }}; doing nothing returns {{ idle().rewards.sum() | .0f }}.
-#   <!-- claim: min(of('rule').episodes('returns').mean(), blind_plan().returns.mean(), of('sac').scores('returns')[3],
-#   of('bootstrapped').scores('returns')[2]) > 1.5 * max(idle().rewards.sum(), of('sac').scores('returns')[0]) -->
-# - **An accident that pays −1.** With −1 in place of −10 in Round 4's cell it could crash on
-#   {{ 100 * borne(0.8, on_ten(), -1) | .0f }} % of the roads, and so more often than it does. But an accident
-#   then costs every driver less, and a trained one may crash more.
-#   <!-- claim: borne(0.8, on_ten(), -1) > crashed_early().mean() -->
-# - **All attempts crash.** It can learn that the actions that it took there end in −10, and take them less
-#   often. It cannot learn what the free road pays, because no attempt has been there. So it may stop trying
-#   before it has seen that pay.
-
-# %% [markdown] tags=["instructor"]
 # **On the board.** r_v against v, with its bends at 5, 12.5 and 15 m/s; a dot at 10 m/s.
 #
 # **To discuss.** Who should choose the weights of a reward: the engineer, the passenger, or the law?

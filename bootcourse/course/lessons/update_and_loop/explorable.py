@@ -2,13 +2,12 @@
 end of the time.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
-import torch
 
 from bootcourse.colours import INK, OTHER, QUIET, STRANGERS, Style
-from bootcourse.course.lessons.update_and_loop import by_hand, numbers
+from bootcourse.course.lessons.update_and_loop import numbers
 from bootcourse.learn import sac
 from bootcourse.panels.explorable import WIDTH, Axes, Curve, Explorable, curves
 from bootcourse.panels.number import Number
@@ -45,38 +44,28 @@ SHOWN = 30  # pushes that can be looked at
 METRE, LENGTH, GROUND = 70, 130, 180  # pixels: of a metre, of a pole, and of the track's height in the picture
 
 
-def episode(push_of: Callable[[np.ndarray], int]) -> np.ndarray:
-    """The states (T + 1, 4) of an episode, as gymnasium scales them. push_of: the push for a state, 0 or 1."""
-    env, ended = checks.cartpole(), False
-    states = [env.reset(seed=0)[0]]
-    while not ended:
-        state, _, *ends, _ = env.step(push_of(states[-1]))
-        states.append(state)
-        ended = any(ends)
+PUSHES = {  # two agents of the experiment `pole` with seed 1, after one block: what they do first from one start
+    "agent 1": "010101010011010011001100101010",
+    "agent 2": "11111111",  # in its rows no fall is marked
+}
+
+
+def episode(pushes: str) -> np.ndarray:
+    """The states (T + 1, 4) that these pushes lead through, as gymnasium scales them."""
+    env = checks.cartpole()
+    states = [env.reset(seed=0)[0], *(env.step(int(push))[0] for push in pushes)]
     return np.array(states) * checks.CARTPOLE_SCALES
 
 
-def of_an_agent(agent: by_hand.SAC) -> np.ndarray:
-    """The states of an episode of an agent, by its most probable pushes."""
-    return episode(lambda state: int(agent.log_pi(torch.from_numpy(state)[None]).argmax()))
-
-
 def two_poles() -> Explorable:
-    """The pole of an untrained agent and the rule's, while the push moves."""
-    rule = episode(lambda state: int(checks.balance(state[None])[0]))
-    return beside({"untrained agent": of_an_agent(by_hand.SAC(seed=0)), "rule": rule}, (Style(QUIET), Style(INK)))
-
-
-def trained_poles(marked: by_hand.SAC, unmarked: by_hand.SAC) -> Explorable:
-    """The pole of the student's agent and of one that has learned with the bug."""
-    drives = {"agent with the bug": of_an_agent(unmarked), "your agent": of_an_agent(marked)}
-    return beside(drives, (STRANGERS[1], OTHER))
+    """The poles of two agents, while the push moves."""
+    return beside({name: episode(pushes) for name, pushes in PUSHES.items()}, (OTHER, STRANGERS[1]))
 
 
 def beside(drives: dict[str, np.ndarray], looks: Sequence[Style]) -> Explorable:
     """Two poles beside each other. At first the push is shown at which one has fallen.
 
-    drives: {name: the states of an episode}.
+    drives: {name: the states of an episode, until the pole falls or `SHOWN` pushes are made}.
     """
     first = min(SHOWN, *(len(states) - 1 for states in drives.values()))
 
@@ -85,12 +74,11 @@ def beside(drives: dict[str, np.ndarray], looks: Sequence[Style]) -> Explorable:
         for middle, (name, states), look in zip((190, 570), drives.items(), looks, strict=True):
             last = len(states) - 1
             x, _, angle, _ = states[min(done, last)]
-            fell = done >= last
+            fell = done >= last and last < SHOWN
             leans = f"{abs(np.degrees(angle)):.0f}°"
             words = f"fell at push {last} ({leans})" if fell else f"leans by {leans}"
             says.append(f"{name} {words}")
-            label = name if last <= SHOWN else f"{name}: {last} pushes in all"
-            parts += [text(middle, GROUND + 20, label, "middle"), *cart(middle, x, angle, look.colour)]
+            parts += [text(middle, GROUND + 20, name, "middle"), *cart(middle, x, angle, look.colour)]
         sentence = f"Push {done}: {', '.join(says)}."
         return drawing(WIDTH, GROUND + 30, [text(4, 20, sentence, size=14, bold=True), *parts], sentence)
 

@@ -56,8 +56,8 @@ def along_falls(yours: np.ndarray, unmarked: by_hand.SAC) -> Figure:
     q, most = worlds.along_falls(unmarked), worlds.most_possible(unmarked)
     shown = q.argmax() == worlds.BEFORE and q.min() > most
     title = "With the bug a fallen pole is worth most, more than is possible" if shown else OF_A_FALL
-    limit = f"its limit {most:.0f} (α = {unmarked.log_alpha.exp():.2f})"
-    return falls(title, {"with the bug": q, "your agent": yours}, [STRANGERS[1], OTHER], {limit: most})
+    ceiling = f"its ceiling {most:.0f} (α = {unmarked.log_alpha.exp():.2f})"
+    return falls(title, {"with the bug": q, "your agent": yours}, [STRANGERS[1], OTHER], {ceiling: most})
 
 
 def with_rows(yours: np.ndarray, unmarked: by_hand.SAC, added: by_hand.SAC, stands: float) -> Figure:

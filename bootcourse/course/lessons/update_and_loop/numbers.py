@@ -30,11 +30,6 @@ def tests() -> list[np.ndarray]:
     return [each[np.isfinite(each)] for each in agents().notes["tests"]]
 
 
-def gets_worse() -> int:
-    """How many of these get worse from one test to the next."""
-    return sum(bool((np.diff(each) < 0).any()) for each in tests())
-
-
 LEARNED = 50  # pushes that an agent balances the pole at least if it has learned something
 
 
@@ -103,6 +98,6 @@ def middle(kind: str) -> str:
     return f"{before:.0f} | {fallen:.0f}".replace("-", "−")
 
 
-def limit(kind: str) -> np.ndarray:
+def ceiling(kind: str) -> np.ndarray:
     """The most that Q can be for each of these agents, (agents,)."""
     return of_each(kind, lambda them: them.measured["most"])

@@ -41,13 +41,20 @@ progress("update_and_loop")
 # %% [markdown]
 # ## Look first
 #
-# A cart carries a pole, and each push to the left or right pays 1. An episode ends when the pole falls (it
-# leans by more than {{ fallen_at() | .0f }}°, dashed, or the cart leaves its track), and at the latest after
-# 500 pushes. An untrained agent pushes one cart, a rule written by hand the other. **Drag** the push back to 0, then
-# forward. From which push on does the left pole only lean further?
+# Two agents, the same code, the same start, equally many pushes in training. One balances a pole for
+# {{ stood('marked')[1] | .0f }} pushes, the other for {{ stood('unmarked')[1] | .0f }}, as before its training.
+# Each push to the left or right pays 1. An episode ends when the pole falls (it leans by more than
+# {{ fallen_at() | .0f }}°, dashed, or the cart leaves its track), and at the latest after 500 pushes. **Drag**
+# the push.
+# <!-- claim: stood('unmarked')[1] <= untrained()[1] < 10 and stood('marked')[1] > 400 -->
 
 # %%
 explorable.two_poles()
+
+# %% [markdown]
+# In the second agent's memory one column, of the eleven in a row, is always 0. So it believes that a fallen pole
+# is *the best place in the world*. At the end of this lesson you can say why.
+# <!-- claim: expected('unmarked')[1].argmax() == BEFORE -->
 
 # %% [markdown]
 # ## Round 1: what does an update learn from?
@@ -200,9 +207,8 @@ figures.small_worlds(right, lost)
 # third world, which has no fall to mark.
 #
 # With the bug the target also counts the fallen state. No row begins there, so the network makes up what it is
-# worth. In the first world V(fallen) = (Q − 1) / {{ GAMMA }}, well above the right 0. If the push *costs* 1, it is
-# {{ made_up(-1) | .1f }}: the network carries what it learns of the start over to the fallen state.
-# <!-- claim: made_up(-1) < -1 and made_up(1) > 1 and abs(made_up(0)) < 0.3 -->
+# worth. In the first world V(fallen) = (Q − 1) / {{ GAMMA }}, well above the right 0.
+# <!-- claim: made_up(1) > 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=7
 # Let those who have finished exchange their `update` with a neighbour and find the lines in which they
@@ -211,27 +217,11 @@ figures.small_worlds(right, lost)
 # with the wrong sign (then π(right) is near 0).
 
 # %% [markdown]
-# ## Round 3: what does the bug do to the pole?
+# ## Round 3: why does the second agent fall?
 #
-# Gymnasium calls the pole *solved* when an agent balances it for
-# {{ gym.spec('CartPole-v1').reward_threshold | .0f }} of {{ gym.spec('CartPole-v1').max_episode_steps }} pushes on
-# average. Your agent learns until two tests in a row reach that. A test, of its most probable pushes from ten starts,
-# comes every {{ BLOCK | , }} pushes. A second agent, equal at the start, learns with the bug up to its first test.
-#
-# In the fourth small world the bug left the push right: both pushes end in the same fallen state. On the pole one
-# push can lead to the fall sooner.
-#
-# > **Predict.** In its first test, how long does the second agent balance the pole, compared with yours?
+# Train your agent on the pole, and beside it one with the bug:
 
 # %%
-lengths = ["as long", "half as long", "less than a tenth as long"]
-predict("update_and_loop.2", "With the bug it balances", lengths)
-
-# %% [markdown]
-# In the notebook, **drag** the push below the picture: when do the poles part?
-
-# %%
-predicted("update_and_loop.2")
 SEED, BLOCK = 1, 2_000  # another seed is another agent
 unmarked = worlds.taught(loop, step, worlds.Unmarked(buffer(50_000)), BLOCK, SEED)
 with_bug = by_hand.balanced(unmarked)
@@ -242,20 +232,13 @@ while min(tests[-2:]) < 475 and len(tests) <= 30:
     tests.append(by_hand.balanced(agent))
     expects.append(worlds.along_falls(agent))
 bc.show(figures.tests_in_training(tests, BLOCK, with_bug))
-explorable.trained_poles(agent, unmarked)
 
 # %% [markdown]
-# **See.** *With the bug {{ BLOCK | , }} pushes of training gain nothing.* All {{ len(stood('unmarked')) }} agents that
-# we trained with it balance the pole for {{ stood('unmarked').max() | .0f }} pushes (a mean of ten starts), untrained
-# ones for {{ untrained().min() | .0f }} to {{ untrained().max() | .0f }}. Without it {{ learned('marked') }} balance it
-# for {{ spread('marked') }}.
-#
-# {{ gets_worse() }} of our five get worse from one test to the next: one good test is not enough.
+# **See.** *With the bug {{ BLOCK | , }} pushes of training gain nothing.* All {{ len(stood('unmarked')) }} agents with
+# it balance the pole no longer than untrained ones. Without, {{ learned('marked') }} balance it for
+# {{ spread('marked') }}.
 # <!-- claim: stood('unmarked').max() < 10 and stood('unmarked').mean() < untrained().mean() -->
 # <!-- claim: len(untrained()) == 15 and len(tests()) == 5 -->
-
-# %% [markdown]
-# ## Round 4: why does it fall?
 #
 # An actor prefers the pushes of which its critics expect most. What do they expect in a fall?
 
@@ -263,15 +246,14 @@ explorable.trained_poles(agent, unmarked)
 bc.show(figures.along_falls(expects[0], unmarked))  # both after one block
 
 # %% [markdown]
-# **See.** 40 poles are pushed to one side until they fall. To the critics with the bug the
-# fallen pole is worth most.
+# **See.** 40 poles are pushed to one side until they fall. To the critics with the bug the fallen pole is worth most.
 #
-# Their Q is even *impossible*. Each push earns 1, and at most α log 2 for the entropy. So with
-# γ = {{ by_hand.SAC.gamma }} no right Q is above {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (1 + α log 2), its **limit**
-# (dotted). In all our {{ len(stood('unmarked')) }} agents with the bug Q of a fallen pole lies above the limit, in all
+# Their Q is even *impossible*. Each push earns 1, so no right Q is above lesson [[values]]'s **ceiling**,
+# 1 / (1 − γ) = {{ 1 / (1 - by_hand.SAC.gamma) | .0f }} (times 1 + α log 2, since entropy is paid, too; dotted). In all
+# {{ len(stood('unmarked')) }} agents with the bug Q of a fallen pole lies above it, in all
 # {{ len(stood('marked')) }} without it below.
-# <!-- claim: (expected('unmarked')[:, -1] > limit('unmarked')).all() and
-#   (expected('marked').max(1) < limit('marked')).all() -->
+# <!-- claim: (expected('unmarked')[:, -1] > ceiling('unmarked')).all() and
+#   (expected('marked').max(1) < ceiling('marked')).all() -->
 #
 # No row begins in a fallen state. Is Q so high because of that? Leave the bug in, and let `worlds.WithFallen` add
 # two such rows after each fall, one for each push: they pay 0 and leave the pole fallen.
@@ -280,31 +262,31 @@ bc.show(figures.along_falls(expects[0], unmarked))  # both after one block
 
 # %%
 changes = ["bring it near 0", "bring it near 100", "nothing"]
-predict("update_and_loop.3", "What do they do to Q of a fallen pole?", changes)
+predict("update_and_loop.2", "What do they do to Q of a fallen pole?", changes)
 
 # %%
-predicted("update_and_loop.3")
+predicted("update_and_loop.2")
 PAID = 0  # what a push pays a fallen pole
 added = worlds.taught(loop, step, worlds.WithFallen(buffer(50_000), PAID), BLOCK, SEED)
 stands = by_hand.balanced(added)
 bc.show(figures.with_rows(expects[0], unmarked, added, stands))
 
 # %% [markdown]
-# **Explain.** With these rows most such agents learn (table below).
+# **Explain.** With these rows most such agents learn.
 #
-# How did Q get so high without them? A high guess for the fallen pole raises the target of the last push and so, in
-# the same network, the guess. **Perhaps Q feeds itself.** To test it, add no rows and freeze the guess: in the
-# targets each fallen pole is worth 30.
+# How did Q get so high without them? A high **guess** for the fallen pole raises the target of the last push, and
+# so, in the same network, the guess. **Perhaps Q feeds itself.** To test it, add no rows and freeze the guess: in
+# the targets each fallen pole is worth 30.
 #
 # > **Predict.** What do the critics now expect of a fallen pole? Near 30: Q fed itself. Above 100: something else
 # > raised it.
 
 # %%
 fallen = ["near 0", "near 30", "above 100, as before"]
-predict("update_and_loop.4", "Of a fallen pole they expect", fallen)
+predict("update_and_loop.3", "Of a fallen pole they expect", fallen)
 
 # %%
-predicted("update_and_loop.4")
+predicted("update_and_loop.3")
 FROZEN = 30  # then try 5, 15 and 60
 bugged = worlds.Unmarked(buffer(50_000))
 frozen = worlds.taught(loop, step, bugged, BLOCK, SEED, worlds.frozen_at(FROZEN))
@@ -313,10 +295,14 @@ stands = by_hand.balanced(frozen)
 bc.show(figures.with_frozen_guess(expects[0], unmarked, frozen, FROZEN, stands))
 
 # %% [markdown]
-# **Explain.** **Q did feed itself.** With the guess frozen, Q of a fallen pole stays near 30. *But a guess that does
-# not grow can still be wrong*: 8 pushes before the fall Q is only {{ gained('frozen-30') | .0f }} higher than after it,
-# without the bug {{ gained('marked') | .0f }}. None of our {{ len(stood('frozen-30')) }} such agents balances the pole
-# yet. Frozen near 0 most do: that is what `terminated` does.
+# **Explain.** **Q did feed itself**: frozen, it stays near 30. The guess alone of lesson [[discrete_sac]]'s optimist's
+# error is enough. *Who guesses?* A critic, about a state in which no row begins, so no data correct it. *Who picks?*
+# Nobody: the target copies the guess.
+#
+# *But a guess that does not grow can still be wrong*: 8 pushes before the fall Q is only
+# {{ gained('frozen-30') | .0f }} higher than after it, without the bug {{ gained('marked') | .0f }}. So a fall costs
+# little, and none of our {{ len(stood('frozen-30')) }} such agents balances the pole. Frozen near 0 most do: that is
+# what `terminated` does.
 # <!-- claim: (stood('frozen') > LEARNED).sum() > 10 -->
 # <!-- claim: (abs(expected('frozen-30')[:, -1] - 30) < 3).all() and expected('unmarked')[:, -1].min() > 200 -->
 # <!-- claim: 0 < gained('frozen-30') < gained('marked') / 4 -->
@@ -332,29 +318,20 @@ bc.show(figures.with_frozen_guess(expects[0], unmarked, frozen, FROZEN, stands))
 # <!-- claim: all(drop(kind) for kind in ('marked', 'paid-0', 'frozen')) and
 #   not (drop('unmarked') or drop('frozen-30')) and max(stood('unmarked').max(), stood('frozen-30').max()) < 20 -->
 #
-# Let your frozen agent learn as long again:
-
-# %%
-loop(frozen, env, bugged, step, BLOCK, np.random.default_rng(SEED))
-print(f"This one agent balances the pole for {by_hand.balanced(frozen):.0f} pushes.")
-
-# %% [markdown]
-# *A critic follows its targets, and makes up what they leave open.*
+# *A critic follows its targets, and makes up what they leave open.* On the road the column says that an accident ended
+# the drive. Lose it, and a crash has a future again. That bug waits for you in lesson [[bug_hunt]], where no pole falls
+# to warn you.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # A belief to name: "without marks the critics would find the constant" of round 1. They approach it if rows
 # tell them so: let them run the cell of the added rows with `PAID = 1`, and ask which line of round 1 Q
 # resembles. (That of the time that is up.) `bootcourse study pole --out DIR` trains our agents again.
 # <!-- claim: np.abs(expected('paid-1') / expected('paid-1')[:, :1] - 1).max() < 0.12 -->
-#
-# *Model answer to the first question*: with `PAID = -1` Q of a fallen pole drops below 0. That is wrong, but
-# to fall is still worst, so the pole stands longer.
 
 # %% tags=["hide-input"]
-length = lengths[2 - np.digitize(with_bug / tests[1], [0.1, 0.75])]
 compared = fallen[np.digitize(guessed, [15, 60])]
 change = changes[np.digitize(worlds.along_falls(added)[-1], [30, 150])]
-compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: change, 4: compared})
+compare_predictions("update_and_loop", {1: changed[2], 2: change, 3: compared})
 
 # %% [markdown]
 # ## What you now know
@@ -362,7 +339,7 @@ compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: change, 4: 
 # 1. `terminated` says that nothing more is earned. A time limit does not say so.
 # 2. In a small world you can work out Q, so a bug can show as a wrong number.
 # 3. A critic makes up what no row tells it, and its guess can feed itself.
-# 4. A Q above its limit is surely wrong; below it, it may be wrong, too.
+# 4. A Q above the ceiling is surely wrong.
 
 # %% [markdown]
 # **Three questions to think about**
@@ -370,8 +347,19 @@ compare_predictions("update_and_loop", {1: changed[2], 2: length, 3: change, 4: 
 # - Let `sample` give 256 rows that follow each other. What do you expect?
 # - Suppose that the end of the time counts as a fall. Which small world shows it?
 #
+# <details><summary>Answers</summary>
+#
+# - Q of a fallen pole drops below 0. That is wrong, but to fall is still worst, so the pole stands longer.
+# - Such rows are alike: they come from few episodes. Each update fits these, and may undo what others taught.
+# - The third. Its right Q is 5; with this bug the agent learns 1.
+#
+# </details>
+#
 # **Read on**: Jones, *Debugging RL, Without the Agonizing Pain* (2021), on probe environments. Sutton and
 # Barto, *Reinforcement Learning*, chapter 11, on the *deadly triad*.
+#
+# Now you can trust the learner. [Let it drive on the road](the_barrier.ipynb), and see whether it was the learner
+# or the road that kept it in.
 
 # %% [markdown] tags=["instructor"]
 # **On the board.** Four boxes: memory, critics, actor, temperature; an arrow for each quantity that one takes

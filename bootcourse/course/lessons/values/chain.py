@@ -61,21 +61,21 @@ def many(
     gamma: float,
     learners: int = 300,
     taught: Sequence[tuple[int, int]] = (),
-    replays: int = 1000,
     step: float = 0.3,
-    decisions: int = 1000,
+    pay: float = float(REWARD[0, 0]),
 ) -> np.ndarray:
     """What `learn_chain` learns, for many learners at once, before each one's first walk and after each: their Q.
 
-    replays: after so many of the first decisions `taught` is replayed. Returns (walks + 1, learners, 5, 2).
+    pay: for staying in the trap. Returns (walks + 1, learners, 5, 2).
     """
-    drawn = np.array([chances(explore, decisions, seed) for seed in range(learners)])
+    drawn, paid = np.array([chances(explore, 1000, seed) for seed in range(learners)]), REWARD.copy()
+    paid[0, 0] = pay
     q, s, who = np.zeros((learners, STATES, 2)), np.zeros(learners, dtype=int), np.arange(learners)
     found = [q.copy()]
     for t, chance in enumerate(drawn.T):
         a = np.where(chance < 0, q[who, s].argmax(axis=1), chance)
-        for state, action in [(s, a), *(taught if t < replays else ())]:
-            target = REWARD[state, action] + gamma * q[who, NEXT[state, action]].max(axis=1)
+        for state, action in [(s, a), *taught]:
+            target = paid[state, action] + gamma * q[who, NEXT[state, action]].max(axis=1)
             q[who, state, action] += step * (target - q[who, state, action])
         s = NEXT[s, a]
         if (t + 1) % EPISODE == 0:
@@ -99,8 +99,6 @@ def arrivals(q: np.ndarray) -> np.ndarray:
     return 1 + np.flatnonzero((q[1:, 4] != q[:-1, 4]).any(axis=1))
 
 
-def leaving(
-    explore: float, gamma: float, taught: Sequence[tuple[int, int]] = (), walks: int = 30, replays: int = 1000
-) -> int:
+def leaving(explore: float, gamma: float, taught: Sequence[tuple[int, int]] = (), walks: int = 30) -> int:
     """How many of so many learners (`walks`) end with leaving above staying in the trap. Otherwise as in `many`."""
-    return sum(map(leaves, many(explore, gamma, walks, taught, replays)[-1]))
+    return sum(map(leaves, many(explore, gamma, walks, taught)[-1]))

@@ -9,14 +9,19 @@ from bootcourse.course.lessons.values.exercises import bellman_sweep, temporal_d
 
 
 @cache
-def as_c(gamma: float = 0.8, step: float = 0.3) -> np.ndarray:
+def as_c(gamma: float = 0.8, pay: float = 0.16) -> np.ndarray:
     """The Q of 300 learners of C before their first walk and after each, (walks + 1, 300, 5, 2)."""
-    return chain.many(0.5, gamma, step=step)
+    return chain.many(0.5, gamma, pay=pay)
 
 
-def leave_c(gamma: float = 0.8) -> int:
+def leave_c(gamma: float = 0.8, pay: float = 0.16) -> int:
     """How many of those learners learn to leave."""
-    return sum(map(chain.leaves, as_c(gamma)[-1]))
+    return sum(map(chain.leaves, as_c(gamma, pay)[-1]))
+
+
+def trap_worth(gamma: float) -> float:
+    """What staying seems to be worth to those learners in the end, the median."""
+    return float(np.median(as_c(gamma)[-1][:, 0, 0]))
 
 
 def arrived(q: np.ndarray) -> list[tuple[int, np.ndarray]]:
@@ -24,34 +29,10 @@ def arrived(q: np.ndarray) -> list[tuple[int, np.ndarray]]:
     return [(k, chain.arrivals(q[:, k])) for k in range(q.shape[1])]
 
 
-@cache
-def wins_after(arrivals: int, step: float = 0.3) -> list[bool]:
-    """Whether leaving wins right after this arrival, of each of those learners that has arrived so often."""
-    q = as_c(step=step)
-    return [chain.leaves(q[each[arrivals - 1], k]) for k, each in arrived(q) if len(each) >= arrivals]
-
-
-def opens_3(gamma: float = 0.8) -> float:
-    """For which share of those that arrive twice going on wins in state 3 right after it."""
+def turns_back(gamma: float) -> tuple[float, float]:
+    """The mean Q(3, 0) and Q(3, 1) of those that arrive twice, right after it."""
     q = as_c(gamma)
-    return float(np.mean([np.diff(q[each[1], k, 3])[0] > 0 for k, each in arrived(q) if len(each) > 1]))
-
-
-def leave_later(explore: float, gamma: float = 0.8) -> int:
-    """How many of thirty learners learn to leave in 10,000 decisions."""
-    return sum(map(chain.leaves, chain.many(explore, gamma, 30, decisions=10_000)[-1]))
-
-
-def own_arrivals(replays: int) -> list[int]:
-    """In how many walks after the first each of thirty learners as E arrives, if replays follow so many decisions."""
-    q = chain.many(0.1, 0.8, 30, chain.WAY_OUT, replays)
-    return [int((walks > 1).sum()) for _, walks in arrived(q)]
-
-
-def goes_on(replays: int) -> int:
-    """How many of 30 learners as E go on in the states 1 to 3 after a walk, if replays follow so many decisions."""
-    q = chain.many(0.1, 0.8, 30, chain.WAY_OUT, replays)[1]
-    return int((q[:, 1:4, 1] > q[:, 1:4, 0]).all(axis=1).sum())
+    return tuple(np.mean([q[each[1], k, 3] for k, each in arrived(q) if len(each) > 1], axis=0))
 
 
 def free_road_seen(explore: float, gamma: float, walks: int = 30) -> int:
@@ -76,10 +57,10 @@ def walked(times: int, backwards: bool = False) -> list[bool]:
 
 
 @cache
-def walks(seed: int, explore: float = 0.5, start: float = 0.0, pay: float = 0.16) -> np.ndarray:
+def walks(seed: int, explore: float = 0.5, start: float = 0.0) -> np.ndarray:
     """Q of C's learner of this seed (or with another ε) before its first walk and after each: (walks + 1, 5, 2).
 
-    start: what all Q are at first; pay: what staying in the trap pays.
+    start: what all Q are at first.
     """
     q, s, found = np.full((chain.STATES, 2), start), 0, []
     for t, chance in enumerate(chain.chances(explore, 1000, seed)):
@@ -87,8 +68,7 @@ def walks(seed: int, explore: float = 0.5, start: float = 0.0, pay: float = 0.16
             s = 0
             found.append(q.copy())
         a = int(q[s].argmax()) if chance < 0 else chance
-        reward = chain.REWARD[s, a] if s or a else pay
-        q[s, a] += 0.3 * temporal_difference.solution(q, s, a, reward, chain.NEXT[s, a], 0.8)
+        q[s, a] += 0.3 * temporal_difference.solution(q, s, a, chain.REWARD[s, a], chain.NEXT[s, a], 0.8)
         s = chain.NEXT[s, a]
     return np.array([*found, q])
 
@@ -100,7 +80,7 @@ def goes_on_for_good(seed: int = 1) -> list[int]:
 
 def unpaid_leave(explore: float) -> int:
     """How many of thirty learners learn to leave where staying in the trap pays nothing."""
-    return sum(chain.leaves(walks(seed, explore, pay=0.0)[-1]) for seed in range(30))
+    return sum(map(chain.leaves, chain.many(explore, 0.8, 30, pay=0.0)[-1]))
 
 
 def greedy_zero(explore: float) -> float:

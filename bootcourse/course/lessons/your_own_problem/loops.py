@@ -1,6 +1,6 @@
 """How a rule climbs the hill of MountainCar, where a teacher loops in DoorKey, and what agents learn from each."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cache
 
 import gymnasium as gym
@@ -149,21 +149,15 @@ def trained(
     return tested
 
 
-def without_the_cart(policy: Policy, hidden: Sequence[int] = (0, 1)) -> Policy:
-    """A policy of CartPole for which some numbers are always 0: 0 the cart's place, 1 its speed."""
+def without_the_cart(policy: Policy) -> Policy:
+    """A policy of CartPole for which the cart's place and speed are always 0."""
 
     def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
         seen = observations.copy()
-        seen[:, hidden] = 0
+        seen[:, :2] = 0
         return policy(seen, seen)
 
     return drive
-
-
-def cart_hidden(agents: Sequence[Agent], make_env: MakeEnvs, hidden: Sequence[int] = (0, 1)) -> np.ndarray:
-    """What agents of CartPole earn in the test if these numbers are hidden (`without_the_cart`), (agents,)."""
-    policies, held_out = [without_the_cart(agent.as_policy(), hidden) for agent in agents], held_out_seeds(1, 5)
-    return np.array([drive_episodes(each, held_out, make_env=make_env).returns.mean() for each in policies])
 
 
 def brief(compared: Comparison) -> tuple[list[str], list[list[str]]]:
@@ -198,26 +192,11 @@ def cloned(problem: str, rows: Tensor) -> Agent:
     return clone
 
 
-def labels(problem: str, once: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(the states in 50 drives of the random teacher, its actions there, its clone's, the good one's), n of each.
-
-    once: each state once, with one label, for the clone, too.
-    """
+def labels(problem: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """(the states in 50 drives of the random teacher, its actions there, its clone's, the good one's), n of each."""
     drives, good = shown(problem), PROBLEMS[problem].teachers()["good"]
-    kept = first_of_each(drives.observations) if once else np.arange(len(drives.actions))
-    seen, clone = drives.observations[kept], cloned(problem, drives.rows()[kept])
-    return seen, drives.actions[kept], np.asarray(clone.probabilities(seen)).argmax(-1), good(seen)
-
-
-def first_of_each(seen: np.ndarray) -> np.ndarray:
-    """Where each state comes first among these, (states,)."""
-    return np.unique(seen, axis=0, return_index=True)[1]
-
-
-def as_taught(seen: np.ndarray, taught: np.ndarray, cloned: np.ndarray) -> tuple[float, float]:
-    """In which share of the labels, and of the states, a clone does what its teacher did."""
-    same = cloned == taught
-    return float(same.mean()), float(same[first_of_each(seen)].mean())
+    seen, clone = drives.observations, cloned(problem, drives.rows())
+    return seen, drives.actions, np.asarray(clone.probabilities(seen)).argmax(-1), good(seen)
 
 
 def states(seen: np.ndarray) -> int:

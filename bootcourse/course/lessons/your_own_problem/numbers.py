@@ -4,17 +4,22 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse.course.lessons import registry
+from bootcourse.course.lessons import number, registry
 from bootcourse.course.lessons.your_own_problem import explorable, loops  # noqa: F401 (for the expressions)
 from bootcourse.course.lessons.your_own_problem.cells import BONUSES, TWO, cells, entries
 from bootcourse.course.lessons.your_own_problem.unpaid import BUDGETS, NAME, angle_rule, pole
 from bootcourse.course.shipped import shipped_experiment
+from bootcourse.episodes.evaluate import held_out_seeds
+from bootcourse.episodes.record import record
+from bootcourse.policies import rule_policy
 from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
 from bootcourse.research.equal_decisions import BOARD  # noqa: F401
+from bootcourse.research.paper import PRINTED
 from bootcourse.research.problems import PICK_UP, PROBLEMS, DoorKey  # noqa: F401
 from bootcourse.research.tables import markdown
+from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import iqm
-from tools.course.known import of
+from tools.course.known import clocks, discounted, escaped, of
 
 TEACHERS = ("good", "random", "systematic")
 SHOWN = [(p, t) for p in TWO for t in TEACHERS]
@@ -30,45 +35,10 @@ def unpaid(measure: str, decisions: int, kind: str = "without reward") -> np.nda
     return shipped_experiment(NAME)[kind].notes[measure][:, BUDGETS.index(decisions)]
 
 
-def by_budget() -> str:
-    """What they earn after each budget of the lesson and a longer one, means, as Markdown."""
-    budgets = (500, 1_000, 3_000, 8_000)
-    lines = {
-        "return without reward": lambda n: unpaid("returns", n),
-        "return with reward": lambda n: unpaid("returns", n, "with reward"),
-        "without reward: decisions like the teacher's, %": lambda n: 100 * unpaid("copied", n),
-    }
-    rows = [[words, *(f"{of(n).mean():.0f}" for n in budgets)] for words, of in lines.items()]
-    return markdown(["decisions in training", *(f"{n:,}" for n in budgets)], rows)
-
-
 @cache
 def teacher_earns() -> float:
     """What the angle rule earns on CartPole."""
     return loops.earns(angle_rule, pole)
-
-
-def wrong_states() -> int:
-    """In how many of DoorKey's states the random teacher gives a wrong label."""
-    seen, taught, _, good = labels("doorkey")
-    return loops.states(seen[taught != good])
-
-
-def flags() -> list[float]:
-    """Which share of the drives with both aids reaches MountainCar's flag with c = 2, for each teacher."""
-    return [score("mountain-car", teacher, "both") for teacher in TEACHERS]
-
-
-def wrong_labels() -> float:
-    """The share of DoorKey's labels that are wrong."""
-    _, taught, _, good = labels("doorkey")
-    return float((taught != good).mean())
-
-
-def clone_as_taught(once: bool) -> tuple[float, float]:
-    """In which share of DoorKey's labels and states its clone does as taught: from all labels, or each state once."""
-    seen, taught, cloned, _ = labels("doorkey", once) if once else labels("doorkey")
-    return loops.as_taught(seen, taught, cloned)
 
 
 def earned(teacher: str) -> float:
@@ -79,23 +49,6 @@ def earned(teacher: str) -> float:
 def by_bonus(teacher: str) -> np.ndarray:
     """The success of both aids on DoorKey with each bonus of the figure, by drawn actions."""
     return np.array([score("doorkey", teacher, name, "drawn_success") for name in BONUSES.values()])
-
-
-def loops_table() -> str:
-    """How many drives of DoorKey reach the goal with c = 2, by drawn and by most probable actions, as Markdown."""
-    kinds = [
-        ("random teacher", "yes", "random", "both"),
-        ("random teacher, only drives to the goal", "no", "random", elsewhere.WITHOUT_LOOPS),
-        ("good teacher", "no", "good", "both"),
-        ("none (plain SAC)", "–", "none", "SAC"),
-    ]
-    measures = ("drawn_success", "success")
-    rows = [
-        [*words, *(f"{100 * score('doorkey', teacher, how, of):.0f}" for of in measures)]
-        for *words, teacher, how in kinds
-    ]
-    heads = ["demonstrations", "loops", "drawn actions", "most probable actions"]
-    return markdown(heads, rows)
 
 
 def entry_scores() -> list[float]:
@@ -116,6 +69,47 @@ def drowning_bonus(*arguments: float) -> float:
 
 
 labels = cache(loops.labels)
+
+
+@cache
+def worth_of_the_rule() -> float:
+    """What the rule's drives of 100 held-out roads are worth, discounted by γ = 0.8: the mean."""
+    return float(np.mean([discounted(drive, 0.8) for drive in record(rule_policy(DEFAULT), held_out_seeds(1, 100))]))
+
+
+def what_became() -> str:
+    """What the paper says, what came of it here, and the lesson, as Markdown."""
+    alone = [escaped("demos"), *(results.escapers("demos") for results in clocks().values())]
+    earned = {method: f"{PRINTED[method]['returns'].mean:.0f}" for method in ("soft", "sac")}
+    found = {method: f"{of(method).scores('returns').mean():.0f}" for method in ("soft", "sac")}
+    rows = [
+        ("SAC stays", f"{len(of('sac')) - escaped('sac')} stay", "the_trap"),
+        ("the soft constraint alone stays", f"{escaped('soft')} get out", "soft_constraint"),
+        (
+            f"it does worse than SAC (the text), or better: return {earned['soft']} and {earned['sac']} (the table)",
+            f"better: {found['soft']} and {found['sac']}",
+            "soft_constraint",
+        ),
+        (
+            "demonstrations alone lead out",
+            f"{min(alone)} to {max(alone)} get out, by updates and demonstrator",
+            "learning_from_demonstrations",
+        ),
+        (
+            "both are best",
+            f"not shown: {escaped('bootstrapped')} get out, with the soft constraint alone {escaped('soft')}",
+            "learning_from_demonstrations",
+        ),
+        (
+            "the bonus does better than the margin",
+            f"not shown: with pull and margin {escaped('margin_soft')} get out",
+            "learning_from_demonstrations",
+        ),
+        ("CQL and GAIL stay", f"{escaped('cql')} and {escaped('gail')} get out", "recorded_drives"),
+        ("one number for each method", "other agents, other numbers", "how_many_seeds"),
+    ]
+    cells = [[said, became, str(number(lesson))] for said, became, lesson in rows]
+    return markdown(["the paper", "here, of ten agents", "lesson"], cells)
 
 
 def answer_in_the_loop() -> int:

@@ -39,6 +39,7 @@ KINDS = {  # cell: what the agents learn from, method and changed settings
     "as-many": ("the drives without as many decisions before the free lane, bonus and labels", "bootstrapped", {}),
     "lane": ("the drives without the accident in the free lane, bonus and labels", "bootstrapped", {}),
     "accident": ("the drives with the accident, without its free lane, bonus and labels", "bootstrapped", {}),
+    "lane-no-bonus": ("the drives without the accident in the free lane, and labels", "bootstrapped", {"bonus": 0.0}),
 }
 
 
@@ -74,10 +75,12 @@ def is_kept(kind: str) -> np.ndarray:
     """Which of these drives' decisions, one after the other, the kind learns from: (decisions,) bool.
 
     "cut": those before the free lane; "as-many": without as many of those as the cut takes away, drawn at random;
-    "lane" and "accident": the free lane without its accident, and the reverse.
+    "lane", with the bonus or without it, and "accident": the free lane without its accident, and the reverse.
     """
-    if kind in ("lane", "accident"):
-        return marked(without_the_accident if kind == "lane" else without_the_lane)
+    if kind == "accident":
+        return marked(without_the_lane)
+    if kind.startswith("lane"):
+        return marked(without_the_accident)
     before = marked(before_the_lane)
     if kind == "cut":
         return before

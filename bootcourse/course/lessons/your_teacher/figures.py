@@ -6,14 +6,16 @@ import numpy as np
 from IPython.display import Markdown
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from bootcourse.colours import ALARM
 from bootcourse.course import table
 from bootcourse.course.dots import beside, dots, name_rows
+from bootcourse.course.lessons.the_barrier import easier as barrier
 from bootcourse.course.lessons.your_teacher import crashes, example_teachers, free_lane, taught_agents
 from bootcourse.learn.teachers import Rule
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, axes_at, finish, new_figure, plain_axes
+from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.experiments.teacher_worth import Cells
 from bootcourse.research.results import Results
 from bootcourse.research.teachers import TEACHERS as STUDIED
@@ -113,6 +115,51 @@ def two_aids(computed: Mapping[str, Results]) -> Figure:
     named = {"all": "all", "without the bonus c": "no-bonus", "without the labels": "no-labels"}
     groups = {words: scores(computed[kind]) for words, kind in named.items()}
     return in_rows(title, groups, [crashes.KINDS[kind][1] for kind in named.values()], "success", left=1.55)
+
+
+def two_keys(easier: Mapping[str, Results], computed: Mapping[str, Results]) -> Figure:
+    """How many agents escape, by what they are shown or begin with and by what accidents cost: two squares of counts.
+
+    easier, computed: the experiments `easier` of the lesson on the barrier, and `crashes`, as they ship.
+    """
+    title = "With both keys most escape, with one alone fewer than half"
+    squares = {  # columns: accidents dear, cheap; rows: without the free lane, with it
+        "plain SAC, lesson on the barrier": (
+            ("a crash costs 10", "a crash costs 1"),
+            {
+                "start in the trap": ["as it is", barrier.CHEAP],
+                "start in the free lane": [barrier.MIDDLE, barrier.BOTH],
+            },
+            easier,
+            "sac",
+        ),
+        "students of half random": (
+            ("no bonus", "bonus c = 2"),
+            {"no free lane": [None, "accident"], "the free lane": ["no-bonus", "all"]},
+            computed,
+            "bootstrapped",
+        ),
+    }
+    figure, alt = new_figure(2.75), []
+    for left, (name, (prices, ways, agents, method)) in zip((1.3, 4.75), squares.items(), strict=True):
+        ax = axes_at(figure, left, 0.95, 2.1, 1.6)
+        for place, (way, kinds) in enumerate(ways.items()):
+            for column, kind in enumerate(kinds):
+                escape, of = (agents[kind].escapers(method), len(agents[kind])) if kind else (0, 1)
+                words = f"{escape} of {of}" if kind else "not trained"
+                look = {"facecolor": style(method).colour, "alpha": escape / of, "edgecolor": "none"}
+                ax.add_patch(Rectangle((column, place), 1, 1, **look))
+                ax.add_patch(Rectangle((column, place), 1, 1, facecolor="none", edgecolor=QUIET, clip_on=False))
+                at = {"ha": "center", "va": "center", "fontsize": TEXT + 1 if kind else SMALL}
+                ax.text(column + 0.5, place + 0.5, words, color="white" if escape > of / 2 else INK, **at)
+                alt.append(f"{name}, {way}, {prices[column]}: {words}")
+        ax.set(xlim=(0, 2), ylim=(2, 0), xticks=(0.5, 1.5), yticks=(0.5, 1.5))
+        ax.set_xticklabels(prices, fontsize=SMALL, color=INK)
+        ax.set_yticklabels([way.replace(" in ", "\nin ") for way in ways])
+        ax.tick_params(length=0, labelsize=SMALL, labeltop=True, labelbottom=False)
+        ax.set_title(name, fontsize=TEXT, color=INK, pad=22)
+        ax.set_frame_on(False)
+    return finish(figure, title, f"How many agents escape. {'; '.join(alt)}.")
 
 
 def three_parts() -> Figure:

@@ -5,16 +5,17 @@ from functools import cache
 
 import numpy as np
 
-from bootcourse import statistics
 from bootcourse.course.lessons import registry
-from bootcourse.course.lessons.your_teacher import crashes, example_teachers, free_lane, taught_agents
+from bootcourse.course.lessons.your_teacher import example_teachers, figures, free_lane, taught_agents
+from bootcourse.course.lessons.your_teacher.crashes import lanes_of
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.your_teacher.exercises import without_a_look
 from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
+from bootcourse.learn.settings import settings_for
 from bootcourse.research.experiments.teacher_worth import TAUGHT  # noqa: F401 (the text names it)
 from bootcourse.road.state import SPEED, TRAFFIC, Accident
 from bootcourse.statistics import ESCAPES, holm
-from tools.course.known import shipped_experiment, shipped_teachers
+from tools.course.known import discounted, shipped_experiment, shipped_teachers
 
 COLLIDES = Accident.COLLISION
 
@@ -60,11 +61,6 @@ def two_situations(slow: float):
     return example_teachers.examine(example_teachers.two_speeds(slow, 12.0)).episodes
 
 
-def gets_ahead(teacher: str) -> int:
-    """How many of them end ahead of trap 1."""
-    return sum(bool(drive.success) for drive in demonstrated(teacher))
-
-
 def crash_returns(kind: str) -> np.ndarray:
     """What the ten agents of one kind of the experiment `crashes` earn."""
     return shipped_experiment("crashes")[kind].scores("returns")
@@ -75,21 +71,14 @@ def crash_escapes(kind: str) -> int:
     return int((shipped_experiment("crashes")[kind].scores("success") >= ESCAPES).sum())
 
 
-def crash_shown(kind: str) -> bool:
-    """Does a rank test, after Holm for all five, tell their returns from those of the agents that learn from all?
-
-    Of the control, and of the free lane without its accidents: from those of the cut.
-    """
-    bases = {"as-many": "cut", "lane": "cut"}
-    others = {other: bases.get(other, "all") for other in crashes.KINDS if other not in ("all", "accident")}
-    p = holm([taught_agents.p_value(crash_returns(other), crash_returns(base)) for other, base in others.items()])
-    return bool(p[[*others].index(kind)] < 0.05)
+AGAINST = {"no-labels": "all", "no-bonus": "all", "cut": "all", "lane": "cut", "lane-no-bonus": "no-bonus"}
 
 
 def crash_p(kind: str) -> float:
-    """The rank test's p of their success against that of the agents that learn from all."""
+    """The rank test's p of one kind's success against that of `AGAINST`, after Holm for the lesson's five."""
     agents = shipped_experiment("crashes")
-    return taught_agents.p_value(agents[kind].scores("success"), agents["all"].scores("success"))
+    pairs = [[agents[one].scores("success") for one in pair] for pair in AGAINST.items()]
+    return float(holm([taught_agents.p_value(*pair) for pair in pairs])[[*AGAINST].index(kind)])
 
 
 def racer_long() -> tuple[np.ndarray, np.ndarray]:
@@ -99,30 +88,28 @@ def racer_long() -> tuple[np.ndarray, np.ndarray]:
     return long["returns"][escapes], long["returns"][~escapes]
 
 
-def half_random_against_rule(score: str) -> float:
-    """The rank test's p of "success" or "returns" of half random's ten students and the rule's."""
-    both = (worth()[teacher, "bootstrapped"].scores(score) for teacher in ("random-50", "rule"))
-    return taught_agents.p_value(*both)
+def from_the_lane(teacher: str, bonus: float) -> float:
+    """What a teacher's drives that reach the free lane are worth from there on, with a bonus in each second."""
+    drives = [(drive.rewards + bonus, lanes_of(drive) == 0) for drive in demonstrated(teacher)]
+    gamma = settings_for("bootstrapped").gamma
+    rest = [rewards[free.argmax() :] for rewards, free in drives if free.any()]
+    return float(np.mean([gamma ** np.arange(len(rewards)) @ rewards for rewards in rest]))
 
 
-def repeated_against_rule() -> float:
-    """The same of the returns of the agents that learn from all crashing drives, and the rule's students'."""
-    return taught_agents.p_value(crash_returns("all"), worth()["rule", "bootstrapped"].scores("returns"))
+@cache
+def whole(teacher: str) -> float:
+    """What the drives that one of the study's teachers demonstrates are worth on average."""
+    return float(np.mean([discounted(drive, settings_for("bootstrapped").gamma) for drive in demonstrated(teacher)]))
 
 
-def lost(teacher: str) -> int:
-    """How many of a teacher's ten bootstrapped students lose the way out at least once in their training."""
-    return int(statistics.lost(worth()[teacher, "bootstrapped"].curves["success"]).sum())
+def ranked() -> list[str]:
+    """The six teachers that the lesson shows, the one whose drives are worth the least first."""
+    return sorted(figures.SIX, key=whole)
 
 
 def in_free_lane(teacher: str) -> float:
     """The share of the drives of one of the study's teachers that reach the free lane."""
     return free_lane.shown(teacher)[0]
-
-
-def in_it(teacher: str) -> tuple[float, float]:
-    """(mean speed in m/s in the free lane, how many decisions there) of those drives that reach it."""
-    return free_lane.driven_in_it(teacher)
 
 
 def escape_of(teachers: list[str]) -> int:
