@@ -62,7 +62,7 @@ def judge(exercise: Exercise, answer: Callable | str, seconds: float | None = No
     if verdict.is_right or verdict.kind == "broke":
         return verdict
     details = [line[:LONGEST] for line in (*verdict.details, *([f"printed: {printed}"] if printed else []))]
-    stuck = f'Stuck? `check.hint("{exercise.name}")`'
+    stuck = f'Stuck? In a cell of its own: `check.hint("{exercise.name}")`'
     return replace(verdict, sentence=verdict.sentence[:LONGEST], details=tuple(details), footer=stuck)
 
 

@@ -373,7 +373,7 @@ def second_trap(study: StudyResults) -> Claim:
 
     other = theirs["PPO alone"], theirs["PPO after cloning"]
     return Claim(
-        "second-trap", "PPO alone does not leave the trap; after cloning the rule most agents do.",
+        "second-trap", "Hardly any agent of PPO alone leaves the trap; after cloning the rule most do.",
         f"other agents than the lesson's, tuned by search, after 200,000 decisions: alone {out('ppo', 200_000)}; after "
         f"cloning {out('ppo_cloned', 200_000)}",
         {

@@ -45,7 +45,8 @@ progress("bug_hunt")
 # healthy. Each of the others, A to F, has one **silent bug**: a wrong line that raises nothing and prints nothing.
 # <!-- claim: len(bugs.LEARNERS) == 7 and bugs.SEEDS == 2 -->
 #
-# The healthy agent and another drive on the same road. Which has the bug?
+# The healthy agent and another drive on the same road. Watch the speed in the free lane, and the gap to the car ahead.
+# Which has the bug?
 
 # %% tags=["nbval-ignore-output"]
 bc.recording(figures.two_drives(hunt), height=360)
@@ -63,7 +64,8 @@ bc.show(figures.returns(hunt))
 
 # %% [markdown]
 # **See.** *A curve can look right although the code is wrong.* A, C and D end about where the healthy agent ends.
-# B and F look ill. E earns far *more*, but has accidents. **The second driver above is E.**
+# B and F look ill. E earns far *more*. **The second driver above is E:** in the free lane it drives faster than the
+# rule, and closer to others, so it no longer follows its teacher.
 #
 # *D, whose curve looks right, crashes* on {{ 100 * driven('D') | .0f }} % of {{ len(figures.ROADS) }} new roads (first
 # seed, likeliest actions), the healthy agent on {{ 100 * driven('healthy') | .0f }} %.
@@ -145,7 +147,9 @@ predicted("bug_hunt.2")
 bc.show(figures.accidents(hunt))
 
 # %% [markdown]
-# **See.** The lines are your probe's answer less 10, at each agent's own accidents. Even the healthy critic ends near
+# **See.** With `no_end` the target is −10 + 0.8 · next value: below −10 as soon as the next value is below 0.
+# `bonus_for_all` adds 2 to each target. The lines show Q itself, your probe's answer and r = −10, at each agent's own
+# accidents. Even the healthy critic ends near
 # {{ line_end('healthy') | .0f }}. So compare with the grey lines: which agents end *far* from them?
 # <!-- claim: (hunt().probe('healthy', 'end')[:, hunt().updates >= 1000] > DEFAULT.reward.accident + 1).all() -->
 
@@ -218,7 +222,7 @@ bc.show(figures.rarest(hunt))
 # **How does one hunt?** *Take one suspect, and ask what it must do in a place where few others do it.* `no_end` must
 # show where drives end, `bonus_for_all` in the promise, `flipped_kl` where π is almost 0. So a probe is the prediction
 # of one suspect. A fourth, `shifted_labels`, teaches the rule's *next* action, so the policy should act a second too
-# early. Look at the beginning of the lines, too:
+# early. Compare the whole lines:
 
 # %%
 bc.show(figures.likeliest(hunt))
@@ -230,7 +234,8 @@ bc.show(figures.likeliest(hunt))
 bc.show(figures.line_ends(hunt))
 
 # %% [markdown]
-# **Exercise (8 min, ●●○).** Name the bug of each agent. *Far* means: a dot outside the light grey.
+# **Exercise (8 min, ●●○).** Name the bug of each agent. *Far* means: a dot outside the light grey. For one agent the
+# peak in Round 3's picture decides, for another the beginning of the lines just above.
 
 
 # %%
@@ -251,13 +256,13 @@ check.diagnose(diagnose)
 # | C | = | = | = | = | ↓ early | `shifted_labels` |
 # | D | = | ↓ | = | = | = | `no_end` |
 # | E | ↑ | ↑ | ↑ | = | ↓ | `bonus_for_all` |
-# | F | ↓ | ↑ | ↑ (one seed) | = | ↓ | `no_stop` |
+# | F | ↓ | ↑ | ↑ peak: {{ peaks('F').max() | .0f }}, {{ peaks('F').min() | .0f }} | = | ↓ | `no_stop` |
 #
 # - **B**: in the actor's loss of `sampled` no π multiplies Q, so Q gives the policy no gradient, and −α log π gives
 #   none on average. Only the pull towards the stochastic rule is left.
 # - **D** adds γ times the value of the state after the crash. No row begins there, so no data correct this *guess*. It
-#   feeds itself, as in lesson [[update_and_loop]], but downwards: D gives the state
-#   {{ after_the_end('D') | .0f }}, a crash {{ DEFAULT.reward.accident + asked('D') | .0f }}.
+#   feeds itself, as in lesson [[update_and_loop]], but downwards: at crashes of the stochastic rule D gives the state
+#   {{ after_the_end('D') | .0f }} and the crash {{ DEFAULT.reward.accident + asked('D') | .0f }}.
 # - **E**: with a bonus for every row the leash holds nobody near the rule.
 # - **F**: the actor's loss, not the target, raises the Q of what the policy likes.
 #
@@ -348,7 +353,7 @@ compare_predictions(
 # 1. *A curve shows a symptom.* Three of six agents with a bug end about where the healthy one does.
 # 2. *A probe asks one part one question*, and clears only what it asks: at the end C's bug shows in none of our four.
 # 3. *The order of work.* Before training, test labels and target: this finds three of the six bugs. Then watch the
-#    promise against the ceiling, then Q where drives end: you know both without a twin. Last, compare with one.
+#    promise against the ceiling, with room for the bonus. Then compare with a twin: even the healthy Q is off at ends.
 #
 # **Three questions to think about**
 # - From now on you may watch one probe in each training. Which one, and at what value should it warn you?
@@ -357,10 +362,13 @@ compare_predictions(
 #
 # <details><summary>Answers</summary>
 #
-# - *One probe?* The promise: it needs neither accidents nor a teacher. It should warn at the ceiling.
+# - *One probe?* The promise: it needs no accidents. With the bonus even the healthy one passes 5, with a peak of
+#   {{ peaks('healthy').max() | .0f }}, so warn at 7: this finds E and F, and no other.
+#   <!-- claim: all((peaks(n) > 7).all() == (n in 'EF') and (peaks(n) > 7).any() == (n in 'EF') for n in
+#   ('healthy', *'ABCDEF')) -->
 # - *Three tests?* `no_stop`: the actor's loss gives the critics no gradient. `sampled`: twice on one batch, the loss is
 #   the same number. `flipped_kl`: the KL of two distributions equals a sum by hand.
-# - *A table?* Hardly; if the code ships, from tests of single functions.
+# - *A table?* Hardly. If the authors publish their code, a reader can test its single functions.
 #
 # </details>
 

@@ -21,7 +21,7 @@ from bootcourse.learn.settings import settings_for
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.observation import Y_SCALE
 from bootcourse.road.state import EGO, Accident, Y
-from bootcourse.scenario import DEFAULT
+from bootcourse.scenario import ACTION_NAMES, DEFAULT
 
 SIZE = DEFAULT.observation_size
 ACTION, RULE_ACTION = 2 * SIZE, 2 * SIZE + 3  # columns of a transition
@@ -114,6 +114,29 @@ def accidents(drives: Sequence[Rollout]) -> str:
         f"{sum(ended.values())} of {len(drives)} drives end in an accident: {said}.\n"
         f"Of all decisions {100 * wrong.mean():.0f} % are errors."
     )
+
+
+def never_beyond(drives: Sequence[Rollout], of_rule: Tensor, roads: int = 60) -> str:
+    """How many drives off the left edge each clone has in which the car was never left of all of the rule's rows."""
+    high = left_in(of_rule).max().item()
+    kinds = [off_on_the_left(each) and not (metres_left(each) > high).any() for each in drives]
+    counts = [sum(kinds[k : k + roads]) for k in range(0, len(kinds), roads)]
+    each = ", ".join(map(str, counts))
+    return f"Off the left edge, but never left of the band before: {sum(counts)} (each clone's: {each})."
+
+
+STEER = ["steer as the rule (%)", "are left of the band (%)", "steer as the rule there (%)"]
+
+
+def steering(drives: Sequence[Rollout], of_rule: Tensor) -> list[str]:
+    """In which share of these drives' decisions the clones do what the columns `STEER` say.
+
+    An action steers left, straight or right.
+    """
+    to = np.array([name.split()[-1] for name in ACTION_NAMES])
+    alike = np.concatenate([to[each.actions] == to[each.rule_actions] for each in drives])
+    beyond = np.concatenate([metres_left(each) for each in drives]) > left_in(of_rule).max().item()
+    return [f"{100 * alike.mean():.0f}", f"{100 * beyond.mean():.1f}", f"{100 * alike[beyond].mean():.0f}"]
 
 
 def off_on_the_left(drive: Rollout) -> bool:

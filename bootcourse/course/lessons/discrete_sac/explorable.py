@@ -157,7 +157,7 @@ def thermostat() -> Explorable:
             "entropy of the policy": Curve(entropies, style("sac").colour),
             "target entropy η": Curve(np.full(UPDATES + 1, target), OTHER.colour, "--"),
         }
-        says = f"With η = {target:g}, α {course}: from 1 to {alpha:,g}.".replace("-", "−")
+        says = f"With η = {target:g}, α {course}, here from 1 to {alpha:,g}.".replace("-", "−")
         nats, below = SvgAxes(*ABOVE, (0, UPDATES), NATS), SvgAxes(*BELOW, (0, UPDATES), POWERS)
         updates = np.arange(UPDATES + 1)
         nats.scale("nats", 5)

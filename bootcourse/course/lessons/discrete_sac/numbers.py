@@ -22,7 +22,7 @@ q = np.array(START)
 pi = np.exp(q / ALPHA) / np.exp(q / ALPHA).sum()
 WORTH = pi @ q - ALPHA * pi @ np.log(pi)
 DECISIONS = 1000  # of each learner in the chain
-less = less_log_2(sac.soft_value)
+soft, less = sac.soft_value, less_log_2(sac.soft_value)
 ALPHAS = (0.01, 0.1, 0.15, 0.2, 0.25, 0.3, 1, 10)  # constant temperatures: Round 4's and more
 
 
@@ -73,15 +73,32 @@ def stays(alpha: float) -> float:
 
 
 @cache
-def constant() -> Walked:
-    """The chain's learners at each of the ALPHAS, which stay."""
-    return walked(sac.soft_value, sac.critic_target, torch.tensor(ALPHAS, dtype=torch.float64).expand(DECISIONS, -1))
+def constant(value: Callable = sac.soft_value, seed: int = 0) -> Walked:
+    """The chain's learners at each of the ALPHAS, which stay. value: V(s) in their target, see `unpaid`."""
+    alphas = torch.tensor(ALPHAS, dtype=torch.float64).expand(DECISIONS, -1)
+    return walked(value, sac.critic_target, alphas, seed)
+
+
+def found(value: Callable, alpha: float) -> int:
+    """How many of them find the free road at one of the ALPHAS."""
+    return int(constant(value).found[ALPHAS.index(alpha)].sum())
+
+
+def sure_at(value: Callable, alpha: float, seed: int = 0) -> int:
+    """How many of them end sure of leaving at one of the ALPHAS."""
+    return int(sure(constant(value, seed))[ALPHAS.index(alpha)])
 
 
 @cache
-def falling(value: Callable = sac.soft_value, start: float = 10, seed: int = 0) -> Walked:
+def falling(value: Callable = sac.soft_value, start: float = 10, seed: int = 0, first_q: float = 0.0) -> Walked:
     """Learners whose α falls by equal factors from `start` to 0.01. value: V(s) in their target, see `unpaid`."""
-    return walked(value, sac.critic_target, torch.tensor(np.geomspace(start, 0.01, DECISIONS))[:, None], seed)
+    alphas = torch.tensor(np.geomspace(start, 0.01, DECISIONS))[:, None]
+    return walked(value, sac.critic_target, alphas, seed, first_q)
+
+
+def sure_from(start: float) -> list[int]:
+    """How many of them end sure of leaving with the pay α H, α (H − log 2) and none."""
+    return [int(sure(falling(value, start))[0]) for value in (sac.soft_value, less, unpaid)]
 
 
 def others() -> list[int]:

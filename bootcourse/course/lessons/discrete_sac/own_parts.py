@@ -80,17 +80,18 @@ def less_log_2(value: Callable) -> Callable:
     return lambda log_pi, q, alpha: value(log_pi, q, alpha) - alpha * math.log(2)
 
 
-def walked(value: Callable, target: Callable, alphas: Tensor, seed: int = 0) -> Walked:
+def walked(value: Callable, target: Callable, alphas: Tensor, seed: int = 0, first_q: float = 0.0) -> Walked:
     """Learners that act by softmax(Q / α) and move Q to the soft target; alphas: (decisions, kinds).
 
-    All kinds draw the same numbers. seed: of these.
+    All kinds draw the same numbers. seed: of these; first_q: what all Q are at first.
     """
     decisions, kinds = alphas.shape
     reward, following = torch.tensor(chain.REWARD), torch.tensor(chain.NEXT)
     drawn = torch.tensor(np.random.default_rng(seed).random((decisions, LEARNERS))).repeat(1, kinds)
     alphas, one = alphas.repeat_interleave(LEARNERS, dim=1)[..., None], torch.ones((), dtype=torch.float64)
     each, goes_on = torch.arange(kinds * LEARNERS), torch.zeros(kinds * LEARNERS)
-    q, walks = torch.zeros(len(each), *reward.shape, dtype=torch.float64), torch.zeros_like(each)
+    q = torch.full((len(each), *reward.shape), first_q, dtype=torch.float64)
+    walks = torch.zeros_like(each)
     decided = torch.zeros(len(each), chain.STATES)
     for t, alpha in enumerate(alphas):
         if t % chain.EPISODE == 0:

@@ -14,13 +14,13 @@ from bootcourse.research.cells import VARIED
 from bootcourse.research.results import Results
 
 WORTHS = {  # the title of each picture: (the agents that are ahead later, of all)
-    "demos": "All {1} climb: {0} to a faster way out, the others to staying",
+    "demos": "{0} of {1} end on faster ways, the others at staying; many crash",
     "demos, β for ever": "If the bonus never ends, {0} of {1} stay ahead, and none climbs",
 }
 
 
 def worths(cell: str) -> Figure:
-    """What the ways out are worth just before β ends, and what the same agents' drives are worth late in training.
+    """What the ways out are worth just before β ends, and at each later look; at the right, the late looks' median.
 
     cell: of the experiment `ways`. Shown: the agents that get ahead on most roads just before β ends.
     """
@@ -31,13 +31,18 @@ def worths(cell: str) -> Figure:
     staying, colour = ways.staying(agents.agents[0]["gamma"]), style(agents.methods[0]).colour
     figure = new_figure(3.8)
     ax = axes_at(figure, 0.55, 0.65, 4.3, 2.6)
-    plain_axes(ax, f"worth of a drive at γ = 0.8, without the bonus (mean of {ways.ROADS} roads)")
-    ax.set(xlim=(-0.12, 1.06), ylim=(0, 1.8), yticks=(0, 0.5, 1, 1.5))
+    words = f"worth of a drive at γ = 0.8, without the bonus (mean of {ways.ROADS} roads); cut at −1: they crash"
+    plain_axes(ax, words)
+    ax.set(xlim=(-0.05, 1.06), ylim=(-1, 1.8), yticks=(-1, 0, 1))
     late = f"episodes {ways.LATE:,} to {ways.EPISODES:,} (median)"
-    ax.set_xticks((0, 0.95), ("just before episode 1,000", late), fontsize=TEXT, color=INK)
-    for first, last, out in zip(before, after, ahead, strict=True):
+    places = (0, 0.47, 0.95)
+    ax.set_xticks(places, ("just before 1,000", f"{ways.LATE:,}", "dots: median from there on"), fontsize=TEXT)
+    looks = np.arange(agents.notes["worth"].shape[1]) * ways.EVERY
+    later = looks >= ways.EPISODES // 2
+    at = np.r_[0, 0.9 * (looks[later] - 950) / (ways.EPISODES - 950)]  # 950: the look just before
+    for first, way, last, out in zip(before, agents.notes["worth"][had], after, ahead, strict=True):
         look = {"color": colour if out else TRAP, "zorder": 3 if out else 4}
-        ax.plot((0, 1), (first, last), "-" if out else "--", linewidth=1.2, alpha=0.8, **look)
+        ax.plot(at, np.r_[first, way[later]], linewidth=0.7, alpha=0.7, **look)
         ax.plot((0, 1), (first, last), "o", ms=6, mec="white", mew=0.6, **look)
     ax.axhline(staying, color=INK, linewidth=1.5, zorder=2)
     ax.text(1.09, staying + 0.04, f"staying behind: {staying:.2f}", fontsize=TEXT, color=INK, va="center")
@@ -46,7 +51,8 @@ def worths(cell: str) -> Figure:
         ax.text(1.09, staying - 0.1, f"{behind} behind it", fontsize=TEXT, color=TRAP, va="center")
     each = [", ".join(f"{one:.2f}" for one in np.sort(worth)) for worth in (before, after[ahead], after[~ahead])]
     alt = (
-        f"A line for each of {had.sum()} agents. Just before episode 1,000 their ways out are worth {each[0]}. In the "
+        f"A line for each of {had.sum()} agents, through all looks. Just before episode 1,000 their ways out are worth "
+        f"{each[0]}. In the "
         f"{late}, {ahead.sum()} are ahead, on ways worth {each[1]}"
         + (f"; {behind} are behind, worth {each[2]}" if behind else "")
         + f". Staying behind is worth {staying:.2f}."
@@ -57,34 +63,40 @@ def worths(cell: str) -> Figure:
 def found_and_kept(results: Results, printed: Mapping[str, float] | None = None) -> Figure:
     """A square for each agent, a row for each method, which has ten; beside it how many found the way out, and kept it.
 
-    Filled: it found the way out and kept it; empty: found and did not keep it; a dot: never found it. printed: the
-    paper's success of each method, %, for a last column.
+    Filled: it found the way out and kept it; empty: found and did not keep it, with a cross if it crashes on most
+    roads; a dot: never found it. printed: the paper's success of each method, %, for a last column.
     """
-    left, top, tall, counted = 1.7, 0.85, 0.34, {}
+    left, top, tall, counted, crossed = 1.7, 0.85, 0.34, {}, {}
     figure = new_figure(top + tall * len(VARIED) + 0.5)
     ax = axes_at(figure, left, top, 3.5, tall * len(VARIED))
     heads = {1.08: "found", 1.2: "kept"} | ({1.36: "the paper"} if printed else {})
     for x, head in heads.items():
         ax.text(x, 1.03, head, transform=ax.transAxes, ha="center", va="bottom", fontsize=TEXT, color=INK)
     for y, method in enumerate(VARIED):
-        found, kept = (int(each.sum()) for each in results.found_and_kept(method))
+        way_out, keeps = results.found_and_kept(method)
+        found, kept = int(way_out.sum()), int(keeps.sum())
+        crash = int((way_out & ~keeps & (results.of(method).scores("accident") > 0.5)).sum())
         n, colour = len(results.of(method)), style(method).colour
         for first, after, fill in ((0, kept, colour), (kept, found, "white")):
             at = range(first, after)
             ax.plot(at, [y] * len(at), "s", ms=8.5, color=fill, mec=colour, mew=1.6)
+        ax.plot(range(found - crash, found), [y] * crash, "x", ms=6, color=colour, mew=1.6)
         ax.plot(range(found, n), [y] * (n - found), "o", ms=2.5, color=QUIET)
         cells = [f"{found}", f"{kept}"] + ([f"{printed[method]:.0f} %"] if printed else [])
         for x, words in zip(heads, cells, strict=True):
             ax.text(x, y, words, transform=ax.get_yaxis_transform(), ha="center", va="center", fontsize=TEXT, color=INK)
         keep = "and keep it" if kept == found else f"{kept or 'none'} keep{'' if kept > 1 else 's'} it"
         counted[method] = f"{found} of {n} find the way out{' ' if kept == found else ', '}{keep}"
+        crossed[method] = f", {crash} crash{'es' if crash == 1 else ''} on most roads" if crash else ""
     ax.set(xlim=(-0.6, 9.6), ylim=(len(VARIED) - 0.5, -0.5), xticks=())
     ax.set_yticks(range(len(VARIED)), map(display_name, VARIED), fontsize=TEXT, color=INK)
     ax.tick_params(axis="y", length=0)
     for side in ax.spines.values():
         side.set_visible(False)
-    key = "■ found and kept   □ found, not kept   · not found.   Each mark is an agent."
+    key = "An agent each: ■ found and kept   □ found, not kept   ⊠ the same, and crashes on most roads   · not found"
     figure.text(0.012, 0.14 / figure.get_figheight(), key, fontsize=TEXT, color=INK)
     paper = {method: f" (the paper: {rate:.0f} %)" for method, rate in (printed or {}).items()}
-    alt = "; ".join(f"{display_name(method)}: {words}{paper.get(method, '')}" for method, words in counted.items())
+    alt = "; ".join(
+        f"{display_name(method)}: {words}{crossed[method]}{paper.get(method, '')}" for method, words in counted.items()
+    )
     return finish(figure, f"With demonstrations alone {counted['demos']}", f"{alt}.")

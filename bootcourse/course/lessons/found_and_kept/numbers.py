@@ -160,6 +160,45 @@ def before_of(cell: str, ahead: bool) -> np.ndarray:
     return before(cell)[ahead_late(cell) == ahead]
 
 
+def below_0(cell: str) -> int:
+    """Of how many a drive is worth less than 0 at some look after β has ended."""
+    return int((watched(cell).notes["worth"][had_a_way(cell)][:, ENDS // ways.EVERY + 1 :] < 0).any(axis=1).sum())
+
+
+def crashes_of_not_kept() -> np.ndarray:
+    """The share of drives with an accident, of the study's agents that found the way out and did not keep it."""
+    each = []
+    for method in ("sac", "soft", "demos", "bootstrapped"):
+        found, kept = of_all().found_and_kept(method)
+        each.append(of_all().of(method).scores("accident")[found & ~kept])
+    return np.concatenate(each)
+
+
+def crashes_in(words: str) -> np.ndarray:
+    """The share of drives with an accident in the test, of each agent of a group of round 3."""
+    return groups()[words].scores("accident")
+
+
+def earned(words: str) -> float:
+    """The mean return of a group of round 3 in the test."""
+    return float(groups()[words].scores("returns").mean())
+
+
+def escapes_of_twenty() -> tuple[int, int]:
+    """How many of twenty escape whose β ends, without the bonus and with it: the ten of round 3 and ten others."""
+    others = shipped_experiment("stress")
+    cells = {"β ends, no bonus": "bootstrapped, c = 0", "β ends, bonus": "bootstrapped"}
+    first, second = (
+        int(group(words).escapes.sum()) + others[cell].escapers("bootstrapped") for words, cell in cells.items()
+    )
+    return first, second
+
+
+def of_soft_row() -> str:
+    """The success of each agent of round 4 with the soft constraint alone, %."""
+    return ", ".join(f"{100 * each:.0f}" for each in np.sort(clocks()["2", "π̃"].of("soft").scores("success")))
+
+
 def rise(cell: str) -> int:
     """Of how many the drives are worth more later than the way out was."""
     return int((ways.late(watched(cell))[had_a_way(cell)] > before(cell)).sum())
@@ -193,6 +232,6 @@ def less_braking() -> np.ndarray:
     return _rule_with(IDLE) - _rule_with(None)
 
 
-def sooner() -> np.ndarray:
-    """How much more it is worth if it accelerates, straight on, in the twelfth second, (TRIED,)."""
-    return _rule_with(FASTER, 11) - _rule_with(None)
+def sooner(second: int = 12) -> np.ndarray:
+    """How much more it is worth if it accelerates, straight on, in the twelfth second, or another one, (TRIED,)."""
+    return _rule_with(FASTER, second - 1) - _rule_with(None)

@@ -15,7 +15,7 @@
 #
 # **What you will be able to do**
 # - tell an agent that never found the way out from one that lost it;
-# - say what a way out is worth to an agent, and why it may climb from there back into the trap;
+# - say what a way out is worth to an agent, and what becomes of it when the bonus ends;
 # - compute how likely a table of single agents is.
 #
 # **Time** 41 minutes. **It builds on** lessons [[the_trap]],
@@ -67,10 +67,12 @@ bc.show(figures.found_and_kept(study))
 
 # %% [markdown]
 # *With demonstrations alone five find the way out and do not keep it.* One rate at the end would not tell them from
-# the five that never find it.
+# the five that never find it. Of the ten unfilled squares five stay behind trap 1, and five crash on most roads (⊠).
 # <!-- claim: [way(of_all(), m).found for m in ('sac', 'soft', 'bootstrapped', 'demos')] == [1, 10,
 #   10, 5] and way(of_all(), 'demos').kept == 0 and min(way(of_all(), m).kept for m in ('soft',
 #   'bootstrapped')) > 5 -->
+# <!-- claim: crashes_of_not_kept().size == 10 and [(crashes_of_not_kept() == 0).sum(), (crashes_of_not_kept() >
+#   0.6).sum()] == [5, 5] -->
 
 # %% [markdown] tags=["instructor"] minutes=3
 # Ask what could have happened to the agent of the first picture, and keep the answers for Round 2.
@@ -98,27 +100,26 @@ bc.show(figures.worths("demos"))
 
 # %% [markdown]
 # **See.** *All {{ len(before('demos')) }} ways out are worth less than staying*: in the first ten seconds, which count
-# most, the agents fall back to make room. Afterwards each of them climbs, nine to a faster way out, seven back to
-# staying.
+# most, the agents fall back to make room. From episode 1,500 on, nine are on faster ways out and seven back at staying.
+# On the way nine of the sixteen are at some look worth less than 0: they crash.
 # <!-- claim: (before('demos') < stays()).all() and len(before('demos')) == 16 and falls_back().min() > 2 -->
-# <!-- claim: fates('demos') == (9, 7) and rise('demos') == 16 -->
+# <!-- claim: fates('demos') == (9, 7) and rise('demos') == 16 and below_0('demos') == 9 -->
 # <!-- claim: ends('demos', True).min() > 0.85 and (abs(ends('demos', False) - stays()) < 0.06).all() -->
 #
-# **Explain. Both are uphill.** An agent does not compare all drives and choose the best. It changes its drive a
-# little, and keeps a change that pays. From a slow way out **two hills** are in reach. To fall back less pays, and
-# ends in staying. To accelerate sooner pays as well, and ends in a fast way out. The rule has not put these agents on
-# a summit, but between two hills, and when the bonus ends, each climbs one.
+# **Explain. Both are uphill.** An agent changes its drive a little, and keeps a change that pays. From a slow way out
+# **two hills** are in reach. To fall back less pays, and ends in staying. To accelerate sooner pays as well, and ends
+# in a fast way out.
 #
-# This is a reading. Agents that went down, and stayed there, would refute it; none did. And it has a test: small
-# changes of the rule's drive must pay both ways. They do. On each of {{ TRIED }} roads it is worth more without
-# braking in the first second, and on {{ (sooner() > 0).sum() }} with accelerating in the twelfth.
-# <!-- claim: (less_braking() > 0).all() and (sooner() > 0).mean() > 0.7 -->
+# This is a reading, and too smooth: it has no crashes. Its test: changes of the rule's drive must pay both ways. Not to
+# brake in the first second gains on each of {{ TRIED }} roads ({{ less_braking().mean() | .3f }} on average), to
+# accelerate in the twelfth on {{ (sooner() > 0).sum() }} ({{ sooner().mean() | .3f }}). We chose these seconds:
+# accelerating in the tenth gains on {{ (sooner(10) > 0).sum() }}.
+# <!-- claim: (less_braking() > 0).all() and (sooner() > 0).mean() > 0.7 and sooner().mean() > 0 > sooner(10).mean() -->
 #
 # **This solves half of lesson [[the_trap]]'s riddle.** *How can a teacher help whose way is worth less than the
 # trap?* Because learning is a walk, not a choice. From the trap a faster drive is some eight right decisions away
 # (lesson [[the_barrier]]), and most attempts crash. From the rule's way a better one is one changed decision away. A
-# teacher need not stand on the higher hill; it must put the learner on its slope. Which teachers do is the other half
-# (lesson [[your_teacher]]).
+# teacher must put the learner on such a slope. Which teachers do is the other half (lesson [[your_teacher]]).
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Let the class say, before the picture, what an agent gains that goes back to staying, with the
@@ -145,17 +146,15 @@ predicted("found_and_kept.2")
 bc.show(figures.worths("demos, β for ever"))
 
 # %% [markdown]
-# **See.** *All {{ len(before('demos, β for ever')) }} are ahead at the end, on ways worth less than staying.* None has
-# climbed either hill.
+# **See.** *All {{ len(before('demos, β for ever')) }} are ahead at the end, on ways worth less than staying.*
 # <!-- claim: fates('demos, β for ever') == (len(before('demos, β for ever')), 0) and
 #   (ends('demos, β for ever', True) < stays()).all() and fisher_of_fates() < 0.05 -->
 # <!-- claim: abs(ends('demos, β for ever', True) - before('demos, β for ever')).max() < 0.1 -->
 #
 # **Explain.** While β lasts they are on lesson [[learning_from_demonstrations]]'s **leash**: it holds them at the
-# rule's drive, from running ahead as from running back.
+# rule's drive.
 #
-# Of the four gates this is **Keep**: when the help ends, the way out must be worth more than staying. None of the
-# sixteen was; nine became so in time.
+# Of the four gates this is **Keep**: when the help ends, the way out must be worth more than staying.
 
 # %% [markdown]
 # ## Round 3: the demonstrations or their bonus?
@@ -197,16 +196,22 @@ predicted("found_and_kept.3")
 explorable.losing()
 
 # %% [markdown]
-# **See.** *At {{ LOST }} all ten lose it*: demonstrations without the bonus hold nobody. With the endless bonus none
-# of the ten loses it, and they drive as slowly as the rule.
+# **See.** *At {{ LOST }} all ten lose it*: demonstrations without the bonus did not hold. With the endless bonus none
+# of the ten loses it, and they drive as slowly as the rule. In the third group eight lose it, yet all ten escape and
+# earn most. Counting ten others (4,000 episodes), {{ escapes_of_twenty()[0] }} of twenty escape; with the bonus
+# {{ escapes_of_twenty()[1] }}, too.
+# <!-- claim: escapes_of_twenty() == (16, 16) and [group(each).escapes.sum() for each in ('β ends, no bonus', 'β ends,
+#   bonus')] == [10, 7] and earned('β ends, no bonus') == max(map(earned, groups())) -->
 # <!-- claim: [each.lost.sum() for each in map(group, groups())] == [10, 0, 8, 10] and
 #   lost_least_if_both(5, 35) and lost_if_both(30) == 0 -->
 # <!-- claim: all(group('β never ends, bonus').escapes) and
 #   abs(speed('β never ends, bonus') - of('rule').scores('speed').mean()) < 1.5 -->
 #
 # **Explain.** *The leash is the bonus, not the rows.* A demonstrated second pays {{ SETTINGS.bonus | .0f }} more than
-# the road does, and no second on the road pays more than 1. So to be where the rule was beats both hills. Without pay
-# the rows only show where the rule was, and the road's rewards lead away from there.
+# the road does, and no second on the road pays more than 1. So to be where the rule was beats both hills. Of the last
+# group, without pay, half escape; the others crash on over two thirds of the roads. Why, this experiment does not say.
+# <!-- claim: group('β never ends, no bonus').escapes.sum() == 5 and
+#   crashes_in('β never ends, no bonus')[~group('β never ends, no bonus').escapes].min() > 2 / 3 -->
 # <!-- claim: SETTINGS.bonus > 1 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -221,7 +226,8 @@ explorable.losing()
 # The paper prints a success of {{ PRINTED['soft']['success'].mean | .0f }} % for the soft constraint alone and
 # {{ PRINTED['demos']['success'].mean | .0f }} % for demonstrations alone; of our ten of each {{ escaped('soft') }}
 # and {{ escaped('demos') }} escape. We trained others with 2 updates for each decision in place of ¼, on one road at
-# a time, and, as in the paper, from the stochastic rule's demonstrations.
+# a time, from the stochastic rule's demonstrations, as in the paper, and for {{ SHORTER | , }} episodes, not
+# {{ STUDY | , }}.
 # <!-- claim: SETTINGS.updates == 1 and SETTINGS.envs_per_agent == 4 -->
 # <!-- claim: (STUDY, ENDS) == (2000, 1000) -->
 # <!-- claim: {(u, a['envs_per_agent'], a['updates']) for (u, _), r in clocks().items() for a in
@@ -236,7 +242,9 @@ cells = counts.by_updates("the stochastic rule")
 bc.show(figures.found_and_kept(cells["2"], counts.printed()))
 
 # %% [markdown]
-# *Here demonstrations alone do better, as in the paper.*
+# *Here demonstrations alone do better, as in the paper.* Success of the soft row: {{ of_soft_row() }} %; of both rows
+# with demonstrations: over 95 % each.
+# <!-- claim: min(clocks()['2', 'π̃'].of(m).scores('success').min() for m in ('demos', 'bootstrapped')) > 0.95 -->
 # <!-- claim: [way(clocks()['2', 'π̃'], m).kept for m in ('sac', 'soft', 'demos', 'bootstrapped')]
 #   == [0, 5, 10, 10] -->
 #
@@ -277,7 +285,7 @@ def in_words(agents):
 
 
 rows = [[name, *map(in_words, counts.by_updates(name).values())] for name in counts.SYMBOLS]
-below = "In brackets: how many agents of each method, where not ten."
+below = "All for 1,200 episodes. In brackets: how many agents of each method, where not ten."
 table(["demonstrations by; updates for a decision:", "¼", "1", "2", "4"], rows, below)
 
 # %% [markdown]
@@ -306,9 +314,9 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. When the bonus ended, each of sixteen agents climbed one of two hills: a faster way out, or staying.
+# 1. When the bonus ended, nine of sixteen agents found a faster way out, seven went back to staying; many crashed.
 # 2. So a teacher can help whose way is worth less than the trap, if it puts the learner on a slope.
-# 3. The bonus is a leash; demonstrations without it held nobody.
+# 3. The bonus is a leash; demonstrations without it did not hold.
 # 4. Single agents of another training can give the paper's rates by chance.
 #
 # **Three questions to think about**

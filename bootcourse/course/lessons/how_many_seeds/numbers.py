@@ -48,6 +48,11 @@ def new(agents: int) -> Estimate:
     return counts.of_new_agents(shipped_experiment("new-agents"), agents)
 
 
+def others_escape(method: str) -> int:
+    """How many of ten others escape, which were trained for twice the study's episodes."""
+    return shipped_experiment("stress")[method].escapers(method)
+
+
 def length(agents: int) -> float:
     """How long its interval is, in points."""
     return new(agents).high - new(agents).low

@@ -6,7 +6,9 @@ import numpy as np
 
 from bootcourse.course.lessons.learning_from_demonstrations import measures
 from bootcourse.course.lessons.learning_from_demonstrations.measures import ahead as ahead
+from bootcourse.course.lessons.learning_from_demonstrations.measures import held as held
 from bootcourse.course.lessons.learning_from_demonstrations.measures import kinds
+from bootcourse.course.lessons.learning_from_demonstrations.measures import leashes as leashes
 from bootcourse.course.lessons.soft_constraint.examples import fast_and_rule, reward_and_kl
 from bootcourse.episodes.record import record
 from bootcourse.panels.bonus import bonus_numbers
@@ -14,7 +16,7 @@ from bootcourse.policies import idle_policy, rule_policy
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import lost
-from tools.course.known import SETTINGS, by_rule, clocks, idle, shipped_results
+from tools.course.known import SETTINGS, by_rule, clocks, idle, others, shipped_results
 
 
 def _with(name: str) -> tuple[list[Results], list[Results]]:
@@ -37,14 +39,14 @@ def of_the_study(name: str) -> str:
     return measures.escape(_with(name)[0][:1])
 
 
-def of_the_others(name: str) -> str:
-    """How many of the ten others with the soft constraint and these demonstrations escape."""
-    return measures.escape(_with(name)[0][1:])
-
-
 def alone(name: str) -> str:
     """How many agents escape with these demonstrations and without the soft constraint."""
     return measures.escape(_with(name)[1])
+
+
+def find_alone(name: str) -> str:
+    """How many agents find the way out with these demonstrations and without the soft constraint."""
+    return measures.find(_with(name)[1])
 
 
 def found(name: str) -> np.ndarray:
@@ -65,6 +67,16 @@ def training(name: str, curve: str, first: int, last: int | None, others: bool =
 def losing_until(name: str, episode: int) -> int:
     """How many of the twenty agents with the soft constraint have lost the way out by this training episode."""
     return sum(int(lost(each.curves["success"][:, :episode]).sum()) for each in _with(name)[0])
+
+
+def paid_for_ever_others() -> Results:
+    """The ten others with the soft constraint and demonstrations in all their training."""
+    return others("bootstrapped, β for ever")
+
+
+def losers(agents: Results) -> int:
+    """How many of these agents lose the way out at least once in their training."""
+    return int(lost(agents.curves["success"]).sum())
 
 
 def of_the_stochastic_rule(method: str) -> Results:

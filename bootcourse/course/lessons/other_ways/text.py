@@ -63,7 +63,8 @@ bc.show(figures.what_is_taken())
 # | lesson | who guesses | who picks | against it |
 # |---|---|---|---|
 # | [[discrete_sac]] | a critic | the actor | the smaller of two |
-# | [[update_and_loop]], [[bug_hunt]] (D) | a critic, after the end | nobody: the target copies it | `terminated` |
+# | [[update_and_loop]] | a critic, after the end | the actor | `terminated` |
+# | [[bug_hunt]] (D) | a critic, after the end | nobody: the target copies it | `terminated` |
 # | [[learning_from_demonstrations]] | a critic, where nobody showed | the actor | the margin; own drives |
 # | [[recorded_drives]] | a critic, where no record is | target and choice | CQL: stay with the data |
 # | [[looking_ahead]] | a noisy road; a learned model | the look-ahead | a mean of guesses; the shield |

@@ -3,12 +3,16 @@
 from functools import cache
 
 import numpy as np
+import torch
 
 from bootcourse.course.lessons.recorded_drives import choosing, eight_seeds
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.record import record
+from bootcourse.learn.replay_buffer import decode_transitions
+from bootcourse.learn.settings import settings_for
+from bootcourse.learn.training import Training
 from bootcourse.policies import Policy, rule_policy
 from bootcourse.road.state import EGO, SPEED
 from bootcourse.scenario import DEFAULT
@@ -65,10 +69,23 @@ def did() -> float:
 
 
 @cache
-def at_second(second: int) -> np.ndarray:
-    """How fast the rule's car drives at a second on each of 100 roads, m/s."""
+def fastest(seconds: int | None = None) -> float:
+    """The rule's highest speed in the first seconds, or in the whole drive, on 100 roads, m/s."""
     drives = record(rule_policy(DEFAULT), range(100))
-    return np.array([drive.states[second * DEFAULT.clock.steps, EGO, SPEED] for drive in drives])
+    steps = None if seconds is None else seconds * DEFAULT.clock.steps + 1
+    return float(max(drive.states[:steps, EGO, SPEED].max() for drive in drives))
+
+
+@cache
+def with_accident() -> int:
+    """How many of the stochastic rule's drives, from which two agents of Round 2 learned, end in an accident."""
+    replay = Training([settings_for("cql", stochastic_demonstrations=True)]).replay
+    rows = replay.table[: replay.demonstrations]
+    batch = decode_transitions(rows, DEFAULT.observation_size, torch.zeros(len(rows)))
+    return int(batch.terminated.sum())
+
+
+CLOSE = "CQL's term, γ = 0.01"  # a kind of agents of Round 2
 
 
 def eight(kind: str, measure: str) -> list[float]:

@@ -111,6 +111,25 @@ def paid_equally() -> float:
     return (fast - rule) / (its_kl - rules_kl)
 
 
+def paid_equally_by_each() -> list[float]:
+    """The same ξ, from each of the five fast agents' drives alone."""
+    drives, by_rule = fast_and_rule().values()
+    rule, rules_kl = reward_and_kl(by_rule)
+    one = len(by_rule)
+    fast = (reward_and_kl(drives[k : k + one]) for k in range(0, len(drives), one))
+    return [(reward - rule) / (kl - rules_kl) for reward, kl in fast]
+
+
+def weak() -> list[Results]:
+    """The twenty agents whose ξ stays at 0.1, ten of the study's."""
+    return [stays(0.1), others("soft, ξ stays at 0.1")]
+
+
+def returns_of_keepers(agents: list[Results]) -> np.ndarray:
+    """The returns of those agents of these studies that kept the way out."""
+    return np.concatenate([each.scores("returns")[each.found_and_kept("soft")[1]] for each in agents])
+
+
 def entropy_of_the_fast() -> float:
     """The fast agents' mean entropy in these seconds: nats."""
     return later(fast_and_rule()["five fast agents"], entropy_in)

@@ -10,7 +10,18 @@ from bootcourse.course.lessons.the_barrier import easier
 from bootcourse.course.live_curves import LiveCurves
 from bootcourse.learn.training import Training
 from bootcourse.methods import style
-from bootcourse.plots.figure import INK, QUIET, SMALL, TEXT, axes_at, finish, label_ends, new_figure, plain_axes
+from bootcourse.plots.figure import (
+    INK,
+    QUIET,
+    SMALL,
+    TEXT,
+    axes_at,
+    finish,
+    label_ends,
+    new_figure,
+    one_axes,
+    plain_axes,
+)
 from bootcourse.research.results import Results
 from bootcourse.statistics import ESCAPES
 
@@ -103,9 +114,6 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
         out, crash = sum(ends[:2]), sum(crossing)
         says = f"{out} escape{'s' if out == 1 else ''}, {crash} crash{'es' if crash == 1 else ''} on most roads"
         ax.text(x, y + 0.06, says, va="center", fontsize=TEXT, color=INK, fontweight="bold")
-        often = np.median(times_ahead(trained[shown[row, column]]))
-        says = f"drives that got out while learning: {often:g} (median)"
-        ax.text(x, y + 0.7, says, va="center", fontsize=SMALL, color=INK)
     earns, poor = [*ENDS][:2]
     keys = {earns: ENDS[earns], poor: ENDS[poor], "does not escape": "white", "a cross: crashes on most roads": ""}
     for place, (words, colour) in enumerate(keys.items()):
@@ -127,6 +135,34 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
 def times_ahead(results: Results) -> np.ndarray:
     """In how many drives each agent got out while it learned, (agents,)."""
     return (results.curves["success"] > 0).sum(axis=1)
+
+
+def by_quarter(results: Results) -> np.ndarray:
+    """In which share of its drives each agent got out, in each quarter of its drives, (agents, 4)."""
+    drives = (each[np.isfinite(each)] > 0 for each in results.curves["success"])
+    return np.array([[quarter.mean() for quarter in np.array_split(each, 4)] for each in drives])
+
+
+def getting_out(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]) -> Figure:
+    """How often the median agent of each kind gets out while it learns, a line for each kind.
+
+    shown: as `escapes` has it.
+    """
+    title = "At a price of 10 the median agent stops getting out, at 1 it goes on"
+    figure, ax = one_axes(
+        3.0, title, "quarter of an agent's drives", "drives that got out (%), median agent", width=0.6
+    )
+    ends, said = [], []
+    for (start, price), kind in shown.items():
+        shares = 100 * np.median(by_quarter(trained[kind]), axis=0)
+        colour, line = (DARK, "o-") if "lane" in start else (BLUES[1][0], "s--")
+        ax.plot(range(1, 5), shares, line, color=colour, linewidth=2, markersize=4)
+        words = f"{price.split()[-1]}, {start.removeprefix('start ')}"
+        ends.append((shares[-1], f"price {words}: {shares[-1]:.0f} %", colour))
+        said.append(f"price {words}: {', '.join(f'{share:.1f}' for share in shares)}")
+    ax.set(xlim=(0.9, 4), ylim=(-4, 100), xticks=range(1, 5))
+    label_ends(ax, ends)
+    return finish(figure, title, f"Drives that got out in each quarter of the drives, %. {'; '.join(said)}.")
 
 
 def while_they_learned(results: Results, chance: float) -> Figure:

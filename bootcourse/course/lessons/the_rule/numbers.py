@@ -1,5 +1,6 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,10 @@ from bootcourse.course.lessons.the_rule.rules import fast_changes as fast_change
 from bootcourse.course.lessons.the_rule.rules import paid as paid
 from bootcourse.course.lessons.the_rule.rules import recorded as recorded
 from bootcourse.course.lessons.the_rule.rules import split as split
+from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
+from bootcourse.policies import rule_policy
+from bootcourse.research.claimed import UNGIVING
 from bootcourse.road.state import EGO, LANE, SPEED, TRAP_2, X
 from bootcourse.rule import SETTLED as SETTLED
 from bootcourse.rule import Reason
@@ -40,6 +44,20 @@ def worths(sight: float, gamma: float) -> np.ndarray:
 def worth(sight: float, gamma: float = 0.8) -> float:
     """Their mean."""
     return float(worths(sight, gamma).mean())
+
+
+def kept(target: float) -> set[float]:
+    """The speeds (m/s) that the rule keeps for a target speed on the lesson's road, three decisions after it began."""
+    drive = recorded(10)
+    speeds, targets = drive.states[:: drive.scenario.clock.steps, EGO, SPEED], np.asarray(drive.rule_speeds)
+    kept_for = [k for k in range(3, len(targets) - 1) if (targets[k - 3 : k + 1] == target).all()]
+    return {round(float(speeds[k + 1]), 6) for k in kept_for}
+
+
+def impolite() -> Rollout:
+    """The drive of the rule with a sight of 30 m on the lesson's road, among drivers that do not make way."""
+    scenario = replace(UNGIVING, sight=replace(UNGIVING.sight, distance=30.0))
+    return record(rule_policy(scenario), [10], scenario, label="rule")[0]
 
 
 def gap(drive: Rollout, second: int) -> float:

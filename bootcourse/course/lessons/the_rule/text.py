@@ -18,7 +18,7 @@
 # - say what a printed condition does to the car, and mend it;
 # - find out why the rule is slow, and what a quicker one is worth as a teacher.
 #
-# **Time** 41 minutes, 3 of them voluntary (*Further*). **It builds on** [lesson [[the_trap]]](the_trap.ipynb).
+# **Time** 46 minutes, 8 of them voluntary (*Further*). **It builds on** [lesson [[the_trap]]](the_trap.ipynb).
 
 # %%
 import bootcourse as bc
@@ -83,7 +83,9 @@ check.target_speed(target_speed)
 # %% [markdown]
 # With nobody ahead in your lane the target is 15 m/s, and in the leftmost lane only that lane counts.
 #
-# The **tracker** (§) turns the target into actions. *§: the paper leaves this open, and we chose.*
+# The **tracker** (§) turns the target into actions. Within {{ DEFAULT.ego.acceleration / 2 | g }} m/s of it, its *dead
+# band*, it keeps its speed: 8 m/s for 8.25, 10 or 11 for 10.5. *§: the paper leaves this open, and we chose.*
+# <!-- claim: kept(8.25) == {8} and kept(10.5) == {10, 11} -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # Somebody will ask why not one speed just below the traps'. Five speeds are easy to explain and to defend,
@@ -101,7 +103,7 @@ check.target_speed(target_speed)
 # 4. The car behind you in the new lane is too close: wait.
 # 5. Else: change to the new lane.
 #
-# The paper tests case 3; the other tests are ours (§).
+# The paper tests case 3, and switches case 4 off, as nobody drives there; the other tests are ours (§).
 #
 # The safety distance is t_safe ({{ DEFAULT.rule.t_safe }} s, §) times the speed by which you are faster than the
 # slower of the two cars ahead, in your lane and in the new one, and at least the *floor*
@@ -194,11 +196,7 @@ bc.show(figures.when_to_change(drive))
 # ## Round 3: what makes it slow?
 #
 # On each of {{ roads() | , }} roads the rule gets out, without an accident. But it earns only about a third
-# of what 150 s at 15 m/s pay. (The paper's rule earns {{ PRINTED['rule']['returns'].mean | .1f }}, ours
-# {{ of('rule').scores('returns').mean() | .0f }}, at nearly the same mean speed. The paper does not tell why; ours is
-# at times above 12.5 m/s, where a second pays far more.)
-# <!-- claim: abs(of('rule').scores('speed').mean() - PRINTED['rule']['speed'].mean) < 0.5 and second_pays(15) >
-#   3 * second_pays(12.5) and (by_rule().states[:, EGO, SPEED] > 12.5).mean() > 0.05 -->
+# of what 150 s at 15 m/s pay.
 # <!-- claim: of('rule').episodes('success').all() and accidents('rule') == 0 -->
 # <!-- claim: 0.3 < of('rule').scores('returns').mean() / (150 * second_pays(15)) < 0.37 -->
 #
@@ -228,7 +226,8 @@ bc.show(figures.speeds_by_sight(drive, rules.recorded(ROAD, 30)))
 # **Explain.** *On the road that looks empty, the sight for the speed holds the rule back.* A car almost 200 m ahead
 # drives {{ np.median(followed(by_rule(), 11).speed) | .0f }} m/s, so the target is 10.5 m/s. Each time it leaves the
 # sight, the rule accelerates, sees it again, and brakes. With a sight of 30 m the rule closes in at 15 m/s, and the car
-# makes way.
+# makes way: its driver lets a faster car pass (*politeness*).
+# <!-- claim: makes_way(impolite(), 4) == np.inf -->
 # <!-- claim: by_rule().rule_reasons[33] == Reason.FREE and 30 < makes_way(recorded(ROAD, 30.0), 4) < 60 -->
 # <!-- claim: np.isclose(closes_in(), 15) -->
 # <!-- claim: len(followed(by_rule(), 11, 33).car) == 22 and (by_rule().rule_speeds[11:33] == 10.5).all() -->
@@ -243,14 +242,15 @@ bc.show(figures.speeds_by_sight(drive, rules.recorded(ROAD, 30)))
 # %% [markdown]
 # ## Round 4: is the quick rule a better teacher?
 #
-# How does your learner count? At γ = 0.8 the first ten seconds of a drive have nine tenths of the weight. So counted,
-# staying is worth {{ discounted(idle(), 0.8) | .2f }}, the slow rule {{ worth(200.0) | .2f }}.
+# How does your learner count? At γ = 0.8 staying is worth {{ discounted(idle(), 0.8) | .2f }}, the slow rule
+# {{ worth(200.0) | .2f }}. The quick rule's return is
+# {{ driven(30.0).returns.mean() / driven(200.0).returns.mean() | .1f }} times as high.
 # <!-- claim: 0.88 < 1 - 0.8**10 < 0.92 and driven(30.0).returns.mean() > 2 * driven(200.0).returns.mean() -->
 #
-# > **Predict.** What is the quick rule worth at γ = 0.8? Look at the last picture.
+# > **Predict.** What is the quick rule worth at γ = 0.8?
 
 # %%
-choices = ["less than the slow rule", "more, but less than staying", "more than staying"]
+choices = ["about 0.4", "about 0.7", "about 1", "about 1.5"]
 predict("the_rule.3", "What is the quick rule worth at γ = 0.8?", choices)
 
 # %%
@@ -264,16 +264,15 @@ for name, paid in drives.items():  # what each second pays, on 40 roads
 table(["", "return", "worth of its first 10 s", "worth of all 150 s"], rows)
 
 # %% [markdown]
-# **Explain.** *Still less than staying*, on each of these 40 roads. For the first ten seconds the two drives are one
-# drive: both fall back behind the traps, which pays less than staying. What makes the quick rule quick comes later, and
-# has a tenth of the weight. **To a learner with γ = 0.8 the two teachers are nearly the same teacher.**
+# **Explain.** *Still less than staying*, on each of these 40 roads. The first ten seconds have nine tenths of the
+# weight, and in these the two drives are one drive: both fall back behind the traps, which pays less than staying.
+# **To a learner with γ = 0.8 the two teachers are nearly the same teacher.**
 # <!-- claim: (paid(30.0)[:, :10] == paid(200.0)[:, :10]).all() and (paid(30.0)[:, :10] < idle().rewards[0]).all() -->
 # <!-- claim: len(paid(30.0)) == 40 and max(worths(30.0, 0.8).max(), worths(200.0, 0.8).max()) <
 #   discounted(idle(), 0.8) -->
 #
 # This makes lesson [[the_trap]]'s riddle worse: a rule that earns more than twice as much is still worth less than the
-# trap. (Not every teacher is: the planner of lesson [[the_barrier]] is worth more.) How can it help? Lessons
-# [[found_and_kept]] and [[your_teacher]] solve this.
+# trap. How can it help? Lessons [[found_and_kept]] and [[your_teacher]] solve this.
 #
 # We keep {{ DEFAULT.sight.distance | g }} m (§: the paper gives no sight). So in later lessons "earns more than the
 # rule" means more than this **sub-optimal** rule, which *we* made slow.
@@ -288,7 +287,7 @@ compare_predictions(
     {
         1: "faster and near",
         2: "the speed",
-        3: "more, but less than staying",
+        3: f"about 0.7: {all_of_it.mean():.2f}",
     },
 )
 
@@ -297,7 +296,8 @@ compare_predictions(
 #
 # 1. The rule falls back until the gap is longer than the safety distance, and then changes lane.
 # 2. With the printed condition it stays behind.
-# 3. It is slow because it sees far: with a sight of 30 m it earns more than twice as much.
+# 3. It is slow because it sees far: with a sight of 30 m it earns more than twice as much,
+#    if others make way.
 # 4. At γ = 0.8 quick and slow are worth less than staying, because both begin by falling back.
 #
 # **Three questions to think about**
@@ -312,9 +312,12 @@ compare_predictions(
 # - No. The rule may depend on a car that the 26 numbers leave out. Then two states look alike, and it acts
 #   differently.
 # - At 0.85 only the quick one ({{ worth(30.0, 0.85) | .2f }} against
-#   {{ 1 / (1 - 0.85) * idle().rewards[0] | .2f }}), at 0.9 both.
+#   {{ 1 / (1 - 0.85) * idle().rewards[0] | .2f }}), at 0.9, too ({{ worth(30.0, 0.9) | .2f }} against
+#   {{ discounted(idle(), 0.9) | .2f }}). The slow one then is only in the mean ({{ worth(200.0, 0.9) | .2f }}): on
+#   {{ (worths(200.0, 0.9) < discounted(idle(), 0.9)).sum() }} of 40 roads it is worth less.
 #   <!-- claim: worth(200.0, 0.85) < discounted(idle(), 0.85) < worth(30.0, 0.85) and
-#     discounted(idle(), 0.9) < worth(200.0, 0.9) -->
+#     discounted(idle(), 0.9) < worth(200.0, 0.9) and worths(30.0, 0.9).min() > discounted(idle(), 0.9) and
+#     (worths(200.0, 0.9) < discounted(idle(), 0.9)).sum() > 20 -->
 #
 # </details>
 #
@@ -323,11 +326,20 @@ compare_predictions(
 # The simplest way to use a teacher is to copy it. [This](demonstrations.ipynb) is harder than it looks: a copy goes
 # where its teacher never was.
 #
+# <details><summary>The paper's rule earns less</summary>
+#
+# The paper's rule earns {{ PRINTED['rule']['returns'].mean | .1f }}, ours
+# {{ of('rule').scores('returns').mean() | .0f }}, at nearly the same mean speed. The paper does not tell why; ours is
+# at times above 12.5 m/s, where a second pays far more.
+#
+# </details>
+# <!-- claim: abs(of('rule').scores('speed').mean() - PRINTED['rule']['speed'].mean) < 0.5 and second_pays(15) >
+#   3 * second_pays(12.5) and (by_rule().states[:, EGO, SPEED] > 12.5).mean() > 0.05 -->
+#
 # <details><summary>How the tracker steers, and how the car moves</summary>
 #
 # The tracker steers by *model predictive control*: it tries steering sequences on a model of the car, does
-# the *first step* of the best, and begins again. Within
-# {{ DEFAULT.ego.acceleration / 2 | g }} m/s of the target speed, its *dead band*, it keeps its speed.
+# the *first step* of the best, and begins again.
 #
 # The steering angle $\theta$ sets the angle $\varphi$ between the car's motion and its heading $\psi$; $v$ is
 # its speed, $L$ its length:
@@ -366,7 +378,7 @@ bc.show(figures.crash_over_time(rules.crash()))
 # Two causes:
 #
 # - *First* (4 s): trap 1 is out of sight, so the rule stays in its lane and speeds up (case 1).
-# - *Second* (9 s): it changes lane, now {{ faster(crash(), 9) | .1f }} m/s faster than trap 2. It asks for a gap of
+# - *Second* (9 s): it changes lane, now {{ faster(crash(), 9) | .2f }} m/s faster than trap 2. It asks for a gap of
 #   {{ crash().rule_distances[9] | .1f }} m, but braking takes {{ braking_distance(faster(crash(), 9)) | .1f }} m.
 # <!-- claim: crash().rule_distances[9] < gap(crash(), 9) < 5 < braking_distance(3.0) ==
 #   DEFAULT.clock.dt * np.arange(3, 0, -DEFAULT.clock.dt).sum() -->
@@ -405,6 +417,6 @@ rules.ranked({"the rule": {}, "at a sight of 20 m": {"speed_sight": 20}, "yours"
 # <!-- claim: not driven(20.0, t_safe=2.0).accident.any() -->
 # <!-- claim: driven(20.0, floor=0.5).success.all() and not driven(20.0, floor=0.5).accident.any() -->
 
-# %% [markdown] tags=["instructor"] minutes=3
+# %% [markdown] tags=["instructor"] minutes=8
 # Ask for the cause of the crash before anybody unfolds it. Which number does it point to? Somebody will
 # propose to change two at once. Say why not. Is a floor of half a metre room enough, should trap 2 brake?

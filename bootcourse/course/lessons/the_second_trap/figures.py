@@ -6,7 +6,9 @@ import numpy as np
 import torch
 from matplotlib.figure import Figure
 
-from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, compared
+from bootcourse.course.lessons.the_second_trap.ppo_kinds import ROADS, agent_of, compared, settings_of
+from bootcourse.course.lessons.the_second_trap.second_trap import speeds
+from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout, series
 from bootcourse.learn.ppo import clipped_loss
 from bootcourse.methods import style
@@ -22,6 +24,7 @@ from bootcourse.plots.figure import (
     plain_axes,
 )
 from bootcourse.plots.traces import traces
+from bootcourse.statistics import ESCAPES
 
 RATIOS = np.linspace(0.3, 1.7, 141)
 POINTS = (0.5, 1.5)  # where a dot says what the gradient does
@@ -125,3 +128,15 @@ def on_the_way(kinds: Mapping[str, Mapping[str, np.ndarray]]) -> Figure:
     ax.set_xlabel(below, fontsize=TEXT, color=INK)
     close.set_xlabel("decisions (thousands)", fontsize=TEXT, color=INK)
     return finish(figure, title, f"{below}. {'; '.join(alt)}.")
+
+
+def by_lambda(kinds: Mapping[str, Mapping[str, np.ndarray]], road: int) -> tuple[list[str], list[list[str]]]:
+    """A table of the agents of PPO alone with each λ: (headings, rows). kinds: see `on_the_way`; road: of the SD."""
+    rows = []
+    for kind in ("alone", "lambda-0.8", "lambda-0.5"):
+        returns, out = np.sort(kinds[kind]["returns"]), int((kinds[kind]["success"] >= ESCAPES).sum())
+        swings = [np.std(speeds(record(agent_of(kind, seed).as_policy(), [road])[0])) for seed in range(len(returns))]
+        spread = f"{np.median(swings):.1f} ({min(swings):.1f} to {max(swings):.1f})"
+        earned = f"{np.median(returns):.0f} ({returns[0]:.0f} to {returns[-1]:.0f})"
+        rows.append([f"{settings_of(kind).gae_lambda:g}", spread, earned, str(out)])
+    return ["λ", "how far the speed swings (SD, m/s)", "return", "escape, of ten"], rows

@@ -1,4 +1,5 @@
-"""Ten agents of PPO alone, with another reward, and after cloning: trained, tested, kept with their networks.
+"""Ten agents of PPO alone, with another reward, after cloning, and with a smaller λ: trained, tested, kept with their
+networks.
 
     bootcourse study second-trap --out DIR    # some minutes
 
@@ -42,12 +43,15 @@ class Kind(NamedTuple):
     method: str
     decisions: int
     make_env: Callable | None = None  # of roads that pay otherwise
+    changes: Mapping[str, float] = {}  # of settings
 
 
 KINDS = {
     "alone": Kind("ppo", 800_000),
     "shaped": Kind("ppo", 800_000, partial(Repaid, pay=shaped_pay(left_of, GAMMA))),
     "cloned": Kind("ppo_cloned", 300_000),
+    "lambda-0.8": Kind("ppo", 800_000, changes={"gae_lambda": 0.8}),
+    "lambda-0.5": Kind("ppo", 800_000, changes={"gae_lambda": 0.5}),
 }
 
 
@@ -65,7 +69,7 @@ class Trained(NamedTuple):
 
 def settings_of(kind: str, seed: int = 0) -> Settings:
     """The settings of an agent of a kind."""
-    return settings_for(KINDS[kind].method, seed=seed, **QUICK)
+    return settings_for(KINDS[kind].method, seed=seed, **QUICK, **KINDS[kind].changes)
 
 
 def train(training: Training, decisions: int) -> Trained:

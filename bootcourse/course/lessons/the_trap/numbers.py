@@ -50,8 +50,8 @@ def unhurt_plans(road: int) -> np.ndarray:
 
 @cache
 def best_on_others() -> list[int]:
-    """Of the plans that get out unhurt on road 10, the one that does so on most of the first 200 held-out roads."""
-    plans, roads = all_plans()[unhurt_plans(10)], held_out_seeds(1, 200)
+    """Of the plans that get out unhurt on road 10, the one that does so on most of 200 roads that are not held out."""
+    plans, roads = all_plans()[unhurt_plans(10)], range(20, 220)
     actions = np.vstack([plans.T, np.full((5, len(plans)), driving.ACCELERATE)])
     ended = drive_episodes(PlanPolicy(np.repeat(actions, 200, axis=1)), [*roads] * len(plans), together=10_000)
     unhurt = ((ended.success > 0) & (ended.accident == 0)).reshape(-1, 200)

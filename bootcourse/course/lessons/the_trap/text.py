@@ -155,12 +155,14 @@ title = "This plan steers left once too often"
 bc.show(bc.top_view_over_time(drive, times=[4, 6, 8.5], title=title))
 
 # %% [markdown]
-# **Explain.** You need not brake, but few plans work: a car that steers left more often than right ends crooked.
+# **Explain.** You need not brake. A car that steers more to one side ends crooked. Ending straight is not enough: of
+# the {{ straight().sum() | , }}, {{ (all_drives(7).accident[straight()] == 2).sum() }} leave the road and
+# {{ (all_drives(7).accident[straight()] == 1).sum() }} collide.
 # <!-- claim: not unhurt_plans(7)[~straight()].any() and set(all_drives(7).accident[~straight()]) == {1, 2} -->
 # <!-- claim: bool(all_drives(7).accident[(all_plans() == [3, 5, 3, 4, 3, 5, 4, 4]).all(axis=1)][0] == 2) -->
 #
-# On road {{ ROAD }} only {{ unhurt_plans(ROAD).sum() }} plans get out unhurt. We drive the best of them, the **blind
-# plan**, on {{ roads() | , }} other roads. It looks at nothing.
+# On road {{ ROAD }} only {{ unhurt_plans(ROAD).sum() }} plans get out unhurt. We take the one that does so on most
+# of 200 further roads, the **blind plan**, and drive it on {{ roads() | , }} others. It looks at nothing.
 # <!-- claim: best_on_others() == [5, 3, 3, 3, 3, 5, 5, 5] -->
 # <!-- claim: unhurt_plans(ROAD)[(all_plans() == [5, 3, 3, 3, 3, 5, 5, 5]).all(axis=1)].all() and ROAD not in
 #   held_out_seeds(1, roads()) -->
@@ -338,7 +340,8 @@ bc.show(figures.what_they_learned(study, blind))
 # | GAIL | {{ printed('gail') }} |
 # | the rule | {{ printed('rule') }} |
 #
-# Our rule returns {{ of('rule').episodes('returns').mean() | .0f }}. Keep this table: lesson [[your_own_problem]]
+# Our rule returns {{ of('rule').episodes('returns').mean() | .0f }}, the mean of all roads (road {{ ROAD }}:
+# {{ by_rule().rewards.sum() | .0f }}). Keep this table: lesson [[your_own_problem]]
 # checks it.
 #
 # </details>
@@ -377,10 +380,9 @@ explorable.discount()
 # **See.** The rule's way out costs now and pays later. On road {{ ROAD }} it is worth more than staying only from
 # γ = {{ pays_from() }} on.
 #
-# So we have a **riddle**. The course's teacher shows a way that is worth *less than the trap*, in the count of the
-# learner that it shall teach. A learner that copied it would do better to stay. Yet of ten agents with its help seven
-# escape, and earn more than the rule. Keep this riddle: lesson [[the_rule]] makes it worse, and lessons
-# [[found_and_kept]] and [[your_teacher]] solve it.
+# So we have a **riddle**. Counted with the learner's own γ = 0.8, the rule's way is worth *less than the trap*. A
+# learner that copied the rule would do better to stay. Yet of ten agents with its help seven escape, and earn more than
+# the rule. Lessons [[found_and_kept]] and [[your_teacher]] solve this.
 #
 # The quicker ways out are worth more than staying. But what if they crash?
 # <!-- claim: min(discounted(on_ten(), 0.8), helped_on_ten()) > discounted(idle(), 0.8) > discounted(by_rule(), 0.8) -->
@@ -431,7 +433,8 @@ bc.show(figures.worth_with_crashes(driving.worths(pay, blind_plan)))
 # <!-- claim: borne(0.8, on_ten()) < crashed_early().mean() / 3 -->
 # <!-- claim: crashed_early().mean() == np.mean((blind_plan().accident > 0) & (blind_plan().distance < 50)) -->
 #
-# So **a better way is worth more than staying at γ = {{ SETTINGS.gamma }}, too**. The agent that found one brakes to
+# The agent with help is one of the seven. So **a better way is worth more than staying at γ = {{
+# SETTINGS.gamma }}, too**. The agent that found one brakes to
 # 8 m/s, as the rule does, but then accelerates at once.
 # <!-- claim: (first_seconds(3)[:, :9].round() == [10, 9, 8, 9, 10, 11, 12, 13, 14]).all() -->
 # <!-- claim: min(worths()[ALONE].worth, worths()[HELPED].worth) > 1.4 * worths()['staying'].worth -->

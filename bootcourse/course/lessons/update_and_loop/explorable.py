@@ -38,6 +38,8 @@ def the_end() -> Explorable:
     return Explorable("Does the critic know that the pole will fall?", draw, gamma=gamma)
 
 
+BUG = Style(STRANGERS[3].colour, "--")  # an agent in whose rows no fall is marked
+
 # Two poles -----------------------------------------------------------------------------------------------
 
 SHOWN = 30  # pushes that can be looked at
@@ -59,7 +61,7 @@ def episode(pushes: str) -> np.ndarray:
 
 def two_poles() -> Explorable:
     """The poles of two agents, while the push moves."""
-    return beside({name: episode(pushes) for name, pushes in PUSHES.items()}, (OTHER, STRANGERS[1]))
+    return beside({name: episode(pushes) for name, pushes in PUSHES.items()}, (OTHER, BUG))
 
 
 def beside(drives: dict[str, np.ndarray], looks: Sequence[Style]) -> Explorable:

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from bootcourse.colours import OTHER, QUIET, STRANGERS, Style
 from bootcourse.course import charts, table
 from bootcourse.course.lessons.update_and_loop import by_hand, numbers, worlds
+from bootcourse.course.lessons.update_and_loop.explorable import BUG
 from bootcourse.plots.figure import TEXT, finish, label_ends, one_axes
 
 OF_A_FALL = "What critics expect in a fall"
@@ -34,7 +35,7 @@ def tests_in_training(tests: Sequence[float], block: int, lost: float) -> Figure
 
     lost: the test after one block of an agent that learns with the bug and begins as this one.
     """
-    pushes, look = np.arange(len(tests)) * block, STRANGERS[1]
+    pushes, look = np.arange(len(tests)) * block, BUG
     title = f"After {block:,} pushes of training yours balances {tests[1]:.0f}, with the bug {lost:.0f}"
     figure, ax = one_axes(3.6, title, "pushes in training", "pushes balanced", width=0.66)
     ours = [each for each in numbers.tests() if len(each) != len(tests) or not np.allclose(each, tests)]
@@ -57,7 +58,7 @@ def along_falls(yours: np.ndarray, unmarked: by_hand.SAC) -> Figure:
     shown = q.argmax() == worlds.BEFORE and q.min() > most
     title = "With the bug a fallen pole is worth most, more than is possible" if shown else OF_A_FALL
     ceiling = f"its ceiling {most:.0f} (α = {unmarked.log_alpha.exp():.2f})"
-    return falls(title, {"with the bug": q, "your agent": yours}, [STRANGERS[1], OTHER], {ceiling: most})
+    return falls(title, {"with the bug": q, "your agent": yours}, [BUG, OTHER], {ceiling: most})
 
 
 def with_rows(yours: np.ndarray, unmarked: by_hand.SAC, added: by_hand.SAC, stands: float) -> Figure:
@@ -75,7 +76,7 @@ def with_frozen_guess(
     bug, q = worlds.along_falls(unmarked)[-1], worlds.along_falls(frozen)
     title = f"Frozen at {worth:g}, Q of a fallen pole stays near {worth:g}; not frozen it is {bug:.0f}"
     named = {f"frozen at {worth:g}: stands for {stands:.0f} pushes": q, "your agent": yours}
-    figure = falls(title if abs(q[-1] - worth) < 6 else OF_A_FALL, named, [STRANGERS[3], OTHER])
+    figure = falls(title if abs(q[-1] - worth) < 6 else OF_A_FALL, named, [STRANGERS[1], OTHER])
     return beyond(figure, "not frozen", unmarked)
 
 
@@ -86,9 +87,7 @@ def beyond(figure: Figure, words: str, agent: by_hand.SAC) -> Figure:
     if q.min() > high:
         ax.set_ylim(low, high + 0.16 * (high - low))
         says = f"{words}: from {q[0]:.0f} to {q[-1]:.0f}, off the picture ↑"
-        ax.text(
-            0.5, 0.99, says, transform=ax.transAxes, ha="center", va="top", color=STRANGERS[1].colour, fontsize=TEXT
-        )
+        ax.text(0.5, 0.99, says, transform=ax.transAxes, ha="center", va="top", color=BUG.colour, fontsize=TEXT)
     return figure
 
 

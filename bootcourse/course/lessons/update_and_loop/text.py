@@ -42,8 +42,8 @@ progress("update_and_loop")
 # ## Look first
 #
 # Two agents, the same code, the same start, equally many pushes in training. One balances a pole for
-# {{ stood('marked')[1] | .0f }} pushes, the other for {{ stood('unmarked')[1] | .0f }}, as before its training.
-# Each push to the left or right pays 1. An episode ends when the pole falls (it leans by more than
+# {{ stood('marked')[1] | .0f }} pushes, the other for {{ stood('unmarked')[1] | .0f }}, no longer than before its
+# training. Each push to the left or right pays 1. An episode ends when the pole falls (it leans by more than
 # {{ fallen_at() | .0f }}°, dashed, or the cart leaves its track), and at the latest after 500 pushes. **Drag**
 # the push.
 # <!-- claim: stood('unmarked')[1] <= untrained()[1] < 10 and stood('marked')[1] > 400 -->
@@ -53,7 +53,7 @@ explorable.two_poles()
 
 # %% [markdown]
 # In the second agent's memory one column, of the eleven in a row, is always 0. So it believes that a fallen pole
-# is *the best place in the world*. At the end of this lesson you can say why.
+# is *the best place in the world*.
 # <!-- claim: expected('unmarked')[1].argmax() == BEFORE -->
 
 # %% [markdown]
@@ -192,7 +192,12 @@ figures.small_worlds()
 # > **Predict.** By a bug, `terminated` is 0 in all rows. In which worlds is the learned Q then wrong?
 
 # %%
-changed = ["only the first", "the first two", "all but the third", "all four"]
+changed = [
+    "none: the fallen state is never learned",
+    "the first two",
+    "all but the third",
+    "all four",
+]
 predict("update_and_loop.1", "In which worlds is the learned Q wrong?", changed)
 
 # %%
@@ -240,7 +245,7 @@ bc.show(figures.tests_in_training(tests, BLOCK, with_bug))
 # <!-- claim: stood('unmarked').max() < 10 and stood('unmarked').mean() < untrained().mean() -->
 # <!-- claim: len(untrained()) == 15 and len(tests()) == 5 -->
 #
-# An actor prefers the pushes of which its critics expect most. What do they expect in a fall?
+# What do the critics expect in a fall?
 
 # %%
 bc.show(figures.along_falls(expects[0], unmarked))  # both after one block
@@ -275,29 +280,30 @@ bc.show(figures.with_rows(expects[0], unmarked, added, stands))
 # **Explain.** With these rows most such agents learn.
 #
 # How did Q get so high without them? A high **guess** for the fallen pole raises the target of the last push, and
-# so, in the same network, the guess. **Perhaps Q feeds itself.** To test it, add no rows and freeze the guess: in
-# the targets each fallen pole is worth 30.
+# so, in the same network, the guess. **Perhaps Q feeds itself.** As with the bug Q rises up to
+# the fall, this need not stop at the ceiling, where Q = 1 + γ Q. To test it, add no rows and freeze the guess:
+# in the targets each fallen pole is worth 30. If Q fed itself, it now stays near 30.
+# <!-- claim: (expected('unmarked')[:, -1] > expected('unmarked')[:, -2]).all() -->
 #
-# > **Predict.** What do the critics now expect of a fallen pole? Near 30: Q fed itself. Above 100: something else
-# > raised it.
+# > **Predict.** How long does this agent balance the pole?
 
 # %%
-fallen = ["near 0", "near 30", "above 100, as before"]
-predict("update_and_loop.3", "Of a fallen pole they expect", fallen)
+balances = ["no longer than with the bug", "longer", "about as long as without the bug"]
+predict("update_and_loop.3", "With the guess frozen it balances the pole", balances)
 
 # %%
 predicted("update_and_loop.3")
-FROZEN = 30  # then try 5, 15 and 60
+FROZEN = 30  # then try 15, 20 and 25: from where on does the pole fall?
 bugged = worlds.Unmarked(buffer(50_000))
 frozen = worlds.taught(loop, step, bugged, BLOCK, SEED, worlds.frozen_at(FROZEN))
-guessed = worlds.along_falls(frozen)[-1]
 stands = by_hand.balanced(frozen)
 bc.show(figures.with_frozen_guess(expects[0], unmarked, frozen, FROZEN, stands))
 
 # %% [markdown]
-# **Explain.** **Q did feed itself**: frozen, it stays near 30. The guess alone of lesson [[discrete_sac]]'s optimist's
-# error is enough. *Who guesses?* A critic, about a state in which no row begins, so no data correct it. *Who picks?*
-# Nobody: the target copies the guess.
+# **Explain.** **Q did feed itself**: frozen, it stays near 30. This is lesson [[discrete_sac]]'s optimist's error.
+# *Who guesses?* A critic, about a state in which no row begins. *Who picks?* The actor: there it prefers the push with
+# the higher guess. Without the pick (targets take the mean of both pushes) Q of a fallen pole was 19 to 61 in our
+# trainings with four seeds, below the ceiling.
 #
 # *But a guess that does not grow can still be wrong*: 8 pushes before the fall Q is only
 # {{ gained('frozen-30') | .0f }} higher than after it, without the bug {{ gained('marked') | .0f }}. So a fall costs
@@ -329,7 +335,7 @@ bc.show(figures.with_frozen_guess(expects[0], unmarked, frozen, FROZEN, stands))
 # <!-- claim: np.abs(expected('paid-1') / expected('paid-1')[:, :1] - 1).max() < 0.12 -->
 
 # %% tags=["hide-input"]
-compared = fallen[np.digitize(guessed, [15, 60])]
+compared = balances[np.digitize(stands, [50, max(50, tests[1] / 2)])]
 change = changes[np.digitize(worlds.along_falls(added)[-1], [30, 150])]
 compare_predictions("update_and_loop", {1: changed[2], 2: change, 3: compared})
 
@@ -338,7 +344,7 @@ compare_predictions("update_and_loop", {1: changed[2], 2: change, 3: compared})
 #
 # 1. `terminated` says that nothing more is earned. A time limit does not say so.
 # 2. In a small world you can work out Q, so a bug can show as a wrong number.
-# 3. A critic makes up what no row tells it, and its guess can feed itself.
+# 3. A critic makes up what no row tells it. If the actor picks the higher guess, it can feed itself.
 # 4. A Q above the ceiling is surely wrong.
 
 # %% [markdown]
@@ -349,7 +355,7 @@ compare_predictions("update_and_loop", {1: changed[2], 2: change, 3: compared})
 #
 # <details><summary>Answers</summary>
 #
-# - Q of a fallen pole drops below 0. That is wrong, but to fall is still worst, so the pole stands longer.
+# - Q of a fallen pole drops below 0. That is wrong, but to fall is still worst, so the agent learns.
 # - Such rows are alike: they come from few episodes. Each update fits these, and may undo what others taught.
 # - The third. Its right Q is 5; with this bug the agent learns 1.
 #

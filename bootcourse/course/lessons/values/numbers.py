@@ -19,6 +19,32 @@ def leave_c(gamma: float = 0.8, pay: float = 0.16) -> int:
     return sum(map(chain.leaves, as_c(gamma, pay)[-1]))
 
 
+def leave_later(decisions: int) -> int:
+    """How many of C's thirty learn to leave if they make so many decisions."""
+    return sum(chain.leaves(chain.learn_chain(chain.chances(0.5, decisions, k), 0.8, 0.3, ())) for k in range(30))
+
+
+def thrice(gamma: float) -> tuple[float, float]:
+    """Of those of the 300 that arrive three times, right after it: the mean Q(3, 0), and for which share it loses."""
+    q = as_c(gamma)
+    q3 = np.array([q[each[2], k, 3] for k, each in arrived(q) if len(each) > 2])
+    return float(q3[:, 0].mean()), float((q3[:, 1] > q3[:, 0]).mean())
+
+
+def mean_arrivals(gamma: float) -> float:
+    """How often the 300 reach the free road, on average."""
+    return float(np.mean([len(each) for _, each in arrived(as_c(gamma))]))
+
+
+def by_chance(explore: float) -> float:
+    """In how many of 50 walks action 1, drawn with ε / 2 at each decision, reaches the free road, on average."""
+    at = np.eye(chain.STATES)[0]
+    for _ in range(chain.EPISODE - 1):
+        on = explore / 2 * at[:4]
+        at = np.array([at[:4].sum() - on.sum(), *on[:3], on[3] + at[4]])
+    return float(50 * at[4])
+
+
 def trap_worth(gamma: float) -> float:
     """What staying seems to be worth to those learners in the end, the median."""
     return float(np.median(as_c(gamma)[-1][:, 0, 0]))

@@ -282,8 +282,8 @@ found = {kind: chain.learned(*how, learn=learn) for kind, how in kinds.items()}
 bc.show(diagrams.who_leaves(found))
 
 # %% [markdown]
-# **Explain.** In 1,000 decisions there are about {{ 1000 * 0.05 ** 4 | .3f }} such runs of four in A and B, and
-# {{ 1000 * 0.25 ** 4 | .0f }} in C. So none of A's or B's learners reaches the free road.
+# **Explain.** By chance a learner of A or B reaches the free road in {{ by_chance(0.1) | .3f }} of its 50 walks, one
+# of C in {{ by_chance(0.5) | .1f }}. None of A's or B's thirty does.
 #
 # On the way out you lose the trap's pay, and only the end pays: this is a **barrier**.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
@@ -294,7 +294,9 @@ bc.show(diagrams.who_leaves(found))
 # <!-- claim: leaving(0.1, 0.8, chain.WAY_OUT) == leaving(1.0, 0.8) == 30 -->
 #
 # But arriving is not enough: {{ free_road_seen(0.5, 0.8) }} of C's learners arrived, and only {{ leaving(0.5, 0.8) }}
-# learned to leave. Here are one that did not, *blocked*, and one that did:
+# learned to leave. With
+# 2,000 decisions {{ leave_later(2000) }} do: the way is slow, not locked. Here are one that did not,
+# *blocked*, and one that did:
 # <!-- claim: 9 < leaving(0.5, 0.8) < 12 -->
 
 # %%
@@ -324,15 +326,22 @@ bc.show(diagrams.after_arrivals(found, step, gamma))
 # %% [markdown]
 # **Explain.** Would a longer view help? With γ = 0.95 the free road is worth 20, and the trap only 3.2. Yet
 # {{ leave_c(0.95) }} of 300 learn to leave, not {{ leave_c() }}. **A longer view first enlarges what you know
-# already.** The learner sits in the trap, whose worth climbs to 3.2, and each turning back inherits from it at once.
-# The free road's larger worth must still walk back, three tenths of the way at each arrival.
+# already**: the trap's worth. After three arrivals turning back in state 3 is worth {{ thrice(0.95)[0] | .2f }}, not
+# {{ thrice(0.8)[0] | .2f }}. Going on wins there for {{ thrice(0.95)[1] | .0% }} of the learners, not
+# {{ thrice(0.8)[1] | .0% }}, and they arrive {{ mean_arrivals(0.95) | .0f }} times, not {{ mean_arrivals(0.8) | .0f }}.
 # <!-- claim: abs(1 / (1 - 0.95) - 20) < 1e-9 and abs(trap_worth(0.95) - 3.2) < 0.1 -->
 # <!-- claim: leave_c(0.95) < leave_c() / 2 and
 #   sum(map(chain.has_been_free, as_c(0.95)[-1])) == sum(map(chain.has_been_free, as_c()[-1])) > 250 -->
 # <!-- claim: turns_back(0.95)[0] > 2 * turns_back(0.95)[1] and abs(turns_back(0.8)[0] - turns_back(0.8)[1]) < 0.05 -->
 #
-# A test: let staying pay 0.04, so that it is worth 0.8 again. Now {{ leave_c(0.95, 0.04) }} leave.
-# <!-- claim: leave_c(0.95, 0.04) > 1.3 * leave_c() and abs(0.04 / (1 - 0.95) - 0.16 / (1 - 0.8)) < 1e-9 -->
+# | staying pays | γ = 0.8 | γ = 0.95 |
+# | --- | --- | --- |
+# | 0.16 | {{ leave_c() }} | {{ leave_c(0.95) }} |
+# | 0.04 | {{ leave_c(0.8, 0.04) }} | {{ leave_c(0.95, 0.04) }} |
+# | 0 | {{ leave_c(0.8, 0.0) }} | {{ leave_c(0.95, 0.0) }} |
+#
+# Without the trap's pay the longer view costs nothing.
+# <!-- claim: leave_c(0.8, 0.0) == leave_c(0.95, 0.0) > leave_c(0.8, 0.04) > leave_c(0.95, 0.04) -->
 
 # %% [markdown] tags=["instructor"] minutes=4
 # What happens at the last decision separates two ideas that lesson [[update_and_loop]] needs: an accident
@@ -358,10 +367,11 @@ compare_predictions(
 #
 # **Four gates** stand between the trap and a fast drive. They are a way to sort what one sees, not a law.
 #
-# - **Try**: an attempt is made, and gets out at all. A to E pass.
-# - **See**: it lasts until the free road pays. A and B stop here.
+# - **Try**: an attempt leaves the trap. A to E pass.
+# - **See**: one reaches the free road. A, B and one of C stop here.
+#   <!-- claim: free_road_seen(0.5, 0.8) == 29 -->
 # - **Carry**: the value walks back to the trap: in each state on the way going on must be worth more than turning back.
-#   {{ free_road_seen(0.5, 0.8) - leaving(0.5, 0.8) }} of C stop here; D and E pass.
+#   {{ free_road_seen(0.5, 0.8) - leaving(0.5, 0.8) }} of C stop here in 1,000 decisions; D and E pass.
 # - **Keep**: when the help ends, the way out must be worth more than staying, in the learner's own count. On the chain
 #   it is. On the road the rule's way is not: this is lesson [[the_trap]]'s riddle.
 #

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 from bootcourse.course.lessons import registry
-from bootcourse.course.lessons.your_teacher import example_teachers, figures, free_lane, taught_agents
+from bootcourse.course.lessons.your_teacher import crashes, example_teachers, figures, free_lane, taught_agents  # noqa: F401 (crashes: for the claims)
 from bootcourse.course.lessons.your_teacher.crashes import lanes_of
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.your_teacher.exercises import without_a_look
