@@ -287,7 +287,7 @@ def results_of(hurt: int, returns: float = 130.0) -> Results:
     return Results([{"method": "ppo_cloned", "seed": seed} for seed in range(2)], np.full(2, -1), measured=measured)
 
 
-def test_a_look_ahead_in_noise_picks_among_its_own_action_and_so_many_others_by_the_mean_of_so_many_roads():
+def test_a_look_ahead_in_noise_goes_by_the_mean_of_so_many_roads():
     there, seen = Reached(idle_policy, 2), []
 
     def values_of(cars, decide, horizon, gamma, worth):  # the first road favours the last action, the others the first
@@ -298,7 +298,6 @@ def test_a_look_ahead_in_noise_picks_among_its_own_action_and_so_many_others_by_
         seen.clear()
         return imagined.in_noise(values_of, idle_policy, **how)(there.observations, there.cars).actions.tolist()
 
-    assert decides(others=0) == idle_policy(there.observations, there.cars).actions.tolist()
     assert decides() == [8, 8] and decides(roads=3) == [0, 0]
     assert np.std(np.subtract(*seen[:2])) > 0.5, "each road is drawn anew"
 

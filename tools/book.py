@@ -87,7 +87,7 @@ def as_linked_here(text: str, up: str) -> str:
 
     up: the way from the page to the book's first folder.
     """
-    text = re.sub(r"\]\((?:\.\./)*notebooks/\d\d_", f"]({up}lessons/", text)
+    text = re.sub(r"\]\((?:\.\./)*bootcourse/course/lessons/(\w+)/text\.py", rf"]({up}lessons/\1.ipynb", text)
     return re.sub(r"\]\((?:\.\./)*assets/", f"]({up}", text).replace("](paper_map.toml)", "](paper_map.md)")
 
 

@@ -165,6 +165,7 @@ check.critic_target(critic_target)
 # $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action taken. No gradient may run through y, or the loss
 # would fall by lowering V(s'), too.
 
+
 # %%
 def critic_loss(q_pair, action, target):
     """A scalar tensor. q_pair: (2, batch, actions), with gradients; action, target: (batch,)."""

@@ -237,7 +237,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
 
     Raises BootcourseError if the base policy alone, or any of the two with a model, was not computed.
     """
-    title = "With everything a second late, every drive with the look-ahead ends in an accident"
+    title = "Noise on the others costs far more drives than cars that are missing"
     names, alone, forms = ["exact", *MEANINGS], Cell(base, "alone"), {"rollouts": "o", "shield": "s"}
     models = [Cell(base, form, model=name) for form in forms for name in names]
     if missing := [cell.name for cell in (alone, *models) if cell.name not in cells]:

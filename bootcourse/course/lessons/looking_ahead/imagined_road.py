@@ -71,20 +71,16 @@ def shielded(shield: Callable, policy: Policy, horizon: int) -> Policy:
     return drive
 
 
-def in_noise(values_of: Callable, policy: Policy, others: int = 8, roads: int = 1) -> Policy:
+def in_noise(values_of: Callable, policy: Policy, roads: int = 1) -> Policy:
     """A look-ahead that sees the other cars a little off, by `NOISE`, drawn anew at each decision.
 
-    It imagines its futures on so many noisy roads and goes by the mean of their values. It may pick the policy's own
-    action and so many others, drawn at each decision.
+    It imagines its futures on so many noisy roads and goes by the mean of their values.
     """
     decide, rng = decide_by(policy), np.random.default_rng(0)
 
     def drive(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
         noisy = [NOISE.seen(cars, None, DEFAULT, rng) for _ in range(roads)]
         values = np.mean([values_of(each, decide, HORIZON, 1.0, worth) for each in noisy], axis=0)
-        order = rng.random(values.shape)
-        order[np.arange(len(cars)), policy(observations, cars).actions] = -1  # the own action is always among them
-        allowed = order.argsort(axis=1).argsort(axis=1) <= others
-        return PolicyOutput(np.where(allowed, values, -np.inf).argmax(axis=1))
+        return PolicyOutput(values.argmax(axis=1), q_values=values)
 
     return drive
