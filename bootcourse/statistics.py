@@ -208,6 +208,14 @@ def holm(p: Sequence[float]) -> np.ndarray:
     return adjusted
 
 
+def fisher(first: int, second: int, of: int = 10, second_of: int | None = None) -> float:
+    """Fisher's two-sided p of two counts, such as of agents that escape: the first of `of`, the second of as many or of
+    `second_of`.
+    """
+    of_both = (of, of if second_of is None else second_of)
+    return float(scipy.stats.fisher_exact([[n, of - n] for n, of in zip((first, second), of_both, strict=True)]).pvalue)
+
+
 @lru_cache
 def significant(n: int) -> np.ndarray:
     """Whether Fisher's exact test tells k of n from j of n, with a p below 0.05: bool (n + 1, n + 1), by k and j.

@@ -41,6 +41,7 @@ from bootcourse.road.state import EGO, SPEED, TRAP_1, TRAP_2, Accident, X, Y
 from bootcourse.rule import Reason, target_speed
 from bootcourse.scenario import ACTION_NAMES, DEFAULT, N_ACTIONS, RULE_P
 from bootcourse.statistics import ESCAPES, escapes, improvement, interval, iqm, rate
+from bootcourse.statistics import fisher as fisher
 from bootcourse.storage.assets import FOLDER
 from tools.course import numbering
 from tools.course.source import lesson_of, read, sources
@@ -138,14 +139,6 @@ def clocks() -> dict[tuple[str, str], Results]:
 
 
 escapers = Results.escapers  # (results, method): how many of a method's agents in these results escape
-
-
-def fisher(first: int, second: int, of: int = 10, second_of: int | None = None) -> float:
-    """Fisher's two-sided p of two counts, such as of agents that escape: the first of `of`, the second of as many or of
-    `second_of`.
-    """
-    of_both = (of, of if second_of is None else second_of)
-    return float(stats.fisher_exact([[n, of - n] for n, of in zip((first, second), of_both, strict=True)]).pvalue)
 
 
 def accidents(method: str) -> float:

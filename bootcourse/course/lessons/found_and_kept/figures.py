@@ -34,12 +34,11 @@ def worths(cell: str) -> Figure:
     words = f"worth of a drive at γ = 0.8, without the bonus (mean of {ways.ROADS} roads); cut at −1: they crash"
     plain_axes(ax, words)
     ax.set(xlim=(-0.05, 1.06), ylim=(-1, 1.8), yticks=(-1, 0, 1))
-    late = f"episodes {ways.LATE:,} to {ways.EPISODES:,} (median)"
     places = (0, 0.47, 0.95)
     ax.set_xticks(places, ("just before 1,000", f"{ways.LATE:,}", "dots: median from there on"), fontsize=TEXT)
     looks = np.arange(agents.notes["worth"].shape[1]) * ways.EVERY
-    later = looks >= ways.EPISODES // 2
-    at = np.r_[0, 0.9 * (looks[later] - 950) / (ways.EPISODES - 950)]  # 950: the look just before
+    later, just_before = looks > ways.BEFORE, looks[looks <= ways.BEFORE][-1]
+    at = np.r_[0, 0.9 * (looks[later] - just_before) / (ways.EPISODES - just_before)]
     for first, way, last, out in zip(before, agents.notes["worth"][had], after, ahead, strict=True):
         look = {"color": colour if out else TRAP, "zorder": 3 if out else 4}
         ax.plot(at, np.r_[first, way[later]], linewidth=0.7, alpha=0.7, **look)
@@ -52,8 +51,8 @@ def worths(cell: str) -> Figure:
     each = [", ".join(f"{one:.2f}" for one in np.sort(worth)) for worth in (before, after[ahead], after[~ahead])]
     alt = (
         f"A line for each of {had.sum()} agents, through all looks. Just before episode 1,000 their ways out are worth "
-        f"{each[0]}. In the "
-        f"{late}, {ahead.sum()} are ahead, on ways worth {each[1]}"
+        f"{each[0]}. In the episodes {ways.LATE:,} to {ways.EPISODES:,} (median), {ahead.sum()} are ahead, on ways "
+        f"worth {each[1]}"
         + (f"; {behind} are behind, worth {each[2]}" if behind else "")
         + f". Staying behind is worth {staying:.2f}."
     )

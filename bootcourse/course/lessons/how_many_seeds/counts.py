@@ -3,11 +3,10 @@
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-import scipy
 
 from bootcourse.course.shipped import shipped_experiment, shipped_results
 from bootcourse.research.results import Results
-from bootcourse.statistics import Estimate, all_resamples, bracketed, difference, iqm, lost
+from bootcourse.statistics import Estimate, all_resamples, bracketed, difference, fisher, iqm, lost
 
 ABLATION = ["success, %", "IQM", "the agents, sorted"]
 RESAMPLES = 10_000
@@ -107,8 +106,7 @@ def compared() -> dict[str, tuple[int, int, int]]:
 
 def p_values() -> list[float]:
     """Fisher's two-sided p of each sentence."""
-    tables = [[[k, n - k], [j, n - j]] for k, j, n in compared().values()]
-    return [float(scipy.stats.fisher_exact(each).pvalue) for each in tables]
+    return [fisher(*counted) for counted in compared().values()]
 
 
 def sentences() -> list[list[str]]:

@@ -185,7 +185,7 @@ table(measures.ESCAPE, measures.escaped())
 # <!-- claim: len(found('c = 2')) == len(found('c = 0')) == len(found('none')) == 20 and
 #   min(found(name).min() for name in ('c = 2', 'c = 0', 'none')) > 0 -->
 # <!-- claim: [find_alone(name) for name in ('c = 2', 'c = 0', 'none')] == ['12 of 20', '2 of 10', '1 of 20'] and
-#   stats.fisher_exact([[12, 8], [1, 19]]).pvalue < 0.01 -->
+#   fisher(12, 1, of=20) < 0.01 -->
 # <!-- claim: of_the_stochastic_rule('demos').escapers('demos') == 6 and all(
 #   clocks()['2', 'π̃'].of(m).escapers(m) == len(clocks()['2', 'π̃'].of(m)) == 10 for m in ('demos', 'bootstrapped'))
 #   -->
@@ -224,8 +224,8 @@ bc.show(figures.returns(measures.paid_and_not()))
 # rule was pays better than being fast. This keeps an agent from running ahead: its return stays near the rule's. And it
 # keeps an agent from running back: none of twenty loses the way out before episode 600, without the bonus
 # {{ losing_until('c = 0', 600) }} do. *If so*, a longer leash holds longer:
-# <!-- claim: losing_until('c = 2', 600) == 0 and stats.fisher_exact([[0, 20], [losing_until('c = 0', 600), 20 -
-#   losing_until('c = 0', 600)]]).pvalue < 0.01 -->
+# <!-- claim: losing_until('c = 2', 600) == 0 and
+#   fisher(0, losing_until('c = 0', 600), of=20) < 0.01 -->
 # <!-- claim: training('c = 2', 'return', 300, 600).max() < training('c = 0', 'return', 300, 600).min() -->
 # <!-- claim: (abs(training('c = 2', 'return', 300, 500) - of('rule').scores('returns').mean()) < 5).all() -->
 # <!-- claim: all(training('c = 2', 'success', 300, 600, which).mean() > training('c = 0', 'success', 300,
@@ -255,8 +255,8 @@ bc.panels.train_panel("bootstrapped", seeds=2, episodes=600)
 # By episode 900 none of twenty agents with c = 2 has lost the way out, but {{ losing_until('c = 0', 900) }}
 # with c = 0 have. Ask for a schedule of c that holds the way out and not the return, and let a group try it
 # in the panel.
-# <!-- claim: losing_until('c = 2', 900) == 0 and stats.fisher_exact([[0, 20], [losing_until('c = 0', 900),
-#   20 - losing_until('c = 0', 900)]]).pvalue < 0.01 -->
+# <!-- claim: losing_until('c = 2', 900) == 0 and
+#   fisher(0, losing_until('c = 0', 900), of=20) < 0.01 -->
 
 # %% [markdown]
 # ## Round 4: who guesses, and who picks?
