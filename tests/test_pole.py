@@ -57,6 +57,16 @@ def test_the_targets_of_a_frozen_guess_take_only_a_fallen_poles_value_from_the_u
     assert (at_30[:, 1:] == 30).all() and torch.equal(at_30[:, 0], untrained[:, 0])
 
 
+def test_an_agent_that_trains_on_is_a_copy_and_so_are_its_rows():
+    parts = exercises.train.solution, exercises.update.solution
+    rows = worlds.Unmarked(exercises.ReplayBuffer.solution(1_000))
+    agent = worlds.taught(*parts, rows, 260, seed=0)
+    before = worlds.along_falls(agent)
+    later = worlds.taught_on(*parts, agent, rows, 260, seed=1)
+    assert len(rows.buffer.rows) == 260
+    assert (worlds.along_falls(agent) == before).all() and (worlds.along_falls(later) != before).all()
+
+
 def test_two_poles_are_first_shown_where_the_recorded_pushes_let_one_fall():
     fell = {}
     for name, pushes in explorable.PUSHES.items():

@@ -136,6 +136,17 @@ def target_of(bug: str) -> Callable:
     return target
 
 
+def pull(bug: str, states: int = 10_000) -> float:
+    """How strongly the actor's loss of an untrained learner raises the logit of an action that is worth 5 more.
+
+    Nine equally likely actions, KL 0, in so many states: minus the mean slope, as `sampled` draws in each state.
+    """
+    logits = torch.zeros(1, states, 9, requires_grad=True)
+    q = 5.0 * torch.nn.functional.one_hot(torch.zeros(1, states, dtype=torch.int64), 9)
+    loss = _untrained(bug).actor_loss(logits.log_softmax(-1), q, torch.zeros(1, states))
+    return -float(torch.autograd.grad(loss.sum(), logits)[0][0, :, 0].sum())
+
+
 def _untrained(bug: str) -> SACLearner:
     return LEARNERS[bug]([settings_for("bootstrapped")], DEFAULT.observation_size)
 

@@ -4,6 +4,7 @@ from functools import cache
 
 import numpy as np
 
+from bootcourse.course import shipped
 from bootcourse.course.lessons.bug_hunt import bugs, figures
 from bootcourse.course.lessons.bug_hunt.exercises import end_error
 from bootcourse.course.lessons.bug_hunt.target_probe import unmasks
@@ -11,7 +12,8 @@ from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.episodes.record import record
 from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.replay_buffer import Batch
-from bootcourse.policies import stochastic_rule_policy
+from bootcourse.policies import rule_policy, stochastic_rule_policy
+from bootcourse.road.state import EGO, SPEED, Y
 from bootcourse.scenario import DEFAULT
 from tools.course.known import fisher
 
@@ -62,6 +64,15 @@ def asked(name: str) -> float:
     """What the student's probe says of an agent."""
     q = hunt().agent(name).q_values(seen().states)
     return float(end_error(q, seen().actions, seen().rewards, seen().terminated))
+
+
+@cache
+def in_left_lane(name: str) -> tuple[int, float]:
+    """In the drives that the lesson plays: from which second on a car is in the left lane, its median speed there."""
+    policy = rule_policy(DEFAULT) if name == "rule" else hunt().agent(name).as_policy()
+    cars = shipped.beginning(record(policy, [10])[0], 50).states[:: DEFAULT.clock.steps, EGO]
+    inside = cars[:, Y] < DEFAULT.road.lane_width / 2
+    return int(inside.argmax()), float(np.median(cars[inside, SPEED]))
 
 
 def line_end(name: str) -> float:

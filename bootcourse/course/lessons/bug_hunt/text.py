@@ -45,8 +45,8 @@ progress("bug_hunt")
 # healthy. Each of the others, A to F, has one **silent bug**: a wrong line that raises nothing and prints nothing.
 # <!-- claim: len(bugs.LEARNERS) == 7 and bugs.SEEDS == 2 -->
 #
-# The healthy agent and another drive on the same road. Watch the speed in the free lane, and the gap to the car ahead.
-# Which has the bug?
+# The healthy agent and another drive on the same road. Watch when each reaches the left lane, and how fast it drives
+# there. Which has the bug?
 
 # %% tags=["nbval-ignore-output"]
 bc.recording(figures.two_drives(hunt), height=360)
@@ -64,11 +64,16 @@ bc.show(figures.returns(hunt))
 
 # %% [markdown]
 # **See.** *A curve can look right although the code is wrong.* A, C and D end about where the healthy agent ends.
-# B and F look ill. E earns far *more*. **The second driver above is E:** in the free lane it drives faster than the
-# rule, and closer to others, so it no longer follows its teacher.
+# B and F look ill. E earns far *more*. **The second driver above is E:** it reaches the left lane after
+# {{ in_left_lane('E')[0] }} s, the healthy one after {{ in_left_lane('healthy')[0] }} s. There it drives
+# {{ in_left_lane('E')[1] | .0f }} m/s (median), its teacher, the rule, {{ in_left_lane('rule')[1] | .0f }} m/s.
+# <!-- claim: in_left_lane('E')[0] > 2 * max(in_left_lane('rule')[0], in_left_lane('healthy')[0]) -->
+# <!-- claim: in_left_lane('E')[1] > in_left_lane('rule')[1] + 2 -->
 #
-# *D, whose curve looks right, crashes* on {{ 100 * driven('D') | .0f }} % of {{ len(figures.ROADS) }} new roads (first
-# seed, likeliest actions), the healthy agent on {{ 100 * driven('healthy') | .0f }} %.
+# *Do crashes tell?* On {{ len(figures.ROADS) }} new roads (first seeds, likeliest actions) D, whose curve looks right,
+# crashes on {{ 100 * driven('D') | .0f }} %, the healthy agent on {{ 100 * driven('healthy') | .0f }} %, and A, which
+# has a bug, on {{ 100 * driven('A') | .0f }} %. So few crashes are no proof of right code.
+# <!-- claim: driven('A') < driven('healthy') and more_crashes('A') < 0.01 -->
 # <!-- claim: min(late('E', 'accident')) > 0 -->
 # <!-- claim: driven('D') > 2.5 * driven('healthy') > 0 and more_crashes('D') < 0.005 -->
 # <!-- claim: late('healthy', 'accident') == [0, 0] and
@@ -81,12 +86,12 @@ bc.show(figures.returns(hunt))
 #
 # | bug | where | right | with the bug | known from |
 # |---|---|---|---|---|
-# | `no_end` | target | γ · next value only if no accident ended it | always | the pole ([[update_and_loop]]) |
-# | `bonus_for_all` | target | c for each demonstration | for each row | the leash ([[learning_from_demonstrations]]) |
-# | `no_stop` | actor's loss | Q detached | not detached: it trains the critic, too | `detach` ([[discrete_sac]]) |
+# | `no_end` | target | `gamma * (1 - end) * next_value` | `gamma * next_value` | the pole ([[update_and_loop]]) |
+# | `bonus_for_all` | target | `bonus * demo` | `bonus` | the leash ([[learning_from_demonstrations]]) |
+# | `no_stop` | actor's loss | `q.detach()` | `q`: the loss trains the critic, too | `detach` ([[discrete_sac]]) |
 # | `sampled` | both | Σ π (Q − α log π) | Q − α log π of one drawn action | soft value ([[discrete_sac]]) |
 # | `flipped_kl` | both | Σ π (log π − log rule) | Σ rule (log rule − log π) | KL ([[soft_constraint]]) |
-# | `shifted_labels` | actor's loss | the label of s in the KL: rule(s) | rule(s') | labels ([[demonstrations]]) |
+# | `shifted_labels` | actor's loss | `kl(s, rule(s))` | `kl(s, rule(s_next))` | labels ([[demonstrations]]) |
 #
 # <!-- claim: settings_for('bootstrapped').kl_in_target -->
 
@@ -144,13 +149,24 @@ check.end_error(end_error)
 
 # %%
 predicted("bug_hunt.2")
+drives = bc.record(bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(1)), range(50))
+seen = bugs.transitions(drives)
+probe = own_code.yours_or_ours("end_error", doing="Asking")
+for name in hunt.names:
+    q = hunt.agent(name).q_values(seen.states)
+    print(f"{name:8} {probe(q, seen.actions, seen.rewards, seen.terminated):+6.1f}")
+
+# %%
 bc.show(figures.accidents(hunt))
 
 # %% [markdown]
 # **See.** With `no_end` the target is −10 + 0.8 · next value: below −10 as soon as the next value is below 0.
-# `bonus_for_all` adds 2 to each target. The lines show Q itself, your probe's answer and r = −10, at each agent's own
-# accidents. Even the healthy critic ends near
+# `bonus_for_all` adds 2 to the target of each row of the agent's own.
+#
+# The numbers are your probe's answers at the stochastic rule's accidents. The lines show Q itself at each agent's own.
+# Even the healthy critic ends near
 # {{ line_end('healthy') | .0f }}. So compare with the grey lines: which agents end *far* from them?
+# <!-- claim: asked('D') < -10 < 0 < asked('healthy') -->
 # <!-- claim: (hunt().probe('healthy', 'end')[:, hunt().updates >= 1000] > DEFAULT.reward.accident + 1).all() -->
 
 # %% [markdown] tags=["instructor"] minutes=2
@@ -192,7 +208,7 @@ bc.show(figures.promises(hunt))
 # ## Round 4: which actions does the policy drop?
 #
 # The KL pulls the policy towards the stochastic rule, which gives each action a little probability. How probable
-# is the policy's **rarest** action, in the states of Round 3? In the healthy agent this falls steadily.
+# is the policy's **rarest** action, in the states of Round 3?
 #
 # > **Predict.** Round 1's table has both KLs. Let the probability π of one action go to 0: what does each KL
 # > charge for it? So how does the rarest action's probability fall with `flipped_kl`?
@@ -208,9 +224,21 @@ bc.show(figures.rarest(hunt))
 # **Explain.** The right KL weighs each action by π, so an action that the policy hardly takes costs hardly
 # anything. The flipped KL weighs it by the rule's probability, and grows without bound as π goes to 0.
 #
-# *Two* agents' rarest action stays far likelier to the end. Which other bug can do that?
+# *Two* agents' rarest action stays far likelier to the end. Which other bug can do that? A test without training: nine
+# actions are equally likely, and one is worth 5 more. How strongly does the actor's loss pull it up?
 # <!-- claim: {n for n in 'ABCDEF' if hunt().probe(n, 'rarest')[:, -1].min() > -20} == {'A', 'B'}
 #   and (hunt().probe('healthy', 'rarest')[:, -1] < -30).all() -->
+
+# %%
+for bug in bugs.LEARNERS:
+    print(f"{bug:14} {bugs.pull(bug):+.2f}")
+
+# %% [markdown]
+# **See.** The right loss pulls the better action up. In `sampled` no π multiplies Q, and no gradient passes through a
+# draw among nine: so Q moves its policy {{ 'not at all' if abs(bugs.pull('sampled')) < 0.005 else 'a little' }}. What
+# is left is the pull towards the stochastic rule.
+# <!-- claim: abs(bugs.pull('sampled')) < 0.005 and all(abs(bugs.pull(bug) - bugs.pull('none')) < 1e-6
+#   for bug in bugs.LEARNERS if bug != 'sampled') and bugs.pull('none') > 0.3 -->
 
 # %% [markdown] tags=["instructor"] minutes=1
 # Ask for the limit of both divergences as one probability of π goes to zero, before anybody looks at the
@@ -234,8 +262,8 @@ bc.show(figures.likeliest(hunt))
 bc.show(figures.line_ends(hunt))
 
 # %% [markdown]
-# **Exercise (8 min, ●●○).** Name the bug of each agent. *Far* means: a dot outside the light grey. For one agent the
-# peak in Round 3's picture decides, for another the beginning of the lines just above.
+# **Exercise (8 min, ●●○).** Name the bug of each agent. *Far* means: a dot outside the light grey. Look at whole lines,
+# too: some bugs show only early, or at a peak.
 
 
 # %%
@@ -258,8 +286,7 @@ check.diagnose(diagnose)
 # | E | ↑ | ↑ | ↑ | = | ↓ | `bonus_for_all` |
 # | F | ↓ | ↑ | ↑ peak: {{ peaks('F').max() | .0f }}, {{ peaks('F').min() | .0f }} | = | ↓ | `no_stop` |
 #
-# - **B**: in the actor's loss of `sampled` no π multiplies Q, so Q gives the policy no gradient, and −α log π gives
-#   none on average. Only the pull towards the stochastic rule is left.
+# - **B**: Q does not move the policy (Round 4), so it earns little.
 # - **D** adds γ times the value of the state after the crash. No row begins there, so no data correct this *guess*. It
 #   feeds itself, as in lesson [[update_and_loop]], but downwards: at crashes of the stochastic rule D gives the state
 #   {{ after_the_end('D') | .0f }} and the crash {{ DEFAULT.reward.accident + asked('D') | .0f }}.
@@ -297,7 +324,8 @@ check.diagnose(diagnose)
 # %% [markdown]
 # ## Two tests, no training, no healthy twin
 #
-# **The labels.** A learner's label is right where it equals the rule's answer in the *same* second.
+# **The labels.** A learner's label is right where it equals the rule's answer in the *same* second. Which bug must fail
+# this test?
 #
 # **The target.** The healthy line is
 #
@@ -318,11 +346,9 @@ def unmasks(target):
 check.unmasks(unmasks)
 
 # %% [markdown]
-# Test the target of the seven untrained learners, and their labels in drives of the stochastic rule:
+# Test the target of the seven untrained learners, and their labels in the stochastic rule's drives:
 
 # %%
-driver = bc.stochastic_rule_policy(bc.DEFAULT, np.random.default_rng(1))
-drives = bc.record(driver, range(50))
 test = own_code.yours_or_ours("unmasks", doing="Testing")
 print(f"{'bug':14} labels right  target")
 for bug in bugs.LEARNERS:

@@ -13,7 +13,7 @@ from bootcourse.methods import style
 from bootcourse.panels.explorable import WIDTH, Explorable
 from bootcourse.panels.number import Number, whole_number
 from bootcourse.plots.road import draw_cars, draw_road, edges_of
-from bootcourse.plots.svg import Drawing, SvgAxes, drawing, line, rect, text, ticks
+from bootcourse.plots.svg import Drawing, SvgAxes, drawing, line, over, rect, text, ticks
 from bootcourse.policies import idle_policy
 from bootcourse.research.results import Results
 from bootcourse.road.state import TRAP_1, X
@@ -53,7 +53,7 @@ def training() -> Explorable:
         chart.words(end + 75, 88, "← no demonstrations from here on", QUIET)
         chart.line([episode, episode], [0, 100], INK, 1.5)
         ahead = 100 * notes["success"][look]
-        says = f"After {notes['episode'][look]:,.0f} episodes: ahead of trap 1 on {ahead:.0f} % of {ways.ROADS} roads."
+        says = f"After {episode:,.0f} episodes: ahead of trap 1 on {ahead:.0f} % of {ways.ROADS} roads."
         words = f"the first {ways.SECONDS} s of one drive, seen from trap 1; a dot a second, until {ends}"
         parts = [text(4, 20, says, size=14, bold=True), text(20, 48, words, fill=QUIET, size=11.5)]
         return drawing(WIDTH, 356, parts + road.parts + chart.parts, f"{says} The drive shown goes on until {ends}.")
@@ -70,6 +70,10 @@ def _path(road: SvgAxes, way: np.ndarray, colour: str) -> str:
     road.line(*shown.T, colour, 1.4)
     for x, y in shown:
         road.dot(x, y, colour)
+    for second in range(0, len(shown), 5):  # the seconds tell in which direction it goes
+        across, down = road.at(*shown[second])
+        place = f"start, {second} s" if second == 0 else f"{second} s"
+        road.parts.append(over(text(across, down - 8, place, "middle", INK, 10.5)))
     if len(shown) < len(driven):
         return "it is 45 m ahead" if driven[len(shown), 0] > 0 else "it is 45 m behind"
     if len(driven) == len(way):

@@ -6,16 +6,18 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bootcourse.colours import TRAP
-from bootcourse.course.lessons.found_and_kept import ways
+from bootcourse.course.lessons.found_and_kept import walks, ways
 from bootcourse.course.shipped import shipped_experiment
+from bootcourse.learn.settings import settings_for
 from bootcourse.methods import display_name, style
 from bootcourse.plots.figure import INK, QUIET, TEXT, axes_at, finish, new_figure, plain_axes
 from bootcourse.research.cells import VARIED
 from bootcourse.research.results import Results
+from bootcourse.scenario import IDLE
 
 WORTHS = {  # the title of each picture: (the agents that are ahead later, of all)
     "demos": "{0} of {1} end on faster ways, the others at staying; many crash",
-    "demos, β for ever": "If the bonus never ends, {0} of {1} stay ahead, and none climbs",
+    "demos, β for ever": "If the bonus never ends, {0} of {1} stay ahead, all below staying",
 }
 
 
@@ -34,8 +36,10 @@ def worths(cell: str) -> Figure:
     words = f"worth of a drive at γ = 0.8, without the bonus (mean of {ways.ROADS} roads); cut at −1: they crash"
     plain_axes(ax, words)
     ax.set(xlim=(-0.05, 1.06), ylim=(-1, 1.8), yticks=(-1, 0, 1))
-    places = (0, 0.47, 0.95)
-    ax.set_xticks(places, ("just before 1,000", f"{ways.LATE:,}", "dots: median from there on"), fontsize=TEXT)
+    ax.set_xticks((0, 0.45, 0.9), ("just before 1,000", f"{ways.LATE:,}", f"{ways.EPISODES:,}"), fontsize=TEXT)
+    ax.set_xlabel(
+        f"training episode; the dots at the right: the median from {ways.LATE:,} on", fontsize=TEXT, color=INK
+    )
     looks = np.arange(agents.notes["worth"].shape[1]) * ways.EVERY
     later, just_before = looks > ways.BEFORE, looks[looks <= ways.BEFORE][-1]
     at = np.r_[0, 0.9 * (looks[later] - just_before) / (ways.EPISODES - just_before)]
@@ -57,6 +61,31 @@ def worths(cell: str) -> Figure:
         + f". Staying behind is worth {staying:.2f}."
     )
     return finish(figure, WORTHS[cell].format(ahead.sum(), had.sum()), alt)
+
+
+def two_hills() -> Figure:
+    """What the rule's drive is worth if it begins with seconds of keeping straight, or of accelerating."""
+    figure, staying = new_figure(3.3), ways.staying(settings_for("demos").gamma)
+    ax = axes_at(figure, 0.55, 0.65, 4.5, 2.1)
+    plain_axes(ax, f"worth of a drive at γ = 0.8, without the bonus (mean of {walks.TRIED} roads)")
+    kept, sped = walks.means(IDLE), walks.means(walks.FASTER)
+    colour = style("demos").colour
+    ax.axhline(staying, color=INK, linewidth=1.5, zorder=1)
+    ax.text(20.6, staying, f"staying behind: {staying:.2f}", fontsize=TEXT, color=INK, va="center")
+    ax.plot(walks.KEPT, kept, "o-", color=TRAP, ms=4, linewidth=1.5)
+    ax.text(7, 0.66, "keep straight for k seconds, then the rule", fontsize=TEXT, color=TRAP, va="center")
+    ax.plot(walks.SPED, sped, "o-", color=colour, ms=5, linewidth=2)
+    ax.text(3.5, sped[3], "accelerate for k seconds, then the rule", fontsize=TEXT, color=colour, va="center")
+    ax.text(4.2, 0.43, f"k = 4: all crash ({sped[4]:.1f})".replace("-", "−"), fontsize=TEXT, color=colour, va="center")
+    ax.plot(0, kept[0], "o", color=style("rule").colour, ms=8, zorder=4)
+    ax.text(0.4, 0.5, "the rule", fontsize=TEXT, color=style("rule").colour, va="center")
+    ax.set(xlim=(-0.5, 20.5), ylim=(0.38, 1.06), xticks=range(0, 21, 5), yticks=(0.4, 0.6, 0.8, 1))
+    ax.tick_params(labelsize=TEXT)
+    ax.set_xlabel("k, seconds", fontsize=TEXT, color=INK)
+    shown = [", ".join(f"{each:.2f}" for each in some) for some in (kept[:4], sped)]
+    alt = f"Keeping straight for 0, 1, 2, 3 seconds: {shown[0]}, and so on up to {kept[-1]:.2f} for {len(kept) - 1}. "
+    alt += f"Accelerating for 0 to 4 seconds: {shown[1]}: then all crash. Staying behind is worth {staying:.2f}."
+    return finish(figure, "From the rule's drive two hills are in reach, one with a cliff", alt)
 
 
 def found_and_kept(results: Results, printed: Mapping[str, float] | None = None) -> Figure:

@@ -1,22 +1,20 @@
 """What the numbers and claims in this lesson's text are computed from, beside tools/course/known.py."""
 
 from functools import cache
-from itertools import count, islice
 from typing import NamedTuple
 
 import numpy as np
 from scipy import stats
 
-from bootcourse.course.lessons.found_and_kept import ways
+from bootcourse.course.lessons.found_and_kept import walks, ways  # noqa: F401 (the text names walks)
 from bootcourse.course.lessons.found_and_kept.explorable import groups
-from bootcourse.episodes.driving import one_episode_each, steps
 from bootcourse.episodes.record import record
-from bootcourse.policies import PolicyOutput, rule_policy
+from bootcourse.policies import rule_policy
 from bootcourse.research.experiments import clocks as study_clocks
 from bootcourse.research.paper import PRINTED  # noqa: F401 (the text names it)
 from bootcourse.research.results import Results
 from bootcourse.road.state import EGO, TRAP_1, X
-from bootcourse.scenario import DEFAULT, IDLE
+from bootcourse.scenario import DEFAULT, IDLE  # noqa: F401 (the text names IDLE)
 from bootcourse.statistics import ESCAPES, HAD, IN_A_ROW, LOST, found_after, lost  # noqa: F401 (the text names them)
 from tools.course.known import ROAD, SETTINGS, clocks, fisher, shipped_experiment, shipped_results
 
@@ -209,29 +207,7 @@ def p_of_hills() -> float:
     return float(stats.mannwhitneyu(*(before_of("demos", ahead) for ahead in (True, False))).pvalue)
 
 
-TRIED = 40  # roads on which one decision of the rule is changed
-FASTER = 7  # accelerate, straight on
-
-
-@cache
-def _rule_with(action: int | None, second: int = 0) -> np.ndarray:
-    """The worth of the rule's drive with another action in one second, (TRIED,); None: as it is."""
-    clock = count()
-
-    def decide(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
-        chosen = rule_policy(DEFAULT)(observations, cars).actions
-        return PolicyOutput(np.full_like(chosen, action) if next(clock) == second and action is not None else chosen)
-
-    first = steps(decide, one_episode_each(TRIED, DEFAULT, None), list(range(TRIED)))
-    rewards = [step.rewards * step.running for step in islice(first, 40)]  # later ones count next to nothing
-    return SETTINGS.gamma ** np.arange(len(rewards)) @ np.array(rewards)
-
-
-def less_braking() -> np.ndarray:
-    """How much more the rule's drive is worth if it does not brake in the first second, (TRIED,)."""
-    return _rule_with(IDLE) - _rule_with(None)
-
-
-def sooner(second: int = 12) -> np.ndarray:
-    """How much more it is worth if it accelerates, straight on, in the twelfth second, or another one, (TRIED,)."""
-    return _rule_with(FASTER, second - 1) - _rule_with(None)
+def crashing(cell: str) -> int:
+    """How many crash on more than half of the roads at some look after β has ended."""
+    accident = watched(cell).notes["accident"][had_a_way(cell)][:, ENDS // ways.EVERY + 1 :]
+    return int((accident > 0.5).any(axis=1).sum())

@@ -101,25 +101,34 @@ bc.show(figures.worths("demos"))
 # %% [markdown]
 # **See.** *All {{ len(before('demos')) }} ways out are worth less than staying*: in the first ten seconds, which count
 # most, the agents fall back to make room. From episode 1,500 on, nine are on faster ways out and seven back at staying.
-# On the way nine of the sixteen are at some look worth less than 0: they crash.
+# On the way there 15 of the sixteen crash, at some look, on most of the roads.
 # <!-- claim: (before('demos') < stays()).all() and len(before('demos')) == 16 and falls_back().min() > 2 -->
-# <!-- claim: fates('demos') == (9, 7) and rise('demos') == 16 and below_0('demos') == 9 -->
+# <!-- claim: fates('demos') == (9, 7) and rise('demos') == 16 and crashing('demos') == 15 -->
 # <!-- claim: ends('demos', True).min() > 0.85 and (abs(ends('demos', False) - stays()) < 0.06).all() -->
 #
-# **Explain. Both are uphill.** An agent changes its drive a little, and keeps a change that pays. From a slow way out
-# **two hills** are in reach. To fall back less pays, and ends in staying. To accelerate sooner pays as well, and ends
-# in a fast way out.
+# **Explain. Both are uphill.** We read it so: an agent changes its drive a little, and keeps a change that pays. So
+# which changes of a slow way out pay? Take the rule's way. Do *one thing* for the first k seconds, and then what the
+# rule does:
+
+# %%
+bc.show(figures.two_hills())
+
+# %% [markdown]
+# **See.** *From the rule's way, two directions pay.*
 #
-# This is a reading, and too smooth: it has no crashes. Its test: changes of the rule's drive must pay both ways. Not to
-# brake in the first second gains on each of {{ TRIED }} roads ({{ less_braking().mean() | .3f }} on average), to
-# accelerate in the twelfth on {{ (sooner() > 0).sum() }} ({{ sooner().mean() | .3f }}). We chose these seconds:
-# accelerating in the tenth gains on {{ (sooner(10) > 0).sum() }}.
-# <!-- claim: (less_braking() > 0).all() and (sooner() > 0).mean() > 0.7 and sooner().mean() > 0 > sooner(10).mean() -->
+# - *Keep straight*: each further second pays a little, and the end is staying.
+# - *Accelerate*: the first three seconds pay more, and the third ends above staying. With a fourth second all
+#   {{ walks.TRIED }} drives crash: beside the fast hill is a **cliff**.
+# <!-- claim: all(np.diff(walks.means(IDLE)) > 0) and min(walks.gains(IDLE, k) for k in walks.KEPT[1:]) > 35 and
+#   stays() - 0.01 < walks.means(IDLE)[-1] < stays() -->
+# <!-- claim: [walks.gains(walks.FASTER, k) for k in (1, 2, 3)] == 3 * [walks.TRIED] and walks.means(walks.FASTER)[2] <
+#   stays() < walks.means(walks.FASTER)[3] and walks.worths(walks.FASTER, 4).max() < -2 and
+#   walks.means(walks.FASTER)[1] > walks.means(IDLE)[1] -->
 #
-# **This solves half of lesson [[the_trap]]'s riddle.** *How can a teacher help whose way is worth less than the
-# trap?* Because learning is a walk, not a choice. From the trap a faster drive is some eight right decisions away
-# (lesson [[the_barrier]]), and most attempts crash. From the rule's way a better one is one changed decision away. A
-# teacher must put the learner on such a slope. Which teachers do is the other half (lesson [[your_teacher]]).
+# **This solves half of lesson [[the_trap]]'s riddle.** *How can a teacher help whose way is worth less than the trap?*
+# Learning is a walk, not a choice. From the trap a faster drive is some eight right decisions away (lesson
+# [[the_barrier]]), and most attempts crash. From the rule's way a better one is one changed decision away. This teacher
+# put the learner on a slope. Which teachers do is the other half (lesson [[your_teacher]]).
 
 # %% [markdown] tags=["instructor"] minutes=8
 # Let the class say, before the picture, what an agent gains that goes back to staying, with the
@@ -151,16 +160,18 @@ bc.show(figures.worths("demos, β for ever"))
 #   (ends('demos, β for ever', True) < stays()).all() and fisher_of_fates() < 0.05 -->
 # <!-- claim: abs(ends('demos, β for ever', True) - before('demos, β for ever')).max() < 0.1 -->
 #
-# **Explain.** While β lasts they are on lesson [[learning_from_demonstrations]]'s **leash**: it holds them at the
+# **Explain.** While β lasts they are on lesson [[learning_from_demonstrations]]'s **leash**: it holds them near the
 # rule's drive.
 #
-# Of the four gates this is **Keep**: when the help ends, the way out must be worth more than staying.
+# Of the four gates this is **Keep**: when the help ends, the way out *should* be worth more than staying. In the first
+# picture it was not, and yet nine of sixteen stayed ahead: they had climbed to a faster way. Seven did not pass.
 
 # %% [markdown]
-# ## Round 3: the demonstrations or their bonus?
+# ## Round 3: what does the leash cost?
 #
-# With β two things end, the demonstrations and their bonus. Which of them is the leash? Four groups of ten part the
-# two. They have the soft constraint, too, and all of them find the way out.
+# With β two things end, the demonstrations and their bonus. Lesson [[learning_from_demonstrations]] found that the
+# bonus holds, not the demonstrations. What does it *cost*? Four groups of ten part the two. They have the soft
+# constraint, too, and all of them find the way out.
 # <!-- claim: [(each.agents[0]['beta_episodes'], each.agents[0]['bonus']) for each in
 #   groups().values()] == [(1000, 2), (None, 2), (1000, 0), (None, 0)] and SETTINGS.beta_episodes ==
 #   1000 and {len(each) for each in groups().values()} == {10} and
@@ -182,11 +193,12 @@ def ever_lost(success, had, limit):
 check.ever_lost(ever_lost)
 
 # %% [markdown]
-# > **Predict.** In one group β never ends, but no bonus is paid. How many of its ten agents lose the way out?
+# > **Predict.** In one group no bonus is ever paid, and β ends at episode {{ ENDS | , }}. Eight of its ten agents lose
+# > the way out at least once. How many of the ten escape in the test?
 
 # %%
-losers = ["none", "about half", "all"]
-predict("found_and_kept.3", "How many lose it with endless demonstrations, but no bonus?", losers)
+escaping = ["two", "five", "all ten"]
+predict("found_and_kept.3", "How many escape that are never paid a bonus, if β ends?", escaping)
 
 # %% [markdown]
 # **Drag** the limit, at or below which the way out counts as lost.
@@ -196,20 +208,24 @@ predicted("found_and_kept.3")
 explorable.losing()
 
 # %% [markdown]
-# **See.** *At {{ LOST }} all ten lose it*: demonstrations without the bonus did not hold. With the endless bonus none
-# of the ten loses it, and they drive as slowly as the rule. In the third group eight lose it, yet all ten escape and
-# earn most. Counting ten others (4,000 episodes), {{ escapes_of_twenty()[0] }} of twenty escape; with the bonus
-# {{ escapes_of_twenty()[1] }}, too.
+# **See.** *Eight lose it, yet all ten escape*, and they earn the most of the four groups. With the endless bonus none
+# loses it, but the ten drive at {{ speed('β never ends, bonus') | .1f }} m/s, little faster than the rule
+# ({{ of('rule').scores('speed').mean() | .1f }}); the third group drives at {{ speed('β ends, no bonus') | .1f }}. If β
+# never ends and no bonus is paid (last group), all ten lose it at the limit {{ LOST }}.
+#
+# If β ends, ten escape without the bonus and seven with it. That the bonus harms does not follow: with ten others of
+# each, trained for 4,000 episodes, it is {{ escapes_of_twenty()[0] }} of twenty and {{ escapes_of_twenty()[1] }}.
 # <!-- claim: escapes_of_twenty() == (16, 16) and [group(each).escapes.sum() for each in ('β ends, no bonus', 'β ends,
 #   bonus')] == [10, 7] and earned('β ends, no bonus') == max(map(earned, groups())) -->
 # <!-- claim: [each.lost.sum() for each in map(group, groups())] == [10, 0, 8, 10] and
 #   lost_least_if_both(5, 35) and lost_if_both(30) == 0 -->
 # <!-- claim: all(group('β never ends, bonus').escapes) and
-#   abs(speed('β never ends, bonus') - of('rule').scores('speed').mean()) < 1.5 -->
+#   0 < speed('β never ends, bonus') - of('rule').scores('speed').mean() < 1 and speed('β ends, no bonus') > 14 -->
 #
-# **Explain.** *The leash is the bonus, not the rows.* A demonstrated second pays {{ SETTINGS.bonus | .0f }} more than
-# the road does, and no second on the road pays more than 1. So to be where the rule was beats both hills. Of the last
-# group, without pay, half escape; the others crash on over two thirds of the roads. Why, this experiment does not say.
+# **Explain.** *The leash keeps the way out, and costs speed.* A demonstrated second pays {{ SETTINGS.bonus | .0f }}
+# more than the road does, and no second on the road pays more than 1. So in the demonstrated rows the rule's way is
+# worth more than either hill. Of the last group, without pay, half escape; the others crash on over two thirds of the
+# roads. Why, this experiment does not say.
 # <!-- claim: group('β never ends, no bonus').escapes.sum() == 5 and
 #   crashes_in('β never ends, no bonus')[~group('β never ends, no bonus').escapes].min() > 2 / 3 -->
 # <!-- claim: SETTINGS.bonus > 1 -->
@@ -281,17 +297,21 @@ def in_words(agents):
     """In how many % of the draws single agents give the paper's four rates."""
     rates = [agents.of(method).scores("success") for method in methods]
     few = counts.how_many(rates)  # agents of each method, if not ten
-    return f"{100 * chance_of(rates, [0, 0, 1, 1], 20):.0f} %{few}"
+    words = f"{100 * chance_of(rates, [0, 0, 1, 1], 20):.0f} %{few}"
+    return words.replace(" ", "\N{NO-BREAK SPACE}")  # on one line
 
 
 rows = [[name, *map(in_words, counts.by_updates(name).values())] for name in counts.SYMBOLS]
 below = "All for 1,200 episodes. In brackets: how many agents of each method, where not ten."
-table(["demonstrations by; updates for a decision:", "¼", "1", "2", "4"], rows, below)
+table(["demonstrations by", "updates for a decision: ¼", "1", "2", "4"], rows, below)
 
 # %% [markdown]
 # **See.** *With 2 updates and the stochastic rule a third of the draws give the paper's four rates; from Round 1's
 # agents none does.* So another training and single agents, together, could give its rates, but not its returns: with
 # both aids it prints {{ PRINTED['bootstrapped']['returns'].mean | .0f }}; these agents earn over {{ lowest() }}.
+# (Four updates read higher still, but with three agents of each method.)
+# <!-- claim: {len(clocks()['4', by].of(m)) for by in ('μ', 'π̃') for m in ('sac', 'soft', 'demos', 'bootstrapped')} ==
+#   {3} and min(pattern(clocks()['4', by]).value for by in ('μ', 'π̃')) > 0.36 -->
 # <!-- claim: 0.3 < pattern(clocks()['2', 'π̃']).value < 0.36 and pattern(of_all()).value == 0 -->
 # <!-- claim: {len(clocks()['2', 'π̃'].of(m)) for m in ('sac', 'soft', 'demos', 'bootstrapped')} == {10} and
 #   len(clocks()) == 8 -->
@@ -308,15 +328,16 @@ table(["demonstrations by; updates for a decision:", "¼", "1", "2", "4"], rows,
 # %%
 compare_predictions(
     "found_and_kept",
-    {1: worth[0], 2: becomes[1], 3: losers[2], 4: f"in about a third: {in_words(cells['2'])}"},
+    {1: worth[0], 2: becomes[1], 3: escaping[2], 4: f"in about a third: {in_words(cells['2'])}"},
 )
 
 # %% [markdown]
 # ## What you now know
 #
-# 1. When the bonus ended, nine of sixteen agents found a faster way out, seven went back to staying; many crashed.
-# 2. So a teacher can help whose way is worth less than the trap, if it puts the learner on a slope.
-# 3. The bonus is a leash; demonstrations without it did not hold.
+# 1. When the bonus ended, nine of sixteen agents found a faster way out, seven went back to staying; 15 crashed
+#    on the way.
+# 2. A teacher can help whose way is worth less than the trap: from the rule's way, small changes pay.
+# 3. The bonus is a leash: while it lasted all ten kept the way out, and drove little faster than the rule.
 # 4. Single agents of another training can give the paper's rates by chance.
 #
 # **Three questions to think about**
@@ -326,8 +347,9 @@ compare_predictions(
 #
 # <details><summary>Answers</summary>
 #
-# - *Let β end?* The bonus holds you at the rule's speed; without it you may slide back. End β when each agent's way
-#   out, the bonus not counted, is worth more than staying.
+# - *Let β end?* The bonus holds you near the rule's speed, and to wait for a better way did not help: with an endless
+#   bonus none of {{ len(before('demos, β for ever')) }} got above staying. End β, watch each agent's worth and crashes,
+#   and keep the agent of the best look.
 # - *A fair test?* Fix the setting and the number of agents, and count new seeds once. We chose it from eight.
 # <!-- claim: len(clocks()) == 8 -->
 # - *The reviewer?* How many trainings found the way out, and how many kept it, each of how many.

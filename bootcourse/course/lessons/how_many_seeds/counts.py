@@ -6,7 +6,7 @@ import numpy as np
 
 from bootcourse.course.shipped import shipped_experiment, shipped_results
 from bootcourse.research.results import Results
-from bootcourse.statistics import Estimate, all_resamples, bracketed, difference, fisher, iqm, lost
+from bootcourse.statistics import Estimate, all_resamples, bracketed, difference, fisher, holm, iqm, lost
 
 ABLATION = ["success, %", "IQM", "the agents, sorted"]
 RESAMPLES = 10_000
@@ -72,7 +72,7 @@ def of_new_agents(new: Mapping[str, Results], agents: int) -> Estimate:
     return difference(changed, unchanged)
 
 
-SENTENCES = ["sentence", "agents that do", "p"]
+SENTENCES = ["sentence", "how many agents", "p", "p after Holm"]
 
 
 def compared() -> dict[str, tuple[int, int, int]]:
@@ -94,12 +94,12 @@ def compared() -> dict[str, tuple[int, int, int]]:
 
     cheap, free = easier["mid-lane, and accidents cost 1"], easier["a later start, mid-lane"]
     return {
-        "1. Agents with both aids escape more often than plain ones": (escape(both[:1]), study.escapers("sac"), 10),
-        "2. Cheap accidents and a free lane do more than a free lane": (cheap, free, 20),
-        "3. A free lane alone does more than nothing": (free, easier["as it is"], 20),
+        "1. With both aids more agents escape than without aids": (escape(both[:1]), study.escapers("sac"), 10),
+        "2. With a free lane, cheap accidents let more agents escape": (cheap, free, 20),
+        "3. A free lane alone lets more agents escape": (free, easier["as it is"], 20),
         "4. With a floor under ξ more agents escape": (escape(floor), escape(fading), 20),
         "5. With a floor under ξ fewer agents lose the way out": (lose(floor), lose(fading), 20),
-        "6. With a pull that is weak throughout fewer escape": (escape(weak), escape(floor), 20),
+        "6. With a pull that is weak throughout, fewer escape than with the floor": (escape(weak), escape(floor), 20),
         "7. Beside the pull, demonstrations let more agents escape": (escape(both), escape(fading), 20),
     }
 
@@ -111,5 +111,6 @@ def p_values() -> list[float]:
 
 def sentences() -> list[list[str]]:
     """The rows below `SENTENCES`."""
-    p = [f"{each:.2g}" if each >= 0.0001 else "< 0.0001" for each in p_values()]
-    return [[said, f"{k} and {j} of {n}", each] for (said, (k, j, n)), each in zip(compared().items(), p, strict=True)]
+    shown = [[f"{each:.2g}" if each >= 0.0001 else "< 0.0001" for each in p] for p in (p_values(), holm(p_values()))]
+    rows = zip(compared().items(), *shown, strict=True)
+    return [[said, f"{k} and {j} of {n}", *p] for (said, (k, j, n)), *p in rows]

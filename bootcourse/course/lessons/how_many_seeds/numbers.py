@@ -53,6 +53,17 @@ def others_escape(method: str) -> int:
     return shipped_experiment("stress")[method].escapers(method)
 
 
+@cache
+def errs(agents: int) -> float:
+    """At most so often Fisher's test of so many agents against as many finds a difference between equal true rates."""
+    return max(power(true, true, agents) for true in np.linspace(0, 0.5, 26))  # alike above
+
+
+def family(sizes: list[int]) -> float:
+    """At most so often at least one of independent tests of so many agents against as many does."""
+    return 1 - float(np.prod([1 - errs(agents) for agents in sizes]))
+
+
 def length(agents: int) -> float:
     """How long its interval is, in points."""
     return new(agents).high - new(agents).low

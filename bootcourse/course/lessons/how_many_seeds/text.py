@@ -241,9 +241,9 @@ check.bootstrap_interval(bootstrap_interval)
 # %% [markdown]
 # ## Round 4: what would you print?
 #
-# We compare groups by their **interquartile means** (IQM): leave out the lowest and the highest quarter, and take the
-# mean. The IQM can hide failures: Round 3's ten have the mean
-# {{ of('bootstrapped').scores('returns').mean() | .0f }}, and the IQM {{
+# Many papers compare groups by their **interquartile means** (IQM): leave out the lowest and the highest quarter, and
+# take the mean. One odd agent of five moves a mean much and an IQM little. The price: an IQM can hide failures. Round
+# 3's ten have the mean {{ of('bootstrapped').scores('returns').mean() | .0f }}, and the IQM {{
 # iqm(of('bootstrapped').scores('returns')) | .0f }}.
 #
 # **Exercise (15 min, ●●●).** Write the difference of two IQMs, and its bootstrap interval. Each resample
@@ -295,7 +295,8 @@ interval_of = own_code.yours_or_ours("difference_interval", doing="Comparing")
 table(counts.ABLATION, *counts.ablation(success, interval_of))
 
 # %% [markdown]
-# An interval that leaves out 0 may be luck. So we trained *new* agents, 40 of each, a number decided beforehand.
+# Five of each leave much open: an interval as long as this one may contain 0, or leave it out, by luck. So we trained
+# *new* agents, 40 of each, a number decided beforehand.
 # <!-- claim: {len(each) for each in shipped_experiment('new-agents').values()} == {40} -->
 
 # %%
@@ -308,20 +309,24 @@ bc.show(figures.new_agents(new, success, interval_of))
 # another number, compare only the lengths.)
 # <!-- claim: 0.4 < length(40) / length(10) < 0.6 and -5 < new(40).low < 0 < new(40).high < 25 -->
 #
-# **Explain.** The mean of n agents is off by about their spread divided by √n: four times as many, half the length.
+# **Explain.** The mean of n agents is off by about their spread divided by √n. So four times as many agents make the
+# interval about half as long: from 10 to 40 of each, {{ length(10) | .0f }} to {{ length(40) | .0f }} points. The
+# length is itself an estimate: that of five can be far off.
 
 # %% [markdown]
-# ### Which of our sentences would you print?
+# ## Round 5: which of our sentences would you print?
 #
-# Seven sentences of lessons [[the_barrier]] to [[how_many_seeds]], and the agents behind them:
+# Seven sentences of lessons [[the_barrier]] to [[how_many_seeds]], and how many agents did what they say, in the first
+# group and in the second:
 
 # %%
 sentences = counts.sentences()
 table(counts.SENTENCES[:2], [row[:2] for row in sentences])
 
 # %% [markdown]
-# > **Predict.** Mark those that you would print. Sentences 4 and 5 are about the same forty agents. Which of the two
-# > has a p below 0.05?
+# Write down the numbers of those that you would print.
+#
+# > **Predict.** Sentences 4 and 5 are about the same forty agents. Which of the two has a p below 0.05?
 
 # %%
 which = ["both", "only that more escape", "only that fewer lose it", "neither"]
@@ -340,14 +345,17 @@ table(counts.SENTENCES, sentences)
 # **Explain.** Most agents escape without the floor, too, so escapes leave it little to improve. A loss was looked for
 # in every window of the training, and most agents without the floor had one.
 #
-# Seven tests are seven chances for luck: with nothing behind them, at least one of seven independent ones comes out
-# below 0.05 in {{ 100 * (1 - 0.95**7) | .0f }} % of cases. This is **multiplicity**. Say beforehand which comparison
-# counts, or correct each p. *Holm* multiplies the smallest by 7, the next by 6, and so on, up to the first product
-# above 0.05. Three sentences stay. The first becomes {{ 4 * fisher(7, 1) | .2f }}, and goes. New agents bring it back:
-# of ten others of each, trained for 4,000 episodes, {{ others_escape('bootstrapped') }} and
+# **Seven tests are seven chances for luck.** Suppose that nothing is behind them, that they are independent, and that
+# each errs in 5 % of cases. Then at least one comes out below 0.05 in {{ 100 * (1 - 0.95**7) | .0f }} % of cases.
+# (Fisher's tests err less: seven with as many agents as here in at most {{ 100 * family([10] + 6 * [20]) | .0f }} %.)
+# This is **multiplicity**. Say beforehand which comparison counts, or correct each p.
+#
+# *Holm* multiplies the smallest p by 7, the next by 6, and so on (last column; it never falls from one p to the next,
+# and ends at 1). Sentences 2, 5 and 6 stay below 0.05: compare them with yours. Sentence 1 does not. New agents bring
+# it back: of ten others of each, trained for 4,000 episodes, {{ others_escape('bootstrapped') }} and
 # {{ others_escape('sac') }} escape (p = {{ fisher(others_escape('bootstrapped'), others_escape('sac')) | .4f }}).
 # <!-- claim: (holm(counts.p_values()) < 0.05).tolist() == [False, True, False, False, True, True, False] and
-#   math.isclose(holm(counts.p_values())[0], 4 * fisher(7, 1)) and fisher(others_escape('bootstrapped'),
+#   fisher(others_escape('bootstrapped'),
 #   others_escape('sac')) < 0.05 / 7 -->
 
 # %% [markdown] tags=["instructor"] minutes=3

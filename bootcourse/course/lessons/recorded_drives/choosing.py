@@ -9,13 +9,14 @@ import torch
 
 from bootcourse.course.shipped import shipped_agents
 from bootcourse.episodes.driving import one_episode_each, steps
+from bootcourse.episodes.evaluate import drive_episodes
 from bootcourse.learn.demonstrations import collect
 from bootcourse.learn.networks import init_mlp, mlp
 from bootcourse.learn.protocol import adam
 from bootcourse.learn.replay_buffer import Batch, decode_transitions
 from bootcourse.learn.textbook import minimise
 from bootcourse.methods import display_name
-from bootcourse.policies import Policy
+from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.scenario import DEFAULT, N_ACTIONS
 
 METHODS = ("bc", "cql", "gail", "sac", "bootstrapped")
@@ -50,6 +51,51 @@ def starts() -> torch.Tensor:
 def actions_of(policy: Policy, states: torch.Tensor) -> torch.Tensor:
     """What a driver that sees nothing but observations does in these states, (n,)."""
     return torch.from_numpy(np.asarray(policy(states.numpy(), None).actions, dtype=np.int64))
+
+
+LIKELY = 0.1  # of the highest probability: a clone's actions with at least this share of it are likely
+
+
+def limited(critic: Policy, clone: Policy, lowest: bool = False) -> Policy:
+    """Takes the action with the highest Q, or the lowest, of those that a clone finds likely."""
+
+    def decide(observations: np.ndarray, cars: np.ndarray) -> PolicyOutput:
+        q, likely = critic(observations, cars).q_values, likely_actions(clone, observations)
+        return PolicyOutput(np.where(likely, -q if lowest else q, -np.inf).argmax(-1))
+
+    return decide
+
+
+def likely_actions(clone: Policy, observations: np.ndarray) -> np.ndarray:
+    """Which actions a clone finds likely, (n, 9) bool."""
+    chances = clone(observations, None).policy
+    return chances >= LIKELY * chances.max(-1, keepdims=True)
+
+
+def ranked(critic: Policy, rank: int) -> Policy:
+    """Takes the action whose Q is the highest (0), the second (1), ..., the lowest (8)."""
+    return lambda observations, cars: PolicyOutput(np.argsort(-critic(observations, cars).q_values)[:, rank])
+
+
+CHOICES = ["takes the action with", "accidents on 50 roads", "return"]
+
+
+def choices(critics: Sequence[Policy], clone: Policy, roads: int = 50) -> list[list[str]]:
+    """Accidents and mean return of each critic's agent, by how it chooses, and of the clone: the rows of a table."""
+    ways = {
+        "the highest Q of nine": [ranked(critic, 0) for critic in critics],
+        "the second": [ranked(critic, 1) for critic in critics],
+        "the lowest": [ranked(critic, 8) for critic in critics],
+        "the highest Q of the likely ones": [limited(critic, clone) for critic in critics],
+        "the lowest of the likely ones": [limited(critic, clone, lowest=True) for critic in critics],
+        "the highest probability: the clone": [clone],
+    }
+    rows = []
+    for name, policies in ways.items():
+        driven = [drive_episodes(policy, range(roads)) for policy in policies]
+        crashes = " and ".join(f"{(each.accident > 0).sum()}" for each in driven)
+        rows.append([name, crashes, " and ".join(f"{each.returns.mean():.0f}" for each in driven)])
+    return rows
 
 
 def overlap(policy: Policy, data: Batch) -> float:

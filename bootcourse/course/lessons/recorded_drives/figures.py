@@ -23,6 +23,11 @@ from bootcourse.statistics import ESCAPES
 
 ROAD = 9  # of the held-out ones: chosen for GAIL's drive
 WITH, IN_TARGET = "with CQL's term", "rule's a' in the target"
+CRASHED = "drives with crashes"
+CRASH_TOO = {  # the titles of two figures if all agents in them crash
+    IN_TARGET: "With the rule's a' in the target both crash, too",
+    CRASHED: "Crashes in the data do not help: both crash",
+}
 LABELS = {  # where a method's name stands in `estimates`: x, y, side
     "bc": (99, 0.15, "right"), "cql": (99, -0.25, "right"), "gail": (55, -0.25, "center"),
     "sac": (26, 0.55, "left"), "bootstrapped": (29, -0.6, "left"),
@@ -74,6 +79,7 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
 
     learners: by what they are called, such as `WITH`. Below each grid, the crashes on 100 roads, and what
     an agent promises at their starts (the mean Q of its actions) beside what it is worth from there.
+    The rule's grid is left out for the kinds in `CRASH_TOO`, which follow a figure that has it.
     """
     data, names = choosing.recorded(), ["the rule"]
     taken, colours = [data.actions], [style("rule").colour]
@@ -94,16 +100,19 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
             words.append(f"crashes {crashes[name][-1]} of 100\n{says}")
     shares = [torch.bincount(each, minlength=9).reshape(3, 3).numpy() / len(each) for each in taken]
     faster = [share[2].sum() for share in shares[1:]]
-    title = "What the rule did, and what the agents would do"
+    title, follows = "What the rule did, and what the agents would do", next(iter(learners))
+    all_crash, with_rule = CRASH_TOO.get(follows, ""), follows not in CRASH_TOO
     if min(faster) == 1 and all(each == 100 for many in crashes.values() for each in many):
-        title = "Both would always accelerate, and crash on every road"
+        title = all_crash or "Both would always accelerate, and crash on every road"
     elif all(each == 100 for many in crashes.values() for each in many):
-        title = "Both crash on every road"
+        title = all_crash or "Both crash on every road"
     elif set(learners) == {WITH} and max(abs(each - shares[0][2].sum()) for each in faster) < 0.15:
         title = "With CQL's term they stay near what the rule did"
     figure, height = new_figure(2.95), 2.95
+    shown, wide = (slice(None), 2.1) if with_rule else (slice(1, None), 3.1)
+    names, shares, colours, words = (each[shown] for each in (names, shares, colours, words))
     for place, (name, share, colour, below) in enumerate(zip(names, shares, colours, words, strict=True)):
-        ax = axes_at(figure, 0.85 + 2.1 * place, 0.92, 1.7, 1.2)
+        ax = axes_at(figure, 0.85 + wide * place, 0.92, wide - 0.4, 1.2)
         fade = LinearSegmentedColormap.from_list("", ["white", colour])
         ax.imshow(share[::-1], cmap=fade, vmin=0, vmax=0.8, aspect="auto")  # "accelerate" on top
         for (row, column), value in np.ndenumerate(share[::-1]):
@@ -115,7 +124,8 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
         ax.spines[:].set_color(GRID)
         ax.set_title(name, fontsize=TEXT, color=colour)
         ax.set_xlabel(below, fontsize=TEXT, color=INK)
-    key = f"in how many of the {len(data.actions):,} recorded seconds the rule took, and agents would take, each action"
+    who = "the rule took, and agents would take," if with_rule else "agents would take"
+    key = f"in how many of the {len(data.actions):,} recorded seconds {who} each action"
     figure.text(0.012, 1 - 0.52 / height, key, fontsize=TEXT, color=QUIET)
     said = "; ".join(
         f"{name}: accelerates {100 * share[2].sum():.0f} %, {below}".replace("\n", ", ")

@@ -13,7 +13,7 @@ from bootcourse.episodes.record import record
 from bootcourse.learn.replay_buffer import decode_transitions
 from bootcourse.learn.settings import settings_for
 from bootcourse.learn.training import Training
-from bootcourse.policies import Policy, rule_policy
+from bootcourse.policies import Policy, rule_policy, stochastic_rule_policy
 from bootcourse.road.state import EGO, SPEED
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import ESCAPES
@@ -68,12 +68,25 @@ def did() -> float:
     return eight_seeds.accelerates(choosing.recorded().actions)
 
 
+DROVE = 50  # drives of the stochastic rule, for its speed
+
+
 @cache
+def _stochastic_drives() -> list:
+    return record(stochastic_rule_policy(DEFAULT, np.random.default_rng(0)), range(DROVE))
+
+
 def fastest(seconds: int | None = None) -> float:
-    """The rule's highest speed in the first seconds, or in the whole drive, on 100 roads, m/s."""
-    drives = record(rule_policy(DEFAULT), range(100))
+    """The stochastic rule's highest speed in the first seconds, or in the whole of its drives, m/s."""
     steps = None if seconds is None else seconds * DEFAULT.clock.steps + 1
-    return float(max(drive.states[:steps, EGO, SPEED].max() for drive in drives))
+    return float(max(drive.states[:steps, EGO, SPEED].max() for drive in _stochastic_drives()))
+
+
+@cache
+def likely() -> float:
+    """How many actions the lesson's clone finds likely in a recorded second, on average."""
+    clone = shipped_agents("bc")[0].as_policy()
+    return float(choosing.likely_actions(clone, choosing.recorded().states.numpy()).sum(-1).mean())
 
 
 @cache
@@ -91,6 +104,13 @@ CLOSE = "CQL's term, γ = 0.01"  # a kind of agents of Round 2
 def eight(kind: str, measure: str) -> list[float]:
     """What was measured of the eight shipped agents of a kind of Round 2."""
     return shipped_experiment(eight_seeds.NAME)[kind].measured[measure].tolist()
+
+
+def crash_on(kind: str) -> str:
+    """On how many of 100 roads the eight crash: "100", or "8 to 31" of these."""
+    crashes = eight(kind, "crashes")
+    fewest, most = (f"{each:.0f}" for each in (min(crashes), max(crashes)))
+    return f"all {most}" if fewest == most == "100" else f"{fewest} to {most}"
 
 
 @cache

@@ -89,17 +89,17 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
     """
     found = {words: how_they_end(trained[kind], easier.staying(kind)) for words, kind in shown.items()}
     rows, columns = (list(dict.fromkeys(words[k] for words in shown)) for k in (0, 1))
-    figure = new_figure(3.75)
-    ax = axes_at(figure, 0, 0.7, figure.get_figwidth(), 3.05)  # in inches
-    ax.set(xlim=(0, figure.get_figwidth()), ylim=(3.05, 0))
+    figure = new_figure(3.85)
+    ax = axes_at(figure, 0, 0.7, figure.get_figwidth(), 3.15)  # in inches
+    ax.set(xlim=(0, figure.get_figwidth()), ylim=(3.15, 0))
     ax.axis("off")
     look = {"marker": "s", "edgecolors": INK, "linewidths": 0.8}
     for column, words in enumerate(columns):
-        ax.text(1.75 + 2.7 * column, 0.12, words, va="center", fontsize=TEXT, color=INK)
+        ax.text(1.55 + 2.7 * column, 0.12, words, va="center", fontsize=TEXT, color=INK)
     for row, words in enumerate(rows):
         ax.text(0.1, 0.8 + 0.95 * row, words, va="center", fontsize=TEXT, color=INK)
     for (row, column), (ends, crossing) in found.items():
-        x, y = 1.75 + 2.7 * columns.index(column), 0.4 + 0.95 * rows.index(row)
+        x, y = 1.55 + 2.7 * columns.index(column), 0.4 + 0.95 * rows.index(row)
         kind = shown[row, column]
         gammas = np.array([agent["gamma"] for agent in trained[kind].agents])
         for line, gamma in enumerate(easier.GAMMAS):
@@ -111,18 +111,24 @@ def escapes(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]
             crossed = [last - 1 - k for last, of in zip(lasts, crash, strict=True) for k in range(of)]
             ax.scatter(across[crossed], down[crossed], s=42, **CRASHES)
             ax.text(x + 2.02, down[0], f"γ = {gamma:g}", va="center", fontsize=SMALL, color=QUIET)
-        out, crash = sum(ends[:2]), sum(crossing)
-        says = f"{out} escape{'s' if out == 1 else ''}, {crash} crash{'es' if crash == 1 else ''} on most roads"
-        ax.text(x, y + 0.06, says, va="center", fontsize=TEXT, color=INK, fontweight="bold")
+        parts = (sum(ends[:2]), sum(crossing[:2])), (sum(ends[2:]), sum(crossing[2:]))
+        words = (
+            f"{each} {verb}" + (f" ({of} crash{'es' if of == 1 else ''})" if of else "")
+            for (each, of), verb in zip(parts, ("escapes" if parts[0][0] == 1 else "escape", "do not"), strict=True)
+        )
+        says = ", ".join(words)
+        ax.text(x, y + 0.06, says, va="center", fontsize=TEXT, color=INK)
     earns, poor = [*ENDS][:2]
     keys = {earns: ENDS[earns], poor: ENDS[poor], "does not escape": "white", "a cross: crashes on most roads": ""}
+    note = f"Escapes: gets ahead of trap 1 on at least {100 * ESCAPES:.0f} % of the roads. It may crash after that."
     for place, (words, colour) in enumerate(keys.items()):
-        at = 1.84 + 2.7 * (place % 2), 2.5 + 0.22 * (place // 2)
+        at = 1.64 + 2.7 * (place % 2), 2.5 + 0.22 * (place // 2)
         if colour:
             ax.scatter(*at, s=70, c=[colour], **look)
         else:
             ax.scatter(*at, s=30, **CRASHES)
         ax.text(at[0] + 0.16, at[1], words, va="center", fontsize=SMALL, color=INK)
+    ax.text(1.55, 3.0, note, va="center", fontsize=SMALL, color=QUIET)
     both, _ = found[rows[-1], columns[-1]]
     title = f"Cheap accidents and the free lane together: {sum(both[:2])} of {sum(both)} escape, "
     title += f"{both[0]} earn more than by staying"
@@ -137,32 +143,46 @@ def times_ahead(results: Results) -> np.ndarray:
     return (results.curves["success"] > 0).sum(axis=1)
 
 
+def counts_by_quarter(results: Results) -> tuple[np.ndarray, np.ndarray]:
+    """In each quarter of an agent's drives: how many got out, and how many there are, each (agents, 4)."""
+    drives = [np.array_split(each[np.isfinite(each)] > 0, 4) for each in results.curves["success"]]
+    return tuple(np.array([[count(quarter) for quarter in each] for each in drives]) for count in (np.sum, len))
+
+
 def by_quarter(results: Results) -> np.ndarray:
     """In which share of its drives each agent got out, in each quarter of its drives, (agents, 4)."""
-    drives = (each[np.isfinite(each)] > 0 for each in results.curves["success"])
-    return np.array([[quarter.mean() for quarter in np.array_split(each, 4)] for each in drives])
+    out, drives = counts_by_quarter(results)
+    return out / drives
 
 
-def getting_out(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str]) -> Figure:
-    """How often the median agent of each kind gets out while it learns, a line for each kind.
+def getting_out(trained: Mapping[str, Results], shown: Mapping[tuple[str, str], str], chance: float) -> Figure:
+    """How often the median agent of each kind gets out while it learns, a line for each kind, and how often random
+    drives do.
 
-    shown: as `escapes` has it.
+    shown: as `escapes` has it. chance: the share of random drives from the trap that get out.
     """
-    title = "At a price of 10 the median agent stops getting out, at 1 it goes on"
+    title = "At a price of 10 the median agent does not learn to get out, at 1 it does"
     figure, ax = one_axes(
         3.0, title, "quarter of an agent's drives", "drives that got out (%), median agent", width=0.6
     )
-    ends, said = [], []
+    ax.axhline(100 * chance, color=QUIET, linewidth=0.8)
+    ends, said = [(100 * chance, f"at random: {100 * chance:.1f} %", QUIET)], []
     for (start, price), kind in shown.items():
         shares = 100 * np.median(by_quarter(trained[kind]), axis=0)
         colour, line = (DARK, "o-") if "lane" in start else (BLUES[1][0], "s--")
         ax.plot(range(1, 5), shares, line, color=colour, linewidth=2, markersize=4)
         words = f"{price.split()[-1]}, {start.removeprefix('start ')}"
-        ends.append((shares[-1], f"price {words}: {shares[-1]:.0f} %", colour))
+        same = [other for (_, cost), other in shown.items() if cost == price]
+        last = [round(100 * np.median(by_quarter(trained[other]), axis=0)[-1]) for other in same]
+        if len(set(last)) > 1:
+            ends.append((shares[-1], f"price {words}: {shares[-1]:.0f} %", colour))
+        elif kind == same[0]:  # their ends lie on one another
+            ends.append((shares[-1] - 1, f"price {price.split()[-1]}, either start: {shares[-1]:.0f} %", INK))
         said.append(f"price {words}: {', '.join(f'{share:.1f}' for share in shares)}")
     ax.set(xlim=(0.9, 4), ylim=(-4, 100), xticks=range(1, 5))
     label_ends(ax, ends)
-    return finish(figure, title, f"Drives that got out in each quarter of the drives, %. {'; '.join(said)}.")
+    alt = f"Drives that got out in each quarter of the drives, %. {'; '.join(said)}. Random drives: {100 * chance:.1f}."
+    return finish(figure, title, alt)
 
 
 def while_they_learned(results: Results, chance: float) -> Figure:

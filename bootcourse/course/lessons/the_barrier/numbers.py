@@ -95,6 +95,59 @@ def crash_when_out(kind: str) -> float:
     return float(agents.episodes("accident")[agents.episodes("success") > 0].mean())
 
 
+def practised(kind: str) -> float:
+    """This share of the median agent, among those that got out in 50 to 120 drives while they learned, and in 20 or
+    more test drives.
+    """
+    agents = easy(kind)
+    got_out, out = figures.times_ahead(agents), agents.episodes("success") > 0
+    shares = [
+        crashed[drives].mean()
+        for times, drives, crashed in zip(got_out, out, agents.episodes("accident") > 0, strict=True)
+        if 50 <= times <= 120 and drives.sum() >= 20
+    ]
+    return float(np.median(shares))
+
+
+def _fail(kind: str) -> np.ndarray:
+    """Which agents of a kind get out on less than half of the test roads, (agents,)."""
+    return easy(kind).scores("success") < 0.5
+
+
+def failing(kind: str) -> int:
+    """How many of a kind's agents do."""
+    return int(_fail(kind).sum())
+
+
+def out_of_failing(kind: str) -> np.ndarray:
+    """How many of these agents' drives got out while they learned, in each quarter of their drives, (4,)."""
+    return figures.counts_by_quarter(easy(kind))[0][_fail(kind)].sum(axis=0)
+
+
+def of_failing(kind: str) -> str:
+    """The same, as cells of a table."""
+    return " | ".join(map(str, out_of_failing(kind)))
+
+
+def at_random(kind: str) -> str:
+    """How many would get out, were all actions of these agents random, as cells of a table."""
+    drives = figures.counts_by_quarter(easy(kind))[1][_fail(kind)].sum(axis=0)
+    return " | ".join(f"{each:.0f}" for each in drives * len(lucky()) / 5000)
+
+
+def better_than_staying(price: float, gamma: float) -> int:
+    """How many of the random drives that get out are worth more than staying, where an accident costs `price`."""
+    staying = explorable.by_staying().values(gamma)[0]
+    worths = (each.priced(price)[each.ahead] @ gamma ** np.arange(each.rewards.shape[1]) for each in by_chance())
+    return sum(int((worth > staying).sum()) for worth in worths)
+
+
+def by_plan_paid() -> np.ndarray:
+    """What each second of the blind plan pays, the mean of its drives that still run, (seconds,)."""
+    out = explorable.by_plan()
+    return np.array([out.rewards[out.lasted > t, t].mean() for t in range(explorable.SECONDS)])
+
+
 def ends(kind: str) -> np.ndarray:
     """How many agents of a kind end in each way, see `figures.how_they_end`."""
     return figures.how_they_end(easy(kind), easier.staying(kind))[0]

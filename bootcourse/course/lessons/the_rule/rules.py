@@ -172,6 +172,12 @@ def as_printed(speed_of: Callable) -> Episodes:
     return by_hand(speed_of, without_floor, lambda dx_front, dx_rear, length, d_s, *rest: d_s > dx_front)
 
 
+@cache
+def sign_turned(speed_of: Callable) -> Episodes:
+    """The printed condition with its sign turned: change lane if d_s, still without a floor, is the shorter one."""
+    return by_hand(speed_of, without_floor, lambda dx_front, dx_rear, length, d_s, *rest: d_s < dx_front)
+
+
 def timed(decide: Callable[[np.ndarray], np.ndarray]) -> tuple[Episodes, np.ndarray]:
     """How a rule drives, and the decision (that is, the second) from which each drive that gets out is ahead."""
     behind = []

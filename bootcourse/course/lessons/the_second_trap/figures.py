@@ -130,13 +130,29 @@ def on_the_way(kinds: Mapping[str, Mapping[str, np.ndarray]]) -> Figure:
     return finish(figure, title, f"{below}. {'; '.join(alt)}.")
 
 
-def by_lambda(kinds: Mapping[str, Mapping[str, np.ndarray]], road: int) -> tuple[list[str], list[list[str]]]:
-    """A table of the agents of PPO alone with each λ: (headings, rows). kinds: see `on_the_way`; road: of the SD."""
-    rows = []
-    for kind in ("alone", "lambda-0.8", "lambda-0.5"):
-        returns, out = np.sort(kinds[kind]["returns"]), int((kinds[kind]["success"] >= ESCAPES).sum())
+def by_lambda(kinds: Mapping[str, Mapping[str, np.ndarray]], road: int) -> Figure:
+    """How far each agent of PPO alone swings its speed on a road, and what it earns: a panel for each λ.
+
+    kinds: see `on_the_way`; the return is the mean on `ROADS`.
+    """
+    title = "With λ = 0.5 all ten keep straight; with 0.8 two sprint, and one gets out"
+    figure, alt = new_figure(3.1), []
+    straight = compared({})["keeping straight"][0].item()
+    for place, kind in enumerate(("alone", "lambda-0.8", "lambda-0.5")):
+        ax = axes_at(figure, 0.5 + 2.2 * place, 0.85, 1.85, 1.7)
+        returns, out = kinds[kind]["returns"], kinds[kind]["success"] >= ESCAPES
         swings = [np.std(speeds(record(agent_of(kind, seed).as_policy(), [road])[0])) for seed in range(len(returns))]
-        spread = f"{np.median(swings):.1f} ({min(swings):.1f} to {max(swings):.1f})"
-        earned = f"{np.median(returns):.0f} ({returns[0]:.0f} to {returns[-1]:.0f})"
-        rows.append([f"{settings_of(kind).gae_lambda:g}", spread, earned, str(out)])
-    return ["λ", "how far the speed swings (SD, m/s)", "return", "escape, of ten"], rows
+        ax.axhline(straight, color=style("idle").colour, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+        ax.scatter(swings, returns, s=30, color=style("ppo").colour, edgecolors="white", linewidths=0.6, zorder=3)
+        lam = f"λ = {settings_of(kind).gae_lambda:g}"
+        plain_axes(ax, f"return, {lam}")
+        ax.set(xlim=(-0.3, 6), ylim=(0, 120))
+        ax.set_xlabel("swing of the speed (SD), m/s", fontsize=TEXT, color=INK)
+        look = {"textcoords": "offset points", "fontsize": SMALL, "color": INK}
+        for swing, earned in zip(np.array(swings)[out], returns[out], strict=True):
+            ax.annotate("gets out", (swing, earned), (6, -3), **look)
+        if place == 0:
+            ax.annotate("keeping straight", (5.9, straight), (0, -11), ha="right", **look)
+        each = ", ".join(f"{swing:.1f}: {earned:.0f}" for swing, earned in sorted(zip(swings, returns, strict=True)))
+        alt.append(f"{lam}: {each}, {int(out.sum())} gets out" if out.any() else f"{lam}: {each}")
+    return finish(figure, title, f"A dot for each agent, SD of its speed and return. {'; '.join(alt)}.")

@@ -11,6 +11,7 @@ from bootcourse.course.lessons.the_second_trap import (
 )
 from bootcourse.course.lessons.your_teacher import example_teachers
 from bootcourse.episodes.record import record
+from bootcourse.episodes.rollout import Rollout
 from bootcourse.learn.teachers import teacher_policy, toward
 from bootcourse.policies import rule_policy
 from bootcourse.research.tables import markdown
@@ -109,6 +110,18 @@ def steady(speed: float) -> float:
     return float(
         np.mean([discounted(each, ppo_kinds.GAMMA) for each in record(teacher_policy(rule), second_trap.TWELVE)])
     )
+
+
+@cache
+def sprints_worth() -> float:
+    """The mean worth, on the same roads, of the drive of the agent of PPO alone that is shown."""
+    drives = record(ppo_kinds.agent_of("alone", SHOWN).as_policy(), second_trap.TWELVE)
+    return float(np.mean([discounted(each, ppo_kinds.GAMMA) for each in drives]))
+
+
+def way(drive: Rollout) -> float:
+    """How far (m) a drive goes."""
+    return float(np.ptp(drive.states[:, EGO, X]))
 
 
 def cloned_escape(teacher: str) -> int:

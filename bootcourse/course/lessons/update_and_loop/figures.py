@@ -26,7 +26,13 @@ def small_worlds(*learned: Mapping[str, worlds.Learned]) -> Markdown:
         )
         rows.append([words, world.right, *shown])
     headings = ["world", "right Q (no entropy)", "your agent's Q", "its Q if `terminated` is lost"]
-    return table(headings[: 2 + len(learned)], rows)
+    return table(headings[: 2 + len(learned)], rows, worlds_apart(*learned) if len(learned) == 2 else "")
+
+
+def worlds_apart(one: Mapping[str, worlds.Learned], other: Mapping[str, worlds.Learned]) -> str:
+    """In which small worlds these two learned another Q, in a sentence."""
+    apart = [abs(one[words].q - other[words].q).max() > 0.3 for words in worlds.WORLDS]
+    return f"The last two columns differ in: {', '.join(f'world {i + 1}' for i in np.flatnonzero(apart)) or 'none'}."
 
 
 def tests_in_training(tests: Sequence[float], block: int, lost: float) -> Figure:
@@ -78,6 +84,26 @@ def with_frozen_guess(
     named = {f"frozen at {worth:g}: stands for {stands:.0f} pushes": q, "your agent": yours}
     figure = falls(title if abs(q[-1] - worth) < 6 else OF_A_FALL, named, [STRANGERS[1], OTHER])
     return beyond(figure, "not frozen", unmarked)
+
+
+def twice_as_long(
+    halves: Mapping[str, tuple],
+    wholes: Sequence[by_hand.SAC],
+    first: Sequence[float],
+    later: Sequence[float],
+    block: int,
+) -> Markdown:
+    """A table of two agents after one block of pushes and after two: Q along a fall, and for how long they stand.
+
+    halves: {name: (agent after one block, its rows)}; wholes: after two; first, later: pushes that they balance.
+    """
+    rows = []
+    for (name, (half, _)), whole, *stands in zip(halves.items(), wholes, first, later, strict=True):
+        for blocks, agent, stood in zip((1, 2), (half, whole), stands, strict=True):
+            q = worlds.along_falls(agent)
+            rows.append([name, f"{block * blocks:,}", *(f"{each:,.0f}" for each in (q[0], q[-1], stood))])
+    of_q = f"Q {worlds.BEFORE} pushes before the fall", "Q of a fallen pole"
+    return table(["agent", "pushes in training", *of_q, "pushes balanced"], rows)
 
 
 def beyond(figure: Figure, words: str, agent: by_hand.SAC) -> Figure:

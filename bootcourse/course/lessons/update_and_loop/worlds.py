@@ -157,6 +157,13 @@ def taught(loop, update, buffer, pushes: int, seed: int, kind: Callable = by_han
     return agent
 
 
+def taught_on(loop, update, agent: by_hand.SAC, buffer, pushes: int, seed: int) -> by_hand.SAC:
+    """The agent, and its rows in the buffer, that many pushes later: a copy of both trains, and the agent stays."""
+    later, rows = copy.deepcopy((agent, buffer))
+    loop(later, checks.cartpole(), rows, update, pushes, np.random.default_rng(seed))
+    return later
+
+
 # A fall, state by state ---------------------------------------------------------------------------------
 
 BEFORE = 8  # pushes before the fall from which a fall is shown

@@ -7,11 +7,12 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Rectangle
 
-from bootcourse.colours import ALARM, Style
+from bootcourse.colours import ALARM, QUIET, Style
 from bootcourse.course import charts
 from bootcourse.course.dots import dots
-from bootcourse.course.lessons.your_own_problem import loops
+from bootcourse.course.lessons.your_own_problem import loops, unpaid
 from bootcourse.course.lessons.your_own_problem.cells import BONUSES, TWO, cells
+from bootcourse.course.shipped import shipped_experiment
 from bootcourse.learn.agent import Agent
 from bootcourse.methods import style
 from bootcourse.plots.figure import INK, SMALL, TEXT, axes_at, finish, new_figure, plain_axes
@@ -24,7 +25,11 @@ def climbs() -> Figure:
     drives = loops.first_drives()
     longest = max(map(len, drives.values()))
     shown = {name: np.r_[x, np.full(longest - len(x), np.nan)] for name, x in drives.items()}
-    return charts.lines(np.arange(longest), shown, title, "decision", "position", marks={"flag": 0.5})
+    figure = charts.lines(np.arange(longest), shown, title, "decision", "position")
+    ax = figure.axes[0]
+    ax.axhline(0.5, color=QUIET, linewidth=1, linestyle=(0, (2, 2)), zorder=1)
+    ax.text(2, 0.515, "the flag", va="bottom", fontsize=TEXT, color=QUIET)
+    return figure
 
 
 def room(states: Sequence[tuple[int, ...]], title: str) -> Figure:
@@ -147,7 +152,7 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
 
     tested: by decisions in training, the agents and what each earns. The cart rests in the middle.
     """
-    title = "As the agents' lines turn towards the teacher's, their return rises, then falls"
+    title = "After 3,000 decisions the lines still lean, but the return has fallen"
     figure, alt = new_figure(3.4), []
     angle, speed = np.linspace(-0.2, 0.2, 81), np.linspace(-1.5, 1.5, 81)
     at = np.zeros((81, 81, 4), dtype=np.float32)
@@ -181,3 +186,19 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
         color=INK,
     )
     return finish(figure, title, f"Edges fall, in rad/s a rad: {'; '.join(alt)}. The teacher's is upright.")
+
+
+def hidden() -> Figure:
+    """What ten agents without reward earn after each budget, as they are and with the cart hidden; see unpaid.py."""
+    title = "With the cart hidden the same agents go on balancing"
+    notes, at = shipped_experiment(unpaid.NAME)["without reward"].notes, np.arange(len(unpaid.BUDGETS))
+    named = {"the cart hidden": notes["hidden"].mean(0), "as they are": notes["returns"].mean(0)}
+    looks = [look._replace(marker="o") for look in (Style(INK, "-"), style("soft"))]
+    said = (f"{name}: {', '.join(f'{mean:.0f}' for mean in means)}" for name, means in named.items())
+    look = {"limits": (0, 515), "looks": looks, "alt": f"{'; '.join(said)}."}
+    figure = charts.lines(at, named, title, "decisions in training", "return, mean of ten agents", **look)
+    ax = figure.axes[0]
+    ax.set_xticks(at, [f"{budget:,}" for budget in unpaid.BUDGETS])
+    for line in ax.lines:
+        line.set_clip_on(False)  # the dots at the ends are whole
+    return figure

@@ -19,9 +19,10 @@ from bootcourse.research.problems import PICK_UP, PROBLEMS, DoorKey  # noqa: F40
 from bootcourse.research.tables import markdown
 from bootcourse.scenario import DEFAULT
 from bootcourse.statistics import iqm
-from tools.course.known import clocks, discounted, escaped, of
+from tools.course.known import clocks, discounted, escaped, idle, of
 
 TEACHERS = ("good", "random", "systematic")
+FREE_OF_LOOPS = elsewhere.WITHOUT_LOOPS
 SHOWN = [(p, t) for p in TWO for t in TEACHERS]
 
 
@@ -51,6 +52,17 @@ def by_bonus(teacher: str) -> np.ndarray:
     return np.array([score("doorkey", teacher, name, "drawn_success") for name in BONUSES.values()])
 
 
+def above_the_good() -> int:
+    """How many of the random teacher's clones on CartPole earn more than the good teacher."""
+    good = score("cartpole", "good", "the teacher", "returns")
+    return int((cells().scores("cartpole", "random", "cloning") > good).sum())
+
+
+def goals(method: str, drawn: str = "") -> int:
+    """How many of 100 drives with DoorKey's random teacher reach the goal; "drawn_": by drawn actions."""
+    return round(100 * score("doorkey", "random", method, f"{drawn}success"))
+
+
 def entry_scores() -> list[float]:
     """The interquartile mean of each entry to the challenge: those with a teacher, which rise, and two without."""
     scores = {method: float(iqm(returns)) for method, returns in entries().items()}
@@ -75,6 +87,11 @@ labels = cache(loops.labels)
 def worth_of_the_rule() -> float:
     """What the rule's drives of 100 held-out roads are worth, discounted by γ = 0.8: the mean."""
     return float(np.mean([discounted(drive, 0.8) for drive in record(rule_policy(DEFAULT), held_out_seeds(1, 100))]))
+
+
+def worths_by_the_rule() -> str:
+    """What the rule's way out is worth at γ = 0.8, and staying."""
+    return f"{worth_of_the_rule():.2f}, staying {discounted(idle(), 0.8):.2f} (γ = 0.8)"
 
 
 def what_became() -> str:

@@ -11,6 +11,7 @@ from matplotlib.patches import Rectangle
 from bootcourse.colours import ALARM
 from bootcourse.course import table
 from bootcourse.course.dots import beside, dots, name_rows
+from bootcourse.course.lessons import number
 from bootcourse.course.lessons.the_barrier import easier as barrier
 from bootcourse.course.lessons.your_teacher import crashes, example_teachers, free_lane, taught_agents
 from bootcourse.learn.teachers import Rule
@@ -124,7 +125,7 @@ def two_keys(easier: Mapping[str, Results], computed: Mapping[str, Results]) -> 
     """
     title = "With both keys most escape, with one alone fewer than half"
     squares = {  # columns: accidents dear, cheap; rows: without the free lane, with it
-        "plain SAC, lesson on the barrier": (
+        f"plain SAC (lesson {number('the_barrier')})": (
             ("a crash costs 10", "a crash costs 1"),
             {
                 "start in the trap": ["as it is", barrier.CHEAP],
@@ -148,6 +149,7 @@ def two_keys(easier: Mapping[str, Results], computed: Mapping[str, Results]) -> 
                 escape, of = (agents[kind].escapers(method), len(agents[kind])) if kind else (0, 1)
                 words = f"{escape} of {of}" if kind else "not trained"
                 look = {"facecolor": style(method).colour, "alpha": escape / of, "edgecolor": "none"}
+                look |= {} if kind else {"facecolor": QUIET, "alpha": 0.25}
                 ax.add_patch(Rectangle((column, place), 1, 1, **look))
                 ax.add_patch(Rectangle((column, place), 1, 1, facecolor="none", edgecolor=QUIET, clip_on=False))
                 at = {"ha": "center", "va": "center", "fontsize": TEXT + 1 if kind else SMALL}

@@ -11,11 +11,15 @@ from bootcourse.course.lessons.your_teacher.crashes import lanes_of
 from bootcourse.course.lessons.your_teacher.driven_out import OUT, drive_out  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.your_teacher.exercises import without_a_look
 from bootcourse.course.lessons.your_teacher.taught_agents import demonstrated
+from bootcourse.episodes.record import record
+from bootcourse.learn.demonstrations import FIRST_SEED
 from bootcourse.learn.settings import settings_for
+from bootcourse.learn.teachers import teacher_policy
 from bootcourse.research.experiments.teacher_worth import TAUGHT  # noqa: F401 (the text names it)
-from bootcourse.road.state import SPEED, TRAFFIC, Accident
+from bootcourse.research.teachers import TEACHERS as STUDIED
+from bootcourse.road.state import EGO, SPEED, TRAFFIC, Accident
 from bootcourse.statistics import ESCAPES, holm
-from tools.course.known import discounted, shipped_experiment, shipped_teachers
+from tools.course.known import discounted, idle, shipped_experiment, shipped_teachers, speed_reward
 
 COLLIDES = Accident.COLLISION
 
@@ -86,6 +90,71 @@ def racer_long() -> tuple[np.ndarray, np.ndarray]:
     long = students(taught_agents.RACER_LONG)
     escapes = long["success"] >= ESCAPES
     return long["returns"][escapes], long["returns"][~escapes]
+
+
+def student_p(one: str, other: str, score: str) -> float:
+    """The rank test's p of a score of the students of two teachers."""
+    return taught_agents.p_value(students(one)[score], students(other)[score])
+
+
+def long_p() -> float:
+    """The same of the success of the two racers' students after a long training."""
+    return student_p(taught_agents.RACER_LONG, taught_agents.SLOWER_LONG, "success")
+
+
+def brief_and_long(brief: str, long: str) -> str:
+    """Four cells of a table: how many students escape and what they earn, after a short and after a long training."""
+    cells = [(student_escapes(name), round(float(students(name)["returns"].mean()))) for name in (brief, long)]
+    return " | ".join(str(cell) for pair in cells for cell in pair)
+
+
+def pays(*speeds: float) -> str:
+    """Cells of a table: what a second at each of these steady speeds (m/s) pays."""
+    return " | ".join(f"{speed_reward(speed):.2f}" for speed in speeds)
+
+
+def from_the_lane_twice(teacher: str) -> str:
+    """Two cells: `from_the_lane` without the bonus, and with it."""
+    worths = (from_the_lane(teacher, bonus) for bonus in (0.0, settings_for("bootstrapped").bonus))
+    return " | ".join(f"{each:+.1f}".replace("-", "−") for each in worths)
+
+
+def staying_twice() -> str:
+    """Two cells: what keeping straight behind trap 1 is worth, with the bonus or without it."""
+    return " | ".join([f"{discounted(idle(), settings_for('bootstrapped').gamma):+.1f}"] * 2)
+
+
+def crash_accidents(kind: str) -> float:
+    """The share of roads on which the agents of one kind of the experiment `crashes` crash."""
+    return float(shipped_experiment("crashes")[kind].scores("accident").mean())
+
+
+def own_return(teacher: str) -> str:
+    """What a teacher earns on the exam's roads: an example teacher, or one of the study's."""
+    rule = STUDIED[teacher].rule if teacher in STUDIED else getattr(example_teachers, teacher)
+    earns = example_teachers.examine(rule).episodes.returns.mean()
+    return f"{earns:.0f}".replace("-", "−")
+
+
+@cache
+def speeds_in_lane(teacher: str) -> tuple[np.ndarray, int]:
+    """The ego's speeds in the free lane on a teacher's first drives, in m/s; how many drives."""
+    roads = [FIRST_SEED + number for number in range(40)]
+    rule = None if teacher in STUDIED else getattr(example_teachers, teacher)
+    drives = record(teacher_policy(rule), roads) if rule else demonstrated(teacher)
+    speeds = [drive.cars[: len(drive.actions), EGO, SPEED][lanes_of(drive) == 0] for drive in drives]
+    return np.concatenate(speeds), len(drives)
+
+
+def median_in_lane(teacher: str) -> float:
+    """Their median."""
+    return float(np.median(speeds_in_lane(teacher)[0]))
+
+
+def seconds_that_pay(teacher: str) -> float:
+    """The seconds of a drive, on average, at 12.5 to 16 m/s in the free lane."""
+    speeds, drives = speeds_in_lane(teacher)
+    return float(((speeds > 12.5) & (speeds < 16)).sum() / drives)
 
 
 def from_the_lane(teacher: str, bonus: float) -> float:

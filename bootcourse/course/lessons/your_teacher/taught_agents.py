@@ -49,6 +49,7 @@ TEACHERS[SLOWER] = slower_racer
 SHOWN = ("the rule", "careful", "timid", "racer")  # in the lesson; the experiment has them all
 ALONE = "alone"  # agents without a teacher, as plain SAC
 RACER_LONG, LONG = "racer, long", 40_000  # updates, after which both aids have faded
+SLOWER_LONG = f"{SLOWER}, long"
 
 
 class Taught(NamedTuple):
@@ -117,9 +118,10 @@ def train_group(group: str, seeds: int = SEEDS, updates: int = UPDATES) -> Resul
 
 
 def cells() -> dict[str, dict]:
-    """A teacher each, nobody, and one teacher for longer."""
+    """A teacher each, nobody, and two teachers for longer."""
     groups = {name: {"group": name} for name in (ALONE, *TEACHERS)}
-    return groups | {RACER_LONG: {"group": racer.__name__, "updates": LONG}}
+    longer = {RACER_LONG: racer.__name__, SLOWER_LONG: SLOWER}
+    return groups | {name: {"group": group, "updates": LONG} for name, group in longer.items()}
 
 
 EXPERIMENT = Experiment("students", cells, results_of(train_group))
