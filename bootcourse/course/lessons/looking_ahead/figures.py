@@ -25,14 +25,17 @@ from bootcourse.plots.figure import GRID, INK, QUIET, SMALL, TEXT, axes_at, fini
 from bootcourse.research.experiments import learned_model
 from bootcourse.research.experiments.lookahead import CLOSELY, Cell
 from bootcourse.research.results import Results
-from bootcourse.road.state import Accident
+from bootcourse.road.state import EGO, TRAP_1, Accident, X
 from bootcourse.scenario import ACTION_NAMES, N_ACTIONS
 
-MEANINGS = {  # of the wrong models that the lesson shows, for readers
-    "others keep speed and lane": "nobody accelerates, brakes or changes lane",
-    "only the four visible cars": "those that the agent does not see are missing",
-    "places off by 1 m, speeds by 0.5 m/s": "noise on the others, drawn anew each second",
-    "everything a second late": "all as it was a second ago, not moved on",
+MEANINGS = {  # of the wrong models that the lesson shows, for readers: what each is called, and what is wrong
+    "others keep speed and lane": ("others keep speed and lane", "nobody accelerates, brakes or changes lane"),
+    "only the four visible cars": ("only the four visible cars", "those that the agent does not see are missing"),
+    "places off by 1 m, speeds by 0.5 m/s": (
+        "noise on the others",
+        "places off by 1 m, speeds by 0.5 m/s, drawn anew each second",
+    ),
+    "everything a second late": ("all a second late", "as it was a second ago, not moved on"),
 }
 LEARNED_FORM = "mean of five"  # of the look-ahead in a learned model, as the lesson shows it
 LEARNED_TITLES = {
@@ -55,6 +58,11 @@ def _accident_axis(axis_of: Axes, axis: str) -> None:
 def accidents(drives: Sequence[Rollout]) -> int:
     """How many of the drives end in an accident."""
     return sum(drive.accident > 0 for drive in drives)
+
+
+def got_out(drives: Sequence[Rollout]) -> int:
+    """How many of the drives end ahead of trap 1."""
+    return sum(bool(drive.cars[-1, EGO, X] > drive.cars[-1, TRAP_1, X]) for drive in drives)
 
 
 def compared(drives_of: Mapping[str, Sequence[Rollout]]) -> tuple[list[str], list[list]]:
@@ -239,6 +247,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     """
     title = "Noise on the others costs far more drives than cars that are missing"
     names, alone, forms = ["exact", *MEANINGS], Cell(base, "alone"), {"rollouts": "o", "shield": "s"}
+    called = ["exact", *(name for name, _ in MEANINGS.values())]
     models = [Cell(base, form, model=name) for form in forms for name in names]
     if missing := [cell.name for cell in (alone, *models) if cell.name not in cells]:
         raise BootcourseError(
@@ -252,7 +261,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
         means = [values.mean() for values in each]
         look = {"color": colour, "mfc": fill, "marker": marker, "ls": "", "clip_on": False}
         ax.plot(means, np.arange(len(names)) + shift, **look, ms=8, mew=1.6, zorder=4)
-        numbers = "; ".join(f"{name} {mean:.1f}" for name, mean in zip(names, means, strict=True))
+        numbers = "; ".join(f"{name} {mean:.1f}" for name, mean in zip(called, means, strict=True))
         alt_parts.append(f"{NAMES[form]}: {numbers}.")
     plain_axes(ax, "", grid="x")
     ax.axvline(of_alone, color=QUIET, linewidth=1.2, linestyle=(0, (4, 3)), zorder=1)
@@ -261,7 +270,7 @@ def wrong_models(cells: dict[str, Results], base: str = CLOSELY[0]) -> Figure:
     ax.set_xlabel("accidents in 1,000 drives (logarithmic above 1)", fontsize=TEXT, color=INK)
     ax.spines["bottom"].set_color(GRID)
     _accident_axis(ax, "x")
-    ax.set_yticks(range(len(names)), names, fontsize=TEXT, color=INK)
+    ax.set_yticks(range(len(names)), called, fontsize=TEXT, color=INK)
     words = "● look-ahead    □ shield    (means of ten agents)"
     figure.text(0.012, 0.1 / figure.get_figheight(), words, fontsize=TEXT, color=colour)
     return finish(figure, title, f"Mean accidents in 1,000 drives. Alone: {of_alone:.1f}. {' '.join(alt_parts)}")

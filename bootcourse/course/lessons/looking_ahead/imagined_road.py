@@ -1,11 +1,12 @@
 """The look-ahead in the form in which the lesson writes it: what its exercise is given, and a driver that uses it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from bootcourse.episodes.lookahead import HORIZON, nine_drives, worth_of_speed
 from bootcourse.episodes.models import Model
+from bootcourse.episodes.record import Rollout
 from bootcourse.policies import Policy, PolicyOutput
 from bootcourse.road.branching import advance
 from bootcourse.road.constants import constants
@@ -69,6 +70,21 @@ def shielded(shield: Callable, policy: Policy, horizon: int) -> Policy:
         return PolicyOutput(np.asarray(shield(actions, imagined.values, imagined.accidents != 0)))
 
     return drive
+
+
+def flattered(drives: Sequence[Rollout], policy: Policy) -> tuple[float, float]:
+    """By how much noise changes the value of an action along some drives: the mean of all nine, and of the best one.
+
+    The best of nine is that in noise. The noise is drawn anew at each decision.
+    """
+    rng, changed, best = np.random.default_rng(1), [], []
+    for drive in drives:
+        cars = drive.cars[: len(drive.actions)]
+        true = nine_drives(cars, policy, DEFAULT).values
+        noisy = nine_drives(NOISE.seen(cars, None, DEFAULT, rng), policy, DEFAULT).values
+        changed.append((noisy - true).ravel())
+        best.append((noisy - true)[np.arange(len(cars)), noisy.argmax(axis=1)])
+    return float(np.concatenate(changed).mean()), float(np.concatenate(best).mean())
 
 
 def in_noise(values_of: Callable, policy: Policy, roads: int = 1) -> Policy:

@@ -78,8 +78,8 @@ def led_out(success: np.ndarray) -> int:
 
 
 def errors_table() -> str:
-    """The six wrong models and what is wrong in them, as Markdown."""
-    return markdown(["the imagined road", "what is wrong"], [[*pair] for pair in figures.MEANINGS.items()])
+    """The wrong models and what is wrong in them, as Markdown."""
+    return markdown(["the imagined road", "what is wrong"], [[*pair] for pair in figures.MEANINGS.values()])
 
 
 @cache

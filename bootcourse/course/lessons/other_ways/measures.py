@@ -22,6 +22,7 @@ from bootcourse.learn.training import Training
 from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.beyond import at_budget
+from bootcourse.research.experiments.learned_model import partly_random
 from bootcourse.research.paper import earned_at
 from bootcourse.research.results import Results
 from bootcourse.scenario import DEFAULT
@@ -121,6 +122,17 @@ def chosen_by_q(training: Training) -> Episodes:
     learner.acting_policy, learner.note_episodes = acting_policy, note
     training.run(progress=False)
     return _episodes(training, np.array(by_rule))
+
+
+def beside_a_coin(by_q: Episodes, shares: Sequence[float]) -> tuple[list[str], list[list]]:
+    """A table of as many drives by the rule, a share of whose actions are drawn at random; above it the agent's."""
+    rows, seeds = [["Q, as above", by_q.accident.sum(), f"{np.median(by_q.decisions):.0f}"]], range(len(by_q.decisions))
+    for share in shares:
+        drives = record(partly_random(rule_policy(DEFAULT), share, np.random.default_rng(0)), seeds)
+        lasts = np.median([len(drive.actions) for drive in drives])
+        crashed = sum(drive.accident > 0 for drive in drives)
+        rows.append([f"a coin: {100 * share:.0f} % of the actions at random", crashed, f"{lasts:.0f}"])
+    return ["who decides beside the rule", f"accidents in {len(seeds)}", "half last at most, s"], rows
 
 
 class Judged(NamedTuple):

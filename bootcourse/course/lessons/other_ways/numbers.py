@@ -14,13 +14,14 @@ from bootcourse.course.lessons.other_ways.measures import (  # noqa: F401 (for t
     worth_of_rule,
 )
 from bootcourse.course.lessons.your_teacher.taught_agents import p_value
-from bootcourse.episodes.evaluate import held_out_seeds  # noqa: F401 (for the expressions)
+from bootcourse.episodes.evaluate import drive_episodes, held_out_seeds  # noqa: F401 (for the expressions)
 from bootcourse.episodes.record import record
 from bootcourse.learn.settings import Settings, settings_for
 from bootcourse.methods import METHODS, display_name  # noqa: F401 (for the expressions)
 from bootcourse.policies import rule_policy
 from bootcourse.research import equal_decisions
 from bootcourse.research.equal_decisions import BUDGETS, by_method
+from bootcourse.research.experiments.learned_model import partly_random
 from bootcourse.research.results import Results
 from bootcourse.research.tables import markdown
 from bootcourse.road.state import EGO, TRAP_1, X
@@ -159,6 +160,13 @@ def below_all_others(method: str, spent: float, count: str) -> bool:
     scores = training_scores(spent, count)
     differ = all(each < 0.05 for pair, each in p.items() if method in pair)
     return differ and method == min(scores, key=lambda one: scores[one].value)
+
+
+@cache
+def coin_accidents(share: float) -> int:
+    """The accidents in 80 drives by the rule with a share of its actions drawn at random."""
+    drive = partly_random(rule_policy(DEFAULT), share, np.random.default_rng(0))
+    return int((drive_episodes(drive, range(80)).accident > 0).sum())
 
 
 def share_of_first(method: str, episodes: int = 80) -> float:
