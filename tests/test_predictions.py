@@ -129,7 +129,7 @@ def test_the_cell_that_answers_begins_with_what_was_predicted(capsys):
     ask(answer="it stays")
     predicted("the_barrier.1")
     before, after = capsys.readouterr().out.splitlines()
-    assert "The answer to prediction" in before and after.endswith("it stays. Was it so?")
+    assert "the answer to prediction" in before and after.endswith("it stays. Was it so?")
 
 
 def test_a_card_counts_what_is_done_follows_it_and_says_the_same_after_a_restart(folder):

@@ -164,7 +164,7 @@ def predicted(name: str) -> None:
 
     number, one = Question(name).number, predictions().get(name)
     if one is None:  # JupyterLab shows these words where it folds the answer
-        display({"text/plain": f"The answer to prediction {number}:"}, raw=True)
+        display({"text/plain": f"Below is the answer to prediction {number}."}, raw=True)
     else:
         display(Note(f"You predicted ({number}): {worded(one['answer'], one.get('unit'))}. Was it so?"))
 

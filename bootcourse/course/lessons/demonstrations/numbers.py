@@ -67,6 +67,19 @@ def by_chance() -> Results:
     return shipped_results("paper").of("bc")
 
 
+@cache
+def stochastic_crashes() -> float:
+    """In which share of its drives the stochastic rule has an accident, on 100 roads."""
+    return float(
+        np.mean(
+            [
+                drive.accident > 0
+                for drive in record(stochastic_rule_policy(DEFAULT, np.random.default_rng(0)), range(100))
+            ]
+        )
+    )
+
+
 def updates_of(results: Results) -> float:
     """About how many updates each of these agents had: so many follow each decision on all of its roads."""
     agent, curves = results.agents[0], results.curves

@@ -124,9 +124,9 @@ out = [[name, cloning.get_out(clones[name])] for name in KINDS]
 table(["clones of", "drives that get out"], out)
 
 # %% [markdown]
-# **See.** *High agreement with its data does not make a clone safe.* Clones of one drive know it almost by heart, and
-# mostly crash. The stochastic rule's crash less than the rule's, and get out more often, although they agree less with
-# their data, and with the rule.
+# **See.** *High agreement with its data does not make a clone safe.* Clones of one drive know it almost by heart,
+# and mostly crash. The stochastic rule's crash less than the rule's, and get out more often, although they agree
+# less with their data, and with the rule.
 # <!-- claim: of('bc').agents[0]['demonstration_episodes'] == 200 -->
 # <!-- claim: others_crash("the stochastic rule's drives").mean() < others_crash("the rule's drives").mean() / 3 -->
 # <!-- claim: all(others_agree("the stochastic rule's drives", where) < others_agree("the rule's drives", where)
@@ -160,9 +160,9 @@ print(cloning.accidents(alone), cloning.never_beyond(alone, by_rule), sep="\n")
 bc.show(figures.off_the_road(alone, by_rule))
 
 # %% [markdown]
-# **See.** *A clone is examined in its teacher's states, and lives in its own.* In the rule's states these clones err in
-# about one second of five (Round 1), in their own in more than half. Most cars that leave the road were left of the
-# green band before, where the rule never is. The others (the last line counts them) move left faster than
+# **See.** *A clone is examined in its teacher's states, and lives in its own.* In the rule's states these clones
+# err in about one second of five (Round 1), in their own in more than half. Most cars that leave the road were left
+# of the green band before, where the rule never is. The others (the last line counts them) move left faster than
 # the rule ever does at that place.
 #
 # **Explain.** An error leads to a state that the teacher never showed. There the next error is likelier, and leads
@@ -209,10 +209,9 @@ longer = {"rule's, 67,000 updates": cloning.measure(long, by_rule[::10])}
 bc.show(figures.added(measured, fed_crash, longer))
 
 # %% [markdown]
-# **See.** *{{ beyond_the_band() }} rows that show the way back do more than
-# {{ len(rows()['the rule']) | , }} that never need it.* Rows from beyond the band or from its rim prevent more than
-# half of the accidents; as many from elsewhere do not (fifteen others:
-# {{ 100 * others_crash('others').mean() | .0f }} %, without them
+# **See.** *It matters which rows.* {{ beyond_the_band() }} rows from beyond the band or from its rim, added to
+# {{ len(rows()['the rule']) | , }}, prevent more than half of the accidents; as many from elsewhere do not (fifteen
+# others: {{ 100 * others_crash('others').mean() | .0f }} %, without them
 # {{ 100 * others_crash("the rule's drives").mean() | .0f }} %).
 # <!-- claim: others_crash('from the edge').mean() < 0.2 * others_crash("the rule's drives").mean() -->
 # <!-- claim: others_crash('near the edge').mean() < 0.4 * others_crash("the rule's drives").mean() -->
@@ -228,21 +227,21 @@ steer = [
 table(["clones of", *cloning.STEER], steer)
 
 # %% [markdown]
-# **Explain.** *Not every error is dangerous.* The stochastic rule's clones mostly miss the rule's *speed*. Left of the
-# band they steer as the rule does more often than the rule's clones do, and they are there less often.
+# **Explain.** *Not every error is dangerous.* The stochastic rule's clones mostly miss the rule's *speed*. Left of
+# the band they steer as the rule does more often than the rule's clones do, and they are there less often.
 #
 # The rule never drives left of its band, so its rows cannot say how to come back from there. The stochastic rule
 # strays, and then acts well, nine times in ten. It gave such rows by accident.
 #
 # There are two cures, then. *Teach the way back*: a few rows from where clones get lost, drawn often enough (try
-# `copies = 1`). *Or never get lost*: the clones of the last row, with {{ updates_of(of('bc')) / UPDATES | .0f }} times
-# as many updates, follow the rule so closely that they seldom leave the band.
+# `copies = 1`). *Or never get lost*: the clones of the last row, with {{ updates_of(of('bc')) / UPDATES | .0f }}
+# times as many updates, follow the rule so closely that they seldom leave the band.
 #
 # *A longer training turns the order round.* The last row's clones hardly crash; the stochastic rule's, with
 # {{ int(round(updates_of(by_chance()), -3)) | , }} updates, crash in
-# {{ 100 * by_chance().scores('accident').mean() | .0f }} %. Do they learn the dice, a tenth of their labels, by heart?
-# *The test*: three clones of each kind with 134,000 updates. With the dice all three crashed. With the rule's labels in
-# the same states none did.
+# {{ 100 * by_chance().scores('accident').mean() | .0f }} %. Is it the dice, a tenth of their labels? *The test*:
+# the same states with the rule's labels, three clones each, 134,000 updates. With the dice each of the three had
+# accidents, with the rule's labels none had one.
 # <!-- claim: len(bc_shipped()) == 5 and long_beyond() < 0.1 -->
 # <!-- claim: round(updates_of(of('bc')), -3) == 67_000 -->
 # <!-- claim: not of('bc').agents[0]['stochastic_demonstrations'] and len(of('bc')) == 10 -->
@@ -300,8 +299,8 @@ sixty = shipped.shipped_experiment("clones")["60 drives"].notes["accidents"]  # 
 bc.show(figures.taught(trainings, sixty))
 
 # %% [markdown]
-# **See.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.* More drives alone
-# do not do this (dashed: 60 drives of the rule).
+# **See.** *The clones come to agree less in the rule's states, more in their own, and seldom crash.* More drives
+# alone do not do this (dashed: 60 drives of the rule).
 # <!-- claim: len(others_crash('DAgger')) == len(others_crash('60 drives')) == 15 -->
 # <!-- claim: others_crash('DAgger').mean() < others_crash('60 drives').mean() / 3 -->
 # <!-- claim: others_agree('DAgger', 'agrees') < others_agree('DAgger', 'agrees', 0) and
@@ -350,8 +349,10 @@ compare_predictions(
 # **Read on**: Pomerleau, *ALVINN* (1989); Ross et al., *DAgger* (arXiv 1011.0686); Laskey et al., *DART* (arXiv
 # 1703.09327).
 #
-# A clone can at best become its teacher. The next two lessons want more: to be led by the rule first, and to outdo it
-# later. [](soft_constraint.ipynb).
+# The stochastic rule crashes in {{ 100 * stochastic_crashes() | .0f }} % of its drives, its clones in
+# {{ 100 * others_crash("the stochastic rule's drives").mean() | .0f }} %: a clone takes the most probable action,
+# and so leaves the dice out. But what its teacher never does, no row shows it, and the rule never drives fast. The
+# next two lessons want more: to be led by the rule first, and to outdo it later. [](soft_constraint.ipynb).
 
 # %% [markdown] tags=["instructor"] minutes=4
 # **On the board.** Two trajectories that part after one wrong action, and the shaded region where the teacher

@@ -168,6 +168,9 @@ def thermostat() -> Explorable:
         parts = [text(4, 20, says, size=14, bold=True), *legend(named), *nats.parts, *below.parts]
         return drawing(WIDTH, TALL, parts, says)
 
-    help = "The target entropy. Each update changes α by 2 %; the policy is the softmax of nine even Q for this α."
+    help = (
+        "The target entropy. Each update changes α by 2 %; "
+        "the policy is the softmax of nine Q, spaced evenly from 0 to 1, for this α."
+    )
     target = Number("η", -1, -1.5, 2.5, 0.1, help)
     return Explorable("Nine actions, Q from 0 to 1: does the thermostat come to rest?", draw, target=target)

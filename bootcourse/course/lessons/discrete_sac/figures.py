@@ -31,16 +31,11 @@ def constant_alpha(alphas: Sequence[float], walked: Walked) -> Figure:
     return _how_far([f"α = {alpha:g}" for alpha in alphas], walked.leaves, walked.found, title)
 
 
-def by_pay(alphas: Sequence[float], walked: Mapping[str, Walked]) -> Figure:
-    """The same, a row for each pay in the target at each of some constant temperatures; the first pay is α H."""
-    names = [f"α = {alpha:g}: {pay}" for alpha in alphas for pay in walked]
-    leaves, found = (
-        np.vstack([getattr(of, part)[k] for k in range(len(alphas)) for of in walked.values()])
-        for part in ("leaves", "found")
+def found_by_pay(walked: Mapping[str, Walked]):
+    """A table of how many learners of one constant temperature find the free road, by the pay in their target."""
+    return table(
+        ["pay in the target", "find the free road"], [[pay, int(of.found.sum())] for pay, of in walked.items()]
     )
-    paid, less = found.sum(axis=1)[:2]
-    title = f"At α = {alphas[0]:g}, {paid} find the free road with the pay α H, and {less} without an even policy's pay"
-    return _how_far(names, leaves, found, title)
 
 
 def falling_alpha(start: float, walked: Mapping[str, Walked]) -> Figure:

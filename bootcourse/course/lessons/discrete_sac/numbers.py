@@ -90,9 +90,11 @@ def sure_at(value: Callable, alpha: float, seed: int = 0) -> int:
 
 
 @cache
-def falling(value: Callable = sac.soft_value, start: float = 10, seed: int = 0, first_q: float = 0.0) -> Walked:
+def falling(
+    value: Callable = sac.soft_value, start: float = 10, seed: int = 0, first_q: float = 0.0, decisions: int = DECISIONS
+) -> Walked:
     """Learners whose α falls by equal factors from `start` to 0.01. value: V(s) in their target, see `unpaid`."""
-    alphas = torch.tensor(np.geomspace(start, 0.01, DECISIONS))[:, None]
+    alphas = torch.tensor(np.geomspace(start, 0.01, decisions))[:, None]
     return walked(value, sac.critic_target, alphas, seed, first_q)
 
 

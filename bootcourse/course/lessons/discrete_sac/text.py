@@ -92,6 +92,14 @@ explorable.undecided()
 # It is largest with the panel's policy, a *softmax*: $\pi(a|s) \propto \exp(Q(s,a)/\alpha)$.
 # <!-- claim: np.ptp(q - ALPHA * np.log(pi)) < 1e-9 and abs((q - ALPHA * np.log(pi))[0] - WORTH) < 1e-9 -->
 #
+# <details><summary>Why a softmax?</summary>
+#
+# Move a little probability ε from action b to action a. V changes by
+# $\varepsilon\,[(Q_a - \alpha\log\pi_a) - (Q_b - \alpha\log\pi_b)]$. With the best policy no such move gains
+# anything: $Q_a - \alpha\log\pi_a$ is the same number Z for each action, and $\log\pi_a = (Q_a - Z)/\alpha$.
+#
+# </details>
+#
 # **Exercise (4 min, ●○○).** Write the soft value.
 
 
@@ -159,11 +167,11 @@ check.critic_target(critic_target)
 
 # %% [markdown]
 # SAC computes V(s') with a slow copy of each critic, its *target critic* (*target network*): each update moves the
-# copy's weights a small share τ ("tau") of the way.
+# copy's weights a small share τ ("tau") of the way. A step towards the target then hardly moves the target.
 #
 # **Exercise (6 min, ●●○).** Write the loss of both critics: for each the mean over the batch of
 # $(Q(s,a) - y)^2$, then the sum of the two. Here a is the action taken. No gradient may run through y, or the loss
-# would fall by lowering V(s'), too.
+# would also fall by moving y towards Q(s, a), which teaches nothing about the road.
 
 
 # %%
@@ -275,8 +283,8 @@ bc.show(figures.constant_alpha(constant.tolist(), walked))
 # %% [markdown]
 # **Explain.** None of these. **α does two jobs.** It decides how much a learner *tries*: with α = 0.01 few find the
 # free road. And it decides how surely it *takes* the way: with α = 1 or 10 nearly all find it, but stay undecided. At
-# α = 0.2 π(leave) would be {{ leave(0.2) | .2f }} with settled Q; those of the {{ sure_at(soft, 0.2) }} have not
-# settled.
+# α = 0.2 the right soft Q make π(leave) {{ leave(0.2) | .2f }}, less than {{ SURE }}: the Q of the
+# {{ sure_at(soft, 0.2) }} sure ones have not settled.
 # <!-- claim: leave(0.2) < SURE and sure(constant()).max() < LEARNERS / 8 -->
 # <!-- claim: constant().leaves[:2].max() < 1 - SURE and constant().found[0].mean() < 0.15 -->
 # <!-- claim: constant().found[1].mean() < 0.35 and leave(0.1) > SURE -->
@@ -284,8 +292,9 @@ bc.show(figures.constant_alpha(constant.tolist(), walked))
 #   (constant().leaves[6:] > 1 - SURE).all() -->
 
 # %% [markdown]
-# In between, does the pay in the critics' target matter? It is α H, or α (H − log 2), which is 0 for an even policy,
-# or none.
+# Does the pay in the critics' target help? The learners still act by softmax(Q / α). Only the pay in their target's
+# V(s') changes. It is α H, as in SAC; or α (H − log 2), the same less a constant, so that an even policy gets 0; or
+# none.
 
 # %%
 values = {  # V(s') with this pay
@@ -293,36 +302,35 @@ values = {  # V(s') with this pay
     "α (H − log 2)": own_parts.less_log_2(value),
     "none": own_parts.unpaid,
 }
-between = torch.tensor([0.2, 0.3], dtype=torch.float64).expand(1000, -1)
-ends = {pay: own_parts.walked(of, target, between) for pay, of in values.items()}
-bc.show(figures.by_pay(between[0].tolist(), ends))
+steady = torch.full((1000, 1), 0.2, dtype=torch.float64)
+ends = {pay: own_parts.walked(of, target, steady) for pay, of in values.items()}
+figures.found_by_pay(ends)
 
 # %% [markdown]
-# **See.** Yes. Without an even policy's pay, α log 2, nearly all find the free road.
-# <!-- claim: min(found(less, 0.2), found(less, 0.3)) > 0.95 * LEARNERS and
-#   max(found(soft, 0.2), found(soft, 0.3)) < 0.8 * LEARNERS -->
-# <!-- claim: all(sure_at(less, 0.2, seed) > 5 * sure_at(soft, 0.2, seed) for seed in (0, 1)) -->
+# **See.** No. Without the constant α log 2, an even policy's pay, nearly all find the free road; without any pay most.
+# <!-- claim: found(less, 0.2) > 0.95 * LEARNERS > found(unpaid, 0.2) > 0.8 * LEARNERS > 0.6 * LEARNERS >
+#   found(soft, 0.2) -->
 #
 # Now α falls from `start` to 0.01.
 
 # %%
-start, first_q = 10, 0.0  # try a start of 1 and of 0.3; then 10 again, with first_q = 35
-falling = torch.logspace(math.log10(start), -2, 1000, dtype=torch.float64)[:, None]
+start, decisions, first_q = 10, 1000, 0.0  # try a start of 1; 10 with 3000 decisions; first_q = 35
+falling = torch.logspace(math.log10(start), -2, decisions, dtype=torch.float64)[:, None]
 ends = {pay: own_parts.walked(of, target, falling, first_q=first_q) for pay, of in values.items()}
 bc.show(figures.falling_alpha(start, ends))
 
 # %% [markdown]
 # **Explain.** If α starts at 10, about half end sure of leaving with α H. Without an even policy's pay all do. From 1
-# they are {{ '{}, {} and {}'.format(*sure_from(1)) }}. From 0.3 few are, with any pay:
-# {{ '{}, {} and {}'.format(*sure_from(0.3)) }}.
-# <!-- claim: sure_from(1)[0] < 0.4 * sure_from(1)[1] and max(sure_from(0.3)) < 0.2 * LEARNERS -->
+# they are {{ '{}, {} and {}'.format(*sure_from(1)) }}.
+# <!-- claim: sure_from(1)[0] < 0.4 * sure_from(1)[1] -->
 # <!-- claim: 0.4 < min(sure(falling())[0], *others()) / LEARNERS and
 #   max(sure(falling())[0], *others()) / LEARNERS < 0.6 -->
 # <!-- claim: sure(falling(value=unpaid))[0] == sure(falling(value=less))[0] == LEARNERS > 2 * sure(falling())[0] -->
 #
 # That pay is the same in every state. Why does it favour the trap? Q begins at 0, and has far to climb: at α = 10 the
 # pay alone is worth 10 · 0.69 / (1 − 0.8) = {{ 10 * math.log(2) / (1 - GAMMA) | .0f }}, seven times the chain's
-# ceiling. Where a learner has been often, Q has climbed; where seldom, not yet. After 100 decisions:
+# ceiling. (The pay lifts the ceiling to (r_max + α log n) / (1 − γ).) Where a learner has been often, Q has climbed;
+# where seldom, not yet. After 100 decisions:
 # <!-- claim: 6.5 < 10 * math.log(2) / (1 - GAMMA) / 5 < 7.5 -->
 #
 # | mean of 300, Q of both actions | trap | 1 | 2 | 3 | free road |
@@ -336,10 +344,22 @@ bc.show(figures.falling_alpha(start, ends))
 # <!-- claim: most_visited(begun()) > 0.75 > 0.3 > most_visited(begun(less)) -->
 #
 # With α H the order of the Q is the order of the visits. **Entropy in the policy makes a learner curious. The same
-# entropy in the target pays it for being where it already is.** With all Q 35 at first, all find the free road. But
-# {{ sure(falling(first_q=35.0))[0] }} end sure of leaving: the start at 0 explains who never finds it, not who stays
-# undecided.
-# <!-- claim: falling(first_q=35.0).found.all() and sure(falling(first_q=35.0))[0] < 0.6 * LEARNERS -->
+# entropy in the target, while Q still climbs to it, pays it for being where it already is.**
+#
+# What does the pay cost? We change the start of Q, or the time, still with α H:
+#
+# | α falls from 10 | find the free road | end sure of leaving |
+# | --- | --- | --- |
+# | as above | {{ falling().found.sum() }} | {{ sure(falling())[0] }} |
+# | all Q 35 at first | {{ falling(first_q=35.0).found.sum() }} | {{ sure(falling(first_q=35.0))[0] }} |
+# | 3,000 decisions | {{ falling(decisions=3000).found.sum() }} | {{ sure(falling(decisions=3000))[0] }} |
+# | 10,000 decisions | {{ falling(decisions=10_000).found.sum() }} | {{ sure(falling(decisions=10_000))[0] }} |
+#
+# Without the climb from 0 all find the free road, but about half do not end sure of leaving. With more time all do: on
+# this chain the pay costs time, and does not close the way.
+# <!-- claim: falling(first_q=35.0).found.all() and sure(falling(first_q=35.0))[0] < 0.6 * LEARNERS and
+#   sure(falling(first_q=35.0))[0] > 0.4 * LEARNERS -->
+# <!-- claim: sure(falling(decisions=10_000))[0] == LEARNERS > sure(falling(decisions=3000))[0] > 0.8 * LEARNERS -->
 #
 # On the road the paper begins with α = {{ SETTINGS.alpha_init }}. There the pay is worth at most
 # {{ SETTINGS.alpha_init }} · log 9 / (1 − 0.8) = {{ SETTINGS.alpha_init * math.log(9) / (1 - GAMMA) | .2f }}, staying
@@ -374,12 +394,14 @@ explorable.thermostat()
 # %% [markdown]
 # **Explain.** α falls for ever: the entropy is never negative, so always above η = −1. So the paper's thermostat is a
 # **clock**: α falls at each update, whatever the agent does. The pull of lesson [[soft_constraint]] hangs on it, too.
+# The paper gives no reason for −1. With *continuous* actions, whose entropy can be negative, a usual η is minus their
+# number of dimensions.
 # <!-- claim: SETTINGS.target_entropy < 0 -->
 
 # %% [markdown] tags=["instructor"] minutes=2
 # The answer to discuss is "falls, and stops at η", as a thermostat in a room does. Ask which entropy would
-# have to be reached. It helps to write the range, 0 to log 9, on the board before anybody answers. The paper
-# gives no reason for −1; with continuous actions, whose entropy can be negative, such targets are usual.
+# have to be reached. It helps to write the range, 0 to log 9, on the board before anybody answers. They
+# may object that an entropy can be negative: that of continuous actions can.
 
 # %%
 compare_predictions(
@@ -399,7 +421,8 @@ bc.show(diagrams.sac_diagram())
 # 1. The soft value is the policy's mean Q plus α times its entropy.
 # 2. The critics learn what the agent's own policy is worth. The actor raises that, with Q detached.
 # 3. *The optimist's error*: the highest of many uncertain guesses is too high.
-# 4. On the chain a high α finds the way out, a low one takes it; a large pay in the target favours the trap.
+# 4. On the chain α that is high first finds the way out, and low later takes it. If α falls quickly, a large pay in the target favours
+#    the trap.
 # 5. With η below 0 the thermostat is a *clock*: α only falls.
 
 # %% [markdown]
@@ -410,7 +433,7 @@ bc.show(diagrams.sac_diagram())
 #
 # <details><summary>Answers</summary>
 #
-# - While the policy is not even, H < η and α rises, until the agent drives almost at random.
+# - While the policy is not even, H < η and α rises: the reward counts less and less beside the pay.
 # - The more alike, the less. Of two equal estimates the smaller is as high as either.
 # - Accidents: they end the drive, so more trying need not reach further.
 #

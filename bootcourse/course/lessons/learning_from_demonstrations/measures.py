@@ -79,7 +79,7 @@ def _all_and_parts(agents: Sequence[Results]) -> str:
     return f"**{escape(agents)}** ({parts})" if len(agents) > 1 else f"**{escape(agents)}**"
 
 
-LEASH = ["demonstrations", "return, episodes 500 to 600", "lose the way out in training"]
+LEASH = ["demonstrations", "return, episodes 500 to 600", "lose the way out by episode 900"]
 
 
 @cache
@@ -99,9 +99,14 @@ def held(agents: Results) -> tuple[float, int]:
     return float(agents.curves["return"][:, 500:600].mean()), int(lost(agents.curves["success"]).sum())
 
 
+def lost_by(agents: Results, episode: int) -> int:
+    """How many of these agents lose the way out by a training episode."""
+    return int(lost(agents.curves["success"][:, :episode]).sum())
+
+
 def leash_rows() -> list[list[str]]:
     """A row for each of `leashes`, below `LEASH`."""
-    rows = ((name, *held(agents), len(agents)) for name, agents in leashes().items())
+    rows = ((name, held(agents)[0], lost_by(agents, 900), len(agents)) for name, agents in leashes().items())
     return [[name, f"{paid:.0f}", f"{losers} of {count}"] for name, paid, losers, count in rows]
 
 

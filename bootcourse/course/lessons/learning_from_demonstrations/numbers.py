@@ -9,6 +9,7 @@ from bootcourse.course.lessons.learning_from_demonstrations.measures import ahea
 from bootcourse.course.lessons.learning_from_demonstrations.measures import held as held
 from bootcourse.course.lessons.learning_from_demonstrations.measures import kinds
 from bootcourse.course.lessons.learning_from_demonstrations.measures import leashes as leashes
+from bootcourse.course.lessons.learning_from_demonstrations.measures import lost_by as lost_by
 from bootcourse.course.lessons.soft_constraint.examples import fast_and_rule, reward_and_kl
 from bootcourse.episodes.record import record
 from bootcourse.panels.bonus import bonus_numbers

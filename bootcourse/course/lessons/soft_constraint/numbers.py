@@ -130,6 +130,11 @@ def returns_of_keepers(agents: list[Results]) -> np.ndarray:
     return np.concatenate([each.scores("returns")[each.found_and_kept("soft")[1]] for each in agents])
 
 
+def returns_of(agents: list[Results]) -> np.ndarray:
+    """The returns of all agents of these studies."""
+    return np.concatenate([each.of("soft").scores("returns") for each in agents])
+
+
 def entropy_of_the_fast() -> float:
     """The fast agents' mean entropy in these seconds: nats."""
     return later(fast_and_rule()["five fast agents"], entropy_in)

@@ -1,5 +1,6 @@
 """Figures of the trap: where each action leads, what pays, how agents drive after training, what each way is worth."""
 
+from collections import Counter
 from collections.abc import Mapping
 from functools import partial
 
@@ -103,7 +104,7 @@ def worth_with_crashes(worths: Mapping[str, Worth]) -> Figure:
     for row, ((name, way), colour) in enumerate(ways):
         ax.barh(row, way.unpaid, 0.6, color="white", edgecolor=colour, linewidth=1.2)
         ax.barh(row, way.worth, 0.6, color=colour, edgecolor=colour, linewidth=1.2)
-        crashes = f"{100 * way.crashes:.0f}; first in second {way.seconds.min()}" if way.crashes else "none"
+        crashes = f"{100 * way.crashes:.0f}; {_when(way.seconds)}" if way.crashes else "none"
         for x, words in ((1.42, f"{way.worth:.2f}"), (1.62, crashes)):
             ax.text(x, row, words, fontsize=TEXT, color=colour, va="center")
         says.append(f"{name} {way.worth:.2f}, if crashes paid 0 {way.unpaid:.2f}, crashes: {crashes}")
@@ -116,6 +117,12 @@ def worth_with_crashes(worths: Mapping[str, Worth]) -> Figure:
     ax.axvline(worths["staying"].worth, color=colours[0], linestyle="--", linewidth=1.2, zorder=0)
     ax.set(xlim=(0, 1.36), xticks=(0, 0.5, 1))
     return finish(figure, title, f"A bar for what each way is worth, the least first. {'; '.join(says)}.")
+
+
+def _when(seconds: np.ndarray) -> str:
+    """When most of a way's crashes come, or else the first; seconds: of each, (crashes,)."""
+    second, often = Counter(seconds.tolist()).most_common(1)[0]
+    return f"{often} in second {second}" if often > len(seconds) / 2 else f"first in second {seconds.min()}"
 
 
 def early_crashes(gaps: np.ndarray, early: np.ndarray) -> Figure:

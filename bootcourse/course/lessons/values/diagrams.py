@@ -174,7 +174,7 @@ def two_learners(both: Sequence[Sequence[np.ndarray]]) -> Figure:
         rows[f"{name}: {arrived} arrivals"] = q[walk].max(axis=1), going_on
     key = "The larger Q. Orange: that is the Q of going on. White: of action 0. Grey: both actions stay."
     heads = ("trap", "state 1", "state 2", "state 3", "free road")
-    title = "Going on must win in state 3, then 2, then 1, before leaving wins"
+    title = "Before leaving wins, going on must win in states 3, 2 and 1"
     return _values(title, rows, 3, key, heads, "The larger Q", alone=0, look=OPEN)
 
 
@@ -199,7 +199,7 @@ def after_arrivals(q: np.ndarray, step: float, gamma: float, most: int = 14) -> 
         ax.text(k, all_of + 5, f"{won / all_of:.0%}", fontsize=TEXT, color=INK, ha="center")
     at = {"fontsize": TEXT, "color": INK, "ha": "right"}
     ax.text(most + 0.4, 0.92 * had[0], "whole bar: learners that have arrived so often", **at)
-    ax.text(most + 0.4, 0.80 * had[0], "dark, and %: right after it leaving is worth more for them", **at)
+    ax.text(most + 0.4, 0.80 * had[0], "dark, and %: for these leaving now wins", **at)
     ax.set(xlim=(0.5, most + 0.5), ylim=(0, 1.12 * had[0]), xticks=times)
     each = ", ".join(f"{k}: {won} of {all_of}" for k, all_of, won in zip(times, had, wins, strict=True))
     return finish(figure, title, f"For how many learners leaving wins right after an arrival, by its number: {each}.")

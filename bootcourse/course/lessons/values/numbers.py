@@ -9,14 +9,24 @@ from bootcourse.course.lessons.values.exercises import bellman_sweep, temporal_d
 
 
 @cache
-def as_c(gamma: float = 0.8, pay: float = 0.16) -> np.ndarray:
+def as_c(gamma: float = 0.8, pay: float = 0.16, step: float = 0.3) -> np.ndarray:
     """The Q of 300 learners of C before their first walk and after each, (walks + 1, 300, 5, 2)."""
-    return chain.many(0.5, gamma, pay=pay)
+    return chain.many(0.5, gamma, pay=pay, step=step)
 
 
-def leave_c(gamma: float = 0.8, pay: float = 0.16) -> int:
+def leave_c(gamma: float = 0.8, pay: float = 0.16, step: float = 0.3) -> int:
     """How many of those learners learn to leave."""
-    return sum(map(chain.leaves, as_c(gamma, pay)[-1]))
+    return sum(map(chain.leaves, as_c(gamma, pay, step)[-1]))
+
+
+def often(times: int) -> int:
+    """How many of those learners reach the free road so often or more, with γ = 0.8."""
+    return sum(len(each) >= times for _, each in arrived(as_c()))
+
+
+def state_3(seed: int, action: int) -> float:
+    """What an action in state 3 is worth to C's learner of this seed right after its second arrival."""
+    return float(walks(seed)[chain.arrivals(walks(seed))[1]][3, action])
 
 
 def leave_later(decisions: int) -> int:
@@ -76,10 +86,20 @@ def sweeps(times: int, gamma: float) -> np.ndarray:
 
 def walked(times: int, backwards: bool = False) -> list[bool]:
     """Which Q(s, 1) are above 0 after so many walks out, each learned with a step of 0.3 and γ = 0.8."""
+    return (after_walks(times, backwards) > 0).tolist()
+
+
+def after_walks(times: int, backwards: bool) -> np.ndarray:
+    """Those Q(s, 1), (5,)."""
     q = np.zeros((chain.STATES, 2))
     for s in [*range(chain.STATES)][:: -1 if backwards else 1] * times:
         q[s, 1] += 0.3 * temporal_difference.solution(q, s, 1, chain.REWARD[s, 1], chain.NEXT[s, 1], 0.8)
-    return (q[:, 1] > 0).tolist()
+    return q[:, 1]
+
+
+def backwards() -> float:
+    """Q(0, 1) after one walk learned in reverse."""
+    return float(after_walks(1, True)[0])
 
 
 @cache

@@ -144,7 +144,8 @@ bc.show(diagrams.sweeps(found))
 # <!-- claim: (np.abs(sweeps(40, 0.8)[:, 1] - 5 * 0.8 ** np.arange(4, -1, -1)) < 0.005).all() -->
 #
 # No Q can be above r_max / (1 − γ), here 1 / (1 − 0.8) = 5: the most that a decision pays, for ever. This is the
-# **ceiling**. A learner that promises more is surely wrong: the cheapest test in this course.
+# **ceiling**. A learner that promises more is surely wrong: the cheapest test in this course. (Lesson
+# [[discrete_sac]] pays for more than rewards, and lifts the ceiling.)
 # <!-- claim: chain.REWARD.max() == 1 and 4.99 < sweeps(99, 0.8).max() <= 5 -->
 
 # %% [markdown] tags=["instructor"] minutes=4
@@ -205,8 +206,8 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 
 # %% [markdown]
 # **Explain.** On the first walk the learner learns in the states 0 to 3 before the free road has paid, so only the
-# value in state 4 rises. Each later walk carries it one state back. Learned backwards (last row), one walk is enough:
-# each next state already has its value.
+# value in state 4 rises. Each later walk carries it one state back. Learned backwards (last row), one walk leaves a
+# first trace in the trap, {{ backwards() | .3f }}: each next state already has a value.
 # <!-- claim: walked(1) == [False] * 4 + [True] and all(walked(1, backwards=True)) -->
 # <!-- claim: not walked(4)[0] and walked(5)[0] -->
 
@@ -228,7 +229,9 @@ bc.show(diagrams.walks(walks[1:], walked(walks[0], reversed(range(5)))))
 # - *E*: as A, with a demonstration of the way out, replayed after each decision.
 #
 # > **Predict.** Before it has seen the free road, a learner's greedy action is nearly always 0. It must draw action 1
-# > four times in a row, each time with probability ε / 2. Nearly all of C's thirty get there.
+# > four times in a row, each time with probability ε / 2. Nearly all of C's thirty get there, by chance in
+# > {{ by_chance(0.5) | .1f }} of their 50 walks. Remember how many walks out the value needed in
+# > Round 3.
 # <!-- claim: all(greedy_zero(explore) > 0.99 for explore in (0.1, 0.5, 1.0)) -->
 # <!-- claim: 27 < free_road_seen(0.5, 0.8) < 30 -->
 
@@ -282,8 +285,8 @@ found = {kind: chain.learned(*how, learn=learn) for kind, how in kinds.items()}
 bc.show(diagrams.who_leaves(found))
 
 # %% [markdown]
-# **Explain.** By chance a learner of A or B reaches the free road in {{ by_chance(0.1) | .3f }} of its 50 walks, one
-# of C in {{ by_chance(0.5) | .1f }}. None of A's or B's thirty does.
+# **Explain.** By chance only about one learner of A or B in {{ round(1 / by_chance(0.1), -1) | .0f }} would reach the
+# free road in its 50 walks. None of the thirty of each does.
 #
 # On the way out you lose the trap's pay, and only the end pays: this is a **barrier**.
 # <!-- claim: leaving(0.1, 0.8) == leaving(0.1, 0.95) == 0 and 0.8**4 > 2 * 0.16 -->
@@ -305,8 +308,17 @@ bc.show(diagrams.two_learners([chain.over_walks(0.5, 0.8, seed, learn) for seed 
 # %% [markdown]
 # **Explain.** A decision learns only from the *larger* Q of the state that it leads to. Where that is the Q of going on
 # (orange), the free road's value passes to the state before. Where it is turning back (white), it goes no farther.
-# After two arrivals going on in state 3 is worth about as much to both. But only the blocked one had turned back there,
-# and learned that this is worth {{ walks(16)[-1][3, 0] | .2f }}.
+#
+# Both learners have turned back in state 3, but at different times:
+#
+# | Q in state 3 | going on, after two arrivals | turning back, then | going on, in the end |
+# | --- | --- | --- | --- |
+# | blocked | {{ state_3(16, 1) | .2f }} | {{ state_3(16, 0) | .2f }} | {{ walks(16)[-1][3, 1] | .2f }} |
+# | opened | {{ state_3(1, 1) | .2f }} | {{ state_3(1, 0) | .0f }} | {{ walks(1)[-1][3, 1] | .2f }} |
+#
+# The blocked one had turned back there before, the opened one not yet. When it first did, going on had already won.
+# <!-- claim: state_3(16, 0) > state_3(16, 1) > 0 and state_3(1, 1) > state_3(1, 0) == 0 -->
+# <!-- claim: all(q[3, 1] > q[3, 0] for q in walks(1)[goes_on_for_good()[0]:]) -->
 # <!-- claim: 0.2 < walks(1)[goes_on_for_good()[0]][3, 1] < walks(16)[-1][3, 1] < 0.3 -->
 # <!-- claim: len(chain.arrivals(walks(16))) == 2 and walks(16)[chain.arrivals(walks(16))[0] - 1][3, 0] > 0 ==
 #   walks(1)[goes_on_for_good()[0]][3, 0] and (chain.arrivals(walks(1)) <= goes_on_for_good()[0]).sum() == 2 -->
@@ -324,7 +336,15 @@ found = chain.many(explore=0.5, gamma=gamma, learners=300, step=step)
 bc.show(diagrams.after_arrivals(found, step, gamma))
 
 # %% [markdown]
-# **Explain.** Would a longer view help? With γ = 0.95 the free road is worth 20, and the trap only 3.2. Yet
+# **Explain.** Leaving wins for most only after about ten arrivals, and most learners never get so far:
+# {{ often(4) }} of 300 arrive four times.
+# <!-- claim: often(4) < 150 -->
+#
+# With a step of 0.1 {{ leave_c(step=0.1) or 'none' }} of the 300 learn to leave; with a step of 1, which moves Q all
+# the way, {{ leave_c(step=1.0) }} do. On the chain an action always has the same outcome. On the road it has not: there
+# a step of 1 would keep only the last outcome, and a small one takes a mean.
+#
+# Would a longer view help? With γ = 0.95 the free road is worth 20, and the trap only 3.2. Yet
 # {{ leave_c(0.95) }} of 300 learn to leave, not {{ leave_c() }}. **A longer view first enlarges what you know
 # already**: the trap's worth. After three arrivals turning back in state 3 is worth {{ thrice(0.95)[0] | .2f }}, not
 # {{ thrice(0.8)[0] | .2f }}. Going on wins there for {{ thrice(0.95)[1] | .0% }} of the learners, not
@@ -364,6 +384,7 @@ compare_predictions(
 # 1. The Bellman equation: an action is worth its reward plus γ times the larger Q of the next state.
 # 2. Q-learning moves Q(s, a) by a part of the temporal difference.
 # 3. Learned forwards, a walk carries a value one state back.
+# 4. On the chain a longer view alone did not help: it first enlarges what is known already, the trap's worth.
 #
 # **Four gates** stand between the trap and a fast drive. They are a way to sort what one sees, not a law.
 #
@@ -382,10 +403,11 @@ compare_predictions(
 #
 # <details><summary>Answers</summary>
 #
-# - Of A none: four in a row stay as rare. Of C {{ unpaid_leave(0.5) }}, not {{ leaving(0.5, 0.8) }}, because turning
-#   back is worth nothing at first.
+# - Of A none: four in a row stay as rare. Of C {{ unpaid_leave(0.5) }}, not {{ leaving(0.5, 0.8) }}: turning back is
+#   worth nothing at first, and leaving has no pay to beat.
 #   <!-- claim: unpaid_leave(0.1) == 0 and unpaid_leave(0.5) > 1.5 * leaving(0.5, 0.8) -->
-# - All thirty learn to leave. Each Q falls when its action is taken, so the learner turns to the other action.
+# - All thirty learn to leave. Before the free road a Q of 5 falls when its action is taken, so the learner turns to
+#   the other action.
 #   <!-- claim: all(chain.leaves(walks(seed, 0.1, 5.0)[-1]) for seed in range(30)) -->
 # - A network. It answers for states that it has not seen, so an error in one state spreads to others.
 #
@@ -393,7 +415,7 @@ compare_predictions(
 #
 # **Read on**: Sutton and Barto, *Reinforcement Learning*, chapters 3, 4 and 6.
 #
-# These learners needed random actions, but random actions drive badly. [SAC](discrete_sac.ipynb) pays for them, and
+# C's and D's learners got out by random actions, but these drive badly. [SAC](discrete_sac.ipynb) pays for them, and
 # lets go. Does that lead out?
 
 # %% [markdown] tags=["instructor"] minutes=2
