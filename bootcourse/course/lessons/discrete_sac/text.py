@@ -421,8 +421,8 @@ bc.show(diagrams.sac_diagram())
 # 1. The soft value is the policy's mean Q plus α times its entropy.
 # 2. The critics learn what the agent's own policy is worth. The actor raises that, with Q detached.
 # 3. *The optimist's error*: the highest of many uncertain guesses is too high.
-# 4. On the chain α that is high first finds the way out, and low later takes it. If α falls quickly, a large pay in the target favours
-#    the trap.
+# 4. On the chain an α that is high first and low later finds the way out and takes it. If α falls quickly, a large pay
+#    in the target favours the trap.
 # 5. With η below 0 the thermostat is a *clock*: α only falls.
 
 # %% [markdown]
