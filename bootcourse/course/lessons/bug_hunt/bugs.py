@@ -10,6 +10,7 @@ The results that ship hold curves, probes and weights; `Hunt` reads them and cal
 
 import math
 from collections.abc import Callable, Sequence
+from functools import cache
 from unittest.mock import patch
 
 import numpy as np
@@ -136,7 +137,8 @@ def target_of(bug: str) -> Callable:
     return target
 
 
-def pull(bug: str, states: int = 10_000) -> float:
+@cache
+def pull(bug: str, states: int = 2_000) -> float:
     """How strongly the actor's loss of an untrained learner raises the logit of an action that is worth 5 more.
 
     Nine equally likely actions, KL 0, in so many states: minus the mean slope, as `sampled` draws in each state.

@@ -13,6 +13,7 @@ from bootcourse.course.lessons.update_and_loop.explorable import BUG
 from bootcourse.plots.figure import TEXT, finish, label_ends, one_axes
 
 OF_A_FALL = "What critics expect in a fall"
+OF_Q = f"Q {worlds.BEFORE} pushes before the fall", "Q of a fallen pole"
 
 
 def small_worlds(*learned: Mapping[str, worlds.Learned]) -> Markdown:
@@ -86,6 +87,16 @@ def with_frozen_guess(
     return beyond(figure, "not frozen", unmarked)
 
 
+def with_held_temperature(named: Mapping[str, by_hand.SAC]) -> Markdown:
+    """A table of agents after equally many pushes: α, Q along a fall, and for how long they balance the pole."""
+    rows = []
+    for name, agent in named.items():
+        q = worlds.along_falls(agent)
+        alpha, stands = agent.log_alpha.exp().item(), by_hand.balanced(agent)
+        rows.append([name, f"{alpha:.2f}", *(f"{each:,.0f}" for each in (q[0], q[-1], stands))])
+    return table(["agent", "its α now", *OF_Q, "pushes balanced"], rows)
+
+
 def twice_as_long(
     halves: Mapping[str, tuple],
     wholes: Sequence[by_hand.SAC],
@@ -102,8 +113,7 @@ def twice_as_long(
         for blocks, agent, stood in zip((1, 2), (half, whole), stands, strict=True):
             q = worlds.along_falls(agent)
             rows.append([name, f"{block * blocks:,}", *(f"{each:,.0f}" for each in (q[0], q[-1], stood))])
-    of_q = f"Q {worlds.BEFORE} pushes before the fall", "Q of a fallen pole"
-    return table(["agent", "pushes in training", *of_q, "pushes balanced"], rows)
+    return table(["agent", "pushes in training", *OF_Q, "pushes balanced"], rows)
 
 
 def beyond(figure: Figure, words: str, agent: by_hand.SAC) -> Figure:

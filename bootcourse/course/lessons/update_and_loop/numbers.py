@@ -76,21 +76,6 @@ def before(kind: str) -> float:
     return float(np.median(expected(kind)[:, 0]))
 
 
-def last_push() -> float:
-    """Q of the last push before the fall, the median of the agents with the bug."""
-    return float(np.median(expected("unmarked")[:, -2]))
-
-
-def guess() -> float:
-    """Q of a fallen pole, the median of the agents with the bug."""
-    return float(np.median(expected("unmarked")[:, -1]))
-
-
-def target() -> float:
-    """What the target of the last push is with this guess, without entropy."""
-    return 1 + by_hand.SAC.gamma * round(guess())
-
-
 def spread(kind: str) -> str:
     """The least and the most pushes of those that have learned something, in words."""
     pushes = stood(kind)[stood(kind) > LEARNED]

@@ -137,6 +137,18 @@ def frozen_at(worth: float) -> type[FrozenGuess]:
 FrozenAt30 = frozen_at(30)
 
 
+def held(kind: type[by_hand.SAC], alpha: float) -> type[by_hand.SAC]:
+    """Agents of that kind whose temperature stays at `alpha`."""
+
+    class Held(kind):
+        def __init__(self, seed: int = 0):
+            super().__init__(seed)
+            torch.nn.init.constant_(self.log_alpha, float(np.log(alpha)))
+            self.optimisers[-1].param_groups[0]["lr"] = 0.0
+
+    return Held
+
+
 @cache
 def furthest() -> Tensor:
     """How far a pole may go, as the agent sees its state, (4,): the cart (m), and how much it leans."""
