@@ -77,3 +77,19 @@ def test_two_poles_are_first_shown_where_the_recorded_pushes_let_one_fall():
     panel = explorable.two_poles()
     push = int(panel.numbers["push"].value)
     assert re.match(rf"Push {push}: .*agent 2 fell at push {push} ", panel.svg.alt) and push > 0
+
+
+def test_an_agent_with_a_held_temperature_learns_and_its_temperature_stays():
+    parts = exercises.train.solution, exercises.update.solution
+    kind, rows = worlds.held(worlds.frozen_at(30), 0.5), worlds.Unmarked(exercises.ReplayBuffer.solution(1_000))
+    agent = worlds.taught(*parts, rows, 280, seed=0, kind=kind)
+    np.testing.assert_allclose(agent.log_alpha.exp().item(), 0.5, rtol=1e-6)
+    assert (worlds.along_falls(agent) != worlds.along_falls(kind(seed=0))).all()
+
+
+def test_an_action_is_drawn_without_a_warning_where_the_policy_is_sure():
+    agent = by_hand.SAC(seed=0)
+    with torch.no_grad(), np.errstate(over="raise"):
+        for sure in (200.0, -200.0):
+            agent.actor[-1].bias.copy_(torch.tensor([sure, -sure]))
+            assert agent.draw(np.zeros(4, dtype=np.float32), np.random.default_rng(0)) == (sure < 0)

@@ -284,10 +284,9 @@ bc.show(figures.with_rows(expects[0], unmarked, added, stands))
 # **Explain.** *The rows bring Q of a fallen pole near 0.* Still no fall is marked, but {{ learned('paid-0') }} such
 # agents learn.
 #
-# How did Q get so high without these rows? With the bug alone a fallen pole is only ever a *next* state. What the
-# network makes up for it, the **guess**, stands in the target of the last push, and no row pulls it back. If Q of the
-# last push rises, the same network says more of the fallen pole next to it, too: in six agents with the bug a small
-# step raised both about equally. Then the next target is higher: **perhaps Q feeds itself.**
+# How did Q get so high before? Without these rows a fallen pole is only ever a *next* state. The network's **guess**
+# for it stands in the target of the last push, and no row pulls it back. If Q of the last push rises, so does the guess
+# (a small step raised both about equally in six agents), and with it the next target: **perhaps Q feeds itself.**
 #
 # To test it, add no rows and freeze the guess: in the targets each fallen pole is worth 30. If Q fed itself, it now
 # stays near 30. (Without the bug Q 8 pushes before the fall is {{ before('marked') | .0f }}.)
@@ -308,11 +307,9 @@ bc.show(figures.with_frozen_guess(expects[0], unmarked, frozen, FROZEN, stands))
 
 # %% [markdown]
 # **Explain.** **Q did feed itself**: frozen, it stays near 30 in all {{ len(stood('frozen-30')) }} such agents. This
-# is lesson [[discrete_sac]]'s optimist's error. *Who guesses?* A critic, about a state in which no row begins. *Who
-# picks?* The actor: there it prefers the push with the higher guess.
-#
-# *The pick is not needed, but makes it faster.* We let all targets take the mean of both pushes, with ten seeds: Q of a
-# fallen pole was 58 to 178, in five above the ceiling. With the pick it was
+# is lesson [[discrete_sac]]'s optimist's error: a critic guesses, about a state in which no row begins, and the actor
+# prefers the push with the higher guess. Without this pick Q grows, too, but less: where all targets took the mean of
+# both pushes, Q of a fallen pole was 58 to 178 (ten seeds), in place of
 # {{ expected('unmarked')[:10, -1].min() | .0f }} to {{ expected('unmarked')[:10, -1].max() | .0f }}.
 # <!-- claim: expected('unmarked')[:10, -1].min() > 200 -->
 #
@@ -343,11 +340,9 @@ figures.with_held_temperature(dict(zip(names, [frozen, stirred], strict=True)))
 
 # %% [markdown]
 # **Explain.** *The false guess alone does not.* With α held at 0.5 all 15 that we trained balance the pole, for 110
-# pushes or more. Where α only *starts* at 0.5, 13 of 15 do.
-#
-# We think of it so. At first to fall looks best: the untrained critics say about 0 of a standing pole, the guess says
-# 30. With α near 0 the agent soon pushes to one side alone (99 % of the last 1,000 pushes or more, in all 15), and no
-# row shows it anything better. With α held, both sides still come.
+# pushes or more; where α only *starts* at 0.5, 13 do. We think of it so: at first to fall looks best, since untrained
+# critics say about 0 of a standing pole. With an α near 0 at first, the agent soon pushes to one side alone (at least
+# 99 % of its last 1,000 pushes, in all 15), and no row shows it anything better.
 #
 # > **Predict.** Let the agent with the bug and the one frozen at 30 train for {{ BLOCK | , }} pushes more. Each push
 # > still pays 1. Who then balances the pole for more than {{ LEARNED }} pushes?
@@ -364,18 +359,15 @@ later = [by_hand.balanced(whole) for whole in wholes]
 figures.twice_as_long(halves, wholes, [with_bug, stands], later, BLOCK)
 
 # %% [markdown]
-# **Explain.** *A wrong guess that stays can be outgrown.* We trained both with 15 seeds. Ten of the frozen agents now
-# balance the pole, for 170 pushes or more. In these ten Q 8 pushes before the fall is now above 65, and Q of a fallen
-# pole still below 30. The other five fall after 9. Four of them still push to one side alone, although the thermostat
-# has raised their α above 15,000.
+# **Explain.** *A wrong guess that stays can be outgrown.* Ten of 15 frozen agents now balance the pole, for 170 pushes
+# or more (four if α is held at 0.01), with Q of a fallen pole still below 30. Of the other five, which fall after 9,
+# four still push to one side alone, with an α above 15,000.
 #
 # *A guess that feeds itself grows along.* In all 15 agents with the bug Q of a fallen pole is now above 3,000, and none
-# balances the pole for 50. Their α has grown, too, above 400, and the ceiling with it: now it lies above their Q. So
-# look at Q *early*.
+# balances the pole for 50. But their α is now above 400, and has lifted the ceiling above their Q: look at Q *early*.
 #
-# *A critic follows its targets, and makes up what they leave open.* On the road the column says that an accident ended
-# the drive. Lose it, and a crash has a future again. That bug waits for you in lesson [[bug_hunt]], where no pole falls
-# to warn you.
+# *A critic follows its targets, and makes up what they leave open.* On the road the column marks accidents. That bug
+# waits for you in lesson [[bug_hunt]], where no pole falls to warn you.
 
 # %% [markdown] tags=["instructor"] minutes=5
 # A belief to name: "without marks the critics would find the constant" of round 1. They approach it if rows
@@ -394,8 +386,7 @@ compare_predictions("update_and_loop", {1: changed[2], 2: change, 3: compared, 4
 #
 # 1. `terminated` says that nothing more is earned. A time limit does not say so.
 # 2. In a small world you can work out Q, so a bug can show as a wrong number.
-# 3. A critic makes up what no row tells it. If targets lean on this guess, it can feed itself, the faster if the actor
-#    picks the higher one.
+# 3. A critic makes up what no row tells it. If targets lean on this guess, it can feed itself.
 # 4. A wrong guess that stays can be outgrown in time; one that feeds itself grows along.
 # 5. A Q above the ceiling is surely wrong. A Q below it need not be right.
 
@@ -408,11 +399,11 @@ compare_predictions("update_and_loop", {1: changed[2], 2: change, 3: compared, 4
 # <details><summary>Answers</summary>
 #
 # - Q of a fallen pole drops below 0. That is wrong, but to fall is still worst: with five seeds all agents learned.
-# - Such rows come from few episodes, and are alike. In 15 trainings agents learned more slowly: they balanced the pole
-#   for 162 pushes (median) in place of {{ np.median(stood('marked')) | .0f }}.
+# - Such rows are alike. In 15 trainings agents learned more slowly: they balanced the pole for 162 pushes (median) in
+#   place of {{ np.median(stood('marked')) | .0f }}.
 # - The third. Its right Q is 5; with this bug the agent learns 1.
 #
-# Beside `FROZEN`: with seed 1 our agent falls from a value between 20 and 25 on.
+# `FROZEN`: with seed 1 our agent learns at 20, and falls at 25.
 #
 # </details>
 #
