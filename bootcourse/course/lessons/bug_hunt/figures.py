@@ -95,7 +95,7 @@ def rarest(hunt: Hunt) -> Figure:
 def likeliest(hunt: Hunt) -> Figure:
     """How much more often the likeliest of the nine actions is the rule's of the same second than of the next."""
     title = "Is the policy's likeliest action the rule's of this second, or of the next?"
-    what = "share of the seconds with the rule's action of now, less that with its next"
+    what = "agrees with the rule now, less agrees with it a second later (share of seconds)"
     return charts.many(now_not_next(hunt), title, "updates", what, reference="healthy")
 
 

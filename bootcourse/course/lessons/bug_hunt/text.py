@@ -163,9 +163,11 @@ bc.show(figures.accidents(hunt))
 # **See.** With `no_end` the target is −10 + 0.8 · next value: below −10 as soon as the next value is below 0.
 # `bonus_for_all` adds 2 to the target of each row of the agent's own.
 #
-# The numbers are your probe's answers at the stochastic rule's accidents. The lines show Q itself at each agent's own.
-# Even the healthy critic ends near
-# {{ line_end('healthy') | .0f }}. So compare with the grey lines: which agents end *far* from them?
+# The numbers are your probe's answers at the stochastic rule's accidents, which are no agent's own. There the healthy
+# critic misses by {{ asked('healthy') | .0f }}, and A, which has a bug, is nearest to 0. The lines show Q itself at
+# each agent's own accidents: even there the healthy critic ends near {{ line_end('healthy') | .0f }}. *So 0 is not the
+# measure. The healthy twin is*: which agents end *far* from the grey lines?
+# <!-- claim: min('ABCDEF', key=lambda name: abs(asked(name))) == 'A' and abs(asked('A')) < abs(asked('healthy')) -->
 # <!-- claim: asked('D') < -10 < 0 < asked('healthy') -->
 # <!-- claim: (hunt().probe('healthy', 'end')[:, hunt().updates >= 1000] > DEFAULT.reward.accident + 1).all() -->
 
@@ -236,7 +238,7 @@ for bug in bugs.LEARNERS:
 # %% [markdown]
 # **See.** The right loss pulls the better action up. In `sampled` no π multiplies Q, and no gradient passes through a
 # draw among nine: so Q moves its policy {{ 'not at all' if abs(bugs.pull('sampled')) < 0.005 else 'a little' }}. What
-# is left is the pull towards the stochastic rule.
+# is left, on average, is the pull towards the stochastic rule, and the noise of the draws.
 # <!-- claim: abs(bugs.pull('sampled')) < 0.005 and all(abs(bugs.pull(bug) - bugs.pull('none')) < 1e-6
 #   for bug in bugs.LEARNERS if bug != 'sampled') and bugs.pull('none') > 0.3 -->
 
@@ -256,7 +258,7 @@ for bug in bugs.LEARNERS:
 bc.show(figures.likeliest(hunt))
 
 # %% [markdown]
-# The other pictures:
+# Where the lines of the other four pictures end:
 
 # %%
 bc.show(figures.line_ends(hunt))
@@ -288,8 +290,9 @@ check.diagnose(diagnose)
 #
 # - **B**: Q does not move the policy (Round 4), so it earns little.
 # - **D** adds γ times the value of the state after the crash. No row begins there, so no data correct this *guess*. It
-#   feeds itself, as in lesson [[update_and_loop]], but downwards: at crashes of the stochastic rule D gives the state
-#   {{ after_the_end('D') | .0f }} and the crash {{ DEFAULT.reward.accident + asked('D') | .0f }}.
+#   feeds itself, as in lesson [[update_and_loop]], but downwards: after the stochastic rule's crashes D gives the state
+#   {{ after_the_end('D') | .0f }} and the crash {{ DEFAULT.reward.accident + asked('D') | .0f }}. (The healthy critic
+#   gives that state {{ after_the_end('healthy') | .0f }}, and does not use it.)
 # - **E**: with a bonus for every row the leash holds nobody near the rule.
 # - **F**: the actor's loss, not the target, raises the Q of what the policy likes.
 #

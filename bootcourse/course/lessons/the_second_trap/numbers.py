@@ -112,6 +112,11 @@ def steady(speed: float) -> float:
     )
 
 
+def steadies() -> str:
+    """Cells of `steady`, for 11 to 15 m/s."""
+    return " | ".join(f"{steady(speed):.0f}" for speed in range(11, 16))
+
+
 @cache
 def sprints_worth() -> float:
     """The mean worth, on the same roads, of the drive of the agent of PPO alone that is shown."""

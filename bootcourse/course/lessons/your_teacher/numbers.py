@@ -19,7 +19,7 @@ from bootcourse.research.experiments.teacher_worth import TAUGHT  # noqa: F401 (
 from bootcourse.research.teachers import TEACHERS as STUDIED
 from bootcourse.road.state import EGO, SPEED, TRAFFIC, Accident
 from bootcourse.statistics import ESCAPES, holm
-from tools.course.known import discounted, idle, shipped_experiment, shipped_teachers, speed_reward
+from tools.course.known import discounted, shipped_experiment, shipped_teachers, speed_reward
 
 COLLIDES = Accident.COLLISION
 
@@ -113,15 +113,9 @@ def pays(*speeds: float) -> str:
     return " | ".join(f"{speed_reward(speed):.2f}" for speed in speeds)
 
 
-def from_the_lane_twice(teacher: str) -> str:
-    """Two cells: `from_the_lane` without the bonus, and with it."""
-    worths = (from_the_lane(teacher, bonus) for bonus in (0.0, settings_for("bootstrapped").bonus))
-    return " | ".join(f"{each:+.1f}".replace("-", "−") for each in worths)
-
-
-def staying_twice() -> str:
-    """Two cells: what keeping straight behind trap 1 is worth, with the bonus or without it."""
-    return " | ".join([f"{discounted(idle(), settings_for('bootstrapped').gamma):+.1f}"] * 2)
+def signed(worth: float) -> str:
+    """ "+2.6", with a true minus sign."""
+    return f"{worth:+.1f}".replace("-", "−")
 
 
 def crash_accidents(kind: str) -> float:
@@ -157,12 +151,20 @@ def seconds_that_pay(teacher: str) -> float:
     return float(((speeds > 12.5) & (speeds < 16)).sum() / drives)
 
 
-def from_the_lane(teacher: str, bonus: float) -> float:
-    """What a teacher's drives that reach the free lane are worth from there on, with a bonus in each second."""
-    drives = [(drive.rewards + bonus, lanes_of(drive) == 0) for drive in demonstrated(teacher)]
-    gamma = settings_for("bootstrapped").gamma
-    rest = [rewards[free.argmax() :] for rewards, free in drives if free.any()]
-    return float(np.mean([gamma ** np.arange(len(rewards)) @ rewards for rewards in rest]))
+def from_the_lane(teacher: str, bonus: float, at_end: float | None = None) -> float:
+    """What a teacher's drives that reach the free lane are worth from there on, with a bonus in each second.
+
+    at_end: the bonus of a drive's last second, the accident's; None for the same one.
+    """
+    gamma, worths = settings_for("bootstrapped").gamma, []
+    for drive in demonstrated(teacher):
+        free = lanes_of(drive) == 0
+        if free.any():
+            paid = drive.rewards + bonus
+            paid[-1] += 0 if at_end is None else at_end - bonus
+            rest = paid[free.argmax() :]
+            worths.append(gamma ** np.arange(len(rest)) @ rest)
+    return float(np.mean(worths))
 
 
 @cache

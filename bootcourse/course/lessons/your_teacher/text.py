@@ -376,15 +376,21 @@ bc.show(figures.two_aids(shipped_experiment("crashes")))
 bc.show(figures.two_keys(shipped_experiment("easier"), shipped_experiment("crashes")))
 
 # %% [markdown]
-# **Explain.** *They look like the same two keys: a way into the free lane, and cheap accidents.* Half random's drives
-# show the way. The bonus makes their accidents cheap. This is what seconds are worth at γ = {{ SETTINGS.gamma }}:
+# **Explain.** *They look like two keys: a way into the free lane, and a reason to go on although it ends badly.* Half
+# random's drives show the way. The bonus pays for each second on it. At γ = {{ SETTINGS.gamma }}:
 #
-# | | without the bonus | with it |
-# | --- | --- | --- |
-# | half random's drives, from the free lane on | {{ from_the_lane_twice('random-50') }} |
-# | a student's own staying behind trap 1, which gets no bonus | {{ staying_twice() }} |
+# | half random's drives, from the free lane on | worth |
+# | --- | --- |
+# | as they are | {{ signed(from_the_lane('random-50', 0)) }} |
+# | with the bonus for the second of the accident alone | {{ signed(from_the_lane('random-50', 0, at_end=2)) }} |
+# | with the bonus for all other seconds | {{ signed(from_the_lane('random-50', 2, at_end=0)) }} |
+# | with the bonus for each second | {{ signed(from_the_lane('random-50', 2)) }} |
+# | *for comparison: a student stays behind trap 1, without a bonus* | {{ signed(discounted(idle(), 0.8)) }} |
 #
-# Without the bonus, going on is worth less than staying; with it, more.
+# Without the bonus, going on is worth less than staying; with it, more. And it is not that the accident costs less: the
+# seconds *before* it are paid for.
+# <!-- claim: from_the_lane('random-50', 0, at_end=2) < discounted(idle(), 0.8) <
+#   from_the_lane('random-50', 2, at_end=0) and SETTINGS.bonus == 2 -->
 #
 # If so, students need no bonus where the accidents are taken out. Of ten more agents, without the bonus and *without
 # the accident*, {{ crash_escapes('lane-no-bonus') }} escape, not {{ crash_escapes('no-bonus') }} (p =
@@ -463,7 +469,7 @@ table(asking.HEADINGS, asking.compared(worse_first, mine, taught_agents.ROADS))
 # ## What you now know
 #
 # **How can an imperfect teacher help, without the learner becoming a copy?** Its drives lead into the free lane, where
-# learning *begins*. If they crash there, a bonus makes the accidents cheap.
+# a learner has not been. If they crash there, a bonus pays for being there.
 #
 # *What a teacher earns itself does not sort these five* (the racers' students after {{ taught_agents.LONG | , }}
 # updates, the others after {{ TAUGHT['bootstrapped'][1] | , }} episodes):
