@@ -69,9 +69,9 @@ predicted("discrete_sac.1")
 explorable.undecided()
 
 # %% [markdown]
-# **Explain.** More than 1, and it rises with α. Move 1 % from straight to left: the mean of Q falls by
-# {{ 0.01 * (q[1] - q[0]) | .3f }}, and the entropy rises by {{ doubt() | .3f }}, which pays
-# {{ ALPHA * doubt() | .3f }} at α = {{ ALPHA }}.
+# **Explain.** More than 1, and it rises with α. Begin with a policy that is sure of straight, and move 1 % to left: the
+# mean of Q falls by {{ 0.01 * (q[1] - q[0]) | .3f }}, and the entropy rises by {{ doubt() | .3f }}, which pays
+# {{ ALPHA * doubt() | .3f }} at α = {{ ALPHA }}. Go on until a move gains nothing: that is the panel's policy.
 # <!-- claim: max(q) == q[1] == 1 < WORTH -->
 # <!-- claim: all(1 + alpha * math.log(np.exp((q - 1) / alpha).sum()) > 1 for alpha in ALPHAS) -->
 # <!-- claim: all(-alpha * d * math.log(d) >= 0.1 * d for alpha in ALPHAS for d in [math.exp(-0.1 / alpha - 1)]) -->
@@ -343,8 +343,8 @@ bc.show(figures.falling_alpha(start, ends))
 # <!-- claim: early(begun(less).q).argmax() == 4 > 0 == early(begun(less).decided).argmax() -->
 # <!-- claim: most_visited(begun()) > 0.75 > 0.3 > most_visited(begun(less)) -->
 #
-# With α H the order of the Q is the order of the visits. **Entropy in the policy makes a learner curious. The same
-# entropy in the target, while Q still climbs to it, pays it for being where it already is.**
+# With α H the order of the Q is the order of the visits. **Entropy in the policy makes a learner curious. The pay
+# α H in the target, while Q still climbs to it, pays a learner for being where it already is.**
 #
 # What does the pay cost? We change the start of Q, or the time, still with α H:
 #
