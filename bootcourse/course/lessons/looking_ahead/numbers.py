@@ -210,6 +210,21 @@ def ways_out(seconds: int = 10) -> list[int]:
     return explorable.ways_out(first_collision(), first_agent(), seconds).tolist()
 
 
+@cache
+def later_ends(seconds: int) -> list[int]:
+    """How the two futures of its last but one decision that are unhurt for ten seconds have ended after so many."""
+    drive, policy = first_collision(), first_agent()
+    cars = drive.cars[len(drive.actions) - 2][None]
+    ten, later = (nine_drives(cars, policy, DEFAULT, most).accidents[0] for most in (10, seconds))
+    return sorted(later[ten == 0].tolist())
+
+
+def departs_within(seconds: int) -> int:
+    """How many of the agent's 40 drives leave the road within so many seconds."""
+    drives = record(first_agent(), held_out_seeds(15, 40))
+    return sum(each.accident == Accident.ROAD_DEPARTURE and len(each.actions) <= seconds for each in drives)
+
+
 def in_right_lane(drive: Rollout) -> np.ndarray:
     """At which decisions of a drive the car is in the right lane, (decisions,)."""
     return drive.cars[: len(drive.actions), EGO, Y] > (DEFAULT.road.lanes - 1.5) * DEFAULT.road.lane_width

@@ -124,6 +124,14 @@ def chosen_by_q(training: Training) -> Episodes:
     return _episodes(training, np.array(by_rule))
 
 
+def by_twenty(by_q: Episodes) -> tuple[list[str], list[list[str]]]:
+    """A table: in which share of the decisions the rule's action was taken, in the episodes twenty by twenty."""
+    starts = range(0, len(by_q.decisions), 20)
+    shares = [by_q.by_rule[i : i + 20].sum() / by_q.decisions[i : i + 20].sum() for i in starts]
+    headings = ["training episodes", *(f"{i + 1} to {min(i + 20, len(by_q.decisions))}" for i in starts)]
+    return headings, [["Q takes the rule's action, %", *(f"{100 * share:.0f}" for share in shares)]]
+
+
 def beside_a_coin(by_q: Episodes, shares: Sequence[float]) -> tuple[list[str], list[list]]:
     """A table of as many drives by the rule, a share of whose actions are drawn at random; above it the agent's."""
     rows, seeds = [["Q, as above", by_q.accident.sum(), f"{np.median(by_q.decisions):.0f}"]], range(len(by_q.decisions))

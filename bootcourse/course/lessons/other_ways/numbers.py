@@ -6,6 +6,7 @@ from functools import cache
 from itertools import combinations
 
 import numpy as np
+from scipy.stats import spearmanr  # noqa: F401 (for the expressions)
 
 from bootcourse.course.lessons.other_ways import figures, measures
 from bootcourse.course.lessons.other_ways.figures import hours_before  # noqa: F401 (for the expressions)

@@ -74,18 +74,20 @@ bc.show(figures.what_is_taken())
 #
 # RLPD (*reinforcement learning with prior data*) is SAC in which half of each batch comes from demonstrations,
 # without bonus, margin and KL. The target takes the smaller value of {{ settings_for('rlpd').target_critics }}
-# critics, drawn anew from an **ensemble** of {{ settings_for('rlpd').critics }}. Do five correct each other? Three
-# agents learn from the rule's drives alone:
+# critics, drawn anew from an **ensemble** of {{ settings_for('rlpd').critics }}. Do five correct each other? Four
+# agents:
 # <!-- claim: (lambda s: s.bonus == s.margin == s.xi_multiplier == 0 and s.beta_start == 0.5 and
 #   s.beta_episodes is None)(settings_for('rlpd')) -->
 # <!-- claim: 0.05 == 10 * settings_for('rlpd').tau -->
 #
-# 1. *Normalised*, as in RLPD: **layer normalisation** shifts and scales each hidden layer's outputs to mean 0
-#    and variance 1.
-# 2. *Not normalised.*
-# 3. *The target asks the rule*: as 2, but with the rule's next action, not the policy's.
+# | agent | learns from | changed |
+# |---|---|---|
+# | 1 *normalised* | the rule's drives | nothing: RLPD has **layer normalisation** |
+# | 2 *not normalised* | the rule's drives | no layer normalisation |
+# | 3 *the target asks the rule* | the rule's drives | as 2, but with the rule's next action in the target |
+# | 4 *half its own drives* | the rule's and its own | as 2 |
 #
-# A fourth, as 2, also drives: *half* of each batch are *its own drives*.
+# Layer normalisation shifts and scales each hidden layer's outputs to mean 0 and variance 1.
 #
 # No drive is worth more than the **ceiling** (lesson [[values]]), here
 # {{ worth_at_most(settings_for('rlpd').gamma) | .0f }}.
@@ -116,15 +118,16 @@ bc.show(figures.believed(updates, values, four[0].gamma))
 # nobody picks, Q stayed near 2.)
 #
 # Do five correct each other? No. They learn from one target, so they agree. With a target of its own each of the five
-# passed the ceiling, too, in two short trainings; only they no longer agreed.
+# passed the ceiling, too, in two short trainings.
 #
 # What helps?
 # - *Another target.* The third agent's asks only for Q of actions that the rule shows, and data correct these.
-# - *Own drives.* The fourth agent's hold what the rule's lack: other actions and their crashes.
-# - *Layer normalisation* slows it. The line is too high and still climbs when the picture ends. In two trainings of
-#   3,000 updates it came above 20, and stayed below the ceiling.
+# - *Own drives.* The fourth agent's hold what the rule's lack: other actions and their crashes. Here they delay the
+#   rise, and do not always stop it: in five other trainings, of 2,600 updates, Q passed the ceiling in three.
+# - *Layer normalisation* slows it. In two trainings of 3,000 updates Q came above 20, and stayed below the
+#   ceiling.
 #
-# *From the rule's drives alone the guess fed itself; own drives answered it.*
+# *From the rule's drives alone the guess fed itself; with a target that asks only for shown actions it did not.*
 # <!-- claim: abs(worth_of_rule(settings_for('rlpd').gamma) - 7.84) < 0.05 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -173,22 +176,23 @@ predicted("other_ways.2")
 training = own_code.training([bc.settings_for("ibrl", envs_per_agent=8)], 80)
 beside_q = measures.chosen_by_q(training)
 bc.show(figures.who_chose(beside_q))
+table(*measures.by_twenty(beside_q))
 
 # %% [markdown]
 # **See.** (Yours will differ.) Nearly all episodes end in an accident, most within 20 s.
 #
-# **Explain.** Q knows nothing yet, so in the first episodes it takes the rule's action in about half of the decisions.
-# The other half are a beginner's. Do they crash because Q *picks*, or is a beginner in half of the decisions enough?
-# A control without any Q: the rule drives, and a coin replaces some of its actions by random ones.
+# **Explain.** Q knows nothing yet, so in the first 20 episodes it takes the rule's action in about half of the
+# decisions. The other half are a beginner's. Do they crash because Q *picks*, or is a beginner in half of the
+# decisions enough? A control without any Q: the rule drives, and a coin replaces some of its actions by random ones.
 
 # %% tags=["nbval-ignore-output"]
 table(*measures.beside_a_coin(beside_q, (0.5, 0.1, 0.02)))
 
 # %% [markdown]
-# **See.** With half of the actions at random all drives crash, too: no highest guess is needed. A tenth still crashes
-# most. With one in fifty, about three random actions in a whole drive, most survive.
+# **See.** With half of the actions at random all drives crash, too: in the first 20 episodes no highest guess is
+# needed. Later Q takes the rule's action more rarely. With 10 % at random most drives still crash. With 2 %, about
+# three random actions in a whole drive, most survive.
 #
-# But whatever Q rates too high is driven, and the next batches show what comes of it.
 # <!-- claim: coin_accidents(0.5) == 80 and 60 < coin_accidents(0.1) < 80 and coin_accidents(0.02) < 40 -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -280,9 +284,9 @@ by_rule = bc.drive_episodes(bc.rule_policy(bc.DEFAULT), bc.held_out_seeds(1, 200
 bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 
 # %% [markdown]
-# **See.** On average each of the five earns more than twice what the rule earns. Return is not safety: the median
-# agents have accidents in {{ accident_shares().min() | .0f }} to {{ accident_shares().max() | .0f }} % of their
-# drives, the rule in none.
+# **See.** The middle agents of each of the five earn more than twice what the rule earns. Return is not safety: the
+# median agents have accidents in {{ accident_shares().min() | .0f }} to {{ accident_shares().max() | .0f }} % of
+# their drives, the rule in none.
 # <!-- claim: of('rule').episodes('accident').sum() == 0 -->
 # <!-- claim: min(map(middle, TAUGHT)) > 2 * of('rule').scores('returns').mean() -->
 # <!-- claim: min(at(m, 'returns').min() for m in TAUGHT) > of('rule').scores('returns').mean() >
@@ -299,8 +303,10 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 # such drives does not decide alone:
 # - PPO after cloning has the most and earns the least;
 # - one agent of RLPD has none so early, and gets out later;
-# - one agent of plain SAC has {{ early('sac').max() }}, and stays.
+# - one agent of plain SAC has {{ early('sac').max() }}, and stays;
+# - among the ten agents of a method, those with more of them hardly earn more.
 #
+# <!-- claim: all(abs(spearmanr(early(m), at(m, 'returns')).statistic) < 0.35 for m in TAUGHT) -->
 # <!-- claim: early('rlpd').min() == 0 and at('rlpd', 'success')[early('rlpd').argmin()] > 0.5 -->
 # <!-- claim: np.median(early('ppo_cloned')) == max(np.median(early(m)) for m in TAUGHT) and
 #   middle('ppo_cloned') == min(map(middle, TAUGHT)) -->
@@ -309,7 +315,7 @@ bc.show(figures.in_the_test(compared, by_rule.returns.mean()))
 #   and sorted(np.concatenate([early(m) for m in TAUGHT]))[1] > 20 -->
 #
 # And the crashes? 80 episodes are {{ share_of_first('ibrl') | .0f }} to {{ share_of_first('jsrl') | .0f }} % of this
-# training, and an agent that drives finds out about its guesses. In lesson [[recorded_drives]] nobody drove.
+# training.
 #
 # *Which is best?* Now tests separate two of the ten pairs, after {{ SECOND | , }} decisions none. So choose by what
 # your teacher can do:
@@ -369,8 +375,10 @@ bc.show(figures.two_counts(compared, by_rule.returns.mean()))
 # <!-- claim: by_then('ppo_cloned', 2) > 10 + max(by_then(m, equal_decisions.SECONDS) for m in TAUGHT[1:]) -->
 #
 # On a road {{ FIRST | , }} decisions take {{ FIRST / 3600 | .0f }} hours: then it earns the least of the five in
-# training, where its actions are drawn. In Round 4's test only two of the four are shown to earn more.
-# <!-- claim: sum('ppo_cloned' in pair for pair, p in pairs(FIRST).items() if p < 0.05) == 2 -->
+# training, where its actions are drawn. In Round 4's test only bootstrapped SAC and IBRL are shown to earn more than
+# it.
+# <!-- claim: {*(m for pair, p in pairs(FIRST).items() if p < 0.05 for m in pair)} == {'ppo_cloned', 'bootstrapped',
+#   'ibrl'} and all('ppo_cloned' in pair for pair, p in pairs(FIRST).items() if p < 0.05) -->
 # <!-- claim: below_all_others('ppo_cloned', FIRST, measures.DECISIONS) -->
 
 # %% [markdown] tags=["instructor"] minutes=3
@@ -391,10 +399,10 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. *Who guesses, and who picks?* Five critics with one target guess like one. A target without the guess, or own
-#    drives, stopped it here; layer normalisation slowed it. A beginner beside the rule crashes without any of this.
-# 2. All five ways bring, nearly always soon, drives that earn more than staying, and end at more than twice the rule's
-#    return.
+# 1. *Who guesses, and who picks?* Five critics with one target guess like one. A target without the guess stopped it
+#    here; own drives and layer normalisation slowed it. A beginner beside the rule crashes without any of this.
+# 2. All five ways bring, nearly always soon, drives that earn more than staying, and end on average at more than
+#    twice the rule's return.
 # 3. Which is best is open: choose by what your teacher can do, and by what is dear, decisions or seconds.
 # <!-- claim: min(at(m, 'returns').mean() for m in TAUGHT) > 2 * of('rule').scores('returns').mean() -->
 #

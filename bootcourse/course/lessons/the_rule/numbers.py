@@ -50,6 +50,12 @@ def worth(sight: float, gamma: float = 0.8) -> float:
     return float(worths(sight, gamma).mean())
 
 
+def later_worth(sight: float) -> float:
+    """What the rest of the rule's drives is worth ten seconds after their start, at γ = 0.8, the mean."""
+    rest = paid(sight)[:, 10:]
+    return float((rest @ 0.8 ** np.arange(rest.shape[1])).mean())
+
+
 def had_they_stayed(sight: float) -> float:
     """What the rule's drives were worth at γ = 0.8 if their first ten seconds paid what staying pays, the mean."""
     weights = 0.8 ** np.arange(paid(sight).shape[1])

@@ -189,7 +189,7 @@ bc.show(figures.when_to_change(drive))
 #
 # On these 20 roads the turned sign alone is enough. In the rule itself the floor decides: at each of its lane
 # changes on {{ len(ROADS) }} roads it is slower than both traps, so t_safe plays no part in the gap ahead.
-# *Further* shows a drive in which it is faster.
+# *Further* shows a drive in which it is faster, and where t_safe counts.
 # <!-- claim: sign_turned(target_speed).success.all() and not sign_turned(target_speed).accident.any() -->
 # <!-- claim: fastest_change() < 0 -->
 # <!-- claim: not as_printed(target_speed).success.any() and not as_printed(target_speed).accident.any() and
@@ -258,7 +258,7 @@ bc.show(figures.speeds_by_sight(drive, rules.recorded(ROAD, 30)))
 # Before the table, ask what each job would lose at 30 m. May a teacher rely on others making way?
 
 # %% [markdown]
-# ## Round 4: is the quick rule a better teacher?
+# ## Round 4: is the quick rule worth more to a learner?
 #
 # How does your learner count? At γ = 0.8 staying is worth {{ discounted(idle(), 0.8) | .2f }}, the slow rule
 # {{ worth(200.0) | .2f }}. The quick rule's return is
@@ -282,29 +282,34 @@ idle = np.full((1, 150), bc.record(bc.idle_policy, [ROAD])[0].rewards)
 drives = {"staying": idle, "rule, sight 200 m": rules.paid(200), "rule, sight 30 m": rules.paid(30)}
 for name, paid in drives.items():  # what each second pays, on 40 roads
     ten, all_of_it = (paid[:, :n] @ weights[:n] for n in (10, 150))
-    rows.append([name, f"{paid.sum(1).mean():.0f}", f"{ten.mean():.2f}", f"{all_of_it.mean():.2f}"])
-table(["", "return", "worth of its first 10 s", "worth of all 150 s"], rows)
+    later = paid[:, 10:] @ weights[:-10]
+    row = [f"{each.mean():.2f}" for each in (ten, all_of_it, later)]
+    rows.append([name, f"{paid.sum(1).mean():.0f}", *row])
+heads = ["return", "worth of its first 10 s", "worth of all 150 s", "worth at 10 s of the rest"]
+table(["", *heads], rows)
 
 # %% [markdown]
 # **Explain.** *Still less than staying*, on each of these 40 roads. The first ten seconds have nine tenths of
 # the weight, and in these the two drives are one drive: both fall back behind the traps, which pays less than
-# staying. Had they stayed for these ten seconds, the rest would lift both above staying, to
-# {{ had_they_stayed(30.0) | .2f }} and {{ had_they_stayed(200.0) | .2f }}. **To a learner with γ = 0.8 the two
-# teachers are nearly the same teacher.**
+# staying. If these ten seconds paid what staying pays, the same rest would lift both above it, to
+# {{ had_they_stayed(30.0) | .2f }} and {{ had_they_stayed(200.0) | .2f }}. **At the start a learner with γ = 0.8 can
+# hardly tell the two teachers apart, and wants neither.** Ten seconds later it can: from there the quick one's drive is
+# worth {{ later_worth(30.0) | .2f }}, the slow one's {{ later_worth(200.0) | .2f }}.
+# <!-- claim: later_worth(30.0) > 2 * later_worth(200.0) > 2 * discounted(idle(), 0.8) -->
 # <!-- claim: min(had_they_stayed(30.0), had_they_stayed(200.0)) > discounted(idle(), 0.8) -->
 # <!-- claim: (paid(30.0)[:, :10] == paid(200.0)[:, :10]).all() and (paid(30.0)[:, :10] < idle().rewards[0]).all() -->
 # <!-- claim: len(paid(30.0)) == 40 and max(worths(30.0, 0.8).max(), worths(200.0, 0.8).max()) <
 #   discounted(idle(), 0.8) -->
 #
-# This makes lesson [[the_trap]]'s riddle worse: a rule that earns more than twice as much is still worth less
-# than the trap. How can it help? Lessons [[found_and_kept]] and [[your_teacher]] solve this.
+# This makes lesson [[the_trap]]'s riddle worse: a rule that earns more than twice as much is at the start
+# still worth less than the trap. How can it help? Lessons [[found_and_kept]] and [[your_teacher]] solve this.
 #
 # We keep {{ DEFAULT.sight.distance | g }} m (§: the paper gives no sight). So in later lessons "earns more
 # than the rule" means more than this **sub-optimal** rule, which *we* made slow.
 
 # %% [markdown] tags=["instructor"] minutes=3
-# Before the table, let them lay a hand over the picture from ten seconds on. Ask which γ would tell the two
-# rules apart.
+# Before the table, let them lay a hand over the picture from ten seconds on. Ask which γ would lift the
+# quick rule above staying.
 
 # %% [markdown]
 # ## Further: a crash, and its two causes
@@ -391,10 +396,11 @@ compare_predictions(
 # ## What you now know
 #
 # 1. The rule falls back until the gap is longer than the safety distance, and then changes lane.
-# 2. With the printed condition it stays behind.
+# 2. As printed, the condition is true only for a fast car that is near. With it the rule stays behind.
 # 3. It is slow because it sees far: with a sight of 30 m it earns more than twice as much if others make way, and
 #    half as much again if they do not.
 # 4. At γ = 0.8 quick and slow are worth less than staying, because both begin by falling back.
+#    Ten seconds later both are worth more.
 #
 # **Three questions to think about**
 # - How would you choose the sight for a car that carries people?

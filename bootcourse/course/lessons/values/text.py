@@ -384,8 +384,8 @@ compare_predictions(
 # 1. The Bellman equation: an action is worth its reward plus γ times the larger Q of the next state.
 # 2. Q-learning moves Q(s, a) by a part of the temporal difference.
 # 3. Learned forwards, a walk carries a value one state back.
-# 4. A longer view helped neither: at ε = 0.1 no learner arrives; at ε = 0.5 it first enlarges what is known already, the
-#    trap's worth.
+# 4. A longer view helped neither: at ε = 0.1 no learner arrives; at ε = 0.5 it first enlarges what is known already,
+#    the trap's worth.
 #
 # **Four gates** stand between the trap and a fast drive. They are a way to sort what one sees, not a law.
 #

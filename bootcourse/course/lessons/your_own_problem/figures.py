@@ -170,18 +170,18 @@ def edges(tested: Mapping[int, tuple[Sequence[Agent], np.ndarray]]) -> Figure:
         ax.axvline(0, color=rule, linewidth=2.5, zorder=1)
         ax.set_xticks([-0.2, 0, 0.2], ["−0.2", "0", "0.2"])
         ax.set_yticks([-1, 0, 1], ["−1", "0", "1"])
-        ax.set_xlabel("angle (rad)", fontsize=TEXT, color=INK)
+        ax.set_xlabel("angle of the pole (rad)", fontsize=TEXT, color=INK)
         falls = f"{min(slopes):.1f} to {max(slopes):.1f}, mean return {earned.mean():.0f}"
         alt.append(f"after {decisions:,} decisions by {falls}")
         ax.text(-0.19, -1.4, "push left", fontsize=TEXT, color=INK)
         ax.text(0.19, 1.2, "push right", ha="right", fontsize=TEXT, color=INK)
     for x, (words, colour) in zip((0.072, 0.23), {"five agents": soft, "the teacher": rule}.items(), strict=True):
         figure.text(x, 0.8, words, fontsize=TEXT, color=colour)
-    figure.text(0.012, 0.4, "speed (rad/s)", rotation=90, va="center", fontsize=TEXT, color=INK)
+    figure.text(0.012, 0.5, "speed of the pole (rad/s)", rotation=90, va="center", fontsize=TEXT, color=INK)
     figure.text(
         0.012,
         0.03,
-        "angle and speed of the pole; the cart rests in the middle; return: mean over the agents",
+        "the cart rests in the middle; return: mean over the agents",
         fontsize=SMALL,
         color=INK,
     )

@@ -11,6 +11,8 @@ from bootcourse.course.lessons.your_own_problem.unpaid import BUDGETS, NAME, ang
 from bootcourse.course.shipped import shipped_experiment
 from bootcourse.episodes.evaluate import held_out_seeds
 from bootcourse.episodes.record import record
+from bootcourse.learn.demonstrations import demonstrate
+from bootcourse.learn.teachers import Rule
 from bootcourse.policies import rule_policy
 from bootcourse.research import elsewhere, elsewhere_claims  # noqa: F401
 from bootcourse.research.equal_decisions import BOARD  # noqa: F401
@@ -40,6 +42,23 @@ def unpaid(measure: str, decisions: int, kind: str = "without reward") -> np.nda
 def teacher_earns() -> float:
     """What the angle rule earns on CartPole."""
     return loops.earns(angle_rule, pole)
+
+
+@cache
+def together_with(rule: Rule) -> tuple[float, float]:
+    """Of 20 drives of CartPole by a rule: the pole's speed for 1 m/s of the cart (a line's slope), and correlation."""
+    seen = demonstrate(20, None, teacher=rule, make_env=pole).observations
+    return float(np.polyfit(seen[:, 1], seen[:, 3], 1)[0]), float(np.corrcoef(seen[:, 1], seen[:, 3])[0, 1])
+
+
+def pole_for_cart() -> float:
+    """The first of these, by the angle rule."""
+    return together_with(angle_rule)[0]
+
+
+def plain(drawn: str = "") -> int:
+    """How many of 100 drives of DoorKey by plain SAC reach the goal; "drawn_": by drawn actions."""
+    return round(100 * score("doorkey", "none", "SAC", f"{drawn}success"))
 
 
 def earned(teacher: str) -> float:
