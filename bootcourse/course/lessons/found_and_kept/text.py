@@ -101,7 +101,7 @@ bc.show(figures.worths("demos"))
 # %% [markdown]
 # **See.** *All {{ len(before('demos')) }} ways out are worth less than staying*: in the first ten seconds, which count
 # most, the agents fall back to make room. From episode 1,500 on, nine are on faster ways out and seven back at staying.
-# On the way there 15 of the sixteen crash, at some look, on most of the roads.
+# On the way there {{ crashing('demos') }} of the sixteen crash, at some look, on most of the roads.
 # <!-- claim: (before('demos') < stays()).all() and len(before('demos')) == 16 and falls_back().min() > 2 -->
 # <!-- claim: fates('demos') == (9, 7) and rise('demos') == 16 and crashing('demos') == 15 -->
 # <!-- claim: ends('demos', True).min() > 0.85 and (abs(ends('demos', False) - stays()) < 0.06).all() -->
@@ -155,7 +155,8 @@ predicted("found_and_kept.2")
 bc.show(figures.worths("demos, β for ever"))
 
 # %% [markdown]
-# **See.** *All {{ len(before('demos, β for ever')) }} are ahead at the end, on ways worth less than staying.*
+# **See.** *All {{ len(before('demos, β for ever')) }} are ahead at the end, on ways worth less than staying.* They
+# crash, too: {{ crashing('demos, β for ever') }} of them at some look on most of the roads.
 # <!-- claim: fates('demos, β for ever') == (len(before('demos, β for ever')), 0) and
 #   (ends('demos, β for ever', True) < stays()).all() and fisher_of_fates() < 0.05 -->
 # <!-- claim: abs(ends('demos, β for ever', True) - before('demos, β for ever')).max() < 0.1 -->
@@ -334,10 +335,9 @@ compare_predictions(
 # %% [markdown]
 # ## What you now know
 #
-# 1. When the bonus ended, nine of sixteen agents found a faster way out, seven went back to staying; 15 crashed
-#    on the way.
+# 1. When the bonus ended, nine of sixteen agents found a faster way out, and seven went back to staying.
 # 2. A teacher can help whose way is worth less than the trap: from the rule's way, small changes pay.
-# 3. The bonus is a leash: while it lasted all ten kept the way out, and drove little faster than the rule.
+# 3. The bonus is a leash: while it lasted none of ten lost the way out, and they drove little faster than the rule.
 # 4. Single agents of another training can give the paper's rates by chance.
 #
 # **Three questions to think about**

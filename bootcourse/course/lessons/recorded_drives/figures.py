@@ -96,7 +96,7 @@ def would_do(learners: Mapping[str, SACLearner]) -> Figure:
             colours.append(style("cql").colour if name == WITH else OTHER.colour)
             promise = choosing.promised(policy, choosing.starts())
             earns = choosing.worth(policy, range(100), settings.gamma)
-            says = f"promises {promise:.1f}, earns {earns:.1f}".replace("-", "−")
+            says = f"promises {promise:.1f}, is worth {earns:.1f}".replace("-", "−")
             words.append(f"crashes {crashes[name][-1]} of 100\n{says}")
     shares = [torch.bincount(each, minlength=9).reshape(3, 3).numpy() / len(each) for each in taken]
     faster = [share[2].sum() for share in shares[1:]]

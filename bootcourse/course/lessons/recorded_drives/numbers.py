@@ -9,6 +9,7 @@ from bootcourse.course.lessons.recorded_drives import choosing, eight_seeds
 from bootcourse.course.lessons.recorded_drives.exercises import conservative_loss  # noqa: F401 (the text names it)
 from bootcourse.course.lessons.recorded_drives.reachable_entropy import by_entropy
 from bootcourse.course.shipped import shipped_agents
+from bootcourse.episodes.evaluate import Episodes, drive_episodes
 from bootcourse.episodes.record import record
 from bootcourse.learn.replay_buffer import decode_transitions
 from bootcourse.learn.settings import settings_for
@@ -80,6 +81,12 @@ def fastest(seconds: int | None = None) -> float:
     """The stochastic rule's highest speed in the first seconds, or in the whole of its drives, m/s."""
     steps = None if seconds is None else seconds * DEFAULT.clock.steps + 1
     return float(max(drive.states[:steps, EGO, SPEED].max() for drive in _stochastic_drives()))
+
+
+@cache
+def fastest_likely() -> Episodes:
+    """Fifty drives of the fastest of the actions that the lesson's clone finds likely."""
+    return drive_episodes(choosing.fastest(shipped_agents("bc")[0].as_policy()), range(50))
 
 
 @cache

@@ -95,20 +95,6 @@ def crash_when_out(kind: str) -> float:
     return float(agents.episodes("accident")[agents.episodes("success") > 0].mean())
 
 
-def practised(kind: str) -> float:
-    """This share of the median agent, among those that got out in 50 to 120 drives while they learned, and in 20 or
-    more test drives.
-    """
-    agents = easy(kind)
-    got_out, out = figures.times_ahead(agents), agents.episodes("success") > 0
-    shares = [
-        crashed[drives].mean()
-        for times, drives, crashed in zip(got_out, out, agents.episodes("accident") > 0, strict=True)
-        if 50 <= times <= 120 and drives.sum() >= 20
-    ]
-    return float(np.median(shares))
-
-
 def _fail(kind: str) -> np.ndarray:
     """Which agents of a kind get out on less than half of the test roads, (agents,)."""
     return easy(kind).scores("success") < 0.5

@@ -238,10 +238,13 @@ explorable.barrier()
 #   min(hill(15, 0.9)[0], hill(15, 0.95)[0]) > 1 -->
 #
 # With γ = 0.95 there is no dip, and at a price of 10 the plan is worth {{ hill(10, 0.95)[0] | .1f }} times as
-# much as staying. Yet none of Round 1's ten agents with γ = 0.95 escapes. *A learner does not know the plan*:
+# much as staying. Yet none of Round 1's ten agents with γ = 0.95 escapes; one gets ahead on most
+# roads, and crashes on nearly all. *A learner does not know the plan*:
 # it begins with nearly random drives, and each of Round 2's 5,000 ended in an accident.
 # <!-- claim: hill(10, 0.8).argmin() == 4 and hill(10, 0.8)[4] < 0 -->
 # <!-- claim: min(hill(10, 0.95)) > 2 and not hill(10, 0.95).argmin() and len(farther_sighted()) == 10 -->
+# <!-- claim: sorted(farther_sighted().scores('success'))[-2:][0] < 0.5 < farther_sighted().scores('success').max() and
+#   farther_sighted().scores('accident')[farther_sighted().scores('success').argmax()] > 0.9 -->
 # <!-- claim: farther_sighted().escapers('sac') == 0 and all(each.accident.all() for each in by_chance()) -->
 #
 # What would free a learner? We ease the road in two ways:
@@ -362,7 +365,7 @@ compare_predictions(
 # 3. The way decides how good the first good tries are. From the free lane one acceleration passes the
 #    traps.
 #
-# A demonstration shows the way. Can it make accidents cheap, too? In lesson [[your_teacher]] a teacher that
+# A demonstration shows the way. Can it make up for a high price, too? In lesson [[your_teacher]] a teacher that
 # crashes in every drive answers this.
 #
 # **Three questions to think about**
