@@ -171,7 +171,7 @@ bc.show(figures.worths("demos, β for ever"))
 # ## Round 3: what does the leash cost?
 #
 # With β two things end, the demonstrations and their bonus. Lesson [[learning_from_demonstrations]] found that the
-# bonus holds, not the demonstrations. What does it *cost*? Four groups of ten part the two. They have the soft
+# bonus holds, not the demonstrations. What does it *cost*? Four groups of ten separate the two. They have the soft
 # constraint, too, and all of them find the way out.
 # <!-- claim: [(each.agents[0]['beta_episodes'], each.agents[0]['bonus']) for each in
 #   groups().values()] == [(1000, 2), (None, 2), (1000, 0), (None, 0)] and SETTINGS.beta_episodes ==

@@ -239,7 +239,7 @@ check.bootstrap_interval(bootstrap_interval)
 # Ask for another way to summarise ten agents in one number, and try it on the bootstrapped ones.
 
 # %% [markdown]
-# ## Round 4: what would you print?
+# ## Round 4: does one number matter?
 #
 # Many papers compare groups by their **interquartile means** (IQM): leave out the lowest and the highest quarter, and
 # take the mean. One odd agent of five moves a mean much and an IQM little. The price: an IQM can hide failures. Round
@@ -305,7 +305,8 @@ bc.show(figures.new_agents(new, success, interval_of))
 
 # %% [markdown]
 # **See.** *After 150 episodes, without the bonus up to {{ new(40).high | .0f }} points more or {{ -new(40).low | .0f }}
-# fewer are believable.* Whether the bonus helps, forty of each do not show. (If you changed
+# fewer are believable.* The interval still contains 0: forty of each show neither that the bonus helps nor that it
+# harms. (If you changed
 # another number, compare only the lengths.)
 # <!-- claim: 0.4 < length(40) / length(10) < 0.6 and -5 < new(40).low < 0 < new(40).high < 25 -->
 #
@@ -348,7 +349,8 @@ table(counts.SENTENCES, sentences)
 # **Seven tests are seven chances for luck.** Suppose that nothing is behind them, that they are independent, and that
 # each errs in 5 % of cases. Then at least one comes out below 0.05 in {{ 100 * (1 - 0.95**7) | .0f }} % of cases.
 # (Fisher's tests err less: seven with as many agents as here in at most {{ 100 * family([10] + 6 * [20]) | .0f }} %.)
-# This is **multiplicity**. Say beforehand which comparison counts, or correct each p.
+# This is **multiplicity**. Say beforehand which comparison counts, or correct each p. (We chose these seven; the course
+# makes more comparisons.)
 #
 # *Holm* multiplies the smallest p by 7, the next by 6, and so on (last column; it never falls from one p to the next,
 # and ends at 1). Sentences 2, 5 and 6 stay below 0.05: compare them with yours. Sentence 1 does not. New agents bring

@@ -223,9 +223,16 @@ table(["agent", *worths], rows, "Of 8 drives, so many end out of the trap.")
 # for no longer.
 # <!-- claim: too_late() == 10 and free_futures()[-11] > 0 and len(free_futures()) < 100 -->
 #
-# All nine earn more than alone, two of them by next to nothing. With exact rollouts to the end and γ = 1 no agent
-# would earn less (**policy improvement**): its own action is one of the nine, so the best of them is worth at
-# least as much. With ten seconds and W this is not certain: W is a guess of what comes after.
+# All nine earn more than alone, two of them by next to nothing.
+#
+# <details><summary>Must a look-ahead earn more?</summary>
+#
+# With exact rollouts to the end and γ = 1 no agent would earn less (**policy improvement**): its own action is one of
+# the nine, so the best of them is worth at least as much. With ten seconds and W this is not certain: W is a guess of
+# what comes after.
+#
+# </details>
+#
 # <!-- claim: sorted((each('sac', 'rollouts', 'returns') - each('sac', 'alone', 'returns'))[outs('sac', 'alone') <
 #   0.01])[1] < 0.1 -->
 # <!-- claim: (lambda nine: (each('sac', 'rollouts', 'returns') > each('sac', 'alone', 'returns'))[nine].all() and

@@ -295,7 +295,8 @@ bc.show(figures.would_do({"with CQL's term": with_term}))
 # discounted, from the start of a drive. **Fitted Q evaluation** (FQE) estimates it from the recorded seconds alone:
 # it learns Q of a *given* policy π, with the target r + γ Q(s', π(s')).
 #
-# > **Predict.** Two fits with different seeds agree within 0.1. Are both then within 0.1 of the truth?
+# > **Predict.** Two fits see the same recorded seconds; only their first weights and batches differ. They agree within
+# > 0.1. Are both then within 0.1 of the truth?
 
 # %%
 agreed = ["always", "for most agents, not for all", "for fewer than half of the agents"]
