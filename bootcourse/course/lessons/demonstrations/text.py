@@ -230,8 +230,8 @@ table(["clones of", *cloning.STEER], steer)
 # **Explain.** *Not every error is dangerous.* The stochastic rule's clones mostly miss the rule's *speed*. Left of
 # the band they steer as the rule does more often than the rule's clones do, and they are there less often.
 #
-# The rule never drives left of its band, so its rows cannot say how to come back from there. The stochastic rule
-# strays, and then acts well, nine times in ten. It gave such rows by accident.
+# The rule never drives left of its band, so none of its rows shows the way back from there. The stochastic rule
+# strays, and then acts well, nine times in ten: some of its rows show it.
 #
 # There are two cures, then. *Teach the way back*: a few rows from where clones get lost, drawn often enough (try
 # `copies = 1`). *Or never get lost*: the clones of the last row, with {{ updates_of(of('bc')) / UPDATES | .0f }}
