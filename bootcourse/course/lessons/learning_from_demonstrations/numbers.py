@@ -67,7 +67,7 @@ def training(name: str, curve: str, first: int, last: int | None, others: bool =
 
 def losing_until(name: str, episode: int) -> int:
     """How many of the twenty agents with the soft constraint have lost the way out by this training episode."""
-    return sum(int(lost(each.curves["success"][:, :episode]).sum()) for each in _with(name)[0])
+    return sum(lost_by(each, episode) for each in _with(name)[0])
 
 
 def paid_for_ever_others() -> Results:
